@@ -1,0 +1,183 @@
+"""Frozen dataclasses to and from plain documents, by their type hints alone.
+
+A part is a dataclass and a document is what JSON can say. A variant is a part with a tag: ``{tag: {…}}``,
+or ``{tag: value}`` when it only wraps one value. A field whose name is a Python keyword ends in ``_``.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import types
+import typing
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, ClassVar, TypeVar
+
+import numpy as np
+
+from .errors import SceneError
+
+T = TypeVar("T")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Part:
+    """Base of all parts of a document: lists become tuples, dicts read-only mappings."""
+
+    def __post_init__(self) -> None:
+        for field in dataclasses.fields(self):
+            object.__setattr__(self, field.name, _frozen(getattr(self, field.name)))
+
+    def __getstate__(self) -> dict[str, Any]:
+        # A read-only mapping cannot be pickled or copied by itself.
+        return {k: dict(v) if isinstance(v, Mapping) else v for k, v in self.__dict__.items()}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for name, value in state.items():
+            object.__setattr__(self, name, _frozen(value))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the part as a plain document of dicts, lists, numbers and text."""
+        document = encode(self, "")
+        assert isinstance(document, dict)
+        return document
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Variant(Part):
+    """One choice of several, told apart by its tag."""
+
+    tag: ClassVar[str]
+    wraps: ClassVar[bool]
+
+    def __init_subclass__(cls, *, tag: str, wraps: bool = False) -> None:
+        cls.tag = tag
+        cls.wraps = wraps
+
+
+def _frozen(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return MappingProxyType(dict(value))
+    if isinstance(value, np.ndarray):
+        return tuple(value.tolist())
+    if isinstance(value, list):
+        return tuple(value)
+    return value
+
+
+def _key(field: dataclasses.Field[Any]) -> str:
+    return field.name.removesuffix("_")
+
+
+def encode(value: object, path: str) -> Any:
+    """Return ``value`` as a document; a number that JSON cannot say is a :class:`SceneError` at ``path``."""
+    if isinstance(value, np.generic | np.ndarray):
+        value = value.tolist()
+    match value:
+        case None | bool() | int() | str():
+            return value
+        case float():
+            if not math.isfinite(value):
+                raise SceneError(path, str(value), "a finite number")
+            return float(value)
+        case Variant():
+            inner = _join(path, value.tag)
+            if value.wraps:
+                (field,) = dataclasses.fields(value)
+                return {value.tag: encode(getattr(value, field.name), inner)}
+            return {value.tag: _encode_fields(value, inner)}
+        case Part():
+            return _encode_fields(value, path)
+        case Mapping():
+            return {str(k): encode(v, _join(path, str(k))) for k, v in value.items()}
+        case Sequence():
+            return [encode(v, f"{path}[{i}]") for i, v in enumerate(value)]
+        case _:
+            raise SceneError(
+                path, repr(value), "a number, text, a list, a mapping or a part of a scene"
+            )
+
+
+def _encode_fields(part: Part, path: str) -> dict[str, Any]:
+    return {
+        _key(field): encode(getattr(part, field.name), _join(path, _key(field)))
+        for field in dataclasses.fields(part)
+    }
+
+
+def decode(kind: type[T], document: object) -> T:
+    """Return the part of class ``kind`` that ``document`` describes, refusing what it does not know."""
+    part: T = _decode(kind, document, "")
+    return part
+
+
+def _decode(hint: Any, value: Any, path: str) -> Any:
+    origin, arguments = typing.get_origin(hint), typing.get_args(hint)
+    if origin in (typing.Union, types.UnionType):
+        return _decode(_choose(arguments, value, path), value, path)
+    if origin is tuple:
+        each = (arguments[0],) * len(value) if arguments[-1] is Ellipsis else arguments
+        pairs = zip(each, value, strict=True)
+        return tuple(_decode(kind, v, f"{path}[{i}]") for i, (kind, v) in enumerate(pairs))
+    if origin is Mapping:
+        return {k: _decode(arguments[1], v, _join(path, k)) for k, v in value.items()}
+    if origin is typing.Literal:
+        if value not in arguments:
+            raise SceneError(path, str(value), f"one of {', '.join(map(str, arguments))}")
+        return value
+    if isinstance(hint, type) and issubclass(hint, Part):
+        return _decode_part(hint, value, path)
+    return None if value is None else hint(value)
+
+
+def _decode_part(kind: type[Part], value: Any, path: str) -> Part:
+    fields = {_key(field): field.name for field in dataclasses.fields(kind)}
+    hints = _hints(kind)
+    if issubclass(kind, Variant):
+        value = value[kind.tag]
+        path = _join(path, kind.tag)
+        if kind.wraps:
+            (name,) = fields.values()
+            return kind(**{name: _decode(hints[name], value, path)})
+    for key in value:
+        if key not in fields:
+            raise SceneError(
+                _join(path, key), key, f"no such field; there are: {', '.join(fields)}"
+            )
+    return kind(
+        **{fields[k]: _decode(hints[fields[k]], v, _join(path, k)) for k, v in value.items()}
+    )
+
+
+def _choose(choices: tuple[Any, ...], value: Any, path: str) -> Any:
+    """Return the member of a union that ``value`` is meant for."""
+    tag = next(iter(value)) if isinstance(value, dict) and len(value) == 1 else None
+    for choice in choices:
+        kind = typing.get_origin(choice) or choice
+        if kind is typing.Literal:
+            fits = value in typing.get_args(choice)
+        elif issubclass(kind, Variant):
+            fits = kind.tag == tag
+        elif kind is float:
+            fits = isinstance(value, float | int)
+        else:
+            fits = isinstance(
+                value, list if kind is tuple else dict if issubclass(kind, Part) else kind
+            )
+        if fits:
+            return choice
+    raise SceneError(path, str(value), "a variant this version of the Python package does not know")
+
+
+_HINTS: dict[type, dict[str, Any]] = {}
+
+
+def _hints(kind: type[Part]) -> dict[str, Any]:
+    if kind not in _HINTS:
+        _HINTS[kind] = typing.get_type_hints(kind)
+    return _HINTS[kind]
+
+
+def _join(path: str, key: str) -> str:
+    return f"{path}.{key}" if path else key

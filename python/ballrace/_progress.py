@@ -1,0 +1,45 @@
+"""A progress bar for a terminal."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING, Self, TextIO
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+_WIDTH = 30
+
+
+class Bar:
+    """One line on standard error that grows, and goes away at the end; silent where there is no terminal."""
+
+    def __init__(self, label: str, stream: TextIO | None = None) -> None:
+        self._label = label
+        self._stream = sys.stderr if stream is None else stream
+        self._shown = self._stream.isatty()
+        self._began = time.monotonic()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._write("")
+
+    def show(self, share: float) -> None:
+        """Show a share from 0 to 1."""
+        filled = round(_WIDTH * share)
+        left = (time.monotonic() - self._began) * (1.0 - share) / share if share > 0.0 else 0.0
+        rest = f"{left:4.0f} s left" if 0.0 < share < 1.0 else ""
+        self._write(f"{self._label}  [{'#' * filled}{'.' * (_WIDTH - filled)}] {share:4.0%} {rest}")
+
+    def _write(self, line: str) -> None:
+        if self._shown:
+            self._stream.write(f"\r\033[K{line}")
+            self._stream.flush()

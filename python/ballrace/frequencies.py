@@ -1,0 +1,136 @@
+"""Kinematic frequencies of a bearing whose outer ring stands still, from pure rolling.
+
+Everything is in orders, that is in multiples of the speed of the inner ring; times the shaft's frequency
+in hertz they are hertz (:meth:`Orders.at`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from .errors import SceneError
+
+if TYPE_CHECKING:
+    from .scene import Row
+
+__all__ = ["Orders", "bpfi", "bpfo", "bsf", "ftf", "of_row", "orders"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Orders:
+    """The four frequencies of a row, in orders, or in hertz after :meth:`at`.
+
+    Attributes
+    ----------
+    ftf : float
+        Cage, the fundamental train frequency.
+    bpfo : float
+        Balls passing a place on the outer race.
+    bpfi : float
+        Balls passing a place on the inner race.
+    bsf : float
+        Spin of a ball in the cage; a defect on a ball meets a race twice a turn.
+    """
+
+    ftf: float
+    bpfo: float
+    bpfi: float
+    bsf: float
+
+    def at(self, shaft: float) -> Orders:
+        """Return the frequencies [Hz] for a shaft frequency [Hz]."""
+        return Orders(
+            ftf=self.ftf * shaft,
+            bpfo=self.bpfo * shaft,
+            bpfi=self.bpfi * shaft,
+            bsf=self.bsf * shaft,
+        )
+
+
+def orders(
+    ball_count: int, ball_diameter: float, pitch_diameter: float, contact_angle: float = 0.0
+) -> Orders:
+    """Return the kinematic orders of a row of balls.
+
+    Parameters
+    ----------
+    ball_count : int
+        Number of balls.
+    ball_diameter, pitch_diameter : float
+        Diameters, in the same unit.
+    contact_angle : float
+        Contact angle [rad].
+
+    Raises
+    ------
+    SceneError
+        A number is not usable.
+
+    Examples
+    --------
+    The bearing 6205 of the Case Western Reserve data:
+
+    >>> found = orders(9, 7.94e-3, 39.04e-3)
+    >>> round(found.bpfo, 4), round(found.bpfi, 4), round(found.ftf, 4), round(2 * found.bsf, 4)
+    (3.5848, 5.4152, 0.3983, 4.7135)
+    """
+    if ball_count < 1:
+        raise SceneError("ball_count", str(ball_count), "at least 1")
+    if not 0.0 < ball_diameter < pitch_diameter < math.inf:
+        raise SceneError(
+            "ball_diameter",
+            str(ball_diameter),
+            f"above 0 and below the pitch diameter, {pitch_diameter}",
+        )
+    if not abs(contact_angle) < math.pi / 2:
+        raise SceneError("contact_angle", str(contact_angle), "between -π/2 and π/2")
+    gamma = ball_diameter * math.cos(contact_angle) / pitch_diameter
+    return Orders(
+        ftf=(1.0 - gamma) / 2.0,
+        bpfo=ball_count * (1.0 - gamma) / 2.0,
+        bpfi=ball_count * (1.0 + gamma) / 2.0,
+        bsf=pitch_diameter / (2.0 * ball_diameter) * (1.0 - gamma**2),
+    )
+
+
+def of_row(row: Row) -> Orders:
+    """Return the kinematic orders of a row of a scene, at its nominal contact angle.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> row = br.presets.wheel_bearing().rows[0]
+    >>> round(br.frequencies.of_row(row).bpfo, 2)
+    5.24
+    """
+    return orders(row.ball_count, row.ball_diameter, row.pitch_diameter, row.contact_angle)
+
+
+def ftf(
+    ball_count: int, ball_diameter: float, pitch_diameter: float, contact_angle: float = 0.0
+) -> float:
+    """Return the order of the cage; arguments as for :func:`orders`."""
+    return orders(ball_count, ball_diameter, pitch_diameter, contact_angle).ftf
+
+
+def bpfo(
+    ball_count: int, ball_diameter: float, pitch_diameter: float, contact_angle: float = 0.0
+) -> float:
+    """Return the order of balls passing the outer race; arguments as for :func:`orders`."""
+    return orders(ball_count, ball_diameter, pitch_diameter, contact_angle).bpfo
+
+
+def bpfi(
+    ball_count: int, ball_diameter: float, pitch_diameter: float, contact_angle: float = 0.0
+) -> float:
+    """Return the order of balls passing the inner race; arguments as for :func:`orders`."""
+    return orders(ball_count, ball_diameter, pitch_diameter, contact_angle).bpfi
+
+
+def bsf(
+    ball_count: int, ball_diameter: float, pitch_diameter: float, contact_angle: float = 0.0
+) -> float:
+    """Return the order of a ball's spin; arguments as for :func:`orders`."""
+    return orders(ball_count, ball_diameter, pitch_diameter, contact_angle).bsf

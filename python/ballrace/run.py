@@ -1,0 +1,98 @@
+"""Runs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from . import _core
+from ._progress import Bar
+from .errors import SceneError
+from .signals import Signals
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from .scene import Scene
+
+__all__ = ["simulate"]
+
+
+def simulate(
+    scene: Scene,
+    *,
+    duration: float,
+    fs: float = 50_000.0,
+    start: Literal["equilibrium", "rolling"] | NDArray[np.float64] = "equilibrium",
+    rtol: float | None = None,
+    threads: int = 0,
+    progress: bool | Callable[[float], object] | None = None,
+) -> Signals:
+    """Run a scene and record its probes.
+
+    Other Python threads go on meanwhile, and Ctrl-C stops the run at once.
+
+    Parameters
+    ----------
+    scene : Scene
+        What to run.
+    duration : float
+        Simulated time [s].
+    fs : float
+        Sampling rate of the signals [Hz]. It does not change the steps of the integrator.
+    start : {"equilibrium", "rolling"} or ndarray of shape (n_states,)
+        The static equilibrium in the cage's frame, the nominal places of pure rolling, or a state in the
+        order of ``Model(scene).names``.
+    rtol : float, optional
+        Relative tolerance; by default ``scene.solver.rtol``.
+    threads : int
+        Threads of the run; 0 chooses. The result is the same, bit by bit, for any number.
+    progress : bool or callable, optional
+        True shows a bar on a terminal. A callable is given the share done, from 0 to 1, about twenty times
+        a second; what it raises stops the run.
+
+    Returns
+    -------
+    Signals
+        The columns of the probes, with the scene and statistics.
+
+    Raises
+    ------
+    SceneError
+        A field of the scene, or an argument, is not usable.
+    EquilibriumError
+        There is no stable equilibrium to start from.
+    IntegrationError
+        The integration could not go on.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> scene = br.presets.deep_groove_6205()
+    >>> out = br.simulate(scene, duration=0.001, fs=50_000)
+    >>> out["outer.ay"].shape
+    (50,)
+    """
+    kind, state = (start, None) if isinstance(start, str) else ("state", _state(start))
+    if threads < 0:
+        raise SceneError("threads", str(threads), "0 to choose, or a number of threads")
+    document = scene.to_json()
+    if progress is True:
+        with Bar(scene.name or "simulating") as bar:
+            raw = _core.simulate(document, duration, fs, kind, state, rtol, threads, bar.show)
+    else:
+        callback = progress or None
+        raw = _core.simulate(document, duration, fs, kind, state, rtol, threads, callback)
+    return Signals._from_core(raw)
+
+
+def _state(start: NDArray[np.float64]) -> NDArray[np.float64]:
+    state = np.asarray(start, dtype=np.float64)
+    if state.ndim != 1:
+        raise SceneError(
+            "start", f"an array of shape {state.shape}", "an array of shape (n_states,)"
+        )
+    return state

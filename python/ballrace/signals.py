@@ -1,0 +1,270 @@
+"""What a run gives back."""
+
+from __future__ import annotations
+
+import base64
+import difflib
+import io
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._files import whole
+from .errors import SceneError
+from .scene import Scene
+
+if TYPE_CHECKING:
+    import os
+
+    import polars as pl
+
+    from ._core import _Signals
+
+__all__ = ["Record", "Signals"]
+
+_FORMAT = "1"
+
+
+class Record(Mapping[str, Any]):
+    """A read-only mapping whose entries are attributes too: ``stats.nfev`` is ``stats["nfev"]``."""
+
+    def __init__(self, entries: Mapping[str, Any]) -> None:
+        self.__dict__["_entries"] = {
+            name: Record(value) if isinstance(value, Mapping) else value
+            for name, value in entries.items()
+        }
+
+    def __getitem__(self, name: str) -> Any:
+        return self._entries[name]
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self.__dict__["_entries"][name]
+        except KeyError:
+            known = ", ".join(self.__dict__.get("_entries", ()))
+            raise AttributeError(f"no entry {name!r}; there are: {known}") from None
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError("a record cannot be changed")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._entries)
+
+    def __len__(self) -> int:
+        return len(self._entries)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._entries]
+
+    def __repr__(self) -> str:
+        return f"Record({', '.join(f'{name}={value!r}' for name, value in self.items())})"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the entries as plain dicts."""
+        return {k: v.to_dict() if isinstance(v, Record) else v for k, v in self.items()}
+
+
+class Signals(Mapping[str, NDArray[np.float64]]):
+    """Signals of a run on a uniform grid of times: a mapping from the names of columns to arrays.
+
+    Made by :func:`ballrace.simulate` or :meth:`read_parquet`.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> out = br.simulate(br.presets.deep_groove_6205(), duration=0.001)
+    >>> out["outer.ay"].shape == out.t.shape
+    True
+    >>> out.units["outer.ay"]
+    'm/s^2'
+    """
+
+    def __init__(
+        self,
+        *,
+        fs: float,
+        t: NDArray[np.float64],
+        columns: Mapping[str, NDArray[np.float64]],
+        units: Mapping[str, str],
+        scene: str,
+        stats: Mapping[str, Any],
+        provenance: Mapping[str, Any],
+        slices: pl.DataFrame | Mapping[str, Any] | None = None,
+    ) -> None:
+        self._fs = fs
+        self._t = t
+        self._columns = dict(columns)
+        self._units = dict(units)
+        self._scene: str | Scene = scene
+        self._stats = Record(stats)
+        self._provenance = Record(provenance)
+        self._slices = slices
+
+    @classmethod
+    def _from_core(cls, raw: _Signals) -> Signals:
+        return cls(
+            fs=raw["fs"],
+            t=raw["t"],
+            columns={name: values for name, _, values in raw["columns"]},
+            units={name: unit for name, unit, _ in raw["columns"]},
+            scene=raw["scene"],
+            stats=json.loads(raw["stats"]),
+            provenance=json.loads(raw["provenance"]),
+            slices=raw["slices"],
+        )
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        try:
+            return self._columns[name]
+        except KeyError:
+            near = difflib.get_close_matches(str(name), self._columns, n=5, cutoff=0.4)
+            hint = (
+                f"near are {', '.join(near)}" if near else f"there are {', '.join(self._columns)}"
+            )
+            raise KeyError(f"no column {name!r}; {hint}") from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._columns
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        title = f"<Signals of {self.scene.name!r}: {len(self)} columns, {self._t.size} samples at {self._fs:g} Hz"
+        groups: dict[str, list[str]] = {}
+        for name in self._columns:
+            group, _, column = name.partition(".")
+            groups.setdefault(group, []).append(column)
+        lines = [f"  {group}: {_shortened(columns, 12)}" for group, columns in groups.items()]
+        return "\n".join([title, *lines]) + ">"
+
+    @property
+    def t(self) -> NDArray[np.float64]:
+        """Times, shape (n_samples,) [s]."""
+        return self._t
+
+    @property
+    def fs(self) -> float:
+        """Sampling rate [Hz]."""
+        return self._fs
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the columns."""
+        return tuple(self._columns)
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        """Unit of each column."""
+        return MappingProxyType(self._units)
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that was run."""
+        if isinstance(self._scene, str):
+            self._scene = Scene.from_json(self._scene)
+        return self._scene
+
+    @property
+    def stats(self) -> Record:
+        """Statistics of the run: steps accepted and rejected, evaluations and so on."""
+        return self._stats
+
+    @property
+    def provenance(self) -> Record:
+        """What made these signals: versions, arguments, platform."""
+        return self._provenance
+
+    @property
+    def slices(self) -> pl.DataFrame | None:
+        """Forces of single slices, a line each, as asked for by the probes ``slices``; None without them."""
+        if isinstance(self._slices, Mapping):
+            import polars as pl
+
+            self._slices = pl.DataFrame(self._slices)
+        return self._slices
+
+    def to_polars(self) -> pl.DataFrame:
+        """Return a table with the time ``t`` and all columns."""
+        import polars as pl
+
+        return pl.DataFrame({"t": self._t, **self._columns})
+
+    def write_parquet(self, path: str | os.PathLike[str]) -> None:
+        """Write a Parquet file; units, scene, statistics and provenance go into its metadata.
+
+        The file appears at once when it is whole; one of the same name is replaced.
+
+        Raises
+        ------
+        OSError
+            The folder does not exist or is not writable.
+        """
+        metadata = {
+            "ballrace": _FORMAT,
+            "sampling_rate": repr(float(self._fs)),
+            "units": json.dumps({"t": "s", **self._units}),
+            "scene": self.scene.to_json(),
+            "stats": json.dumps(self._stats.to_dict()),
+            "provenance": json.dumps(self._provenance.to_dict()),
+        }
+        if self.slices is not None:
+            table = io.BytesIO()
+            self.slices.write_parquet(table)
+            metadata["slices"] = base64.b64encode(table.getvalue()).decode()
+        with whole(path) as temporary:
+            self.to_polars().write_parquet(temporary, metadata=metadata)
+
+    @classmethod
+    def read_parquet(cls, path: str | os.PathLike[str]) -> Signals:
+        """Read a file that :meth:`write_parquet` wrote.
+
+        Raises
+        ------
+        SceneError
+            The file is not such a file.
+        OSError
+            The file cannot be read.
+        """
+        import polars as pl
+
+        path = Path(path)
+        try:
+            metadata = pl.read_parquet_metadata(path)
+            table = pl.read_parquet(path)
+        except pl.exceptions.PolarsError as error:
+            raise SceneError("path", str(path), f"a Parquet file ({error})") from error
+        if metadata.get("ballrace") != _FORMAT:
+            raise SceneError(
+                "path", str(path), "a Parquet file written by this version of ballrace"
+            )
+        slices = metadata.get("slices")
+        units = json.loads(metadata["units"])
+        return cls(
+            fs=float(metadata["sampling_rate"]),
+            t=table["t"].to_numpy(),
+            columns={name: table[name].to_numpy() for name in table.columns if name != "t"},
+            units={name: unit for name, unit in units.items() if name != "t"},
+            scene=metadata["scene"],
+            stats=json.loads(metadata["stats"]),
+            provenance=json.loads(metadata["provenance"]),
+            slices=None if slices is None else pl.read_parquet(base64.b64decode(slices)),
+        )
+
+
+def _shortened(names: list[str], limit: int) -> str:
+    rest = len(names) - limit
+    return " ".join(names[:limit]) + (f" … and {rest} more" if rest > 0 else "")

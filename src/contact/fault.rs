@@ -1,0 +1,149 @@
+//! Arcs where a surface is absent, and the fault circles at their edges (model section 7).
+
+use super::wrapped;
+use crate::scene::{Defect, Width};
+
+/// A defect of a surface, compiled: places in the frame of its body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fault {
+    /// Angular place on the body \[rad\].
+    pub angle: f64,
+    /// Axial place of the middle, in the ring's frame or from the ball's centre \[m\].
+    pub middle: f64,
+    /// Axial length \[m\].
+    pub length: f64,
+    /// Radius R_f of the circles \[m\].
+    pub edge_radius: f64,
+    /// Depth and number of the recessed circles.
+    pub floor: Option<(f64, usize)>,
+    /// Twice the largest half-angle: a contact further away never sees the fault \[rad\].
+    pub reach: f64,
+    width: Width,
+}
+
+impl Fault {
+    /// A defect whose middle lies at `middle` on a surface whose least radius there is `radius` \[m\].
+    pub fn new(defect: &Defect, middle: f64, radius: f64) -> Self {
+        Self {
+            angle: defect.angle,
+            middle,
+            length: defect.length,
+            edge_radius: defect.edge_radius,
+            floor: defect
+                .floor
+                .as_ref()
+                .map(|floor| (floor.depth, floor.elements)),
+            reach: defect.width.largest() / radius,
+            width: defect.width.clone(),
+        }
+    }
+
+    /// Whether a contact in this direction of the body's frame may see the fault.
+    pub fn in_reach(&self, direction: f64) -> bool {
+        wrapped(self.angle - direction).abs() <= self.reach
+    }
+
+    /// The arc at an axial place where the surface has this radius, seen from a direction.
+    fn arc(&self, z: f64, radius: f64, direction: f64) -> Option<Arc> {
+        let from_middle = z - self.middle;
+        if from_middle.abs() > self.length / 2.0 {
+            return None;
+        }
+        let (width, slope) = self.width.at(from_middle);
+        (width > 0.0).then(|| {
+            let half = width / (2.0 * radius);
+            let middle = wrapped(self.angle - direction);
+            let edge = |angle: f64, side: f64| Edge {
+                angle,
+                side,
+                radius: self.edge_radius,
+                width,
+                slope,
+            };
+            Arc {
+                low: edge(middle - half, -1.0),
+                high: edge(middle + half, 1.0),
+            }
+        })
+    }
+}
+
+/// An end of an arc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Edge {
+    /// Angle from the direction that was asked about \[rad\].
+    pub angle: f64,
+    /// −1 at the low, +1 at the high end; in between for the circles of a floor.
+    pub side: f64,
+    /// Radius of the fault circle \[m\].
+    pub radius: f64,
+    /// Width of the defect it belongs to \[m\].
+    pub width: f64,
+    /// Slope of that width along z.
+    pub slope: f64,
+}
+
+/// The connected part of the absent arcs that holds a direction; overlapping defects are one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Arc {
+    /// Its lower end.
+    pub low: Edge,
+    /// Its upper end.
+    pub high: Edge,
+}
+
+/// The absent arc around a direction \[rad, frame of the body\] at an axial place where the surface has
+/// this radius; none where the surface is whole.
+pub fn absent(faults: &[Fault], z: f64, radius: f64, direction: f64) -> Option<Arc> {
+    let mut around: Option<Arc> = None;
+    loop {
+        let before = around;
+        for arc in faults
+            .iter()
+            .filter_map(|fault| fault.arc(z, radius, direction))
+        {
+            let (low, high) = around.map_or((0.0, 0.0), |a| (a.low.angle, a.high.angle));
+            if arc.low.angle <= high && arc.high.angle >= low {
+                let whole = around.get_or_insert(arc);
+                if arc.low.angle < whole.low.angle {
+                    whole.low = arc.low;
+                }
+                if arc.high.angle > whole.high.angle {
+                    whole.high = arc.high;
+                }
+            }
+        }
+        if around == before {
+            return around;
+        }
+    }
+}
+
+/// The recessed circles within an absent arc: edge data and depth of each.
+pub fn floors<'a>(
+    faults: &'a [Fault],
+    z: f64,
+    radius: f64,
+    direction: f64,
+    whole: &Arc,
+) -> impl Iterator<Item = (Edge, f64)> + use<'a> {
+    let (low, high) = (whole.low.angle, whole.high.angle);
+    faults.iter().flat_map(move |fault| {
+        let arc = fault
+            .arc(z, radius, direction)
+            .filter(|arc| arc.low.angle >= low && arc.high.angle <= high);
+        let floor = fault.floor.zip(arc);
+        floor.into_iter().flat_map(|((depth, count), arc)| {
+            (1..=count).map(move |k| {
+                let share = 2.0 * k as f64 / (count + 1) as f64 - 1.0;
+                let half = (arc.high.angle - arc.low.angle) / 2.0;
+                let edge = Edge {
+                    angle: arc.low.angle + half * (1.0 + share),
+                    side: share,
+                    ..arc.low
+                };
+                (edge, depth)
+            })
+        })
+    })
+}

@@ -1,0 +1,76 @@
+//! Friction of a slice: −μ(u) F u⃗ / √(u² + v_s²) (equations 8 and 9, regularised).
+
+use crate::scene;
+
+/// Coefficient of friction over slip speed, and the speed below which it fades.
+///
+/// ```
+/// use ballrace::{contact::Friction, scene};
+/// let law = Friction::new(&scene::Friction::Coulomb { coefficient: 0.1, slip_speed: 3.0 }).unwrap();
+/// // At u = 4, v_s = 3: 0.1 / √(16 + 9).
+/// assert!((law.factor(4.0) - 0.02).abs() < 1e-17);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    coefficient: Coefficient,
+    slip_speed: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Coefficient {
+    Constant(f64),
+    Stribeck { fixed: f64, moving: f64, speed: f64 },
+    Traction { a: f64, b: f64, c: f64, d: f64 },
+}
+
+impl Friction {
+    /// The law of a scene; none without friction.
+    pub fn new(friction: &scene::Friction) -> Option<Self> {
+        let (coefficient, slip_speed) = match *friction {
+            scene::Friction::None => return None,
+            scene::Friction::Coulomb {
+                coefficient,
+                slip_speed,
+            } => (Coefficient::Constant(coefficient), slip_speed),
+            scene::Friction::Stribeck {
+                static_coefficient: fixed,
+                kinetic_coefficient: moving,
+                stribeck_speed: speed,
+                slip_speed,
+            } => (
+                Coefficient::Stribeck {
+                    fixed,
+                    moving,
+                    speed,
+                },
+                slip_speed,
+            ),
+            scene::Friction::Traction {
+                a,
+                b,
+                c,
+                d,
+                slip_speed,
+            } => (Coefficient::Traction { a, b, c, d }, slip_speed),
+        };
+        Some(Self {
+            coefficient,
+            slip_speed,
+        })
+    }
+
+    /// μ(u) / √(u² + v_s²) at a slip speed u \[m/s\]: friction over normal force and slip velocity \[s/m\].
+    #[inline]
+    pub fn factor(&self, slip: f64) -> f64 {
+        let mu = match self.coefficient {
+            Coefficient::Constant(mu) => mu,
+            Coefficient::Stribeck {
+                fixed,
+                moving,
+                speed,
+            } => moving + (fixed - moving) * (-(slip / speed).powi(2)).exp(),
+            Coefficient::Traction { a, b, c, d } => (a + b * slip) * (-c * slip).exp() + d,
+        };
+        mu / (slip * slip + self.slip_speed * self.slip_speed).sqrt()
+    }
+}

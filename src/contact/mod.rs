@@ -1,0 +1,142 @@
+//! Laws of one ball on one race: numbers in, numbers out; no indices, no state of a run.
+//!
+//! A contact is cut into [`slices`] along the ball. Each slice has a penetration against the
+//! [`race`] (model section 3), an elastic force by a [`law`] (section 4), Hunt–Crossley damping and
+//! [`friction`] (section 5). Where a [`fault`] removes the surface, fault circles take the slice's
+//! place (section 7). [`pair`] puts these together and hands every single force to a [`Sink`]:
+//! `walk` visits the slices, `feature` decides what each one meets.
+
+pub mod elliptic;
+pub mod fault;
+mod feature;
+pub mod friction;
+pub mod hertz;
+pub mod iso16281;
+pub mod law;
+pub mod pair;
+pub mod race;
+pub mod slices;
+mod walk;
+
+use nalgebra::Vector2;
+
+pub use fault::Fault;
+pub use friction::Friction;
+pub use law::Law;
+pub use pair::{BallSide, Pair};
+pub use race::{Torus, Waves};
+pub use slices::Slices;
+
+/// A vector in the x-y plane.
+pub type V2 = Vector2<f64>;
+
+/// ẑ × v: a quarter turn counter-clockwise.
+pub fn turned(v: V2) -> V2 {
+    V2::new(-v.y, v.x)
+}
+
+/// z component of a × b.
+pub fn cross(a: V2, b: V2) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+/// Angle brought into −π … π.
+pub fn wrapped(angle: f64) -> f64 {
+    angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
+}
+
+/// Where a body is and how it moves.
+#[derive(Debug, Clone, Copy)]
+pub struct Motion {
+    /// Centre in the plane \[m\].
+    pub centre: V2,
+    /// Axial place \[m\].
+    pub z: f64,
+    /// Angle about z \[rad\].
+    pub theta: f64,
+    /// Velocity in the plane \[m/s\].
+    pub velocity: V2,
+    /// Axial velocity \[m/s\].
+    pub vz: f64,
+    /// Angular speed about z \[rad/s\].
+    pub omega: f64,
+}
+
+impl Motion {
+    /// From the four positions and the four velocities of a body.
+    pub fn new(q: &[f64], v: &[f64]) -> Self {
+        Self {
+            centre: V2::new(q[0], q[1]),
+            z: q[2],
+            theta: q[3],
+            velocity: V2::new(v[0], v[1]),
+            vz: v[2],
+            omega: v[3],
+        }
+    }
+}
+
+/// One force between ball and ring: a slice on the race or on a fault circle.
+#[derive(Debug, Clone, Copy)]
+pub struct Touch {
+    /// Place of the slice along the ball, from its centre \[m\].
+    pub zeta: f64,
+    /// Place of the slice in the ring's frame \[m\].
+    pub z: f64,
+    /// Width of the slice along z, or of the node along the common tangent (Hertz law) \[m\].
+    pub width: f64,
+    /// Penetration that the law saw \[m\].
+    pub depth: f64,
+    /// Elastic part of the normal force \[N\].
+    pub elastic: f64,
+    /// Normal force with damping, after clamping \[N\].
+    pub normal: f64,
+    /// Elastic energy \[J\].
+    pub energy: f64,
+    /// Approach speed v_n \[m/s\].
+    pub approach: f64,
+    /// Unit vector in the plane, out of the ball at the contact.
+    pub n_e: V2,
+    /// In-plane and axial part of the normal force over its magnitude: (1, tan α), Hertz law: (cos α', sin α').
+    pub share: (f64, f64),
+    /// Friction on the ball in the plane \[N\].
+    pub friction: V2,
+    /// Friction on the ball along z \[N\].
+    pub friction_z: f64,
+    /// Slip speed \[m/s\].
+    pub slip: f64,
+    /// Power that friction takes out \[W\], at least 0.
+    pub friction_power: f64,
+    /// Contact point from the ball's centre \[m\].
+    pub arm_ball: V2,
+    /// Contact point from the ring's centre \[m\].
+    pub arm_ring: V2,
+    /// Whether damping wanted to pull.
+    pub pull: bool,
+}
+
+impl Touch {
+    /// Force and moment about z on the ball and on the ring, (x, y, z, θ) each, for a share of the
+    /// normal force given by its magnitude and with friction scaled by `friction` (0 or 1).
+    pub fn wrenches(&self, normal: f64, friction: f64) -> ([f64; 4], [f64; 4]) {
+        // (6), (7): the ball gets −F_r n_e − F_a ẑ and the ring the opposite; all at one point.
+        let plane = self.n_e * (-normal * self.share.0) + self.friction * friction;
+        let axial = -normal * self.share.1 + self.friction_z * friction;
+        (
+            [plane.x, plane.y, axial, cross(self.arm_ball, plane)],
+            [-plane.x, -plane.y, -axial, -cross(self.arm_ring, plane)],
+        )
+    }
+}
+
+/// Receives the single forces of a contact.
+pub trait Sink {
+    /// Whether [`Touch::energy`] is needed; it costs a power a slice.
+    const ENERGY: bool = false;
+
+    /// One force.
+    fn touch(&mut self, touch: &Touch);
+
+    /// A slice would touch but lies beyond a shoulder.
+    fn truncated(&mut self) {}
+}

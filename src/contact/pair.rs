@@ -1,0 +1,125 @@
+//! One ball on one race: finds the zone that touches, and lets `walk` and `feature` do the rest.
+
+use super::walk::Gap;
+use super::{Fault, Friction, Law, Motion, Sink, Slices, Torus, V2, Waves};
+
+/// What all contacts of a row's balls with one race share.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pair {
+    /// The race.
+    pub race: Torus,
+    /// Its waviness.
+    pub waves: Waves,
+    /// Elastic law.
+    pub law: Law,
+    /// Where the ball is cut.
+    pub slices: Slices,
+    /// Hunt–Crossley α_d \[s/m\].
+    pub damping: f64,
+    /// Whether a slice that pulls is set to zero.
+    pub clamp_pull: bool,
+    /// Friction, if any.
+    pub friction: Option<Friction>,
+    /// Defects of the race, in the ring's frame.
+    pub faults: Vec<Fault>,
+}
+
+/// What belongs to the ball.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BallSide {
+    /// Radius \[m\].
+    pub radius: f64,
+    /// Defects of the ball, in its frame.
+    pub faults: Vec<Fault>,
+}
+
+impl Pair {
+    /// All forces between a ball and the race of its ring.
+    pub fn evaluate<S: Sink>(&self, ball: &BallSide, b: &Motion, r: &Motion, sink: &mut S) {
+        let apart = b.centre - r.centre;
+        let distance = apart.norm();
+        if distance == 0.0 {
+            return;
+        }
+        let n = apart / distance;
+        let sigma = self.race.sigma;
+        let needs_angle =
+            !(self.waves.is_round() && self.faults.is_empty() && ball.faults.is_empty());
+        let angle = if needs_angle { n.y.atan2(n.x) } else { 0.0 };
+        let on_ring = angle - r.theta;
+        let wave = self.waves.at(on_ring);
+        let meridian = self.race.meridian(distance, b.z - r.z, wave);
+        if meridian.approach(ball.radius) <= 0.0 && meridian.e > 0.0 {
+            return;
+        }
+        let on_ball = if sigma > 0.0 {
+            angle
+        } else {
+            angle + std::f64::consts::PI
+        } - b.theta;
+        let ring_open = self.faults.iter().any(|fault| fault.in_reach(on_ring));
+        let ball_near = ball.faults.iter().any(|fault| fault.in_reach(on_ball));
+        let mut contact = Contact {
+            pair: self,
+            ball,
+            b,
+            r,
+            apart,
+            distance,
+            n,
+            on_ring,
+            wave,
+            ring_open,
+            // A ring edge is met in another direction than the race.
+            ball_open: ball_near || ring_open && !ball.faults.is_empty(),
+            drop_share: 1.0,
+            common: None,
+            sink,
+        };
+        match (&self.law, &self.slices) {
+            (Law::Iso16281(_), _) => contact.iso_slices(&meridian),
+            (Law::Hertz(law), slices) if meridian.e > 0.0 => {
+                let half = law.half_zone(meridian.approach(ball.radius));
+                let (e, c, l) = (meridian.e, meridian.c, meridian.distance());
+                let direction = (e / l, -c / l);
+                contact.drop_share = direction.0;
+                contact.common = Some(direction);
+                let gap = Gap {
+                    approach: l + ball.radius - meridian.r,
+                    curvature: law.curvature,
+                };
+                match slices {
+                    Slices::Fixed(count) => contact.hertz_fixed(&gap, half, *count),
+                    Slices::Fitted(nodes) => {
+                        let ball_faults: &[Fault] = if ball_near { &ball.faults } else { &[] };
+                        contact.hertz_fitted(&gap, half, nodes, on_ball, ball_faults);
+                    }
+                }
+            }
+            (Law::Hertz(_), _) => {}
+        }
+    }
+}
+
+/// A contact being evaluated.
+pub(super) struct Contact<'a, S> {
+    pub(super) pair: &'a Pair,
+    pub(super) ball: &'a BallSide,
+    pub(super) b: &'a Motion,
+    pub(super) r: &'a Motion,
+    /// From the ring's centre to the ball's.
+    pub(super) apart: V2,
+    pub(super) distance: f64,
+    /// Its unit vector.
+    pub(super) n: V2,
+    /// Direction of the ball in the ring's frame.
+    pub(super) on_ring: f64,
+    pub(super) wave: f64,
+    pub(super) ring_open: bool,
+    pub(super) ball_open: bool,
+    /// Fall of the law's penetration over that of the geometry: 1, or cos α' for the Hertz law.
+    pub(super) drop_share: f64,
+    /// (cos α', sin α') of the common normal for the Hertz law.
+    pub(super) common: Option<(f64, f64)>,
+    pub(super) sink: &'a mut S,
+}

@@ -1,0 +1,121 @@
+//! Races as functions R(z): the torus (model section 2).
+
+use crate::scene::Waviness;
+
+/// A groove that is part of a torus: R(z) = a ± √(r² − (z − z₀)²), + for the outer race.
+///
+/// ```
+/// use ballrace::contact::Torus;
+/// let outer = Torus { sigma: 1.0, a: 30e-3, centre: 0.0, r: 6e-3, lowest: -6e-3, highest: 6e-3 };
+/// assert!((outer.radius(0.0).unwrap() - 36e-3).abs() < 1e-15);
+/// assert!(outer.radius(6e-3).is_none());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Torus {
+    /// +1 for an outer, −1 for an inner race.
+    pub sigma: f64,
+    /// Radius of the circle of groove centres a_o or a_i \[m\].
+    pub a: f64,
+    /// Axial place of the groove's centre z_o or z_i in the ring's frame \[m\].
+    pub centre: f64,
+    /// Groove radius r \[m\].
+    pub r: f64,
+    /// Where the race ends towards −z, from the groove's centre \[m\].
+    pub lowest: f64,
+    /// Where the race ends towards +z, from the groove's centre \[m\].
+    pub highest: f64,
+}
+
+impl Torus {
+    /// Race radius \[m\] at an axial place of the ring's frame \[m\], whether or not a shoulder has
+    /// cut it off; none where |z − z₀| ≥ r.
+    pub fn radius(&self, z: f64) -> Option<f64> {
+        let x = z - self.centre;
+        let square = self.r * self.r - x * x;
+        (square > 0.0).then(|| self.a + self.sigma * square.sqrt())
+    }
+
+    /// Whether the race reaches to that axial place.
+    pub fn reaches(&self, z: f64) -> bool {
+        let x = z - self.centre;
+        x >= self.lowest && x <= self.highest
+    }
+
+    /// The ball in the groove's meridional plane, for a ball at distance `d` from the ring's axis and at
+    /// axial place `z`, the race raised by `wave` \[m\].
+    pub fn meridian(&self, d: f64, z: f64, wave: f64) -> Meridian {
+        Meridian {
+            e: self.sigma * (d - self.a - wave),
+            c: self.centre - z,
+            r: self.r,
+        }
+    }
+}
+
+/// Ball and groove as two circles in the meridional plane: the ball's centre is the origin, the groove's
+/// centre lies at axial place c and at −e along the outward normal; both races look alike here.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Meridian {
+    /// Distance of the ball's centre from the groove's centre along n_e \[m\].
+    pub e: f64,
+    /// Axial place of the groove's centre from the ball's \[m\].
+    pub c: f64,
+    /// Groove radius \[m\].
+    pub r: f64,
+}
+
+impl Meridian {
+    /// Distance of the two centres \[m\].
+    pub fn distance(&self) -> f64 {
+        self.e.hypot(self.c)
+    }
+
+    /// Normal approach δ of a ball of the given radius; negative without contact \[m\].
+    pub fn approach(&self, radius: f64) -> f64 {
+        self.distance() + radius - self.r
+    }
+
+    /// Ends of the touching zone along ζ for a ball of the given radius, in closed form: where the two
+    /// circles cut. None without contact; the whole ball where a circle cuts below the equator.
+    pub fn zone(&self, radius: f64) -> Option<(f64, f64)> {
+        if self.e <= 0.0 {
+            // The ball is not in front of the groove's bottom: let every slice decide for itself.
+            return Some((-radius, radius));
+        }
+        let l = self.distance();
+        if l + radius <= self.r {
+            return None;
+        }
+        let x = (l * l + radius * radius - self.r * self.r) / (2.0 * l);
+        let h = (radius * radius - x * x).max(0.0).sqrt();
+        let (cos, sin) = (self.e / l, self.c / l);
+        let end = |side: f64| {
+            let height = -x * cos + side * h * sin;
+            if height > 0.0 {
+                x * sin + side * h * cos
+            } else {
+                side * radius
+            }
+        };
+        Some((end(-1.0), end(1.0)))
+    }
+}
+
+/// The harmonics of a race's radius.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Waves(pub Vec<Waviness>);
+
+impl Waves {
+    /// Whether the race is round.
+    pub fn is_round(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Raise of the radius \[m\] at an angle in the ring's own frame \[rad\].
+    pub fn at(&self, angle: f64) -> f64 {
+        self.0
+            .iter()
+            .map(|w| w.amplitude * (f64::from(w.order) * angle + w.phase).cos())
+            .sum()
+    }
+}

@@ -1,0 +1,120 @@
+//! What a probe wants to know of a contact.
+
+use crate::contact::{Sink, Touch, V2};
+use crate::model::Model;
+
+/// A contact in a few numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactSummary {
+    /// Magnitude of the normal force, elastic and damping \[N\].
+    pub load: f64,
+    /// Its angle against the radial plane, positive in the sense of the nominal contact angle \[rad\]; NaN without load.
+    pub angle: f64,
+    /// Axial place of the zone's middle of force, in the ring's frame \[m\]; NaN without load.
+    pub zone_centre: f64,
+    /// Axial extent of the slices that touch \[m\].
+    pub zone_width: f64,
+    /// Load-weighted slip speed \[m/s\]; NaN without load.
+    pub slip: f64,
+}
+
+/// The force of one slice.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SliceForce {
+    /// Place along the ball, from its centre \[m\].
+    pub zeta: f64,
+    /// Axial place in the ring's frame \[m\].
+    pub z: f64,
+    /// Width of the slice \[m\].
+    pub width: f64,
+    /// Penetration \[m\].
+    pub penetration: f64,
+    /// Normal force \[N\].
+    pub force: f64,
+}
+
+#[derive(Default)]
+struct Summary {
+    plane: V2,
+    axial: f64,
+    weight: f64,
+    moment: f64,
+    slip: f64,
+    low: f64,
+    high: f64,
+}
+
+impl Sink for Summary {
+    fn touch(&mut self, touch: &Touch) {
+        let half = touch.width / 2.0;
+        if self.weight == 0.0 {
+            (self.low, self.high) = (f64::INFINITY, f64::NEG_INFINITY);
+        }
+        self.plane += touch.n_e * (touch.normal * touch.share.0);
+        self.axial += touch.normal * touch.share.1;
+        self.weight += touch.normal;
+        self.moment += touch.normal * touch.z;
+        self.slip += touch.normal * touch.slip;
+        self.low = self.low.min(touch.z - half);
+        self.high = self.high.max(touch.z + half);
+    }
+}
+
+struct List(Vec<SliceForce>);
+
+impl Sink for List {
+    fn touch(&mut self, touch: &Touch) {
+        self.0.push(SliceForce {
+            zeta: touch.zeta,
+            z: touch.z,
+            width: touch.width,
+            penetration: touch.depth,
+            force: touch.normal,
+        });
+    }
+}
+
+impl Model {
+    /// A contact in a few numbers: ball `j` among all balls, race 0 (outer) or 1 (inner).
+    pub fn contact(&self, y: &[f64], j: usize, race: usize) -> ContactSummary {
+        let mut sum = Summary::default();
+        let side = self.visit(y, j, race, &mut sum);
+        let sigma = if race == 0 { 1.0 } else { -1.0 };
+        if sum.weight == 0.0 {
+            return ContactSummary {
+                load: 0.0,
+                angle: f64::NAN,
+                zone_centre: f64::NAN,
+                zone_width: sum.high - sum.low,
+                slip: f64::NAN,
+            };
+        }
+        let radial = sum.plane.norm();
+        ContactSummary {
+            load: radial.hypot(sum.axial),
+            angle: (sum.axial * sigma * side).atan2(radial),
+            zone_centre: sum.moment / sum.weight,
+            zone_width: sum.high - sum.low,
+            slip: sum.slip / sum.weight,
+        }
+    }
+
+    /// The forces of the slices of one contact, in order of ζ; on a fault a slice may appear more than once.
+    pub fn slice_forces(&self, y: &[f64], j: usize, race: usize) -> Vec<SliceForce> {
+        let mut list = List(Vec::new());
+        self.visit(y, j, race, &mut list);
+        list.0
+    }
+
+    fn visit<S: Sink>(&self, y: &[f64], j: usize, race: usize, sink: &mut S) -> f64 {
+        let ball = &self.balls[j];
+        let row = &self.rows[ball.row];
+        row.pairs[race].evaluate(
+            &ball.side,
+            &super::motion(y, 2 + j),
+            &super::motion(y, race),
+            sink,
+        );
+        row.side
+    }
+}

@@ -1,0 +1,120 @@
+//! Energies and dissipated powers of a state.
+
+use super::{motion, others};
+use crate::contact::{Sink, Touch};
+use crate::model::{Degree, Model};
+
+/// Energies \[J\] and dissipated powers \[W\]. Loads and drive do work on top of these.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Energy {
+    /// Of all bodies that move.
+    pub kinetic: f64,
+    /// Stored in contacts.
+    pub contact: f64,
+    /// Stored in supports.
+    pub support: f64,
+    /// Stored in the cage.
+    pub cage: f64,
+    /// In the field of gravity, 0 at the origin.
+    pub gravity: f64,
+    /// Power lost to contact damping.
+    pub damping_power: f64,
+    /// Power lost to friction.
+    pub friction_power: f64,
+    /// Power lost in supports and cage.
+    pub support_power: f64,
+}
+
+impl Energy {
+    /// All stored and kinetic energy \[J\].
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.contact + self.support + self.cage + self.gravity
+    }
+
+    /// Names, units and values, in order.
+    pub fn entries(&self) -> [(&'static str, &'static str, f64); 9] {
+        [
+            ("kinetic", "J", self.kinetic),
+            ("contact", "J", self.contact),
+            ("support", "J", self.support),
+            ("cage", "J", self.cage),
+            ("gravity", "J", self.gravity),
+            ("total", "J", self.total()),
+            ("damping_power", "W", self.damping_power),
+            ("friction_power", "W", self.friction_power),
+            ("support_power", "W", self.support_power),
+        ]
+    }
+}
+
+#[derive(Default)]
+struct Contacts {
+    energy: f64,
+    damping: f64,
+    friction: f64,
+}
+
+impl Sink for Contacts {
+    const ENERGY: bool = true;
+
+    fn touch(&mut self, touch: &Touch) {
+        self.energy += touch.energy;
+        self.damping += (touch.normal - touch.elastic) * touch.approach;
+        self.friction += touch.friction_power;
+    }
+}
+
+impl Model {
+    /// Energies and dissipated powers of a state.
+    pub fn energy(&self, y: &[f64]) -> Energy {
+        let mut energy = Energy::default();
+        let half = y.len() / 2;
+        for (b, body) in self.bodies.iter().enumerate() {
+            for i in 0..4 {
+                let (position, speed) = (y[4 * b + i] - body.nominal[i], y[half + 4 * b + i]);
+                energy.kinetic += 0.5 * body.mass[i] * speed * speed;
+                if let Degree::Free { stiffness, damping } = body.degrees[i] {
+                    energy.support += 0.5 * stiffness * position * position;
+                    energy.support_power += damping * speed * speed;
+                }
+            }
+            for (i, g) in self.scene.gravity.iter().enumerate() {
+                energy.gravity -= body.mass[i] * g * y[4 * b + i];
+            }
+        }
+        let mut contacts = Contacts::default();
+        for (j, ball) in self.balls.iter().enumerate() {
+            for (race, pair) in self.rows[ball.row].pairs.iter().enumerate() {
+                pair.evaluate(
+                    &ball.side,
+                    &motion(y, 2 + j),
+                    &motion(y, race),
+                    &mut contacts,
+                );
+            }
+        }
+        energy.contact = contacts.energy;
+        energy.damping_power = contacts.damping;
+        energy.friction_power = contacts.friction;
+        if let Some(cage) = &self.scene.cage {
+            for row in &self.rows {
+                for (i, j) in row.links() {
+                    let link = others::link(cage, row.cage_distance, y, i, j);
+                    energy.cage += link.energy;
+                    energy.support_power += link.power;
+                }
+            }
+        }
+        energy
+    }
+
+    /// Forces of the cage links of a row, positive in tension \[N\]; empty without a cage.
+    pub fn cage_forces(&self, y: &[f64], row: usize) -> Vec<f64> {
+        let (row, cage) = (&self.rows[row], self.scene.cage.as_ref());
+        cage.map_or_else(Vec::new, |cage| {
+            row.links()
+                .map(|(i, j)| others::link(cage, row.cage_distance, y, i, j).force)
+                .collect()
+        })
+    }
+}

@@ -1,0 +1,246 @@
+//! The right-hand side: every ball's contacts into its own slot, then one sum in one order.
+//!
+//! Slots may be filled by several threads; since each ball's forces are computed alone and the slots are
+//! added up row by row and ball by ball afterwards, the bits do not depend on the number of threads.
+
+mod contacts;
+mod energy;
+mod others;
+mod slot;
+
+use std::sync::Arc;
+
+use rayon::ThreadPool;
+use rayon::prelude::*;
+
+use crate::contact::{Motion, Slices};
+use crate::integrate::System;
+use crate::model::{Degree, Model};
+use crate::scene::Drive;
+
+pub use contacts::{ContactSummary, SliceForce};
+pub use energy::Energy;
+
+use slot::{Named, Slot};
+
+/// A model with the memory that evaluating it needs. One a thread of control.
+#[derive(Debug)]
+pub struct Dynamics<'m> {
+    model: &'m Model,
+    slots: Vec<Slot>,
+    forces: Vec<[f64; 4]>,
+    pool: Option<Arc<ThreadPool>>,
+}
+
+/// Names of the contributions of [`Dynamics::contributions`], in their order.
+pub const CONTRIBUTIONS: [&str; 8] = [
+    "contact", "damping", "friction", "cage", "support", "gravity", "load", "drive",
+];
+
+impl<'m> Dynamics<'m> {
+    /// For evaluations on one thread.
+    pub fn new(model: &'m Model) -> Self {
+        Self {
+            model,
+            slots: vec![Slot::default(); model.balls.len()],
+            forces: vec![[0.0; 4]; model.bodies.len()],
+            pool: None,
+        }
+    }
+
+    /// Shares the balls of an evaluation among the threads of a pool.
+    pub fn parallel(model: &'m Model, pool: Arc<ThreadPool>) -> Self {
+        Self {
+            pool: Some(pool),
+            ..Self::new(model)
+        }
+    }
+
+    /// The model.
+    pub fn model(&self) -> &'m Model {
+        self.model
+    }
+
+    /// Slices whose damping wanted to pull in the last evaluation.
+    pub fn pulls(&self) -> usize {
+        self.slots.iter().map(|slot| slot.pulls as usize).sum()
+    }
+
+    /// Contacts cut off by a shoulder in the last evaluation.
+    pub fn truncated(&self) -> usize {
+        self.slots.iter().map(|slot| slot.truncated as usize).sum()
+    }
+
+    /// The forces of the last evaluation on every body: x, y, z \[N\] and about z \[N m\]. For a direction
+    /// that is fixed or driven their negative is what holds it.
+    pub fn last_forces(&self) -> &[[f64; 4]] {
+        &self.forces
+    }
+
+    /// Moment about z that the balls put on outer and inner ring in the last evaluation \[N m\].
+    pub fn ring_torques(&self) -> [f64; 2] {
+        [0, 1].map(|ring| self.slots.iter().map(|slot| slot.rings[ring][3]).sum())
+    }
+
+    fn fill_slots(&mut self, y: &[f64]) {
+        let model = self.model;
+        let rings = [motion(y, 0), motion(y, 1)];
+        let fill = |(j, slot): (usize, &mut Slot)| slot.fill(model, j, &motion(y, 2 + j), &rings);
+        let slots = &mut self.slots;
+        match &self.pool {
+            Some(pool) => pool.install(|| slots.par_iter_mut().enumerate().for_each(fill)),
+            None => slots.iter_mut().enumerate().for_each(fill),
+        }
+    }
+
+    fn sum(&mut self, t: f64, y: &[f64]) {
+        self.forces.fill([0.0; 4]);
+        for (j, slot) in self.slots.iter().enumerate() {
+            add(&mut self.forces[2 + j], &slot.ball);
+            add(&mut self.forces[0], &slot.rings[0]);
+            add(&mut self.forces[1], &slot.rings[1]);
+        }
+        others::cage(self.model, y, &mut self.forces);
+        others::supports(self.model, y, &mut self.forces);
+        others::gravity(self.model, &mut self.forces);
+        others::loads(self.model, t, y, &mut self.forces);
+        others::drive(self.model, t, &mut self.forces);
+    }
+
+    /// The same forces apart by origin, as in [`CONTRIBUTIONS`]: for each, four numbers a body.
+    pub fn contributions(&self, t: f64, y: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
+        let model = self.model;
+        let bodies = model.bodies.len();
+        let mut parts = vec![vec![[0.0; 4]; bodies]; CONTRIBUTIONS.len()];
+        let rings = [motion(y, 0), motion(y, 1)];
+        for (j, ball) in model.balls.iter().enumerate() {
+            for (side, pair) in model.rows[ball.row].pairs.iter().enumerate() {
+                let mut named = Named::default();
+                pair.evaluate(&ball.side, &motion(y, 2 + j), &rings[side], &mut named);
+                for (part, (on_ball, on_ring)) in parts.iter_mut().zip(named.wrenches()) {
+                    add(&mut part[2 + j], &on_ball);
+                    add(&mut part[side], &on_ring);
+                }
+            }
+        }
+        others::cage(model, y, &mut parts[3]);
+        others::supports(model, y, &mut parts[4]);
+        others::gravity(model, &mut parts[5]);
+        others::loads(model, t, y, &mut parts[6]);
+        others::drive(model, t, &mut parts[7]);
+        CONTRIBUTIONS
+            .into_iter()
+            .zip(parts.into_iter().map(|part| part.concat()))
+            .collect()
+    }
+}
+
+impl System for Dynamics<'_> {
+    fn dim(&self) -> usize {
+        self.model.dim()
+    }
+
+    /// M q̈ = F(t, q, q̇) in state space (model section 1). Directions that are fixed do not accelerate;
+    /// the driven ring's rotation accelerates as prescribed.
+    fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        self.fill_slots(y);
+        self.sum(t, y);
+        let half = y.len() / 2;
+        let (rates, accelerations) = dy.split_at_mut(half);
+        rates.copy_from_slice(&y[half..]);
+        for ((body, force), acceleration) in self
+            .model
+            .bodies
+            .iter()
+            .zip(&self.forces)
+            .zip(accelerations.chunks_exact_mut(4))
+        {
+            for i in 0..4 {
+                acceleration[i] = match body.degrees[i] {
+                    Degree::Free { .. } => force[i] / body.mass[i],
+                    Degree::Fixed => 0.0,
+                    Degree::Driven => match &self.model.scene.drive {
+                        Drive::Speed(speed) => speed.rate(t),
+                        Drive::Torque { .. } => 0.0,
+                    },
+                };
+            }
+        }
+    }
+}
+
+impl Model {
+    /// Time derivative of a state vector, both of length [`Model::dim`]. Allocates its own memory; a run
+    /// uses [`Dynamics`].
+    ///
+    /// # Panics
+    /// If a length is wrong.
+    pub fn rhs(&self, t: f64, y: &[f64], dy: &mut [f64]) {
+        assert!(
+            y.len() == self.dim() && dy.len() == self.dim(),
+            "a state has {} numbers",
+            self.dim()
+        );
+        Dynamics::new(self).rhs(t, y, dy);
+    }
+
+    /// The forces on every body by origin (see [`CONTRIBUTIONS`]): x, y, z \[N\] and about z \[N m\] for each
+    /// body in turn.
+    ///
+    /// # Panics
+    /// If the length of `y` is wrong.
+    pub fn forces(&self, t: f64, y: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
+        assert_eq!(y.len(), self.dim(), "length of the state");
+        Dynamics::new(self).contributions(t, y)
+    }
+}
+
+impl Model {
+    /// The first body among the balls that has left its groove, if any: pressed deeper than half its radius,
+    /// or beside the groove.
+    pub(crate) fn escaped(&self, y: &[f64]) -> Option<usize> {
+        let rings = [motion(y, 0), motion(y, 1)];
+        (0..self.balls.len()).map(|j| 2 + j).find(|&body| {
+            let ball = &self.balls[body - 2];
+            let place = motion(y, body);
+            self.rows[ball.row]
+                .pairs
+                .iter()
+                .zip(&rings)
+                .any(|(pair, ring)| {
+                    let distance = (place.centre - ring.centre).norm();
+                    let meridian = pair.race.meridian(distance, place.z - ring.z, 0.0);
+                    // Negated, so that a position that is not a number counts as lost.
+                    !(meridian.c.abs() < meridian.r
+                        && meridian.approach(ball.side.radius) < 0.5 * ball.side.radius)
+                })
+        })
+    }
+
+    /// Whether sharing one evaluation among threads pays: handing the balls out costs some 10 µs.
+    pub(crate) fn is_large(&self) -> bool {
+        let slices = self
+            .balls
+            .iter()
+            .map(|ball| match &self.rows[ball.row].pairs[0].slices {
+                Slices::Fixed(count) => *count / 4,
+                Slices::Fitted(nodes) => nodes.len(),
+            });
+        2 * slices.sum::<usize>() > 4000
+    }
+}
+
+/// Motion of a body in a state vector.
+pub(crate) fn motion(y: &[f64], body: usize) -> Motion {
+    let half = y.len() / 2;
+    Motion::new(
+        &y[4 * body..4 * body + 4],
+        &y[half + 4 * body..half + 4 * body + 4],
+    )
+}
+
+fn add(sum: &mut [f64; 4], part: &[f64; 4]) {
+    for (s, p) in sum.iter_mut().zip(part) {
+        *s += p;
+    }
+}

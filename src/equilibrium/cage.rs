@@ -1,0 +1,65 @@
+//! The cage's part in the equilibrium.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Vector2;
+
+use super::problem::Problem;
+use crate::contact::V2;
+use crate::scene::Cage;
+
+impl Problem<'_> {
+    /// The cage's part at the balls' present radii: angles at which all links of a row are equally long, and
+    /// the links' pull on the balls.
+    ///
+    /// Balls pressed outwards stretch the cage; left out, its tension would shake the bearing at the start.
+    pub(super) fn engage(&mut self, cage: &Cage, balls: &[Vector2<f64>]) {
+        for row in self.model.rows.iter().filter(|row| row.count > 2) {
+            let radii: Vec<f64> = (0..row.count).map(|k| balls[row.first + k].x).collect();
+            let next = |k: usize| (k + 1) % row.count;
+            // Law of cosines: the angle that a link of this length spans.
+            let span = |k: usize, length: f64| {
+                let (a, b) = (radii[k], radii[next(k)]);
+                ((a * a + b * b - length * length) / (2.0 * a * b))
+                    .clamp(-1.0, 1.0)
+                    .acos()
+            };
+            // All spans together make the circle; they grow with the length.
+            let (mut low, mut high) = (0.5 * row.cage_distance, 1.5 * row.cage_distance);
+            for _ in 0..60 {
+                let middle = f64::midpoint(low, high);
+                let sum: f64 = (0..row.count).map(|k| span(k, middle)).sum();
+                if sum < TAU {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            let extension = high - row.cage_distance;
+            let beyond = (extension.abs() - cage.play / 2.0)
+                .max(0.0)
+                .copysign(extension);
+            let tension = cage.stiffness * beyond;
+            // The mean of the shifts is zero.
+            let pitch = TAU / row.count as f64;
+            let mut shift = vec![0.0; row.count];
+            for k in 1..row.count {
+                shift[k] = shift[k - 1] + span(k - 1, high) - pitch;
+            }
+            let mean = shift.iter().sum::<f64>() / row.count as f64;
+            for (k, shift) in shift.into_iter().enumerate() {
+                let body = &self.model.bodies[2 + row.first + k];
+                let angle = body.nominal[1].atan2(body.nominal[0]) + shift - mean;
+                self.directions[row.first + k] = V2::new(angle.cos(), angle.sin());
+            }
+            let place = |k: usize| self.directions[row.first + k] * radii[k];
+            for k in 0..row.count {
+                let before = (k + row.count - 1) % row.count;
+                let pull = ((place(next(k)) - place(k)).normalize()
+                    + (place(before) - place(k)).normalize())
+                    * tension;
+                self.cage_pulls[row.first + k] = pull.dot(&self.directions[row.first + k]);
+            }
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! Static equilibrium in the cage's frame: loads, gravity and the balls' centrifugal force.
+//!
+//! Two nested Newton solves. Each ball, held at its angle, finds its radius and axial place between the
+//! rings; the rings then see every ball as a nonlinear spring, the Schur complement of its stiffness. The
+//! balls are seeded on the line of the groove centres, and only a positive definite tangent stiffness is
+//! accepted: Newton's method alone also finds balls that balance on a shoulder.
+
+mod ball;
+mod cage;
+mod problem;
+mod rings;
+
+use nalgebra::SVector;
+use serde::Serialize;
+
+use crate::error::Result;
+use crate::model::Model;
+use crate::scene::Scene;
+use problem::Problem;
+
+/// Residual over the sum of the acting forces that counts as zero.
+const TOLERANCE: f64 = 1e-10;
+/// Residual that is still accepted where a slice that enters a defect makes the force jump.
+const STALLED: f64 = 1e-3;
+/// Solves with the cage's pull renewed; each shrinks its error by the cage's share of the stiffness.
+const CAGE_ROUNDS: usize = 3;
+
+/// Static state of a bearing.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Equilibrium {
+    /// Displacement of the outer ring x, y, z \[m\].
+    pub outer: [f64; 3],
+    /// Displacement of the inner ring x, y, z \[m\].
+    pub inner: [f64; 3],
+    /// The balls, row by row.
+    pub balls: Vec<BallEquilibrium>,
+    /// Newton iterations of the rings.
+    pub iterations: usize,
+}
+
+/// Static state of a ball.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BallEquilibrium {
+    /// Row, from 0.
+    pub row: usize,
+    /// Ball of the row, from 0.
+    pub ball: usize,
+    /// Angular place \[rad\].
+    pub angle: f64,
+    /// Distance from the inertial axis \[m\].
+    pub radius: f64,
+    /// Axial place \[m\].
+    pub z: f64,
+    /// Contact with the outer race.
+    pub outer: ContactEquilibrium,
+    /// Contact with the inner race.
+    pub inner: ContactEquilibrium,
+}
+
+/// Static state of a contact.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ContactEquilibrium {
+    /// Normal force \[N\].
+    pub load: f64,
+    /// Operating contact angle \[rad\]; null without load.
+    pub angle: Option<f64>,
+    /// Normal approach \[m\], negative for a gap.
+    pub deflection: f64,
+    /// Axial place of the zone's middle of force, in the ring's frame \[m\]; null without load.
+    pub zone_centre: Option<f64>,
+}
+
+/// Solves for the static equilibrium at t = 0.
+///
+/// ```
+/// use ballrace::scene::presets;
+/// let loaded = ballrace::equilibrium(&presets::deep_groove_6205(500.0, 0.0, 1800.0)).unwrap();
+/// // The ball on the load line carries most; the top ball only its centrifugal force.
+/// assert!(loaded.balls[0].inner.load > 200.0 && loaded.balls[4].inner.load == 0.0);
+/// ```
+///
+/// # Errors
+/// [`Error::Scene`] for a scene that is not usable, [`Error::Equilibrium`] when the load cannot be carried.
+pub fn equilibrium(scene: &Scene) -> Result<Equilibrium> {
+    let model = Model::new(scene)?;
+    let (y, iterations) = solve(&model)?;
+    Ok(describe(&model, &y, iterations))
+}
+
+/// Positions of the equilibrium in a state vector with zero velocities.
+pub(crate) fn positions(model: &Model) -> Result<Vec<f64>> {
+    solve(model).map(|(y, _)| y)
+}
+
+fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibrium {
+    let place = |body: usize| [y[4 * body], y[4 * body + 1], y[4 * body + 2]];
+    let contact = |j: usize, race: usize| {
+        let summary = model.contact(y, j, race);
+        let ball = &model.balls[j];
+        let pair = &model.rows[ball.row].pairs[race];
+        let (b, r) = (place(2 + j), place(race));
+        let (dx, dy) = (b[0] - r[0], b[1] - r[1]);
+        let wave = pair.waves.at(dy.atan2(dx) - y[4 * race + 3]);
+        let meridian = pair.race.meridian(dx.hypot(dy), b[2] - r[2], wave);
+        let loaded = summary.load > 0.0;
+        ContactEquilibrium {
+            load: summary.load,
+            angle: loaded.then_some(summary.angle),
+            deflection: meridian.approach(ball.side.radius),
+            zone_centre: loaded.then_some(summary.zone_centre),
+        }
+    };
+    let balls = model.balls.iter().enumerate().map(|(j, ball)| {
+        let [x, y, z] = place(2 + j);
+        BallEquilibrium {
+            row: ball.row,
+            ball: ball.index,
+            angle: y.atan2(x),
+            radius: x.hypot(y),
+            z,
+            outer: contact(j, 0),
+            inner: contact(j, 1),
+        }
+    });
+    Equilibrium {
+        outer: place(0),
+        inner: place(1),
+        balls: balls.collect(),
+        iterations,
+    }
+}
+
+/// Solves with the balls at their nominal angles; then lets the cage shift them and pull, and solves again.
+fn solve(model: &Model) -> Result<(Vec<f64>, usize)> {
+    let mut problem = Problem::new(model);
+    let mut rings = SVector::<f64, 6>::zeros();
+    let mut balls: Vec<_> = (0..model.balls.len())
+        .map(|j| problem.seed(j, &rings))
+        .collect();
+    let mut iterations = problem.balance(&mut rings, &mut balls)?;
+    if let Some(cage) = &model.scene.cage {
+        for _ in 0..CAGE_ROUNDS {
+            problem.engage(cage, &balls);
+            iterations += problem.balance(&mut rings, &mut balls)?;
+        }
+    }
+    Ok((problem.state(&rings, &balls), iterations))
+}

@@ -1,0 +1,62 @@
+//! Everything that can go wrong, each with the place, the value and what to try next.
+
+use thiserror::Error;
+
+/// What `ballrace` refuses or fails at.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A field of the scene, or an argument of a run, is not usable. Nothing was computed or written.
+    #[error("{path} = {value}: {allowed}")]
+    Scene {
+        /// Dotted path of the field, such as `rows[0].ball_diameter`.
+        path: String,
+        /// The offending value as the user wrote it.
+        value: String,
+        /// What is allowed there.
+        allowed: String,
+    },
+    /// The static solve found no stable equilibrium.
+    #[error("no equilibrium: {reason}")]
+    Equilibrium {
+        /// Why, and what to try.
+        reason: String,
+    },
+    /// The integration could not go on.
+    #[error("integration stopped at t = {time:.9e} s, step {step:.3e} s, at {body}: {reason}")]
+    Integration {
+        /// Time reached \[s\].
+        time: f64,
+        /// Step size of the last attempt \[s\].
+        step: f64,
+        /// The body with the largest error, as in the names of the states.
+        body: String,
+        /// What failed and what to try.
+        reason: String,
+    },
+    /// The observer (Ctrl-C, a callback) asked to stop.
+    #[error("interrupted at t = {time:.6e} s")]
+    Interrupted {
+        /// Time reached \[s\].
+        time: f64,
+    },
+}
+
+impl Error {
+    /// A scene error; `value` may be anything that prints.
+    #[allow(clippy::needless_pass_by_value)] // so that literals and numbers can be given as they are
+    pub fn scene(
+        path: impl Into<String>,
+        value: impl std::fmt::Display,
+        allowed: impl Into<String>,
+    ) -> Self {
+        Self::Scene {
+            path: path.into(),
+            value: value.to_string(),
+            allowed: allowed.into(),
+        }
+    }
+}
+
+/// Shorthand for results of this crate.
+pub type Result<T> = std::result::Result<T, Error>;

@@ -1,0 +1,185 @@
+//! The loop that joins the parts.
+
+use std::ops::ControlFlow;
+
+use super::clock::{Clock, ulp};
+use super::control::Control;
+use super::failure::{Failure, FailureKind, Invalid};
+use super::norm::{Norm, Tolerance, Worst};
+use super::options::Options;
+use super::start::first_step;
+use super::stats::Statistics;
+use super::step::Stepper;
+use super::stops::{Plan, Stops};
+use super::tableau::Tableau;
+use super::{Observer, System};
+
+/// A step below this many ulps of the time is too small.
+const SMALLEST_ULPS: f64 = 16.0;
+
+/// Where an integration ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// The time reached: the end of the span unless interrupted.
+    pub t: f64,
+    /// The state at that time.
+    pub y: Vec<f64>,
+    /// What it has cost.
+    pub stats: Statistics,
+    /// Whether the observer ended it.
+    pub interrupted: bool,
+}
+
+/// Integrates `system` from `y0` over `t_span`, forwards in time.
+///
+/// The step size follows the error and stops for nothing but breakpoints and
+/// the end: output at given times is the observer's, by
+/// [`DenseStep::interpolate`](super::DenseStep::interpolate). A stop closer than
+/// two steps is reached in two equal ones, after which the step size from before
+/// is taken up again.
+///
+/// # Errors
+/// A [`Failure`], with the last accepted time:
+/// * [`FailureKind::Invalid`] — the lengths of `y0` or `tolerance` are not
+///   [`System::dim`], the span is not finite or runs backwards, or `options`
+///   hold a step or a breakpoint that is no such thing;
+/// * [`FailureKind::NonFinite`] — the derivative at the start or after a
+///   breakpoint is not finite, or [`Options::max_rejections`] ever smaller steps
+///   were rejected, the last for a non-finite number;
+/// * [`FailureKind::TooManyRejections`] — the same, the last for its error;
+/// * [`FailureKind::TooSmall`] — the step fell below 16 ulps of the time.
+pub fn integrate<S: System, O: Observer<S>>(
+    system: &mut S,
+    tableau: &Tableau,
+    t_span: (f64, f64),
+    y0: &[f64],
+    tolerance: &Tolerance,
+    options: &Options,
+    observer: &mut O,
+) -> Result<Solution, Failure> {
+    let (t0, end) = t_span;
+    check(system.dim(), t_span, y0, tolerance)
+        .and_then(|()| options.check())
+        .map_err(|reason| Failure::invalid(t0, reason))?;
+
+    let mut clock = Clock::at(t0);
+    let mut stops = Stops::new(&options.breakpoints, t0, end);
+    let mut norm = Norm::new(tolerance);
+    let mut control = Control::new(&options.controller);
+    let mut work = Stepper::new(tableau, y0);
+    let mut stats = Statistics::default();
+    let mut interrupted = false;
+
+    let fail = |time, step, group, kind| Failure {
+        time,
+        step,
+        group,
+        kind,
+    };
+    let not_finite = |time, i| fail(time, 0.0, tolerance.group_of(i), FailureKind::NonFinite);
+    work.restart(system, t0).map_err(|i| not_finite(t0, i))?;
+
+    let fixed = options.fixed_step.is_some();
+    let ceiling = if fixed {
+        f64::INFINITY
+    } else {
+        options.max_step
+    };
+    // The step size that the error alone asks for.
+    let mut free = options
+        .fixed_step
+        .or(options.first_step)
+        .unwrap_or_else(|| {
+            let ahead = (t0, stops.next());
+            let order = tableau.error_order;
+            first_step(system, &mut work, &mut norm, ahead, ceiling, order)
+                .max(SMALLEST_ULPS * ulp(t0))
+        });
+    let mut failures = 0;
+    let mut group = 0;
+
+    while !interrupted && clock.now() < end {
+        let (t, stop) = (clock.now(), stops.next());
+        let plan = Plan::new(t, stop.time, free, ceiling);
+        if !plan.lands && plan.h < SMALLEST_ULPS * ulp(t) {
+            return Err(fail(t, plan.h, group, FailureKind::TooSmall));
+        }
+
+        let next = if plan.lands {
+            Clock::at(stop.time)
+        } else {
+            clock.advanced(plan.h)
+        };
+        let error = match work.attempt(system, (t, next.now()), plan.h, stop.latest()) {
+            Ok(()) => norm.measure(&work.y, &work.y1, &work.error),
+            Err(i) => Worst {
+                value: f64::INFINITY,
+                group: tolerance.group_of(i),
+            },
+        };
+        let finite = error.value.is_finite();
+        group = error.group;
+        if !finite || !(fixed || error.value <= 1.0) {
+            stats.rejected += 1;
+            failures += 1;
+            if fixed || failures >= options.max_rejections {
+                let kind = if finite {
+                    FailureKind::TooManyRejections
+                } else {
+                    FailureKind::NonFinite
+                };
+                return Err(fail(t, plan.h, group, kind));
+            }
+            free = plan.h * control.rejected(error.value);
+            continue;
+        }
+
+        failures = 0;
+        if !fixed {
+            let factor = control.accepted(error.value, plan.shortened);
+            let wish = plan.h * factor;
+            // A shortened step is no reason to forget the size from before it.
+            let restore = plan.shortened && factor >= 1.0;
+            free = if restore { free.max(wish) } else { wish };
+        }
+        let stiffness = work.stiffness(plan.h, norm.weights());
+        stats.accept(tableau, t, &plan, stiffness);
+        stats.nfev = work.calls;
+
+        let step = work.dense(t, next.now(), plan.h);
+        interrupted = observer.accepted(system, &step, &stats) == ControlFlow::Break(());
+        work.advance();
+        clock = next;
+
+        if plan.lands {
+            stops.pass();
+            if stop.jumps && !interrupted && clock.now() < end {
+                work.restart(system, stop.time)
+                    .map_err(|i| not_finite(stop.time, i))?;
+            }
+        }
+    }
+    stats.nfev = work.calls;
+    Ok(Solution {
+        t: clock.now(),
+        y: work.y,
+        stats,
+        interrupted,
+    })
+}
+
+/// Whether the pieces of the problem fit each other.
+fn check(
+    dim: usize,
+    (t0, end): (f64, f64),
+    y0: &[f64],
+    tolerance: &Tolerance,
+) -> Result<(), Invalid> {
+    if y0.len() != dim || tolerance.dim() != dim {
+        return Err(Invalid("state, tolerance and system differ in length"));
+    }
+    if !(t0.is_finite() && end.is_finite() && t0 <= end) {
+        return Err(Invalid("the time span must be finite and run forwards"));
+    }
+    Ok(())
+}

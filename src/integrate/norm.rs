@@ -1,0 +1,239 @@
+//! Tolerances, and the norm that weighs an error against them.
+
+use super::failure::Invalid;
+
+/// What error is acceptable in each state, and which states belong together.
+///
+/// The scale of state `i` is `atol[i]`, plus `rtol · max(|y0|, |y1|)` if the
+/// state is relative. The norm is the largest, over the groups, of the group's
+/// root mean square of scaled errors: a mean over all states would drown the
+/// impact of one body in the calm of the others.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tolerance {
+    atol: Vec<f64>,
+    /// Relative tolerance by state; 0 where only the absolute one counts.
+    rtol: Vec<f64>,
+    group: Vec<usize>,
+    /// Stretches of neighbouring states of the same group.
+    runs: Vec<Run>,
+    /// One over the number of states of each group; 0 for an empty one.
+    share: Vec<f64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Run {
+    start: usize,
+    end: usize,
+    group: usize,
+}
+
+impl Tolerance {
+    /// Tolerances for `atol.len()` states.
+    ///
+    /// `atol` is in the states' own units; `relative` says whether `rtol` counts
+    /// for a state too (an angle that only grows must not be relative); `group`
+    /// numbers the bodies from 0 in any order.
+    ///
+    /// # Errors
+    /// [`Invalid`] if the lengths differ or are zero, if an `atol` is not
+    /// positive and finite, or if `rtol` is negative or not finite.
+    pub fn new(
+        rtol: f64,
+        atol: Vec<f64>,
+        relative: &[bool],
+        group: Vec<usize>,
+    ) -> Result<Self, Invalid> {
+        if atol.is_empty() || relative.len() != atol.len() || group.len() != atol.len() {
+            return Err(Invalid("tolerances need one entry per state"));
+        }
+        if !atol.iter().all(|&a| a > 0.0 && a.is_finite()) {
+            return Err(Invalid("absolute tolerances must be positive and finite"));
+        }
+        if !(rtol >= 0.0 && rtol.is_finite()) {
+            return Err(Invalid(
+                "the relative tolerance must be finite and not negative",
+            ));
+        }
+        let mut runs: Vec<Run> = Vec::new();
+        let mut size = vec![0.0; group.iter().max().map_or(0, |most| most + 1)];
+        for (i, &group) in group.iter().enumerate() {
+            size[group] += 1.0;
+            match runs.last_mut() {
+                Some(run) if run.group == group => run.end = i + 1,
+                _ => runs.push(Run {
+                    start: i,
+                    end: i + 1,
+                    group,
+                }),
+            }
+        }
+        Ok(Self {
+            rtol: relative
+                .iter()
+                .map(|&r| if r { rtol } else { 0.0 })
+                .collect(),
+            share: size
+                .iter()
+                .map(|&n| if n > 0.0 { 1.0 / n } else { 0.0 })
+                .collect(),
+            atol,
+            group,
+            runs,
+        })
+    }
+
+    /// The same tolerance for `dim` relative states, all in one group.
+    ///
+    /// # Errors
+    /// As [`Tolerance::new`].
+    pub fn uniform(dim: usize, rtol: f64, atol: f64) -> Result<Self, Invalid> {
+        Self::new(rtol, vec![atol; dim], &vec![true; dim], vec![0; dim])
+    }
+
+    /// Number of states.
+    #[must_use]
+    pub fn dim(&self) -> usize {
+        self.atol.len()
+    }
+
+    /// The group of a state.
+    ///
+    /// # Panics
+    /// If there is no such state.
+    #[must_use]
+    pub fn group_of(&self, state: usize) -> usize {
+        self.group[state]
+    }
+}
+
+/// A norm and the group that set it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Worst {
+    /// The norm; infinite if anything measured was not finite.
+    pub(super) value: f64,
+    /// The group with the largest, or the first non-finite, contribution.
+    pub(super) group: usize,
+}
+
+/// A tolerance with the memory to measure by it.
+#[derive(Debug)]
+pub(super) struct Norm<'a> {
+    tolerance: &'a Tolerance,
+    weight: Vec<f64>,
+    square: Vec<f64>,
+    sum: Vec<f64>,
+}
+
+impl<'a> Norm<'a> {
+    pub(super) fn new(tolerance: &'a Tolerance) -> Self {
+        Self {
+            tolerance,
+            weight: vec![0.0; tolerance.dim()],
+            square: vec![0.0; tolerance.dim()],
+            sum: vec![0.0; tolerance.share.len()],
+        }
+    }
+
+    /// The norm of `x`, scaled for a step from `y0` to `y1`.
+    ///
+    /// A non-finite `y1` counts as a non-finite `x`: it would otherwise make
+    /// the scale infinite and the error vanish.
+    pub(super) fn measure(&mut self, y0: &[f64], y1: &[f64], x: &[f64]) -> Worst {
+        let n = self.weight.len();
+        let (atol, rtol) = (&self.tolerance.atol[..n], &self.tolerance.rtol[..n]);
+        let (y0, y1, x) = (&y0[..n], &y1[..n], &x[..n]);
+        let (weight, square) = (&mut self.weight[..n], &mut self.square[..n]);
+        for i in 0..n {
+            let (before, after) = (y0[i].abs(), y1[i].abs());
+            let size = if before > after { before } else { after };
+            weight[i] = 1.0 / (atol[i] + rtol[i] * size);
+            let scaled = x[i] * weight[i];
+            square[i] = scaled * scaled + 0.0 * after;
+        }
+        self.sum.fill(0.0);
+        for run in &self.tolerance.runs {
+            self.sum[run.group] += self.square[run.start..run.end].iter().sum::<f64>();
+        }
+        let mut worst = Worst {
+            value: 0.0,
+            group: 0,
+        };
+        for (group, (sum, share)) in self.sum.iter().zip(&self.tolerance.share).enumerate() {
+            let mean = sum * share;
+            if !mean.is_finite() {
+                return Worst {
+                    value: f64::INFINITY,
+                    group,
+                };
+            }
+            if mean > worst.value {
+                worst = Worst { value: mean, group };
+            }
+        }
+        worst.value = worst.value.sqrt();
+        worst
+    }
+
+    /// One over the scale of each state, as of the last measurement.
+    pub(super) fn weights(&self) -> &[f64] {
+        &self.weight
+    }
+}
+
+/// The truth is the definition, worked by hand on small numbers.
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn two_bodies() -> Tolerance {
+        let relative = [true, false, true, true];
+        Tolerance::new(0.1, vec![1.0, 2.0, 1.0, 1.0], &relative, vec![0, 1, 1, 0]).unwrap()
+    }
+
+    #[test]
+    fn largest_group_mean_square_wins() {
+        let tolerance = two_bodies();
+        let mut norm = Norm::new(&tolerance);
+        // Scales: 1 + 0.1·10 = 2, 2 (absolute), 1 + 0.1·30 = 4, 1.
+        let (y0, y1) = ([-10.0, 1e9, 0.0, 0.0], [5.0, 1e9, -30.0, 0.0]);
+        let worst = norm.measure(&y0, &y1, &[2.0, 4.0, 8.0, 0.5]);
+        assert_eq!(
+            worst,
+            Worst {
+                value: 2.0,
+                group: 1
+            }
+        );
+        assert_eq!(norm.weights(), [0.5, 0.5, 0.25, 1.0]);
+        let worst = norm.measure(&y0, &y1, &[6.0, 0.0, 0.0, 4.0]);
+        assert_eq!(worst.group, 0);
+        assert!((worst.value - 12.5_f64.sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn nothing_non_finite_passes() {
+        let tolerance = two_bodies();
+        let mut norm = Norm::new(&tolerance);
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let zero = [0.0; 4];
+            let with = [0.0, 0.0, bad, 0.0];
+            let expected = Worst {
+                value: f64::INFINITY,
+                group: 1,
+            };
+            assert_eq!(norm.measure(&zero, &zero, &with), expected);
+            assert_eq!(norm.measure(&zero, &with, &zero), expected);
+        }
+    }
+
+    #[test]
+    fn impossible_tolerances_are_refused() {
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(Tolerance::uniform(2, 1e-6, bad).is_err());
+        }
+        assert!(Tolerance::uniform(2, -1.0, 1.0).is_err());
+        assert!(Tolerance::uniform(2, f64::NAN, 1.0).is_err());
+        assert!(Tolerance::uniform(0, 1e-6, 1.0).is_err());
+        assert!(Tolerance::new(0.0, vec![1.0; 2], &[true], vec![0; 2]).is_err());
+    }
+}

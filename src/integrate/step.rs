@@ -1,0 +1,113 @@
+//! One step of any tableau, in memory allocated once.
+
+use super::System;
+use super::combine::combine;
+use super::dense::DenseStep;
+use super::stiffness::quotient;
+use super::tableau::Tableau;
+
+/// The workspace of a step: the state, the derivatives and what they give.
+#[derive(Debug)]
+pub(super) struct Stepper<'a> {
+    tableau: &'a Tableau,
+    /// The accepted state.
+    pub(super) y: Vec<f64>,
+    /// The state the last attempt ends in.
+    pub(super) y1: Vec<f64>,
+    /// The error estimate of the last attempt, in units of the states.
+    pub(super) error: Vec<f64>,
+    /// The last state evaluated before `y1`.
+    pub(super) stage: Vec<f64>,
+    /// Derivatives: the first at `y`, the last at `y1`, the others between.
+    /// A method that is not FSAL has one more than stages.
+    pub(super) k: Vec<Vec<f64>>,
+    /// Evaluations of the right-hand side so far.
+    pub(super) calls: usize,
+}
+
+impl<'a> Stepper<'a> {
+    pub(super) fn new(tableau: &'a Tableau, y: &[f64]) -> Self {
+        let zero = vec![0.0; y.len()];
+        let derivatives = tableau.stages + usize::from(!tableau.fsal);
+        Self {
+            tableau,
+            y: y.to_vec(),
+            y1: zero.clone(),
+            error: zero.clone(),
+            stage: zero.clone(),
+            k: vec![zero; derivatives],
+            calls: 0,
+        }
+    }
+
+    /// Evaluates the derivative at `(t, y)`, where no step before supplies it.
+    ///
+    /// The error is the index of the first non-finite state or derivative.
+    pub(super) fn restart<S: System>(&mut self, system: &mut S, t: f64) -> Result<(), usize> {
+        check_finite(&self.y)?;
+        system.rhs(t, &self.y, &mut self.k[0]);
+        self.calls += 1;
+        check_finite(&self.k[0])
+    }
+
+    /// Tries a step `h` from `(t, y)`: fills `y1`, the derivatives and `error`.
+    ///
+    /// `t1` is `t + h` as the clock will show it; stages at the end see just that.
+    /// No evaluation sees a time beyond `latest`. A non-finite derivative ends
+    /// the attempt at once, with the index of its first non-finite entry.
+    pub(super) fn attempt<S: System>(
+        &mut self,
+        system: &mut S,
+        (t, t1): (f64, f64),
+        h: f64,
+        latest: f64,
+    ) -> Result<(), usize> {
+        let Tableau { c, a, b, .. } = *self.tableau;
+        let last = self.k.len() - 1;
+        for i in 1..=last {
+            // The stage after the last is the new state of a method without FSAL.
+            let (c, row) = if i < c.len() { (c[i], a[i]) } else { (1.0, b) };
+            let state = if i == last {
+                &mut self.y1
+            } else {
+                &mut self.stage
+            };
+            let (known, new) = self.k.split_at_mut(i);
+            combine(state, Some(&self.y), h, row, known);
+            let time = if c == 1.0 { t1 } else { t + c * h };
+            system.rhs(time.min(latest), state, &mut new[0]);
+            self.calls += 1;
+            check_finite(&new[0])?;
+        }
+        combine(&mut self.error, None, h, self.tableau.b_err, &self.k);
+        Ok(())
+    }
+
+    /// The stiffness quotient at the end of the last attempt.
+    pub(super) fn stiffness(&self, h: f64, weights: &[f64]) -> f64 {
+        let last = self.k.len() - 1;
+        let slopes = [&self.k[last - 1][..], &self.k[last]];
+        quotient(h, [&self.stage, &self.y1], slopes, weights)
+    }
+
+    /// The last attempt as a polynomial from `t0` to `t1`.
+    pub(super) fn dense(&self, t0: f64, t1: f64, h: f64) -> DenseStep<'_> {
+        DenseStep::new(self.tableau.dense, (t0, t1), h, &self.y, &self.y1, &self.k)
+    }
+
+    /// Makes the end of the last attempt the accepted state.
+    pub(super) fn advance(&mut self) {
+        let last = self.k.len() - 1;
+        self.k.swap(0, last);
+        std::mem::swap(&mut self.y, &mut self.y1);
+    }
+}
+
+/// The index of the first non-finite entry, as the error.
+fn check_finite(x: &[f64]) -> Result<(), usize> {
+    // Without an early exit the usual case is vectorised.
+    if x.iter().fold(true, |finite, x| finite & x.is_finite()) {
+        return Ok(());
+    }
+    x.iter().position(|x| !x.is_finite()).map_or(Ok(()), Err)
+}

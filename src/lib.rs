@@ -1,0 +1,75 @@
+//! Ball bearings simulated in three dimensions: slices, fault circles, adaptive Runge–Kutta.
+//!
+//! After P. Tkachuk, J. Strackeljan, *A 3D-ball bearing model for simulation of axial load variations*
+//! (Otto-von-Guericke-Universität Magdeburg); equation numbers in brackets are that paper's.
+//!
+//! ```
+//! use std::ops::ControlFlow;
+//! use ballrace::{Run, scene::presets, simulate};
+//!
+//! let scene = presets::wheel_bearing(3000.0);
+//! let run = Run { duration: 1e-3, ..Run::default() };
+//! let out = simulate(&scene, &run, &mut |_share| ControlFlow::Continue(()))?;
+//! let ay = out.get("outer.ay").unwrap(); // m/s², 50 kHz
+//! assert_eq!(ay.len(), 50);
+//! # Ok::<(), ballrace::Error>(())
+//! ```
+//!
+//! # The rooms
+//!
+//! Data flows one way:
+//!
+//! ```text
+//! scene  →  model  →  dynamics  →  integrate  →  signals
+//! ```
+//!
+//! * [`scene`] — what a user says: names, numbers, defaults; a serde document that is only validated.
+//! * [`contact`] — laws of one ball on one race: races, slices, ISO and Hertz laws, damping, friction, fault
+//!   circles. Numbers in, numbers out; no indices, no state.
+//! * `model` ([`Model`]) — the scene compiled: bodies, arrays, scales. Never changed by a run.
+//! * [`dynamics`] — the right-hand side: contacts into slots, summed in one order; forces by name, energies.
+//! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
+//! * `equilibrium` ([`equilibrium()`]) — the static solve; `start` ([`start()`]) — how a run begins.
+//! * `signals` ([`Signals`]) — probes read on a uniform grid from the dense output.
+//! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
+//! * `python` (feature `python`) — the only place that knows Python.
+//!
+//! # To add
+//!
+//! | what | touch | prove |
+//! |---|---|---|
+//! | a normal law | a file in `contact/`, a variant in `scene/contact.rs` and in `contact/law.rs` | doctest values, limits |
+//! | a friction law | `contact/friction.rs`, a variant in `scene/contact.rs` | dissipation ≥ 0 |
+//! | a race profile | `contact/race.rs` | gap against a closed form |
+//! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
+//! | a Runge–Kutta method | a constant in `integrate/tableau.rs` | row sums, order of convergence |
+//! | a signal | a variant in `scene/probe.rs`, an arm in `signals.rs` | unit, value at a known state |
+//!
+//! # Units and frames
+//!
+//! SI everywhere. Right-handed inertial frame: z along the bearing axis, x to the right, y up; angle 0 on +x,
+//! counter-clockwise. A body has four degrees of freedom x, y, z, θ (about z): rings do not tilt and balls
+//! spin about z only.
+
+#[cfg(feature = "python")]
+mod python;
+
+pub mod contact;
+pub mod dynamics;
+mod equilibrium;
+mod error;
+pub mod integrate;
+mod model;
+mod pool;
+pub mod scene;
+mod signals;
+mod simulate;
+mod start;
+
+pub use equilibrium::{BallEquilibrium, ContactEquilibrium, Equilibrium, equilibrium};
+pub use error::{Error, Result};
+pub use model::{Body, Degree, Model, Scales};
+pub use scene::Scene;
+pub use signals::{Column, Signals, SliceRow};
+pub use simulate::{Provenance, Run, Statistics, simulate};
+pub use start::{Start, start};

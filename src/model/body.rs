@@ -1,0 +1,122 @@
+//! Bodies: mass, how each direction is held, and masses from geometry.
+
+use std::f64::consts::PI;
+
+use crate::scene::{Mount, Ring, Row, Scene};
+
+/// A body compiled.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Its name, as in the names of the states.
+    pub name: String,
+    /// Mass along x, y, z \[kg\] and moment of inertia about z \[kg m²\].
+    pub mass: [f64; 4],
+    /// How each direction moves.
+    pub degrees: [Degree; 4],
+    /// Nominal place x, y, z \[m\] and angle \[rad\]: rings at the origin, balls on the pitch circle.
+    pub nominal: [f64; 4],
+}
+
+/// How one direction of a body moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Degree {
+    /// By the forces on it, with a spring and a damper to the frame (both 0 when free).
+    Free {
+        /// \[N/m\], about z \[N m/rad\].
+        stiffness: f64,
+        /// \[N s/m\], about z \[N m s/rad\].
+        damping: f64,
+    },
+    /// Not at all.
+    Fixed,
+    /// As the drive prescribes.
+    Driven,
+}
+
+impl From<Mount> for Degree {
+    fn from(mount: Mount) -> Self {
+        match mount {
+            Mount::Free => Self::Free {
+                stiffness: 0.0,
+                damping: 0.0,
+            },
+            Mount::Fixed => Self::Fixed,
+            Mount::Spring { stiffness, damping } => Self::Free { stiffness, damping },
+        }
+    }
+}
+
+/// Mass and moment of inertia of a ball of the given diameter.
+pub(super) fn ball_mass(scene: &Scene, row: &Row, diameter: f64) -> (f64, f64) {
+    let mass = row
+        .ball_mass
+        .unwrap_or_else(|| scene.materials.balls.density * PI * diameter.powi(3) / 6.0);
+    (
+        mass,
+        row.ball_inertia.unwrap_or(0.1 * mass * diameter * diameter),
+    )
+}
+
+/// Mass and moment of inertia of a ring; given values first.
+///
+/// From geometry: a hollow cylinder between boundary and land, less the grooves' circular segments. The
+/// land is at the shoulder angle, or 0.3 D beyond the pitch radius.
+pub(super) fn ring_mass(scene: &Scene, ring: &Ring, sigma: f64) -> (f64, f64) {
+    let geometry = || {
+        let (boundary, width) = (ring.diameter? / 2.0, ring.width?);
+        let density = scene.materials.rings.density;
+        let first = &scene.rows[0];
+        let land = land_radius(first, sigma);
+        let (inside, outside) = if sigma > 0.0 {
+            (land, boundary)
+        } else {
+            (boundary, land)
+        };
+        let cylinder = density * PI * width * (outside.powi(2) - inside.powi(2));
+        let mut mass = cylinder;
+        let mut inertia = cylinder * (outside.powi(2) + inside.powi(2)) / 2.0;
+        for row in &scene.rows {
+            let r = groove_radius(row, sigma);
+            let bottom = f64::midpoint(row.pitch_diameter, sigma * row.ball_diameter);
+            let depth = (sigma * (bottom - land)).clamp(0.0, r);
+            let area = r * r * (1.0 - depth / r).acos()
+                - (r - depth) * (2.0 * r * depth - depth * depth).sqrt();
+            let centre = f64::midpoint(bottom, land);
+            let groove = density * area * 2.0 * PI * centre;
+            mass -= groove;
+            inertia -= groove * centre * centre;
+        }
+        Some((mass, inertia))
+    };
+    let computed = geometry();
+    let mass = ring.mass.or(computed.map(|(mass, _)| mass)).unwrap_or(1.0);
+    let inertia = ring.inertia.unwrap_or_else(|| match computed {
+        Some((computed_mass, inertia)) => inertia * mass / computed_mass,
+        None => mass * (scene.rows[0].pitch_diameter / 2.0).powi(2),
+    });
+    (mass, inertia)
+}
+
+/// Groove radius \[m\] of the outer (σ = +1) or inner race.
+pub(super) fn groove_radius(row: &Row, sigma: f64) -> f64 {
+    row.ball_diameter
+        * if sigma > 0.0 {
+            row.outer_conformity
+        } else {
+            row.inner_conformity
+        }
+}
+
+fn land_radius(row: &Row, sigma: f64) -> f64 {
+    let shoulders = if sigma > 0.0 {
+        row.outer_shoulders
+    } else {
+        row.inner_shoulders
+    };
+    let r = groove_radius(row, sigma);
+    let height = match shoulders {
+        Some([low, high]) => row.ball_diameter / 2.0 - r * (1.0 - low.max(high).cos()),
+        None => 0.3 * row.ball_diameter,
+    };
+    row.pitch_diameter / 2.0 + sigma * height
+}

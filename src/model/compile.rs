@@ -1,0 +1,218 @@
+//! From the scene's names and numbers to the model's arrays.
+
+use std::f64::consts::PI;
+
+use super::body::{Body, Degree, ball_mass, groove_radius, ring_mass};
+use super::{Ball, LoadModel, Model, RowModel, Scales, UnbalanceModel};
+use crate::contact::hertz::Hertz;
+use crate::contact::iso16281::Iso16281;
+use crate::contact::{BallSide, Fault, Friction, Law, Pair, Slices, Torus, Waves};
+use crate::error::{Error, Result};
+use crate::scene::{self, Drive, Mount, NormalLaw, RingName, Row, Scene, Surface};
+
+/// Fixed slices of the ISO law where the scene says nothing.
+const DEFAULT_FIXED: usize = 100;
+/// Nodes a piece of the Hertz law where the scene says nothing.
+const DEFAULT_FITTED: usize = 8;
+
+pub(super) fn compile(scene: &Scene) -> Result<Model> {
+    scene.validate()?;
+    let mut bodies = vec![
+        ring(scene, &scene.outer_ring, RingName::Outer)?,
+        ring(scene, &scene.inner_ring, RingName::Inner)?,
+    ];
+    if matches!(scene.drive, Drive::Speed(_)) {
+        bodies[1].degrees[3] = Degree::Driven;
+    }
+    let mut rows = Vec::new();
+    let mut balls = Vec::new();
+    for (i, row) in scene.rows.iter().enumerate() {
+        rows.push(RowModel {
+            first: balls.len(),
+            count: row.ball_count,
+            pairs: [pair(scene, i, row, 1.0), pair(scene, i, row, -1.0)],
+            cage_distance: row.pitch_diameter * (PI / row.ball_count as f64).sin(),
+            side: f64::from(row.side),
+        });
+        for index in 0..row.ball_count {
+            let error = row.diameter_errors.get(index).copied().unwrap_or(0.0);
+            let diameter = row.ball_diameter + error;
+            let (mass, inertia) = ball_mass(scene, row, diameter);
+            let angle = row.start_angle + 2.0 * PI * index as f64 / row.ball_count as f64;
+            let (sin, cos) = angle.sin_cos();
+            let pitch = row.pitch_diameter / 2.0;
+            bodies.push(Body {
+                nominal: [pitch * cos, pitch * sin, row.axial_position, 0.0],
+                name: format!("row{i}.ball{index}"),
+                mass: [mass, mass, mass, inertia],
+                degrees: row.ball_support.mounts(Mount::Free).map(Degree::from),
+            });
+            let side = BallSide {
+                radius: diameter / 2.0,
+                faults: ball_faults(scene, i, index, diameter / 2.0),
+            };
+            balls.push(Ball {
+                row: i,
+                index,
+                side,
+            });
+        }
+    }
+    let mut model = Model {
+        scene: scene.clone(),
+        bodies,
+        rows,
+        balls,
+        loads: loads(scene),
+        unbalances: scene
+            .unbalances
+            .values()
+            .map(|u| UnbalanceModel {
+                ring: ring_body(u.ring),
+                moment: u.moment,
+                angle: u.angle,
+            })
+            .collect(),
+        scales: Scales::default(),
+    };
+    model.scales = Scales::of(&model);
+    Ok(model)
+}
+
+/// Body of a ring.
+pub(crate) fn ring_body(ring: RingName) -> usize {
+    match ring {
+        RingName::Outer => 0,
+        RingName::Inner => 1,
+    }
+}
+
+fn ring(scene: &Scene, ring: &scene::Ring, name: RingName) -> Result<Body> {
+    let (label, sigma, absent) = match name {
+        RingName::Outer => ("outer", 1.0, Mount::Fixed),
+        RingName::Inner => ("inner", -1.0, Mount::Free),
+    };
+    let (mass, inertia) = ring_mass(scene, ring, sigma);
+    for (field, value) in [("mass", mass), ("inertia", inertia)] {
+        if value <= 0.0 {
+            return Err(Error::scene(
+                format!("{label}_ring.width"),
+                format!("{:?}", ring.width),
+                format!("a ring wide enough for its grooves: its {field} would be {value:.3e}"),
+            ));
+        }
+    }
+    Ok(Body {
+        name: label.to_owned(),
+        nominal: [0.0; 4],
+        mass: [mass, mass, mass, inertia],
+        degrees: ring.support.mounts(absent).map(Degree::from),
+    })
+}
+
+/// Geometry and laws of one race (model section 2), σ = +1 for the outer.
+fn pair(scene: &Scene, index: usize, row: &Row, sigma: f64) -> Pair {
+    let radius = row.ball_diameter / 2.0;
+    let r = groove_radius(row, sigma);
+    let (sin, cos) = row.contact_angle.sin_cos();
+    let side = f64::from(row.side);
+    let preload = if sigma > 0.0 {
+        0.0
+    } else {
+        side * row.axial_preload
+    };
+    let (shoulders, waviness, surface, conformity) = if sigma > 0.0 {
+        (
+            row.outer_shoulders,
+            &row.outer_waviness,
+            Surface::OuterRace,
+            row.outer_conformity,
+        )
+    } else {
+        (
+            row.inner_shoulders,
+            &row.inner_waviness,
+            Surface::InnerRace,
+            row.inner_conformity,
+        )
+    };
+    let [low, high] = shoulders.map_or([r, r], |angles| angles.map(|angle| r * angle.sin()));
+    let race = Torus {
+        sigma,
+        a: row.pitch_diameter / 2.0 - sigma * (r - radius) * cos + sigma * row.clearance / 4.0,
+        centre: row.axial_position - sigma * side * (r - radius) * sin + preload,
+        r,
+        lowest: -low,
+        highest: high,
+    };
+    let faults = scene
+        .defects
+        .values()
+        .filter(|defect| defect.on == surface && defect.row == index)
+        .map(|defect| {
+            let middle = row.axial_position + defect.axial_offset;
+            // Validation keeps the defect inside the groove.
+            Fault::new(defect, middle, race.radius(middle).unwrap_or(race.a))
+        })
+        .collect();
+    let contact = &scene.contact;
+    let law = match contact.law {
+        NormalLaw::Iso16281 {
+            constant,
+            length_ratio,
+        } => Law::Iso16281(Iso16281::new(constant, length_ratio, row.ball_diameter)),
+        NormalLaw::Hertz => Law::Hertz(Hertz::new(
+            sigma,
+            row.ball_diameter,
+            row.pitch_diameter,
+            conformity,
+            row.contact_angle,
+            &scene.materials.balls,
+            &scene.materials.rings,
+        )),
+    };
+    let slices = match (contact.slices, law) {
+        (Some(scene::Slices::Fixed(n)), _) => Slices::Fixed(n),
+        (Some(scene::Slices::Fitted(m)), _) => Slices::fitted(m),
+        (None, Law::Iso16281(_)) => Slices::Fixed(DEFAULT_FIXED),
+        (None, Law::Hertz(_)) => Slices::fitted(DEFAULT_FITTED),
+    };
+    Pair {
+        race,
+        waves: Waves(waviness.clone()),
+        law,
+        slices,
+        damping: contact.damping,
+        clamp_pull: contact.clamp_pull,
+        friction: Friction::new(&scene.friction),
+        faults,
+    }
+}
+
+fn ball_faults(scene: &Scene, row: usize, ball: usize, radius: f64) -> Vec<Fault> {
+    scene
+        .defects
+        .values()
+        .filter(|d| d.on == Surface::Ball && d.row == row && d.ball == Some(ball))
+        .map(|defect| {
+            let reach = defect.axial_offset.abs() + defect.length / 2.0;
+            let slice = (radius * radius - reach * reach).max(0.0).sqrt();
+            Fault::new(defect, defect.axial_offset, slice)
+        })
+        .collect()
+}
+
+fn loads(scene: &Scene) -> Vec<LoadModel> {
+    scene
+        .loads
+        .values()
+        .map(|load| {
+            let size = load.direction.iter().map(|x| x * x).sum::<f64>().sqrt();
+            LoadModel {
+                ring: ring_body(load.ring),
+                direction: load.direction.map(|x| x / size),
+                force: load.force.clone(),
+            }
+        })
+        .collect()
+}

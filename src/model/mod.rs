@@ -1,0 +1,132 @@
+//! The scene compiled: indices, arrays and constants that a run only reads.
+//!
+//! Bodies stand in one order everywhere: outer ring, inner ring, balls row by row. The state vector holds
+//! (x, y, z, θ) of every body, then (vx, vy, vz, ω) of every body.
+
+mod body;
+mod compile;
+mod scales;
+
+use crate::contact::{BallSide, Pair};
+use crate::error::Result;
+use crate::scene::{Component, Scene, TimeFunction};
+
+pub use body::{Body, Degree};
+pub use scales::Scales;
+
+/// A compiled scene. Immutable and shared by threads.
+///
+/// ```
+/// use ballrace::{Model, scene::presets};
+/// let model = Model::new(&presets::wheel_bearing(3000.0)).unwrap();
+/// assert_eq!(model.dim(), 8 * 28);
+/// assert_eq!(model.names()[4 * 28 + 1], "outer.vy");
+/// ```
+#[derive(Debug, Clone)]
+pub struct Model {
+    pub(crate) scene: Scene,
+    pub(crate) bodies: Vec<Body>,
+    pub(crate) rows: Vec<RowModel>,
+    pub(crate) balls: Vec<Ball>,
+    pub(crate) loads: Vec<LoadModel>,
+    pub(crate) unbalances: Vec<UnbalanceModel>,
+    pub(crate) scales: Scales,
+}
+
+/// A row compiled.
+#[derive(Debug, Clone)]
+pub(crate) struct RowModel {
+    /// Index of its first ball among all balls.
+    pub first: usize,
+    pub count: usize,
+    /// Contacts with the outer and the inner race.
+    pub pairs: [Pair; 2],
+    /// Distance of neighbouring balls ℓ₀.
+    pub cage_distance: f64,
+    pub side: f64,
+}
+
+impl RowModel {
+    /// Neighbours that the cage links, as indices among all balls: none for one ball, one link for two.
+    pub fn links(&self) -> impl Iterator<Item = (usize, usize)> {
+        let (first, count) = (self.first, self.count);
+        let links = if count < 3 { count - 1 } else { count };
+        (0..links).map(move |j| (first + j, first + (j + 1) % count))
+    }
+}
+
+/// A ball compiled.
+#[derive(Debug, Clone)]
+pub(crate) struct Ball {
+    pub row: usize,
+    /// Its number in the row.
+    pub index: usize,
+    pub side: BallSide,
+}
+
+/// A load compiled: force at a ring's centre.
+#[derive(Debug, Clone)]
+pub(crate) struct LoadModel {
+    pub ring: usize,
+    pub direction: [f64; 3],
+    pub force: TimeFunction,
+}
+
+/// An unbalance compiled.
+#[derive(Debug, Clone)]
+pub(crate) struct UnbalanceModel {
+    pub ring: usize,
+    pub moment: f64,
+    pub angle: f64,
+}
+
+impl Model {
+    /// Checks and compiles a scene.
+    ///
+    /// # Errors
+    /// [`crate::Error::Scene`] names the first field that is not usable.
+    pub fn new(scene: &Scene) -> Result<Self> {
+        compile::compile(scene)
+    }
+
+    /// The scene it was compiled from.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Number of bodies: two rings and all balls.
+    pub fn body_count(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// Length of the state vector: eight a body.
+    pub fn dim(&self) -> usize {
+        8 * self.bodies.len()
+    }
+
+    /// Names of the bodies in their order: `outer`, `inner`, `row0.ball0`, …
+    pub fn bodies(&self) -> Vec<String> {
+        self.bodies.iter().map(|body| body.name.clone()).collect()
+    }
+
+    /// Names of the states in their order, such as `outer.x` and `row0.ball3.vz`.
+    pub fn names(&self) -> Vec<String> {
+        let of = |components: &[Component]| {
+            self.bodies
+                .iter()
+                .flat_map(|body| {
+                    components
+                        .iter()
+                        .map(move |c| format!("{}.{}", body.name, c.label().0))
+                })
+                .collect::<Vec<_>>()
+        };
+        let (positions, velocities) = (&Component::ALL[..4], &Component::ALL[4..8]);
+        [of(positions), of(velocities)].concat()
+    }
+
+    /// Scales of the scene, which the tolerances and the step cap follow.
+    pub fn scales(&self) -> &Scales {
+        &self.scales
+    }
+}

@@ -1,0 +1,56 @@
+//! Errors of the crate as exceptions of `ballrace.errors`.
+
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
+use pyo3::prelude::*;
+
+use crate::Error;
+
+/// The exception that says the same as `error`.
+pub(super) fn raise(py: Python<'_>, error: Error) -> PyErr {
+    let made = match error {
+        Error::Scene {
+            path,
+            value,
+            allowed,
+        } => make(py, "SceneError", (path, value, allowed)),
+        Error::Equilibrium { .. } => make(py, "EquilibriumError", (error.to_string(),)),
+        Error::Integration {
+            ref time,
+            ref step,
+            ref body,
+            ..
+        } => make(
+            py,
+            "IntegrationError",
+            (error.to_string(), *time, *step, body),
+        ),
+        // The observer's own exception takes precedence over this one.
+        Error::Interrupted { .. } => return PyKeyboardInterrupt::new_err(error.to_string()),
+    };
+    made.unwrap_or_else(|failure| failure)
+}
+
+fn make<'py, A>(py: Python<'py>, name: &str, arguments: A) -> PyResult<PyErr>
+where
+    A: pyo3::call::PyCallArgs<'py>,
+{
+    let class = py.import("ballrace.errors")?.getattr(name)?;
+    Ok(PyErr::from_value(class.call1(arguments)?))
+}
+
+/// `Result<T>` of the crate as `PyResult<T>`.
+pub(super) trait OrRaise<T> {
+    /// The value, or the exception.
+    fn or_raise(self, py: Python<'_>) -> PyResult<T>;
+}
+
+impl<T> OrRaise<T> for crate::Result<T> {
+    fn or_raise(self, py: Python<'_>) -> PyResult<T> {
+        self.map_err(|error| raise(py, error))
+    }
+}
+
+/// Writes a record as JSON, which numbers that are not finite enter as `null`.
+pub(super) fn json(record: &impl serde::Serialize) -> PyResult<String> {
+    serde_json::to_string(record).map_err(|e| PyRuntimeError::new_err(e.to_string()))
+}

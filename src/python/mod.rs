@@ -1,0 +1,22 @@
+//! The module `ballrace._core`: thin, and the only place that says `pyo3`.
+//!
+//! A scene crosses as JSON, an array as a numpy array that takes over the vector's memory, an error as
+//! an exception of `ballrace.errors`. Everything with a docstring for people lives in `python/ballrace`.
+
+mod errors;
+mod run;
+mod scene;
+
+use pyo3::prelude::*;
+
+/// Compiled core of ballrace; use the package `ballrace` instead.
+#[pymodule]
+mod _core {
+    #[pymodule_export]
+    use super::run::{Model, equilibrium, simulate};
+    #[pymodule_export]
+    use super::scene::{
+        preset_deep_groove_6205, preset_wheel_bearing, scene_from_json, scene_from_toml,
+        scene_replace, scene_to_toml,
+    };
+}

@@ -1,0 +1,64 @@
+//! Scenes as JSON text, read and checked by serde.
+
+use pyo3::prelude::*;
+
+use super::errors::OrRaise;
+use crate::scene::presets;
+use crate::{Error, Scene};
+
+/// Read a checked scene from TOML and return it as JSON with every field written out.
+#[pyfunction]
+pub(super) fn scene_from_toml(py: Python<'_>, text: &str) -> PyResult<String> {
+    Ok(Scene::from_toml(text).or_raise(py)?.to_json())
+}
+
+/// Read a checked scene from JSON and return it as JSON with every field written out.
+#[pyfunction]
+pub(super) fn scene_from_json(py: Python<'_>, text: &str) -> PyResult<String> {
+    Ok(Scene::from_json(text).or_raise(py)?.to_json())
+}
+
+/// Turn a scene from JSON into TOML.
+#[pyfunction]
+pub(super) fn scene_to_toml(py: Python<'_>, text: &str) -> PyResult<String> {
+    Ok(Scene::from_json(text).or_raise(py)?.to_toml())
+}
+
+/// Replace fields by dotted paths; `changes` is a JSON list of pairs of path and value.
+#[pyfunction]
+pub(super) fn scene_replace(py: Python<'_>, text: &str, changes: &str) -> PyResult<String> {
+    let changes: Vec<(String, serde_json::Value)> = serde_json::from_str(changes)
+        .map_err(|e| Error::scene("changes", changes, e.to_string()))
+        .or_raise(py)?;
+    let changes: Vec<_> = changes
+        .iter()
+        .map(|(path, value)| (path.as_str(), value.clone()))
+        .collect();
+    let scene = Scene::from_json(text).or_raise(py)?;
+    Ok(scene.with(&changes).or_raise(py)?.to_json())
+}
+
+/// The preset `wheel_bearing` as JSON.
+#[pyfunction]
+pub(super) fn preset_wheel_bearing(py: Python<'_>, axial_load: f64) -> PyResult<String> {
+    checked(py, &presets::wheel_bearing(axial_load))
+}
+
+/// The preset `deep_groove_6205` as JSON.
+#[pyfunction]
+pub(super) fn preset_deep_groove_6205(
+    py: Python<'_>,
+    radial_load: f64,
+    axial_load: f64,
+    speed_rpm: f64,
+) -> PyResult<String> {
+    checked(
+        py,
+        &presets::deep_groove_6205(radial_load, axial_load, speed_rpm),
+    )
+}
+
+fn checked(py: Python<'_>, scene: &Scene) -> PyResult<String> {
+    scene.validate().or_raise(py)?;
+    Ok(scene.to_json())
+}

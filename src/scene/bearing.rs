@@ -1,0 +1,152 @@
+//! Rows of balls, rings and how they are held.
+
+use serde::{Deserialize, Serialize};
+
+use super::defaults;
+
+/// One row of balls between two grooves (geometry of model section 2).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Row {
+    /// Number of balls Z, 1 to 1000.
+    pub ball_count: usize,
+    /// Ball diameter D \[m\].
+    pub ball_diameter: f64,
+    /// Pitch diameter d_m \[m\].
+    pub pitch_diameter: f64,
+    /// Outer conformity f_o = r_o / D, above 0.5 and at most 1.
+    pub outer_conformity: f64,
+    /// Inner conformity f_i = r_i / D, above 0.5 and at most 1.
+    pub inner_conformity: f64,
+    /// Nominal contact angle α₀ at zero clearance \[rad\], 0 to 80°.
+    #[serde(default)]
+    pub contact_angle: f64,
+    /// Sign of the axial part of the direction from ball to outer contact, +1 or −1.
+    #[serde(default = "defaults::side")]
+    pub side: i8,
+    /// Axial place of the row z_row \[m\].
+    #[serde(default)]
+    pub axial_position: f64,
+    /// Diametral clearance P_d \[m\]; negative: interference.
+    #[serde(default)]
+    pub clearance: f64,
+    /// Axial preload δ_p \[m\]; negative: an axial gap.
+    #[serde(default)]
+    pub axial_preload: f64,
+    /// Start angle φ₀ of ball 0, counter-clockwise from +x \[rad\].
+    #[serde(default)]
+    pub start_angle: f64,
+    /// Shoulder angles of the outer groove towards −z and +z, from the groove's centre \[rad\]; absent: none.
+    #[serde(default)]
+    pub outer_shoulders: Option<[f64; 2]>,
+    /// Shoulder angles of the inner groove towards −z and +z, from the groove's centre \[rad\]; absent: none.
+    #[serde(default)]
+    pub inner_shoulders: Option<[f64; 2]>,
+    /// Waviness of the outer race; turns with the outer ring.
+    #[serde(default)]
+    pub outer_waviness: Vec<Waviness>,
+    /// Waviness of the inner race; turns with the inner ring.
+    #[serde(default)]
+    pub inner_waviness: Vec<Waviness>,
+    /// Diameter error of each ball \[m\]; empty: none.
+    #[serde(default)]
+    pub diameter_errors: Vec<f64>,
+    /// Mass of a ball \[kg\]; absent: from density and diameter.
+    #[serde(default)]
+    pub ball_mass: Option<f64>,
+    /// Moment of inertia of a ball about z \[kg m²\]; absent: 2/5 m R².
+    #[serde(default)]
+    pub ball_inertia: Option<f64>,
+    /// How every ball of the row hangs on the inertial frame; by default free.
+    #[serde(default)]
+    pub ball_support: Support,
+}
+
+/// One harmonic of a race's radius: ΔR(φ) = amplitude · cos(order · φ + phase), φ from the ring's own x axis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Waviness {
+    /// Waves around the circumference, 1 to 1000.
+    pub order: u32,
+    /// Amplitude of the radius \[m\].
+    pub amplitude: f64,
+    /// Phase \[rad\].
+    #[serde(default)]
+    pub phase: f64,
+}
+
+/// A ring: its mass and how it is held.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ring {
+    /// Mass, with what turns or moves with the ring \[kg\]; absent: from `diameter`, `width` and density.
+    #[serde(default)]
+    pub mass: Option<f64>,
+    /// Moment of inertia about z \[kg m²\]; absent: from `diameter`, `width` and density, or of a thin ring of `mass` at the pitch radius.
+    #[serde(default)]
+    pub inertia: Option<f64>,
+    /// Boundary diameter \[m\]: outside diameter of the outer ring, bore of the inner.
+    #[serde(default)]
+    pub diameter: Option<f64>,
+    /// Axial width \[m\].
+    #[serde(default)]
+    pub width: Option<f64>,
+    /// How the ring hangs on the inertial frame.
+    #[serde(default)]
+    pub support: Support,
+}
+
+/// How a body hangs on the inertial frame, a direction each. An absent direction is fixed for the
+/// outer ring, free for the inner ring and the balls.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Support {
+    /// Along x.
+    #[serde(default)]
+    pub x: Option<Mount>,
+    /// Along y.
+    #[serde(default)]
+    pub y: Option<Mount>,
+    /// Along z.
+    #[serde(default)]
+    pub z: Option<Mount>,
+    /// About z.
+    #[serde(default)]
+    pub theta: Option<Mount>,
+}
+
+/// One direction of a support.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Mount {
+    /// Nothing holds the body.
+    Free,
+    /// The body does not move.
+    Fixed,
+    /// A spring and a damper to the inertial frame, relaxed at the body's nominal place.
+    Spring {
+        /// Stiffness \[N/m\], about z \[N m/rad\].
+        #[serde(default)]
+        stiffness: f64,
+        /// Damping \[N s/m\], about z \[N m s/rad\].
+        #[serde(default)]
+        damping: f64,
+    },
+}
+
+impl Support {
+    /// The four mounts (x, y, z, θ) with absent ones filled in.
+    pub fn mounts(&self, absent: Mount) -> [Mount; 4] {
+        [self.x, self.y, self.z, self.theta].map(|mount| mount.unwrap_or(absent))
+    }
+}
+
+/// Which ring.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RingName {
+    /// The outer ring, body 0.
+    Outer,
+    /// The inner ring, body 1.
+    Inner,
+}

@@ -1,0 +1,126 @@
+//! Normal law, slices, damping and friction of a ball on a race.
+
+use serde::{Deserialize, Serialize};
+
+/// How a ball meets a race.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Contact {
+    /// Force of a slice from its penetration.
+    pub law: NormalLaw,
+    /// Where the ball is cut; absent: 100 fixed slices for the ISO law, 8 fitted nodes for the Hertz law.
+    pub slices: Option<Slices>,
+    /// Hunt–Crossley damping α_d \[s/m\]: restitution is about 1 − α_d v at an impact speed v.
+    pub damping: f64,
+    /// Whether a slice that would pull is set to zero (and counted); `false` keeps the paper's bare sum.
+    pub clamp_pull: bool,
+}
+
+impl Default for Contact {
+    fn default() -> Self {
+        Self {
+            law: NormalLaw::default(),
+            slices: None,
+            damping: 0.2,
+            clamp_pull: true,
+        }
+    }
+}
+
+/// Elastic force of a slice.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum NormalLaw {
+    /// The paper's law, after the roller slices of ISO/TS 16281: F = Σ c_s s^{10/9}.
+    Iso16281 {
+        /// Constant of the law for lengths in metres \[N m^{−2}\]; 35948 N/mm² = 3.5948·10¹⁰.
+        #[serde(default = "iso_constant")]
+        constant: f64,
+        /// Equivalent length of the line contact over the ball diameter, L_el / D.
+        #[serde(default = "iso_length_ratio")]
+        length_ratio: f64,
+    },
+    /// Hertz's point contact cut into slices along the common normal; exact at every load and angle.
+    Hertz,
+}
+
+fn iso_constant() -> f64 {
+    3.5948e10
+}
+
+fn iso_length_ratio() -> f64 {
+    0.5
+}
+
+impl Default for NormalLaw {
+    fn default() -> Self {
+        Self::Iso16281 {
+            constant: iso_constant(),
+            length_ratio: iso_length_ratio(),
+        }
+    }
+}
+
+/// Where a ball is cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Slices {
+    /// Slices of equal width over the whole ball, fixed in it: the paper's method. 10 to 100 000.
+    Fixed(usize),
+    /// Quadrature nodes on the zone that touches, a number a piece. 2 to 64; only with the Hertz law.
+    Fitted(usize),
+}
+
+/// Friction of a slice: force μ(u) F u⃗ / √(u² + v_s²) against the slip velocity u⃗.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Friction {
+    /// No friction.
+    #[default]
+    None,
+    /// Constant coefficient.
+    Coulomb {
+        /// Coefficient μ.
+        coefficient: f64,
+        /// Slip speed v_s below which friction fades \[m/s\].
+        slip_speed: f64,
+    },
+    /// Falls from a static to a kinetic coefficient: μ = μ_k + (μ_s − μ_k) exp(−(u/u_s)²).
+    Stribeck {
+        /// Static coefficient μ_s.
+        static_coefficient: f64,
+        /// Kinetic coefficient μ_k.
+        kinetic_coefficient: f64,
+        /// Stribeck speed u_s \[m/s\].
+        stribeck_speed: f64,
+        /// Slip speed v_s below which friction fades \[m/s\].
+        slip_speed: f64,
+    },
+    /// A lubricated traction curve, μ = (a + b u) exp(−c u) + d (Gupta, *Advanced Dynamics of Rolling Elements*, 1984).
+    Traction {
+        /// a: traction at no slip, less d.
+        a: f64,
+        /// b: initial slope \[s/m\].
+        b: f64,
+        /// c: decay \[s/m\].
+        c: f64,
+        /// d: traction at high slip.
+        d: f64,
+        /// Slip speed v_s below which friction fades \[m/s\].
+        slip_speed: f64,
+    },
+}
+
+/// Springs that keep the centres of neighbouring balls of a row at their distance (model section 6).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cage {
+    /// Stiffness k_c \[N/m\].
+    pub stiffness: f64,
+    /// Damping c_c, while engaged \[N s/m\].
+    #[serde(default)]
+    pub damping: f64,
+    /// Total play p \[m\]: free within ± p/2 of the nominal distance.
+    #[serde(default)]
+    pub play: f64,
+}

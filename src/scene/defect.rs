@@ -1,0 +1,140 @@
+//! Defects: the race or ball surface is absent over an arc, and fault circles stand at its edges.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::time::number_or_map;
+
+/// A defect of one body (model section 7). It turns with its body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Defect {
+    /// Which surface.
+    pub on: Surface,
+    /// Row, from 0.
+    #[serde(default)]
+    pub row: usize,
+    /// Ball of the row, from 0; needed for a ball defect, absent otherwise.
+    #[serde(default)]
+    pub ball: Option<usize>,
+    /// Angular place φ_f on the body, counter-clockwise from its own x axis \[rad\].
+    pub angle: f64,
+    /// Axial place of the middle, from the row's plane (races) or the ball's centre \[m\].
+    #[serde(default)]
+    pub axial_offset: f64,
+    /// Axial length L_f \[m\].
+    pub length: f64,
+    /// Width w, arc length along the surface \[m\]; a number or a profile along z.
+    pub width: Width,
+    /// Radius R_f of the fault circles at the edges \[m\].
+    pub edge_radius: f64,
+    /// Recessed circles between the edges; absent: no floor.
+    #[serde(default)]
+    pub floor: Option<Floor>,
+}
+
+/// The surface that carries a defect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Surface {
+    /// Outer race.
+    OuterRace,
+    /// Inner race.
+    InnerRace,
+    /// A ball.
+    Ball,
+}
+
+/// Fault circles of the edge radius, evenly spaced between the edges, their crests at a depth. Their
+/// forces are a bare sum: a bed of bumps rather than a smooth floor.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Floor {
+    /// Depth of the crests below the surface \[m\].
+    pub depth: f64,
+    /// Number of circles, 1 to 1000.
+    pub elements: usize,
+}
+
+/// Width of a defect along its length.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Width {
+    /// The same over the whole length \[m\].
+    Constant(f64),
+    /// Linear between points.
+    Profile(WidthProfile),
+}
+
+/// Width given at axial places, linear between them, constant beyond.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WidthProfile {
+    /// Axial places from the defect's middle, increasing \[m\].
+    pub positions: Vec<f64>,
+    /// Widths \[m\].
+    pub widths: Vec<f64>,
+}
+
+impl From<f64> for Width {
+    fn from(value: f64) -> Self {
+        Self::Constant(value)
+    }
+}
+
+impl Width {
+    /// Width \[m\] and its slope along z at an axial place from the defect's middle \[m\].
+    ///
+    /// ```
+    /// use ballrace::scene::{Width, WidthProfile};
+    /// let w = Width::Profile(WidthProfile { positions: vec![-1e-3, 1e-3], widths: vec![0.0, 2e-3] });
+    /// assert_eq!(w.at(0.0), (1e-3, 1.0));
+    /// assert_eq!(w.at(5e-3), (2e-3, 0.0));
+    /// ```
+    pub fn at(&self, z: f64) -> (f64, f64) {
+        match self {
+            Self::Constant(width) => (*width, 0.0),
+            Self::Profile(WidthProfile { positions, widths }) => {
+                let after = positions.partition_point(|&x| x <= z);
+                if after == 0 {
+                    (widths[0], 0.0)
+                } else if after == positions.len() {
+                    (widths[after - 1], 0.0)
+                } else {
+                    let slope = (widths[after] - widths[after - 1])
+                        / (positions[after] - positions[after - 1]);
+                    (
+                        widths[after - 1] + slope * (z - positions[after - 1]),
+                        slope,
+                    )
+                }
+            }
+        }
+    }
+
+    /// The largest width \[m\].
+    pub fn largest(&self) -> f64 {
+        match self {
+            Self::Constant(width) => *width,
+            Self::Profile(profile) => profile.widths.iter().copied().fold(0.0, f64::max),
+        }
+    }
+}
+
+impl Serialize for Width {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Constant(width) => serializer.serialize_f64(*width),
+            Self::Profile(profile) => profile.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Width {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        number_or_map(
+            deserializer,
+            "a number, or { positions = [ … ], widths = [ … ] }",
+            Self::Constant,
+            Self::Profile,
+        )
+    }
+}

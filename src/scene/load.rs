@@ -1,0 +1,57 @@
+//! Loads on the rings and what drives the inner ring.
+
+use serde::{Deserialize, Serialize};
+
+use super::bearing::RingName;
+use super::time::TimeFunction;
+
+/// A force on a ring's centre, in a fixed direction of the inertial frame.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// The loaded ring.
+    pub ring: RingName,
+    /// Direction; its length does not matter.
+    pub direction: [f64; 3],
+    /// Force along the direction \[N\].
+    pub force: TimeFunction,
+}
+
+/// A mass off the axis of a ring that turns with it: in-plane force m e (ω² r̂ − ω̇ t̂).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Unbalance {
+    /// The unbalanced ring.
+    pub ring: RingName,
+    /// Mass times eccentricity \[kg m\].
+    pub moment: f64,
+    /// Angular place on the ring, counter-clockwise from its own x axis \[rad\].
+    #[serde(default)]
+    pub angle: f64,
+}
+
+/// What turns the inner ring.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Drive {
+    /// Given speed Ω(t) \[rad/s\]; may not jump.
+    Speed(TimeFunction),
+    /// Given torque about z, on a ring that turns freely.
+    Torque {
+        /// Torque \[N m\].
+        value: TimeFunction,
+        /// Speed at t = 0 \[rad/s\].
+        #[serde(default)]
+        initial_speed: f64,
+    },
+}
+
+impl Drive {
+    /// Speed of the inner ring at the start \[rad/s\].
+    pub fn initial_speed(&self) -> f64 {
+        match self {
+            Self::Speed(speed) => speed.at(0.0),
+            Self::Torque { initial_speed, .. } => *initial_speed,
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! Elastic constants and densities.
+
+use serde::{Deserialize, Serialize};
+
+/// Materials of the parts.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Materials {
+    /// Both rings.
+    #[serde(default)]
+    pub rings: Material,
+    /// The balls.
+    #[serde(default)]
+    pub balls: Material,
+}
+
+/// A linear elastic, isotropic material; the default is bearing steel (model section 11).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Material {
+    /// Density \[kg/m³\], 7850.
+    pub density: f64,
+    /// Young's modulus E \[Pa\], 206 GPa; used by the Hertz law.
+    pub youngs_modulus: f64,
+    /// Poisson's ratio ν, 0.3.
+    pub poisson_ratio: f64,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            density: 7850.0,
+            youngs_modulus: 206e9,
+            poisson_ratio: 0.3,
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! What a user says: the scene, a plain document in SI units.
+//!
+//! TOML is for people, JSON crosses the border to Python; both are the same serde document. Unknown
+//! fields are refused. Nothing is computed here but [`Scene::validate`]; [`crate::Model`] compiles it.
+//!
+//! ```
+//! use ballrace::Scene;
+//! let scene = ballrace::scene::presets::deep_groove_6205(500.0, 0.0, 1800.0);
+//! let text = scene.to_toml();
+//! assert_eq!(Scene::from_toml(&text).unwrap(), scene);
+//! let wide = scene.with(&[("rows[0].clearance", 20e-6.into())]).unwrap();
+//! assert_eq!(wide.rows[0].clearance, 20e-6);
+//! ```
+
+mod bearing;
+mod contact;
+mod defaults;
+mod defect;
+mod load;
+mod material;
+mod path;
+pub mod presets;
+mod probe;
+mod solver;
+mod time;
+mod validate;
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+
+pub use bearing::{Mount, Ring, RingName, Row, Support, Waviness};
+pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
+pub use defect::{Defect, Floor, Surface, Width, WidthProfile};
+pub use load::{Drive, Load, Unbalance};
+pub use material::{Material, Materials};
+pub use probe::{Component, ContactQuantity, Probe};
+pub use solver::Solver;
+pub use time::{Profile, TimeFunction};
+
+/// Version of the document this crate reads.
+pub const SCHEMA: u32 = 1;
+
+/// A whole bearing, its loads, its defects and what to record of it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Version of the document, 1.
+    #[serde(default = "defaults::schema")]
+    pub schema: u32,
+    /// A title.
+    #[serde(default)]
+    pub name: String,
+    /// The rows of balls, at least one.
+    pub rows: Vec<Row>,
+    /// Outer ring.
+    #[serde(default)]
+    pub outer_ring: Ring,
+    /// Inner ring.
+    #[serde(default)]
+    pub inner_ring: Ring,
+    /// Materials.
+    #[serde(default)]
+    pub materials: Materials,
+    /// Contact of balls and races.
+    #[serde(default)]
+    pub contact: Contact,
+    /// Friction of balls and races; none by default.
+    #[serde(default)]
+    pub friction: Friction,
+    /// Cage; absent: the balls are not linked.
+    #[serde(default)]
+    pub cage: Option<Cage>,
+    /// What turns the inner ring.
+    pub drive: Drive,
+    /// Gravity \[m/s²\]; 9.81 along −y by default.
+    #[serde(default = "defaults::gravity")]
+    pub gravity: [f64; 3],
+    /// Loads by name.
+    #[serde(default)]
+    pub loads: BTreeMap<String, Load>,
+    /// Unbalances by name.
+    #[serde(default)]
+    pub unbalances: BTreeMap<String, Unbalance>,
+    /// Defects by name.
+    #[serde(default)]
+    pub defects: BTreeMap<String, Defect>,
+    /// Probes by name; none: the motion of the outer ring.
+    #[serde(default)]
+    pub probes: BTreeMap<String, Probe>,
+    /// Options of the integrator.
+    #[serde(default)]
+    pub solver: Solver,
+}
+
+impl Scene {
+    /// Reads a scene from TOML and checks it.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] names the first field that is unknown, missing or not usable.
+    pub fn from_toml(text: &str) -> Result<Self> {
+        let document = toml::from_str(text)
+            .map_err(|e| Error::scene("scene", "not TOML", e.to_string().trim_end()))?;
+        Self::read(&document)
+    }
+
+    /// Reads a scene from JSON and checks it.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] names the first field that is unknown, missing or not usable.
+    pub fn from_json(text: &str) -> Result<Self> {
+        let document = serde_json::from_str(text)
+            .map_err(|e| Error::scene("scene", "not JSON", e.to_string()))?;
+        Self::read(&document)
+    }
+
+    /// The scene as TOML.
+    ///
+    /// # Panics
+    /// Never: every scene has a TOML form.
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).expect("a scene is a TOML document")
+    }
+
+    /// The scene as JSON on one line, every field written out.
+    ///
+    /// # Panics
+    /// Never: every scene has a JSON form.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("a scene is a JSON document")
+    }
+
+    /// A copy with some fields replaced, each by its dotted path: `loads.axial.force`, `rows[0].clearance`.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if a path leads nowhere or the new scene is not usable.
+    ///
+    /// # Panics
+    /// Never: every scene has a JSON form.
+    pub fn with(&self, changes: &[(&str, serde_json::Value)]) -> Result<Self> {
+        let mut document = serde_json::to_value(self).expect("a scene is a JSON document");
+        for (path, value) in changes {
+            path::set(&mut document, path, value.clone())?;
+        }
+        Self::read(&document)
+    }
+
+    fn read(document: &serde_json::Value) -> Result<Self> {
+        let scene: Self = serde_path_to_error::deserialize(document).map_err(|e| {
+            let place = e.path().to_string();
+            let value =
+                path::get(document, &place).map_or_else(|| "absent".to_owned(), path::short);
+            let place = if place == "." {
+                "scene".to_owned()
+            } else {
+                place
+            };
+            Error::scene(place, value, e.inner().to_string())
+        })?;
+        scene.validate()?;
+        Ok(scene)
+    }
+}

@@ -1,0 +1,86 @@
+//! Dotted paths into the document: `loads.axial.force`, `rows[0].clearance`.
+
+use serde_json::Value;
+
+use crate::error::{Error, Result};
+
+/// Replaces the value at `path`. The place must exist; `null` counts as existing.
+pub(super) fn set(document: &mut Value, path: &str, value: Value) -> Result<()> {
+    let mut place = document;
+    for step in steps(path)? {
+        place = match (step, place) {
+            (Step::Key(key), Value::Object(map)) => {
+                let known = map.keys().cloned().collect::<Vec<_>>().join(", ");
+                map.get_mut(key).ok_or_else(|| {
+                    Error::scene(path, key, format!("no such field; there are: {known}"))
+                })?
+            }
+            (Step::Index(index), Value::Array(items)) => {
+                let count = items.len();
+                items
+                    .get_mut(index)
+                    .ok_or_else(|| Error::scene(path, index, format!("an index below {count}")))?
+            }
+            (Step::Key(key), other) => {
+                return Err(Error::scene(path, key, format!("{other} has no fields")));
+            }
+            (Step::Index(index), other) => {
+                return Err(Error::scene(path, index, format!("{other} is not a list")));
+            }
+        };
+    }
+    *place = value;
+    Ok(())
+}
+
+/// The value at `path`, if there is one.
+pub(super) fn get<'v>(document: &'v Value, path: &str) -> Option<&'v Value> {
+    steps(path)
+        .ok()?
+        .into_iter()
+        .try_fold(document, |place, step| match step {
+            Step::Key(key) => place.get(key),
+            Step::Index(index) => place.get(index),
+        })
+}
+
+/// A value as text, cut where it is long.
+pub(super) fn short(value: &Value) -> String {
+    let text = value.to_string();
+    match text.char_indices().nth(60) {
+        Some((end, _)) => format!("{} …", &text[..end]),
+        None => text,
+    }
+}
+
+enum Step<'a> {
+    Key(&'a str),
+    Index(usize),
+}
+
+fn steps(path: &str) -> Result<Vec<Step<'_>>> {
+    let malformed = || {
+        Error::scene(
+            path,
+            path,
+            "names joined by dots, with [n] for a place in a list",
+        )
+    };
+    let mut steps = Vec::new();
+    for part in path.split('.') {
+        let (key, mut rest) = part.split_at(part.find('[').unwrap_or(part.len()));
+        if key.is_empty() {
+            return Err(malformed());
+        }
+        steps.push(Step::Key(key));
+        while let Some(inner) = rest.strip_prefix('[') {
+            let (digits, tail) = inner.split_once(']').ok_or_else(malformed)?;
+            steps.push(Step::Index(digits.parse().map_err(|_| malformed())?));
+            rest = tail;
+        }
+        if !rest.is_empty() {
+            return Err(malformed());
+        }
+    }
+    Ok(steps)
+}

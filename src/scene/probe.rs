@@ -1,0 +1,167 @@
+//! What a run records. A probe's columns are named after it: probe `outer` of a motion gives `outer.ay`.
+
+use serde::{Deserialize, Serialize};
+
+use super::bearing::RingName;
+
+/// A named set of signals.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Probe {
+    /// Position, velocity and acceleration of a body.
+    Motion {
+        /// `outer`, `inner` or a ball such as `row0.ball3`.
+        body: String,
+        /// Which of them; absent: all twelve.
+        #[serde(default)]
+        components: Option<Vec<Component>>,
+    },
+    /// What happens between balls and races: columns `<probe>.ball3.outer.load` and so on.
+    Contacts {
+        /// Row, from 0.
+        #[serde(default)]
+        row: usize,
+        /// Balls of the row; absent: all.
+        #[serde(default)]
+        balls: Option<Vec<usize>>,
+        /// Races; absent: both.
+        #[serde(default)]
+        races: Option<Vec<RingName>>,
+        /// Which quantities; absent: all.
+        #[serde(default)]
+        quantities: Option<Vec<ContactQuantity>>,
+    },
+    /// Force of every cage link of a row, positive in tension: columns `<probe>.link0`, … \[N\].
+    Cage {
+        /// Row, from 0.
+        #[serde(default)]
+        row: usize,
+    },
+    /// Energies \[J\] and dissipated powers \[W\].
+    Energy {},
+    /// Friction torque about z that the balls put on each ring: `<probe>.outer`, `<probe>.inner` \[N m\].
+    Torque {},
+    /// The forces on a body by origin: `<probe>.contact.x`, `<probe>.friction.y`, … \[N\], about z \[N m\].
+    Forces {
+        /// `outer`, `inner` or a ball such as `row0.ball3`.
+        body: String,
+    },
+    /// Forces of the single slices of chosen contacts at chosen times; a table beside the signals.
+    Slices {
+        /// Row, from 0.
+        #[serde(default)]
+        row: usize,
+        /// Balls of the row; absent: all.
+        #[serde(default)]
+        balls: Option<Vec<usize>>,
+        /// Races; absent: both.
+        #[serde(default)]
+        races: Option<Vec<RingName>>,
+        /// Times within the run \[s\].
+        times: Vec<f64>,
+    },
+}
+
+/// One component of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Component {
+    /// Position \[m\].
+    X,
+    /// Position \[m\].
+    Y,
+    /// Position \[m\].
+    Z,
+    /// Angle about z \[rad\].
+    Theta,
+    /// Velocity \[m/s\].
+    Vx,
+    /// Velocity \[m/s\].
+    Vy,
+    /// Velocity \[m/s\].
+    Vz,
+    /// Angular speed \[rad/s\].
+    Omega,
+    /// Acceleration \[m/s²\].
+    Ax,
+    /// Acceleration \[m/s²\].
+    Ay,
+    /// Acceleration \[m/s²\].
+    Az,
+    /// Angular acceleration \[rad/s²\].
+    Alpha,
+}
+
+impl Component {
+    /// All twelve, positions first.
+    pub const ALL: [Self; 12] = [
+        Self::X,
+        Self::Y,
+        Self::Z,
+        Self::Theta,
+        Self::Vx,
+        Self::Vy,
+        Self::Vz,
+        Self::Omega,
+        Self::Ax,
+        Self::Ay,
+        Self::Az,
+        Self::Alpha,
+    ];
+
+    /// Name as in columns and states, and unit.
+    pub fn label(self) -> (&'static str, &'static str) {
+        [
+            ("x", "m"),
+            ("y", "m"),
+            ("z", "m"),
+            ("theta", "rad"),
+            ("vx", "m/s"),
+            ("vy", "m/s"),
+            ("vz", "m/s"),
+            ("omega", "rad/s"),
+            ("ax", "m/s^2"),
+            ("ay", "m/s^2"),
+            ("az", "m/s^2"),
+            ("alpha", "rad/s^2"),
+        ][self as usize]
+    }
+}
+
+/// One quantity of a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ContactQuantity {
+    /// Magnitude of the normal force, elastic and damping \[N\].
+    Load,
+    /// Operating contact angle: of the normal force against the radial plane \[rad\]; not a number without load.
+    Angle,
+    /// Axial place of the zone's middle of force, in the ring's frame \[m\]; not a number without load.
+    ZoneCentre,
+    /// Axial extent of the slices that touch \[m\].
+    ZoneWidth,
+    /// Load-weighted slip speed \[m/s\]; not a number without load.
+    Slip,
+}
+
+impl ContactQuantity {
+    /// All five.
+    pub const ALL: [Self; 5] = [
+        Self::Load,
+        Self::Angle,
+        Self::ZoneCentre,
+        Self::ZoneWidth,
+        Self::Slip,
+    ];
+
+    /// Name as in columns, and unit.
+    pub fn label(self) -> (&'static str, &'static str) {
+        [
+            ("load", "N"),
+            ("angle", "rad"),
+            ("zone_centre", "m"),
+            ("zone_width", "m"),
+            ("slip", "m/s"),
+        ][self as usize]
+    }
+}

@@ -1,0 +1,227 @@
+//! Values that may change in time: a number, a ramp, a sine or a table.
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// A value in time: a plain number, or one of the [`Profile`]s.
+///
+/// In TOML: `force = 7000.0`, or `force = { ramp = { from = 0.0, to = 7000.0, start = 0.0, end = 0.1 } }`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TimeFunction {
+    /// The same at all times.
+    Constant(f64),
+    /// Changing in time.
+    Profile(Profile),
+}
+
+/// The shapes of a value that changes in time. All are right-continuous.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Profile {
+    /// Linear from one value to another, constant before and after; a jump when `start == end`.
+    Ramp {
+        /// Value before `start`.
+        from: f64,
+        /// Value from `end` on.
+        to: f64,
+        /// Time at which the change begins \[s\].
+        start: f64,
+        /// Time at which the change is over \[s\].
+        end: f64,
+    },
+    /// `mean + amplitude · sin(2π frequency t + phase)`.
+    Sine {
+        /// Mean value.
+        mean: f64,
+        /// Amplitude.
+        amplitude: f64,
+        /// Frequency \[Hz\].
+        frequency: f64,
+        /// Phase at t = 0 \[rad\].
+        phase: f64,
+    },
+    /// Linear between points, constant beyond them; two equal times make a jump.
+    Table {
+        /// Times, not decreasing \[s\].
+        times: Vec<f64>,
+        /// A value a time.
+        values: Vec<f64>,
+    },
+}
+
+impl From<f64> for TimeFunction {
+    fn from(value: f64) -> Self {
+        Self::Constant(value)
+    }
+}
+
+impl TimeFunction {
+    /// Value at time `t` \[s\].
+    ///
+    /// ```
+    /// use ballrace::scene::{Profile, TimeFunction};
+    /// let ramp = TimeFunction::Profile(Profile::Ramp { from: 0.0, to: 8.0, start: 1.0, end: 3.0 });
+    /// assert_eq!(ramp.at(0.0), 0.0);
+    /// assert_eq!(ramp.at(2.0), 4.0);
+    /// assert_eq!(ramp.at(9.0), 8.0);
+    /// ```
+    pub fn at(&self, t: f64) -> f64 {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Profile(Profile::Ramp {
+                from,
+                to,
+                start,
+                end,
+            }) => {
+                if t >= *end {
+                    *to
+                } else if t <= *start {
+                    *from
+                } else {
+                    from + (to - from) * (t - start) / (end - start)
+                }
+            }
+            Self::Profile(Profile::Sine {
+                mean,
+                amplitude,
+                frequency,
+                phase,
+            }) => mean + amplitude * (std::f64::consts::TAU * frequency * t + phase).sin(),
+            Self::Profile(Profile::Table { times, values }) => {
+                let after = times.partition_point(|&x| x <= t);
+                if after == 0 {
+                    values[0]
+                } else if after == times.len() {
+                    values[after - 1]
+                } else {
+                    let (t0, t1) = (times[after - 1], times[after]);
+                    let share = (t - t0) / (t1 - t0);
+                    values[after - 1] + (values[after] - values[after - 1]) * share
+                }
+            }
+        }
+    }
+
+    /// Derivative in time at `t`, from the right at a corner.
+    pub fn rate(&self, t: f64) -> f64 {
+        match self {
+            Self::Constant(_) => 0.0,
+            Self::Profile(Profile::Ramp {
+                from,
+                to,
+                start,
+                end,
+            }) => {
+                if t >= *start && t < *end {
+                    (to - from) / (end - start)
+                } else {
+                    0.0
+                }
+            }
+            Self::Profile(Profile::Sine {
+                amplitude,
+                frequency,
+                phase,
+                ..
+            }) => {
+                let w = std::f64::consts::TAU * frequency;
+                amplitude * w * (w * t + phase).cos()
+            }
+            Self::Profile(Profile::Table { times, values }) => {
+                let after = times.partition_point(|&x| x <= t);
+                if after == 0 || after == times.len() {
+                    0.0
+                } else {
+                    (values[after] - values[after - 1]) / (times[after] - times[after - 1])
+                }
+            }
+        }
+    }
+
+    /// Times at which the value jumps or has a corner \[s\].
+    pub fn breakpoints(&self) -> Vec<f64> {
+        match self {
+            Self::Profile(Profile::Ramp { start, end, .. }) => vec![*start, *end],
+            Self::Profile(Profile::Table { times, .. }) => times.clone(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Largest magnitude the value ever takes.
+    pub fn peak(&self) -> f64 {
+        match self {
+            Self::Constant(value) => value.abs(),
+            Self::Profile(Profile::Ramp { from, to, .. }) => from.abs().max(to.abs()),
+            Self::Profile(Profile::Sine {
+                mean, amplitude, ..
+            }) => mean.abs() + amplitude.abs(),
+            Self::Profile(Profile::Table { values, .. }) => {
+                values.iter().fold(0.0, |peak, v| peak.max(v.abs()))
+            }
+        }
+    }
+}
+
+impl Serialize for TimeFunction {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Constant(value) => serializer.serialize_f64(*value),
+            Self::Profile(profile) => profile.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for TimeFunction {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        number_or_map(
+            deserializer,
+            "a number, or one of { ramp = … }, { sine = … }, { table = … }",
+            Self::Constant,
+            Self::Profile,
+        )
+    }
+}
+
+/// Reads a plain number as one thing and a table as another, keeping serde's own message for
+/// whichever it is (an untagged enum would only say that no variant fits).
+pub(super) fn number_or_map<'de, D, M, T>(
+    deserializer: D,
+    expecting: &'static str,
+    from_number: fn(f64) -> T,
+    from_map: fn(M) -> T,
+) -> Result<T, D::Error>
+where
+    D: Deserializer<'de>,
+    M: Deserialize<'de>,
+{
+    struct Either<T, M> {
+        expecting: &'static str,
+        from_number: fn(f64) -> T,
+        from_map: fn(M) -> T,
+    }
+    impl<'de, T, M: Deserialize<'de>> Visitor<'de> for Either<T, M> {
+        type Value = T;
+        fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            f.write_str(self.expecting)
+        }
+        fn visit_f64<E>(self, value: f64) -> Result<T, E> {
+            Ok((self.from_number)(value))
+        }
+        fn visit_i64<E>(self, value: i64) -> Result<T, E> {
+            Ok((self.from_number)(value as f64))
+        }
+        fn visit_u64<E>(self, value: u64) -> Result<T, E> {
+            Ok((self.from_number)(value as f64))
+        }
+        fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
+            M::deserialize(MapAccessDeserializer::new(map)).map(self.from_map)
+        }
+    }
+    deserializer.deserialize_any(Either {
+        expecting,
+        from_number,
+        from_map,
+    })
+}

@@ -1,0 +1,174 @@
+//! Rows, rings and supports.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use super::check::{positive, within};
+use crate::error::{Error, Result};
+use crate::scene::{Mount, RingName, Row, Scene, Support};
+
+pub(super) fn row(path: &str, row: &Row) -> Result<()> {
+    let at = |field: &str| format!("{path}.{field}");
+    if !(1..=1000).contains(&row.ball_count) {
+        return Err(Error::scene(at("ball_count"), row.ball_count, "1 to 1000"));
+    }
+    within(&at("ball_diameter"), row.ball_diameter, 1e-6..=10.0)?;
+    within(&at("pitch_diameter"), row.pitch_diameter, 1e-6..=100.0)?;
+    let (d, dm) = (row.ball_diameter, row.pitch_diameter);
+    if dm <= d {
+        return Err(Error::scene(
+            at("pitch_diameter"),
+            dm,
+            format!("more than the ball diameter {d}"),
+        ));
+    }
+    let count = row.ball_count as f64;
+    let gap = dm * (PI / count).sin();
+    if row.ball_count > 1 && gap <= d {
+        return Err(Error::scene(
+            at("ball_diameter"),
+            d,
+            format!(
+                "less than the distance of neighbouring balls, {gap:.6e} m, for {count} balls on pitch diameter {dm}"
+            ),
+        ));
+    }
+    for (field, f) in [
+        ("outer_conformity", row.outer_conformity),
+        ("inner_conformity", row.inner_conformity),
+    ] {
+        if !(f > 0.5 && f <= 1.0) {
+            return Err(Error::scene(at(field), f, "above 0.5 and at most 1"));
+        }
+    }
+    within(
+        &at("contact_angle"),
+        row.contact_angle,
+        0.0..=80_f64.to_radians(),
+    )?;
+    if row.side != 1 && row.side != -1 {
+        return Err(Error::scene(at("side"), row.side, "+1 or -1"));
+    }
+    within(&at("axial_position"), row.axial_position, -100.0..=100.0)?;
+    within(&at("clearance"), row.clearance, -d / 10.0..=d / 2.0)?;
+    within(&at("axial_preload"), row.axial_preload, -d / 2.0..=d / 2.0)?;
+    within(&at("start_angle"), row.start_angle, -1e3..=1e3)?;
+    for (field, shoulders) in [
+        ("outer_shoulders", row.outer_shoulders),
+        ("inner_shoulders", row.inner_shoulders),
+    ] {
+        for (side, angle) in shoulders.iter().flatten().enumerate() {
+            if !(*angle > 0.0 && *angle < FRAC_PI_2) {
+                return Err(Error::scene(
+                    format!("{path}.{field}[{side}]"),
+                    angle,
+                    "above 0 and below π/2",
+                ));
+            }
+        }
+    }
+    for (field, waves) in [
+        ("outer_waviness", &row.outer_waviness),
+        ("inner_waviness", &row.inner_waviness),
+    ] {
+        for (i, wave) in waves.iter().enumerate() {
+            let at = |name: &str| format!("{path}.{field}[{i}].{name}");
+            within(&at("order"), f64::from(wave.order), 1.0..=1000.0)?;
+            within(&at("amplitude"), wave.amplitude, 0.0..=d / 10.0)?;
+            within(&at("phase"), wave.phase, -1e3..=1e3)?;
+        }
+    }
+    if !row.diameter_errors.is_empty() && row.diameter_errors.len() != row.ball_count {
+        return Err(Error::scene(
+            at("diameter_errors"),
+            format!("{} values", row.diameter_errors.len()),
+            format!("none, or one for each of the {} balls", row.ball_count),
+        ));
+    }
+    // A larger ball must still be smaller than both grooves.
+    let largest = (2.0 * row.outer_conformity.min(row.inner_conformity) - 1.0) * d * 0.5;
+    for (i, error) in row.diameter_errors.iter().enumerate() {
+        within(
+            &format!("{path}.diameter_errors[{i}]"),
+            *error,
+            -d / 10.0..=largest,
+        )?;
+    }
+    for (field, value) in [
+        ("ball_mass", row.ball_mass),
+        ("ball_inertia", row.ball_inertia),
+    ] {
+        if let Some(value) = value {
+            positive(&at(field), value)?;
+        }
+    }
+    support(&at("ball_support"), &row.ball_support)
+}
+
+pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
+    let (path, ring, outer, absent) = match name {
+        RingName::Outer => ("outer_ring", &scene.outer_ring, true, Mount::Fixed),
+        RingName::Inner => ("inner_ring", &scene.inner_ring, false, Mount::Free),
+    };
+    let at = |field: &str| format!("{path}.{field}");
+    for (field, value) in [
+        ("mass", ring.mass),
+        ("inertia", ring.inertia),
+        ("diameter", ring.diameter),
+        ("width", ring.width),
+    ] {
+        if let Some(value) = value {
+            positive(&at(field), value)?;
+        }
+    }
+    if let Some(diameter) = ring.diameter {
+        for (i, row) in scene.rows.iter().enumerate() {
+            let (dm, d) = (row.pitch_diameter, row.ball_diameter);
+            if outer && diameter <= dm + d || !outer && diameter >= dm - d {
+                let (word, limit) = if outer {
+                    ("above", dm + d)
+                } else {
+                    ("below", dm - d)
+                };
+                return Err(Error::scene(
+                    at("diameter"),
+                    diameter,
+                    format!("{word} the groove bottom of rows[{i}], {limit:.6e}"),
+                ));
+            }
+        }
+    }
+    if ring.mass.is_none() && (ring.diameter.is_none() || ring.width.is_none()) {
+        let mounts = ring.support.mounts(absent);
+        if mounts[..3].iter().any(|mount| *mount != Mount::Fixed) {
+            return Err(Error::scene(
+                at("mass"),
+                "absent",
+                "a mass, or diameter and width to compute it from, since the ring can move",
+            ));
+        }
+    }
+    support(&at("support"), &ring.support)
+}
+
+fn support(path: &str, support: &Support) -> Result<()> {
+    for (direction, mount) in [
+        ("x", support.x),
+        ("y", support.y),
+        ("z", support.z),
+        ("theta", support.theta),
+    ] {
+        if let Some(Mount::Spring { stiffness, damping }) = mount {
+            within(
+                &format!("{path}.{direction}.spring.stiffness"),
+                stiffness,
+                0.0..=1e15,
+            )?;
+            within(
+                &format!("{path}.{direction}.spring.damping"),
+                damping,
+                0.0..=1e12,
+            )?;
+        }
+    }
+    Ok(())
+}

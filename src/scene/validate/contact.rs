@@ -1,0 +1,116 @@
+//! Materials, normal law and friction.
+
+use super::check::{positive, within};
+use crate::error::{Error, Result};
+use crate::scene::{Contact, Friction, Materials, NormalLaw, Slices};
+
+pub(super) fn materials(materials: &Materials) -> Result<()> {
+    for (part, material) in [("rings", &materials.rings), ("balls", &materials.balls)] {
+        let at = |field: &str| format!("materials.{part}.{field}");
+        within(&at("density"), material.density, 1.0..=1e6)?;
+        within(&at("youngs_modulus"), material.youngs_modulus, 1e3..=1e15)?;
+        within(&at("poisson_ratio"), material.poisson_ratio, 0.0..=0.499)?;
+    }
+    Ok(())
+}
+
+pub(super) fn contact(contact: &Contact) -> Result<()> {
+    if let NormalLaw::Iso16281 {
+        constant,
+        length_ratio,
+    } = contact.law
+    {
+        within("contact.law.iso16281.constant", constant, 1.0..=1e16)?;
+        within(
+            "contact.law.iso16281.length_ratio",
+            length_ratio,
+            1e-3..=10.0,
+        )?;
+    }
+    match contact.slices {
+        Some(Slices::Fixed(n)) if !(10..=100_000).contains(&n) => {
+            Err(Error::scene("contact.slices.fixed", n, "10 to 100000"))
+        }
+        Some(Slices::Fitted(n)) if !(2..=64).contains(&n) => {
+            Err(Error::scene("contact.slices.fitted", n, "2 to 64"))
+        }
+        Some(Slices::Fitted(n)) if contact.law != NormalLaw::Hertz => Err(Error::scene(
+            "contact.slices.fitted",
+            n,
+            "fixed slices with the law iso16281",
+        )),
+        _ => within("contact.damping", contact.damping, 0.0..=1e3),
+    }
+}
+
+pub(super) fn friction(friction: &Friction) -> Result<()> {
+    let check = |law: &str, fields: &[(&str, f64)], slip_speed: f64| {
+        for (field, value) in fields {
+            within(&format!("friction.{law}.{field}"), *value, 0.0..=1e6)?;
+        }
+        within(
+            &format!("friction.{law}.slip_speed"),
+            slip_speed,
+            1e-9..=1e3,
+        )
+    };
+    match *friction {
+        Friction::None => Ok(()),
+        Friction::Coulomb {
+            coefficient,
+            slip_speed,
+        } => check("coulomb", &[("coefficient", coefficient)], slip_speed),
+        Friction::Stribeck {
+            static_coefficient,
+            kinetic_coefficient,
+            stribeck_speed,
+            slip_speed,
+        } => {
+            positive("friction.stribeck.stribeck_speed", stribeck_speed)?;
+            check(
+                "stribeck",
+                &[
+                    ("static_coefficient", static_coefficient),
+                    ("kinetic_coefficient", kinetic_coefficient),
+                ],
+                slip_speed,
+            )
+        }
+        Friction::Traction {
+            a,
+            b,
+            c,
+            d,
+            slip_speed,
+        } => {
+            for (field, value) in [("a", a), ("b", b)] {
+                within(&format!("friction.traction.{field}"), value, -1e6..=1e6)?;
+            }
+            check("traction", &[("c", c), ("d", d)], slip_speed)?;
+            // Dissipation must not be negative: μ(u) ≥ 0 at its ends and at its only stationary point.
+            let least = if b == 0.0 || c == 0.0 {
+                0.0
+            } else {
+                (1.0 / c - a / b).max(0.0)
+            };
+            for u in [0.0, least] {
+                let mu = (a + b * u) * (-c * u).exp() + d;
+                if mu < 0.0 {
+                    return Err(Error::scene(
+                        "friction.traction",
+                        format!("μ({u} m/s) = {mu}"),
+                        "coefficients with μ ≥ 0 at every slip",
+                    ));
+                }
+            }
+            if c == 0.0 && b < 0.0 {
+                return Err(Error::scene(
+                    "friction.traction.b",
+                    b,
+                    "at least 0 when c is 0",
+                ));
+            }
+            Ok(())
+        }
+    }
+}

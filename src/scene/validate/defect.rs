@@ -1,0 +1,153 @@
+//! Defects.
+
+use std::f64::consts::PI;
+
+use super::check::{below, finite, positive, within};
+use crate::error::{Error, Result};
+use crate::scene::{Defect, Row, Scene, Surface, Width};
+
+pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
+    let at = |field: &str| format!("{path}.{field}");
+    let row = scene.row_index(path, defect.row)?;
+    let radius = row.ball_diameter / 2.0;
+    within(&at("angle"), defect.angle, -1e3..=1e3)?;
+    positive(&at("length"), defect.length)?;
+    positive(&at("edge_radius"), defect.edge_radius)?;
+    width(&at("width"), &defect.width)?;
+    finite(&at("axial_offset"), defect.axial_offset)?;
+    match (defect.on, defect.ball) {
+        (Surface::Ball, Some(ball)) if ball < row.ball_count => on_ball(path, row, defect)?,
+        (Surface::Ball, ball) => {
+            let given = ball.map_or_else(|| "absent".to_owned(), |b| b.to_string());
+            return Err(Error::scene(
+                at("ball"),
+                given,
+                format!("a ball below {} for a ball defect", row.ball_count),
+            ));
+        }
+        (_, Some(ball)) => {
+            return Err(Error::scene(
+                at("ball"),
+                ball,
+                "absent for a defect on a race",
+            ));
+        }
+        (surface, None) => on_race(path, row, defect, surface == Surface::OuterRace)?,
+    }
+    if let Some(floor) = &defect.floor {
+        within(&at("floor.depth"), floor.depth, 0.0..=radius / 2.0)?;
+        if !(1..=1000).contains(&floor.elements) {
+            return Err(Error::scene(
+                at("floor.elements"),
+                floor.elements,
+                "1 to 1000",
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn width(path: &str, width: &Width) -> Result<()> {
+    match width {
+        Width::Constant(w) => within(path, *w, 0.0..=10.0),
+        Width::Profile(profile) => {
+            let (positions, widths) = (&profile.positions, &profile.widths);
+            if positions.is_empty() || positions.len() != widths.len() {
+                return Err(Error::scene(
+                    path,
+                    format!("{} positions, {} widths", positions.len(), widths.len()),
+                    "as many widths as positions, at least one",
+                ));
+            }
+            for (i, w) in widths.iter().enumerate() {
+                within(&format!("{path}.widths[{i}]"), *w, 0.0..=10.0)?;
+            }
+            for (i, pair) in positions.windows(2).enumerate() {
+                if pair[1].partial_cmp(&pair[0]) != Some(std::cmp::Ordering::Greater) {
+                    return Err(Error::scene(
+                        format!("{path}.positions[{}]", i + 1),
+                        pair[1],
+                        format!("above the position before it, {}", pair[0]),
+                    ));
+                }
+            }
+            finite(&format!("{path}.positions[0]"), positions[0])
+        }
+    }
+}
+
+fn on_ball(path: &str, row: &Row, defect: &Defect) -> Result<()> {
+    let at = |field: &str| format!("{path}.{field}");
+    let radius = row.ball_diameter / 2.0;
+    let reach = defect.axial_offset.abs() + defect.length / 2.0;
+
+    if reach >= radius {
+        return Err(Error::scene(
+            at("length"),
+            defect.length,
+            format!("|axial_offset| + length/2 below the ball's radius {radius:.6e}"),
+        ));
+    }
+    // The smallest slice that carries the defect.
+    let slice = (radius * radius - reach * reach).sqrt();
+    below(
+        &at("edge_radius"),
+        defect.edge_radius,
+        slice,
+        "the slice's radius",
+    )?;
+    below(
+        &at("width"),
+        defect.width.largest(),
+        PI * slice,
+        "half the slice's circumference",
+    )?;
+    Ok(())
+}
+
+fn on_race(path: &str, row: &Row, defect: &Defect, outer: bool) -> Result<()> {
+    let at = |field: &str| format!("{path}.{field}");
+    let radius = row.ball_diameter / 2.0;
+
+    let (f, shoulders, sign) = if outer {
+        (row.outer_conformity, row.outer_shoulders, -1.0)
+    } else {
+        (row.inner_conformity, row.inner_shoulders, 1.0)
+    };
+    let groove = f * row.ball_diameter;
+    // Axial place of the groove's centre from the row's plane (model section 2).
+    let mut centre = sign * f64::from(row.side) * (groove - radius) * row.contact_angle.sin();
+    if !outer {
+        centre += f64::from(row.side) * row.axial_preload;
+    }
+    let limits = shoulders.map_or([groove; 2], |s| s.map(|angle| groove * angle.sin()));
+    let (low, high) = (
+        defect.axial_offset - defect.length / 2.0 - centre,
+        defect.axial_offset + defect.length / 2.0 - centre,
+    );
+    if low <= -limits[0] || high >= limits[1] {
+        return Err(Error::scene(
+            at("length"),
+            defect.length,
+            format!(
+                "a defect within the race, which ends at {:.6e} and {:.6e} from the row's plane",
+                centre - limits[0],
+                centre + limits[1]
+            ),
+        ));
+    }
+    below(
+        &at("edge_radius"),
+        defect.edge_radius,
+        radius,
+        "the ball's radius",
+    )?;
+    let race = (row.pitch_diameter - row.ball_diameter) / 2.0;
+    below(
+        &at("width"),
+        defect.width.largest(),
+        PI * race / 2.0,
+        "a quarter of the race's circumference",
+    )?;
+    Ok(())
+}

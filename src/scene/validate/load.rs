@@ -1,0 +1,122 @@
+//! Drive, loads and values in time.
+
+use super::check::{entry_name, finite, within};
+use crate::error::{Error, Result};
+use crate::scene::{Drive, Profile, Scene, TimeFunction};
+
+pub(super) fn drive(drive: &Drive) -> Result<()> {
+    match drive {
+        Drive::Speed(speed) => {
+            time_function("drive.speed", speed, 1e6)?;
+            let jumps = match speed {
+                TimeFunction::Profile(Profile::Ramp { start, end, .. }) => start == end,
+                TimeFunction::Profile(Profile::Table { times, .. }) => {
+                    times.windows(2).any(|pair| pair[0] == pair[1])
+                }
+                _ => false,
+            };
+            if jumps {
+                return Err(Error::scene(
+                    "drive.speed",
+                    "a jump in time",
+                    "a speed that changes over a time longer than zero",
+                ));
+            }
+            Ok(())
+        }
+        Drive::Torque {
+            value,
+            initial_speed,
+        } => {
+            time_function("drive.torque.value", value, 1e12)?;
+            within("drive.torque.initial_speed", *initial_speed, -1e6..=1e6)
+        }
+    }
+}
+
+pub(super) fn loads(scene: &Scene) -> Result<()> {
+    for (name, load) in &scene.loads {
+        entry_name("loads", name)?;
+        let size = load.direction.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if !(size.is_finite() && size > 0.0) {
+            return Err(Error::scene(
+                format!("loads.{name}.direction"),
+                format!("{:?}", load.direction),
+                "three finite numbers, not all zero",
+            ));
+        }
+        time_function(&format!("loads.{name}.force"), &load.force, 1e12)?;
+    }
+    for (name, unbalance) in &scene.unbalances {
+        entry_name("unbalances", name)?;
+        within(
+            &format!("unbalances.{name}.moment"),
+            unbalance.moment,
+            0.0..=1e6,
+        )?;
+        within(
+            &format!("unbalances.{name}.angle"),
+            unbalance.angle,
+            -1e3..=1e3,
+        )?;
+    }
+    Ok(())
+}
+
+fn time_function(path: &str, value: &TimeFunction, limit: f64) -> Result<()> {
+    let each = |field: &str, x: f64| within(&format!("{path}{field}"), x, -limit..=limit);
+    match value {
+        TimeFunction::Constant(x) => each("", *x),
+        TimeFunction::Profile(Profile::Ramp {
+            from,
+            to,
+            start,
+            end,
+        }) => {
+            each(".ramp.from", *from)?;
+            each(".ramp.to", *to)?;
+            finite(&format!("{path}.ramp.start"), *start)?;
+            finite(&format!("{path}.ramp.end"), *end)?;
+            if end < start {
+                return Err(Error::scene(
+                    format!("{path}.ramp.end"),
+                    end,
+                    format!("at least start, {start}"),
+                ));
+            }
+            Ok(())
+        }
+        TimeFunction::Profile(Profile::Sine {
+            mean,
+            amplitude,
+            frequency,
+            phase,
+        }) => {
+            each(".sine.mean", *mean)?;
+            each(".sine.amplitude", *amplitude)?;
+            within(&format!("{path}.sine.frequency"), *frequency, 0.0..=1e9)?;
+            finite(&format!("{path}.sine.phase"), *phase)
+        }
+        TimeFunction::Profile(Profile::Table { times, values }) => {
+            if times.is_empty() || times.len() != values.len() {
+                return Err(Error::scene(
+                    format!("{path}.table"),
+                    format!("{} times, {} values", times.len(), values.len()),
+                    "as many values as times, at least one",
+                ));
+            }
+            for (i, (t, x)) in times.iter().zip(values).enumerate() {
+                finite(&format!("{path}.table.times[{i}]"), *t)?;
+                each(&format!(".table.values[{i}]"), *x)?;
+            }
+            match times.windows(2).position(|pair| pair[1] < pair[0]) {
+                Some(i) => Err(Error::scene(
+                    format!("{path}.table.times[{}]", i + 1),
+                    times[i + 1],
+                    format!("at least the time before it, {}", times[i]),
+                )),
+                None => Ok(()),
+            }
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! Everything checkable is checked here, naming the field.
+
+mod bearing;
+mod check;
+mod contact;
+mod defect;
+mod load;
+mod probe;
+
+use super::{Drive, RingName, Row, SCHEMA, Scene};
+use crate::error::{Error, Result};
+use check::{entry_name, positive, within};
+
+impl Scene {
+    /// Checks every field; [`crate::Model::new`] does it for you.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] with the path, the value and what is allowed, for the first field that is not usable.
+    pub fn validate(&self) -> Result<()> {
+        if self.schema != SCHEMA {
+            return Err(Error::scene(
+                "schema",
+                self.schema,
+                format!("must be {SCHEMA}"),
+            ));
+        }
+        if self.rows.is_empty() || self.rows.len() > 16 {
+            return Err(Error::scene("rows", self.rows.len(), "1 to 16 rows"));
+        }
+        for (i, row) in self.rows.iter().enumerate() {
+            bearing::row(&format!("rows[{i}]"), row)?;
+        }
+        bearing::ring(self, RingName::Outer)?;
+        bearing::ring(self, RingName::Inner)?;
+        if matches!(self.drive, Drive::Speed(_)) && self.inner_ring.support.theta.is_some() {
+            return Err(Error::scene(
+                "inner_ring.support.theta",
+                "a mount",
+                "absent, since drive.speed turns the inner ring",
+            ));
+        }
+        contact::materials(&self.materials)?;
+        contact::contact(&self.contact)?;
+        contact::friction(&self.friction)?;
+        if let Some(cage) = &self.cage {
+            within("cage.stiffness", cage.stiffness, 0.0..=1e15)?;
+            within("cage.damping", cage.damping, 0.0..=1e12)?;
+            within("cage.play", cage.play, 0.0..=1.0)?;
+        }
+        load::drive(&self.drive)?;
+        for (i, g) in self.gravity.iter().enumerate() {
+            within(&format!("gravity[{i}]"), *g, -1e6..=1e6)?;
+        }
+        load::loads(self)?;
+        for (name, defect) in &self.defects {
+            entry_name("defects", name)?;
+            defect::defect(self, &format!("defects.{name}"), defect)?;
+        }
+        for (name, probe) in &self.probes {
+            entry_name("probes", name)?;
+            probe::probe(self, &format!("probes.{name}"), probe)?;
+        }
+        within("solver.rtol", self.solver.rtol, 1e-12..=1e-1)?;
+        for (path, step) in [
+            ("solver.first_step", self.solver.first_step),
+            ("solver.max_step", self.solver.max_step),
+        ] {
+            if let Some(step) = step {
+                positive(path, step)?;
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn row_index(&self, path: &str, row: usize) -> Result<&Row> {
+        self.rows.get(row).ok_or_else(|| {
+            Error::scene(
+                format!("{path}.row"),
+                row,
+                format!("below {}, the number of rows", self.rows.len()),
+            )
+        })
+    }
+
+    /// Index of a body by its name: `outer` 0, `inner` 1, then the balls row by row.
+    pub fn body_index(&self, name: &str) -> Option<usize> {
+        match name {
+            "outer" => Some(0),
+            "inner" => Some(1),
+            _ => {
+                let (row, ball) = name.strip_prefix("row")?.split_once(".ball")?;
+                let (row, ball): (usize, usize) = (row.parse().ok()?, ball.parse().ok()?);
+                if ball >= self.rows.get(row)?.ball_count {
+                    return None;
+                }
+                let before: usize = self.rows[..row].iter().map(|r| r.ball_count).sum();
+                Some(2 + before + ball)
+            }
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! Probes.
+
+use super::check::within;
+use crate::error::{Error, Result};
+use crate::scene::{Probe, Scene};
+
+pub(super) fn probe(scene: &Scene, path: &str, probe: &Probe) -> Result<()> {
+    match probe {
+        Probe::Motion { body, .. } | Probe::Forces { body } => {
+            scene.body_index(body).map(|_| ()).ok_or_else(|| {
+                let kind = if matches!(probe, Probe::Motion { .. }) {
+                    "motion"
+                } else {
+                    "forces"
+                };
+                Error::scene(
+                    format!("{path}.{kind}.body"),
+                    body,
+                    "`outer`, `inner` or a ball of a row such as `row0.ball3`",
+                )
+            })
+        }
+        Probe::Cage { row } => scene.row_index(&format!("{path}.cage"), *row).map(|_| ()),
+        Probe::Energy {} | Probe::Torque {} => Ok(()),
+        Probe::Contacts { row, balls, .. } => {
+            chosen(scene, &format!("{path}.contacts"), *row, balls.as_deref())
+        }
+        Probe::Slices {
+            row, balls, times, ..
+        } => {
+            for (i, t) in times.iter().enumerate() {
+                within(&format!("{path}.slices.times[{i}]"), *t, 0.0..=1e9)?;
+            }
+            chosen(scene, &format!("{path}.slices"), *row, balls.as_deref())
+        }
+    }
+}
+
+fn chosen(scene: &Scene, path: &str, row: usize, balls: Option<&[usize]>) -> Result<()> {
+    let count = scene.row_index(path, row)?.ball_count;
+    match balls
+        .unwrap_or_default()
+        .iter()
+        .find(|&&ball| ball >= count)
+    {
+        Some(ball) => Err(Error::scene(
+            format!("{path}.balls"),
+            ball,
+            format!("balls below {count}"),
+        )),
+        None => Ok(()),
+    }
+}

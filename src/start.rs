@@ -1,0 +1,133 @@
+//! How a run begins: at rest in the cage's frame, or rolling from nominal places (model section 8).
+
+use crate::equilibrium;
+use crate::error::{Error, Result};
+use crate::model::Model;
+
+/// How a run begins.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Start {
+    /// Static equilibrium in the cage's frame, then rolling speeds at the operating contact angles: next to
+    /// no transient.
+    #[default]
+    Equilibrium,
+    /// The paper's: nominal places, pure-rolling speeds; a transient of about 0.02 s.
+    Rolling,
+    /// A given state, as long as [`Model::dim`].
+    State(Vec<f64>),
+}
+
+/// The state at t = 0.
+///
+/// # Errors
+/// [`Error::Equilibrium`] if the load cannot be carried; [`Error::Scene`] for a state of wrong length or
+/// with a number that is not finite.
+pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
+    match start {
+        Start::Rolling => {
+            let mut y = vec![0.0; model.dim()];
+            for (place, body) in y.chunks_exact_mut(4).zip(&model.bodies) {
+                place.copy_from_slice(&body.nominal);
+            }
+            roll(model, &mut y);
+            Ok(y)
+        }
+        Start::Equilibrium => {
+            let mut y = equilibrium::positions(model)?;
+            roll(model, &mut y);
+            settle_speeds(model, &mut y);
+            Ok(y)
+        }
+        Start::State(state) => {
+            if state.len() != model.dim() {
+                return Err(Error::scene(
+                    "start",
+                    format!("{} numbers", state.len()),
+                    format!("{} numbers, named by the model", model.dim()),
+                ));
+            }
+            match state.iter().position(|x| !x.is_finite()) {
+                Some(i) => Err(Error::scene(
+                    format!("start[{i}]"),
+                    state[i],
+                    "a finite number",
+                )),
+                None => Ok(state.clone()),
+            }
+        }
+    }
+}
+
+/// Orbit rate of the balls and their rotation about z for pure rolling at the nominal contact angle,
+/// fixed outer ring: ω_c = Ω(1 − γ)/2, θ̇_b = −ω_c d_m / (D cos α₀), γ = D cos α₀ / d_m.
+pub(crate) fn rolling_speeds(model: &Model, row: usize) -> (f64, f64) {
+    let speed = model.scene.drive.initial_speed();
+    let row = &model.scene.rows[row];
+    let gamma = row.ball_diameter * row.contact_angle.cos() / row.pitch_diameter;
+    let orbit = speed * (1.0 - gamma) / 2.0;
+    (orbit, -orbit / gamma)
+}
+
+/// Sets pure-rolling speeds at the places of a state.
+fn roll(model: &Model, y: &mut [f64]) {
+    let half = y.len() / 2;
+    y[half + 7] = model.scene.drive.initial_speed();
+    for (j, ball) in model.balls.iter().enumerate() {
+        let (orbit, spin) = rolling_speeds(model, ball.row);
+        let q = 4 * (2 + j);
+        y[half + q] = -orbit * y[q + 1];
+        y[half + q + 1] = orbit * y[q];
+        y[half + q + 3] = spin;
+    }
+}
+
+/// Corrects the speeds of loaded balls for their operating contact angles: a row orbits at the load-weighted
+/// mean of the rates at which its balls would roll on both races, and each ball spins as its contacts ask.
+///
+/// With levers ρ = R cos α of the two contacts and a ball at radius r, no slip on the fixed outer race means
+/// θ̇ = −ω_c r/ρ_o, on the inner θ̇ = (ω_c r − Ω(r − ρ_i))/ρ_i; both hold for ω_c r (1 + ρ_i/ρ_o) = Ω(r − ρ_i).
+/// The nominal angle would leave a thrust-loaded bearing to find its speeds by friction.
+fn settle_speeds(model: &Model, y: &mut [f64]) {
+    let half = y.len() / 2;
+    let speed = model.scene.drive.initial_speed();
+    for row in 0..model.rows.len() {
+        let balls = model.rows[row].first..model.rows[row].first + model.rows[row].count;
+        let mut rolling = Vec::new();
+        let (mut weighted, mut weight) = (0.0, 0.0);
+        for j in balls {
+            let contacts = [0, 1].map(|race| model.contact(y, j, race));
+            let load = contacts[0].load.min(contacts[1].load);
+            let r = y[4 * (2 + j)].hypot(y[4 * (2 + j) + 1]);
+            let levers = contacts
+                .map(|c| (c.load > 0.0).then(|| model.balls[j].side.radius * c.angle.cos()));
+            if let [Some(outer), Some(inner)] = levers {
+                weighted += load * speed * (r - inner) / (r * (1.0 + inner / outer));
+                weight += load;
+            }
+            rolling.push((j, r, levers, contacts.map(|c| c.load)));
+        }
+        let orbit = if weight > 0.0 {
+            weighted / weight
+        } else {
+            rolling_speeds(model, row).0
+        };
+        for (j, r, [outer, inner], [on_outer, on_inner]) in rolling {
+            let q = 4 * (2 + j);
+            y[half + q] = -orbit * y[q + 1];
+            y[half + q + 1] = orbit * y[q];
+            let spins = [
+                outer.map(|lever| (-orbit * r / lever, on_outer)),
+                inner.map(|lever| ((orbit * r - speed * (r - lever)) / lever, on_inner)),
+            ];
+            let (sum, load) = spins
+                .into_iter()
+                .flatten()
+                .fold((0.0, 0.0), |(sum, all), (spin, load)| {
+                    (sum + spin * load, all + load)
+                });
+            if load > 0.0 {
+                y[half + q + 3] = sum / load;
+            }
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! The same bits for any number of threads, and effort that does not drift unseen.
+
+use std::ops::ControlFlow;
+
+use ballrace::scene::{Slices, presets};
+use ballrace::{Run, simulate};
+
+fn bits(threads: usize) -> Vec<u64> {
+    let mut scene = presets::wheel_bearing(3000.0);
+    scene.contact.slices = Some(Slices::Fixed(50));
+    let run = Run {
+        duration: 2e-3,
+        threads,
+        ..Run::default()
+    };
+    let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
+    out.columns
+        .iter()
+        .flat_map(|column| column.values.iter().map(|x| x.to_bits()))
+        .collect()
+}
+
+/// Analytic: sums have one order.
+#[test]
+fn threads_do_not_change_a_bit() {
+    let one = bits(1);
+    assert_eq!(one, bits(2));
+    assert_eq!(one, bits(8));
+}
+
+/// Golden: effort of a millisecond of each preset. A change here wants a line in the changelog; re-mint by
+/// copying the printed numbers.
+#[test]
+fn effort_is_pinned() {
+    let run = Run {
+        duration: 1e-3,
+        threads: 1,
+        ..Run::default()
+    };
+    for (scene, steps) in [
+        (presets::wheel_bearing(3000.0), (149, 1)),
+        (presets::deep_groove_6205(500.0, 0.0, 1800.0), (300, 1)),
+    ] {
+        let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
+        let stats = out.stats;
+        println!("{}: {stats:?}", scene.name);
+        assert_eq!((stats.accepted, stats.rejected), steps, "{}", scene.name);
+        assert_eq!(stats.nfev, 6 * (stats.accepted + stats.rejected) + 2);
+    }
+}

@@ -1,0 +1,160 @@
+"""The command, as people call it."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import ballrace as br
+from ballrace.cli import main
+
+
+@pytest.fixture(autouse=True)
+def _elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def scene_file(tmp_path: Path) -> Path:
+    path = tmp_path / "scene.toml"
+    path.write_text(br.presets.deep_groove_6205().to_toml())
+    return path
+
+
+def refused(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
+    """Run a command that must fail as bad input with one line, and return the line."""
+    try:
+        status = main(arguments)
+    except SystemExit as stop:
+        status = int(stop.code or 0)
+        assert status == 2
+        return capsys.readouterr().err
+    assert status == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert len(captured.err.splitlines()) == 1
+    return captured.err
+
+
+def test_demo(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert main(["demo", "--duration", "0.004"]) == 0
+    captured = capsys.readouterr()
+    assert "kurtosis" in captured.out
+    assert captured.err == ""
+    folder = tmp_path / "ballrace-demo"
+    assert {p.name for p in folder.iterdir()} == {
+        "axial_0N.parquet",
+        "axial_3000N.parquet",
+        "axial_-3000N.parquet",
+        "demo.html",
+    }
+    out = br.Signals.read_parquet(folder / "axial_3000N.parquet")
+    assert out.scene == br.presets.wheel_bearing(3000.0)
+    page = (folder / "demo.html").read_text(encoding="utf-8")
+    assert "Load of each ball" in page
+    # Self-contained: no script is fetched.
+    assert not re.search(r"<script[^>]*\ssrc=", page)
+
+
+def test_demo_without_plotly(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    find = importlib.util.find_spec
+    monkeypatch.setattr(
+        importlib.util, "find_spec", lambda name: None if name == "plotly" else find(name)
+    )
+    assert main(["demo", "-o", "here", "--duration", "0.002"]) == 0
+    assert 'pip install "ballrace[plot]"' in capsys.readouterr().out
+    assert len(list((tmp_path / "here").iterdir())) == 3
+
+
+def test_run(capsys: pytest.CaptureFixture[str], scene_file: Path) -> None:
+    arguments = [
+        "run",
+        str(scene_file),
+        "-o",
+        "out.parquet",
+        "--duration",
+        "0.002",
+        "--fs",
+        "10000",
+    ]
+    assert main([*arguments, "--start", "rolling", "--rtol", "1e-5", "--threads", "1"]) == 0
+    assert "20 samples" in capsys.readouterr().out
+    out = br.Signals.read_parquet("out.parquet")
+    assert out.fs == 10_000
+    assert "outer.ay" in out
+
+
+def test_scene_prints_a_preset(capsys: pytest.CaptureFixture[str]) -> None:
+    for name in ("wheel-bearing", "wheel_bearing"):
+        assert main(["scene", name]) == 0
+        text = capsys.readouterr().out
+        assert text.startswith("# ")
+        assert br.Scene.from_toml(text) == br.presets.wheel_bearing()
+
+
+def test_equilibrium_prints_a_table(capsys: pytest.CaptureFixture[str], scene_file: Path) -> None:
+    assert main(["equilibrium", str(scene_file)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len([line for line in lines if line.startswith("row0.ball")]) == 9
+
+
+def test_bad_input_is_one_line_and_leaves_nothing(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, scene_file: Path
+) -> None:
+    bad = tmp_path / "bad.toml"
+    bad.write_text(scene_file.read_text().replace("ball_count = 9", "ball_count = 90"))
+    broken = tmp_path / "broken.toml"
+    broken.write_text("rows = [")
+    before = set(tmp_path.iterdir())
+    good = str(scene_file)
+    assert "ball_diameter" in refused(capsys, "run", str(bad), "-o", "out.parquet")
+    assert "TOML" in refused(capsys, "run", str(broken), "-o", "out.parquet")
+    assert "none.toml" in refused(capsys, "run", "none.toml", "-o", "out.parquet")
+    assert "nowhere" in refused(capsys, "run", good, "-o", "nowhere/out.parquet")
+    assert str(tmp_path) in refused(capsys, "run", good, "-o", str(tmp_path))
+    assert "duration" in refused(capsys, "run", good, "-o", "out.parquet", "--duration", "-1")
+    assert "duration" in refused(capsys, "run", good, "-o", "out.parquet", "--duration", "1e12")
+    assert "fs" in refused(capsys, "run", good, "-o", "out.parquet", "--fs", "nan")
+    assert "rtol" in refused(capsys, "run", good, "-o", "out.parquet", "--rtol", "2")
+    assert "threads" in refused(capsys, "run", good, "-o", "out.parquet", "--threads", "-1")
+    assert "sideways" in refused(capsys, "run", good, "-o", "out.parquet", "--start", "sideways")
+    assert "duration" in refused(capsys, "demo", "--duration", "nan")
+    assert "nowhere" in refused(capsys, "demo", "-o", "nowhere/demo")
+    assert "scene.toml" in refused(capsys, "demo", "-o", good)
+    assert "roller" in refused(capsys, "scene", "roller")
+    assert set(tmp_path.iterdir()) == before
+
+
+def test_a_failed_run_exits_with_one(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    scene = br.presets.wheel_bearing().replace({"loads.axial.force": 1e9})
+    (tmp_path / "heavy.toml").write_text(scene.to_toml())
+    assert main(["run", "heavy.toml", "-o", "out.parquet"]) == 1
+    assert "equilibrium" in capsys.readouterr().err
+    assert not (tmp_path / "out.parquet").exists()
+
+
+def test_as_a_module() -> None:
+    command = [sys.executable, "-m", "ballrace", "scene", "deep-groove-6205"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert "ball_count = 9" in done.stdout
+    done = subprocess.run(command[:3], capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert "usage: ballrace" in done.stderr
+
+
+def test_a_reader_that_leaves_is_no_error() -> None:
+    command = [sys.executable, "-m", "ballrace", "scene", "wheel-bearing"]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as child:
+        assert child.stdout is not None
+        assert child.stderr is not None
+        child.stdout.close()
+        assert child.stderr.read() == ""

@@ -1,0 +1,92 @@
+"""Each kind of error once, with its fields."""
+
+from __future__ import annotations
+
+import pickle
+
+import numpy as np
+import pytest
+
+import ballrace as br
+
+
+def test_the_tree() -> None:
+    assert issubclass(br.SceneError, br.BallraceError)
+    assert issubclass(br.SceneError, ValueError)
+    assert issubclass(br.EquilibriumError, br.BallraceError)
+    assert issubclass(br.EquilibriumError, RuntimeError)
+    assert issubclass(br.IntegrationError, br.BallraceError)
+    assert issubclass(br.IntegrationError, RuntimeError)
+
+
+def test_scene_error_says_where_what_and_what_is_allowed(wheel: br.Scene) -> None:
+    with pytest.raises(br.SceneError) as caught:
+        wheel.replace({"rows[0].outer_conformity": 0.4})
+    error = caught.value
+    assert (error.path, error.value) == ("rows[0].outer_conformity", "0.4")
+    assert "above 0.5" in error.allowed
+    assert str(error) == f"rows[0].outer_conformity = 0.4: {error.allowed}"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "path"),
+    [
+        ({"duration": 0.0}, "duration"),
+        ({"duration": -1.0}, "duration"),
+        ({"duration": float("nan")}, "duration"),
+        ({"duration": float("inf")}, "duration"),
+        ({"duration": 1e9}, "duration"),
+        ({"duration": 1e-3, "fs": 0.0}, "fs"),
+        ({"duration": 1e-3, "fs": float("nan")}, "fs"),
+        ({"duration": 1e-3, "rtol": 0.0}, "rtol"),
+        ({"duration": 1e-3, "rtol": float("nan")}, "rtol"),
+        ({"duration": 1e-3, "start": "standing"}, "start"),
+        ({"duration": 1e-3, "start": np.zeros(3)}, "start"),
+        ({"duration": 1e-3, "start": np.zeros((2, 3))}, "start"),
+        ({"duration": 1e-3, "threads": -1}, "threads"),
+    ],
+)
+def test_arguments_of_a_run_are_checked(
+    wheel: br.Scene, arguments: dict[str, object], path: str
+) -> None:
+    with pytest.raises(br.SceneError) as caught:
+        br.simulate(wheel, **arguments)  # type: ignore[arg-type]
+    assert path in caught.value.path
+
+
+def test_a_state_that_is_not_finite_is_refused(wheel: br.Scene) -> None:
+    state = br.Model(wheel).start("rolling")
+    state[3] = np.nan
+    with pytest.raises(br.SceneError, match="start"):
+        br.simulate(wheel, duration=1e-3, start=state)
+
+
+def test_no_equilibrium_under_a_load_that_cannot_be_carried(wheel: br.Scene) -> None:
+    with pytest.raises(br.EquilibriumError) as caught:
+        br.equilibrium(wheel.replace({"loads.axial.force": 1e9}))
+    assert str(caught.value)
+
+
+def test_integration_error_says_when_and_where(wheel: br.Scene) -> None:
+    model = br.Model(wheel)
+    state = model.start("rolling")
+    # Thrown out of the groove at an absurd speed.
+    state[model.names.index("row0.ball3.vz")] = 1e150
+    with pytest.raises(br.IntegrationError) as caught:
+        br.simulate(wheel, duration=1e-3, start=state)
+    assert caught.value.time >= 0.0
+    assert caught.value.step > 0.0
+    assert caught.value.body in model.bodies
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        br.SceneError("a.b", "1", "2"),
+        br.EquilibriumError("no equilibrium"),
+        br.IntegrationError("stopped", 0.1, 1e-9, "outer"),
+    ],
+)
+def test_errors_cross_processes(error: br.BallraceError) -> None:
+    again = pickle.loads(pickle.dumps(error))
+    assert (type(again), str(again), vars(again)) == (type(error), str(error), vars(error))

@@ -1,0 +1,382 @@
+"""The dataclasses mirror the core's document: names, variants, defaults and values."""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+import json
+import pickle
+import re
+import types
+import typing
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+
+import ballrace as br
+from ballrace import _core
+from ballrace import scene as s
+from ballrace._document import Part, Variant, decode, encode
+
+MINIMAL = s.Row(
+    ball_count=9,
+    ball_diameter=8e-3,
+    pitch_diameter=39e-3,
+    outer_conformity=0.52,
+    inner_conformity=0.51,
+)
+
+
+def every_field() -> s.Scene:
+    """A usable scene in which no field keeps its default (where a single scene can)."""
+    support = s.Support(
+        x=s.Spring(stiffness=1e8, damping=300.0), y="free", z="fixed", theta=s.Spring(stiffness=1e3)
+    )
+    row = s.Row(
+        ball_count=9,
+        ball_diameter=7.94e-3,
+        pitch_diameter=39.04e-3,
+        outer_conformity=0.525,
+        inner_conformity=0.515,
+        contact_angle=0.2,
+        side=-1,
+        axial_position=2e-3,
+        clearance=1e-6,
+        axial_preload=2e-6,
+        start_angle=0.3,
+        outer_shoulders=(0.9, 0.8),
+        inner_shoulders=(0.7, 0.9),
+        outer_waviness=(s.Waviness(order=7, amplitude=1e-7, phase=0.1),),
+        inner_waviness=(
+            s.Waviness(order=8, amplitude=1e-7),
+            s.Waviness(order=9, amplitude=2e-7, phase=-0.1),
+        ),
+        diameter_errors=(1e-7,) * 9,
+        ball_mass=2e-3,
+        ball_inertia=1.3e-8,
+        ball_support=s.Support(x=s.Spring(damping=1.0)),
+    )
+    defect = s.Defect(
+        on="outer_race",
+        row=1,
+        angle=-1.5,
+        axial_offset=1e-4,
+        length=1e-3,
+        width=s.WidthProfile(positions=(-1e-3, 1e-3), widths=(1e-3, 2e-3)),
+        edge_radius=3e-4,
+        floor=s.Floor(depth=1e-5, elements=4),
+    )
+    races: tuple[s.RingName, ...] = ("inner", "outer")
+    return s.Scene(
+        name="every field",
+        rows=(row, dataclasses.replace(row, side=1, axial_position=-2e-3)),
+        outer_ring=s.Ring(mass=0.5, inertia=1e-3, diameter=52e-3, width=15e-3, support=support),
+        inner_ring=s.Ring(mass=0.3, inertia=1e-4, diameter=25e-3, width=15e-3),
+        materials=s.Materials(
+            rings=s.Material(density=7800.0, youngs_modulus=2.1e11, poisson_ratio=0.29),
+            balls=s.Material(density=3200.0, youngs_modulus=3.1e11, poisson_ratio=0.26),
+        ),
+        contact=s.Contact(
+            law=s.Iso16281(constant=3e10, length_ratio=0.4),
+            slices=s.FixedSlices(50),
+            damping=0.1,
+            clamp_pull=False,
+        ),
+        friction=s.Traction(a=0.01, b=0.02, c=0.5, d=0.03, slip_speed=0.05),
+        cage=s.Cage(stiffness=1e6, damping=20.0, play=1e-4),
+        drive=s.TorqueDrive(
+            value=s.Table(times=(0.0, 0.1, 0.1), values=(0.0, 1.0, 2.0)), initial_speed=100.0
+        ),
+        gravity=(0.0, 1.0, -9.0),
+        loads={
+            "axial": s.Load(
+                ring="outer",
+                direction=(0.0, 0.0, 1.0),
+                force=s.Ramp(from_=0.0, to=1e3, start=0.0, end=0.1),
+            ),
+            "radial": s.Load(
+                ring="inner",
+                direction=(0.0, -1.0, 0.0),
+                force=s.Sine(mean=1e3, amplitude=10.0, frequency=50.0, phase=0.5),
+            ),
+        },
+        unbalances={"rotor": s.Unbalance(ring="inner", moment=1e-4, angle=0.4)},
+        defects={
+            "outer": defect,
+            "inner": dataclasses.replace(defect, on="inner_race", width=1e-3),
+            "ball": dataclasses.replace(defect, on="ball", ball=3, width=1e-3, length=5e-4),
+        },
+        probes={
+            "motion": s.MotionProbe(body="row0.ball3", components=typing.get_args(s.Component)),
+            "contacts": s.ContactsProbe(
+                row=1, balls=(1, 2), races=races, quantities=typing.get_args(s.ContactQuantity)
+            ),
+            "cage": s.CageProbe(row=1),
+            "energy": s.EnergyProbe(),
+            "torque": s.TorqueProbe(),
+            "forces": s.ForcesProbe(body="outer"),
+            "slices": s.SlicesProbe(row=1, balls=(0,), races=("outer",), times=(0.0, 1e-3)),
+        },
+        solver=s.Solver(rtol=1e-5, first_step=1e-8, max_step=1e-5, frequency_cap=False),
+    )
+
+
+def scenes() -> list[s.Scene]:
+    """Scenes that together use every variant."""
+    full = every_field()
+    return [
+        br.presets.wheel_bearing(),
+        br.presets.deep_groove_6205(),
+        full,
+        full.replace({"friction": s.Coulomb(coefficient=0.1, slip_speed=0.1)}),
+        full.replace(
+            {
+                "friction": s.Stribeck(
+                    static_coefficient=0.2,
+                    kinetic_coefficient=0.1,
+                    stribeck_speed=0.3,
+                    slip_speed=0.1,
+                )
+            }
+        ),
+        full.replace(
+            {"friction": "none", "contact": s.Contact(law="hertz", slices=s.FittedSlices(6))}
+        ),
+        full.replace(
+            {"drive": s.SpeedDrive(s.Sine(mean=9.0, amplitude=1.0, frequency=2.0, phase=0.0))}
+        ),
+        full.replace({"drive": s.SpeedDrive(100.0)}),
+    ]
+
+
+def walk(value: Any, hint: Any, path: str = "") -> Iterator[tuple[str, Any, Any]]:
+    """All places of a scene with the hint that rules there."""
+    yield path, value, hint
+    if isinstance(value, Variant):
+        path = f"{path}.{value.tag}"
+    if isinstance(value, Part):
+        hints = typing.get_type_hints(type(value))
+        for field in dataclasses.fields(value):
+            key = field.name.removesuffix("_")
+            wraps = isinstance(value, Variant) and value.wraps
+            inner = path if wraps else f"{path}.{key}".removeprefix(".")
+            yield from walk(getattr(value, field.name), hints[field.name], inner)
+    elif isinstance(value, Mapping):
+        for key, entry in value.items():
+            yield from walk(entry, typing.get_args(hint)[1], f"{path}.{key}")
+    elif isinstance(value, tuple):
+        of_tuple = next(h for h in members(hint) if typing.get_origin(h) is tuple)
+        for i, entry in enumerate(value):
+            yield from walk(entry, typing.get_args(of_tuple)[0], f"{path}[{i}]")
+
+
+def members(hint: Any) -> tuple[Any, ...]:
+    is_union = typing.get_origin(hint) in (typing.Union, types.UnionType)
+    return typing.get_args(hint) if is_union else (hint,)
+
+
+def choices(hint: Any) -> set[str]:
+    """Tags and plain names that may stand at a place."""
+    found: set[str] = set()
+    for member in members(hint):
+        if typing.get_origin(member) is typing.Literal:
+            found |= set(typing.get_args(member))
+        elif isinstance(member, type) and issubclass(member, Variant):
+            found.add(member.tag)
+    return found
+
+
+def expected_by_core(scene: s.Scene, path: str, intruder: object) -> set[str]:
+    """The names that the core would have taken instead of ``intruder`` at ``path``."""
+    document: Any = scene.to_dict()
+    place = document
+    steps = re.findall(r"[^.\[\]]+", path)
+    for step in steps[:-1]:
+        place = place[int(step) if isinstance(place, list) else step]
+    key = int(steps[-1]) if isinstance(place, list) else steps[-1]
+    assert key in place or isinstance(key, int) or intruder == 1
+    place[key] = intruder
+    with pytest.raises(br.SceneError) as caught:
+        _core.scene_from_json(json.dumps(document))
+    unknown, _, expected = caught.value.allowed.partition(", ")
+    assert "stranger" in unknown
+    return set(re.findall(r"`([^`]+)`", expected))
+
+
+def parts() -> set[type]:
+    """All classes of the document."""
+    found: set[type] = set()
+    todo: list[type] = [Part]
+    while todo:
+        subclasses: list[type] = todo.pop().__subclasses__()
+        found |= set(subclasses)
+        todo += subclasses
+    return found - {Variant}
+
+
+@pytest.mark.parametrize("scene", scenes(), ids=lambda scene: scene.name)
+def test_round_trips(scene: s.Scene) -> None:
+    assert s.Scene.from_json(scene.to_json()) == scene
+    assert s.Scene.from_toml(scene.to_toml()) == scene
+    assert json.loads(scene.to_json()) == scene.to_dict()
+    assert scene.validate() == scene
+    assert pickle.loads(pickle.dumps(scene)) == scene
+    assert copy.deepcopy(scene) == scene
+
+
+def test_the_scenes_above_use_everything() -> None:
+    used: dict[type, set[str]] = {}
+    for scene in scenes():
+        for _, value, _ in walk(scene, s.Scene):
+            if isinstance(value, Part):
+                changed = used.setdefault(type(value), set())
+                for field in dataclasses.fields(value):
+                    default = field.default
+                    if field.default_factory is not dataclasses.MISSING:
+                        default = field.default_factory()
+                    if getattr(value, field.name) != default:
+                        changed.add(field.name)
+    # The version of the document has one value.
+    used[s.Scene].add("schema")
+    assert used == {part: {f.name for f in dataclasses.fields(part)} for part in parts()}
+
+
+def test_fields_and_variants_have_the_same_names_in_the_core() -> None:
+    compared: set[object] = set()
+    for scene in scenes():
+        for path, value, hint in walk(scene, s.Scene):
+            if key := frozenset(choices(hint)):
+                assert expected_by_core(scene, path, {"stranger": {}}) == key, path
+                compared.add(key)
+            if isinstance(value, Part) and not (isinstance(value, Variant) and value.wraps):
+                inner = f"{path}.{value.tag}" if isinstance(value, Variant) else path
+                names = {f.name.removesuffix("_") for f in dataclasses.fields(value)}
+                assert expected_by_core(scene, f"{inner}.stranger", 1) == names, inner
+                compared.add(type(value).__name__)
+    assert {part.__name__ for part in parts()}.difference(compared) == {
+        "FittedSlices", "FixedSlices", "SpeedDrive"
+    }  # fmt: skip
+
+
+def test_defaults_are_those_of_the_core() -> None:
+    row = {
+        f.name: getattr(MINIMAL, f.name)
+        for f in dataclasses.fields(s.Row)
+        if f.default is dataclasses.MISSING
+    }
+    wave = {"order": 3, "amplitude": 1e-7}
+    outer = {"angle": 0.0, "length": 1e-3, "width": 1e-3, "edge_radius": 3e-4, "on": "outer_race"}
+    document = {
+        "rows": [{**row, "outer_waviness": [wave]}],
+        "drive": {"torque": {"value": 1.0}},
+        "outer_ring": {"mass": 1.0, "support": {"x": {"spring": {}}}},
+        "inner_ring": {"mass": 1.0},
+        "contact": {"law": {"iso16281": {}}},
+        "cage": {"stiffness": 1.0},
+        "unbalances": {"a": {"ring": "inner", "moment": 1e-3}},
+        "defects": {"a": outer},
+        "probes": {
+            "a": {"motion": {"body": "outer"}},
+            "b": {"contacts": {}},
+            "c": {"cage": {}},
+            "d": {"slices": {"times": []}},
+        },
+    }
+    scene = s.Scene(
+        rows=(dataclasses.replace(MINIMAL, outer_waviness=(s.Waviness(order=3, amplitude=1e-7),)),),
+        drive=s.TorqueDrive(value=1.0),
+        outer_ring=s.Ring(mass=1.0, support=s.Support(x=s.Spring())),
+        inner_ring=s.Ring(mass=1.0),
+        cage=s.Cage(stiffness=1.0),
+        unbalances={"a": s.Unbalance(ring="inner", moment=1e-3)},
+        defects={
+            "a": s.Defect(on="outer_race", angle=0.0, length=1e-3, width=1e-3, edge_radius=3e-4)
+        },
+        probes={
+            "a": s.MotionProbe(body="outer"),
+            "b": s.ContactsProbe(),
+            "c": s.CageProbe(),
+            "d": s.SlicesProbe(times=()),
+        },
+    )
+    assert json.loads(_core.scene_from_json(json.dumps(document))) == scene.to_dict()
+
+
+def test_unknown_names_are_refused_here_too() -> None:
+    document = br.presets.wheel_bearing().to_dict()
+    document["cage"]["stranger"] = 1
+    with pytest.raises(br.SceneError, match=r"cage\.stranger"):
+        decode(s.Scene, document)
+    document = br.presets.wheel_bearing().to_dict()
+    document["friction"] = {"stranger": {}}
+    with pytest.raises(br.SceneError, match="friction"):
+        decode(s.Scene, document)
+
+
+def test_replace_reaches_every_field(wheel: s.Scene) -> None:
+    profile = s.WidthProfile(positions=(0.0,), widths=(1e-3,))
+    changed = wheel.replace({"rows[1].clearance": 5e-6, "defects.spall.width": profile})
+    assert changed.rows[1].clearance == 5e-6
+    assert changed.defects["spall"].width == profile
+    assert wheel.rows[1].clearance == 0.0
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "named"),
+    [
+        ("rows[0].clearance", float("nan"), "rows[0].clearance"),
+        ("rows[0].ball_diameter", 0.02, "rows[0].ball_diameter"),
+        ("rows[0].outer_conformity", 0.5, "rows[0].outer_conformity"),
+        ("rows[2].clearance", 0.0, "rows[2].clearance"),
+        ("loads.sideways.force", 1.0, "loads.sideways.force"),
+        ("defects.spall.length", 0.1, "defects.spall.length"),
+        ("contact.slices", s.FittedSlices(6), "contact.slices"),
+        ("drive", "full speed ahead", "drive"),
+        ("gravity", object(), "gravity"),
+    ],
+)
+def test_errors_name_the_field(wheel: s.Scene, path: str, value: object, named: str) -> None:
+    with pytest.raises(br.SceneError) as caught:
+        wheel.replace({path: value})
+    assert caught.value.path.startswith(named)
+
+
+def test_parts_cannot_be_changed(wheel: s.Scene) -> None:
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        wheel.name = "other"  # type: ignore[misc]
+    with pytest.raises(TypeError):
+        wheel.loads["x"] = wheel.loads["axial"]  # type: ignore[index]
+
+
+def test_lists_dicts_and_arrays_are_taken_in() -> None:
+    loads = {"a": s.Load(ring="inner", direction=np.array([0.0, 0.0, 1.0]), force=np.float64(1.0))}  # type: ignore[arg-type]
+    drive = s.SpeedDrive(np.int64(9))  # type: ignore[arg-type]
+    scene = s.Scene(rows=[MINIMAL], inner_ring=s.Ring(mass=1.0), drive=drive, loads=loads)  # type: ignore[arg-type]
+    loads.clear()
+    assert scene.validate() == scene
+    assert encode(scene.loads["a"], "") == {
+        "ring": "inner",
+        "direction": [0.0, 0.0, 1.0],
+        "force": 1.0,
+    }
+
+
+def test_load_reads_files(tmp_path: Any, wheel: s.Scene) -> None:
+    (tmp_path / "a.toml").write_text(wheel.to_toml())
+    (tmp_path / "a.json").write_text(wheel.to_json())
+    (tmp_path / "b.toml").write_bytes(b"\xff\xfe\x00")
+    assert s.Scene.load(tmp_path / "a.toml") == s.Scene.load(tmp_path / "a.json") == wheel
+    with pytest.raises(br.SceneError, match=r"\.toml or \.json"):
+        s.Scene.load(tmp_path / "a.yaml")
+    with pytest.raises(br.SceneError, match="UTF-8"):
+        s.Scene.load(tmp_path / "b.toml")
+    with pytest.raises(FileNotFoundError):
+        s.Scene.load(tmp_path / "c.toml")
+
+
+def test_repr_says_what_there_is(wheel: s.Scene) -> None:
+    assert repr(wheel) == (
+        "<Scene 'wheel bearing': 13 + 13 balls; loads: axial, radial; defects: spall; probes: inner, outer>"
+    )

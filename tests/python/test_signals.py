@@ -1,0 +1,167 @@
+"""Signals: a mapping with times, units and metadata, through Parquet and back."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from pathlib import Path
+
+import numpy as np
+import polars as pl
+import pytest
+
+import ballrace as br
+
+
+def test_is_a_mapping_from_names_to_arrays(out: br.Signals) -> None:
+    assert len(out) == len(out.names) == len(out.units)
+    assert tuple(out) == out.names
+    assert "outer.ay" in out
+    assert "outer.ya" not in out
+    assert out["outer.ay"].dtype == np.float64
+    assert all(values.shape == out.t.shape for values in out.values())
+    assert all(np.isfinite(out[f"outer.{name}"]).all() for name in ("x", "vx", "ax", "theta"))
+
+
+def test_times_are_uniform(out: br.Signals) -> None:
+    assert out.fs == 20_000
+    assert out.t.shape == (20,)
+    np.testing.assert_allclose(out.t, np.arange(20) / out.fs, rtol=0, atol=1e-15)
+
+
+def test_units(out: br.Signals) -> None:
+    assert (out.units["outer.x"], out.units["outer.vy"], out.units["outer.ay"]) == (
+        "m",
+        "m/s",
+        "m/s^2",
+    )
+
+
+def test_a_wrong_name_gets_the_near_ones(out: br.Signals) -> None:
+    with pytest.raises(KeyError, match=r"outer\.ay"):
+        out["outer_ay"]
+    with pytest.raises(KeyError, match=r"no column"):
+        out["zzz"]
+
+
+def test_statistics_and_provenance(out: br.Signals) -> None:
+    assert out.stats.accepted > 0
+    assert out.stats["nfev"] == out.stats.nfev
+    assert "accepted" in dir(out.stats)
+    with pytest.raises(AttributeError, match="accepted"):
+        _ = out.stats.acepted
+    with pytest.raises(AttributeError):
+        out.stats.accepted = 0
+    assert len(out.provenance) > 0
+
+
+def test_scene_is_the_one_that_ran(out: br.Signals, wheel: br.Scene) -> None:
+    assert out.scene == wheel.replace({"probes": out.scene.to_dict()["probes"]})
+    assert "slices" in out.scene.probes
+
+
+def test_slices_are_a_table(out: br.Signals) -> None:
+    table = out.slices
+    assert table is not None
+    assert {
+        "probe",
+        "time",
+        "row",
+        "ball",
+        "race",
+        "zeta",
+        "z",
+        "width",
+        "penetration",
+        "force",
+    } == set(table.columns)
+    assert set(table["ball"].to_list()) <= {1}
+
+
+def test_no_slices_without_a_probe(wheel: br.Scene) -> None:
+    assert br.simulate(wheel, duration=1e-4, start="rolling").slices is None
+
+
+def test_repr_is_short(out: br.Signals) -> None:
+    text = repr(out)
+    assert "wheel bearing" in text
+    assert "20 samples" in text
+    assert len(text.splitlines()) < 12
+
+
+def test_to_polars(out: br.Signals) -> None:
+    table = out.to_polars()
+    assert table.columns == ["t", *out.names]
+    assert table.height == out.t.size
+
+
+def same(one: br.Signals, two: br.Signals) -> None:
+    np.testing.assert_array_equal(one.t, two.t)
+    assert one.names == two.names
+    for name in one.names:
+        np.testing.assert_array_equal(one[name], two[name])
+    assert (one.fs, one.units, one.scene) == (two.fs, two.units, two.scene)
+    assert (one.stats, one.provenance) == (two.stats, two.provenance)
+    assert one.slices is not None
+    assert two.slices is not None
+    assert one.slices.equals(two.slices)
+
+
+def test_parquet_round_trip(out: br.Signals, tmp_path: Path) -> None:
+    path = tmp_path / "run.parquet"
+    out.write_parquet(path)
+    same(br.Signals.read_parquet(path), out)
+    assert [p.name for p in tmp_path.iterdir()] == ["run.parquet"]
+    # Anyone can read it without this package.
+    assert pl.read_parquet(path).columns == ["t", *out.names]
+    assert pl.read_parquet_metadata(path)["sampling_rate"] == "20000.0"
+
+
+def test_parquet_replaces_a_file(out: br.Signals, tmp_path: Path) -> None:
+    path = tmp_path / "run.parquet"
+    path.write_text("old")
+    out.write_parquet(path)
+    same(br.Signals.read_parquet(path), out)
+
+
+def test_pickle_and_copy(out: br.Signals) -> None:
+    same(pickle.loads(pickle.dumps(out)), out)
+    same(copy.deepcopy(out), out)
+
+
+def test_failed_writes_leave_nothing(
+    out: br.Signals, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with pytest.raises(FileNotFoundError):
+        out.write_parquet(tmp_path / "nowhere" / "run.parquet")
+    with pytest.raises(IsADirectoryError):
+        out.write_parquet(tmp_path)
+
+    def disk_full(_self: pl.DataFrame, path: Path, **_: object) -> None:
+        path.write_text("half")
+        raise OSError(28, "No space left on device")
+
+    old = tmp_path / "run.parquet"
+    old.write_text("old")
+    _ = out.slices
+    plain = br.Signals(
+        fs=out.fs, t=out.t, columns=out, units=out.units, scene=out.scene.to_json(), stats={}, provenance={}
+    )  # fmt: skip
+    monkeypatch.setattr(pl.DataFrame, "write_parquet", disk_full)
+    with pytest.raises(OSError, match="space"):
+        plain.write_parquet(old)
+    assert old.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [old]
+
+
+def test_other_files_are_refused(tmp_path: Path) -> None:
+    text = tmp_path / "text.parquet"
+    text.write_text("not parquet at all")
+    with pytest.raises(br.SceneError, match="Parquet"):
+        br.Signals.read_parquet(text)
+    foreign = tmp_path / "foreign.parquet"
+    pl.DataFrame({"a": [1.0]}).write_parquet(foreign)
+    with pytest.raises(br.SceneError, match="ballrace"):
+        br.Signals.read_parquet(foreign)
+    with pytest.raises(FileNotFoundError):
+        br.Signals.read_parquet(tmp_path / "none.parquet")
