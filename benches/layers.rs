@@ -11,18 +11,10 @@ use criterion::{Criterion, criterion_group, criterion_main};
 
 fn layers(c: &mut Criterion) {
     let cases = [
-        (
-            "iso 50 slices",
-            NormalLaw::default(),
-            Some(Slices::Fixed(50)),
-        ),
-        ("iso 100 slices", NormalLaw::default(), None),
-        (
-            "iso 400 slices",
-            NormalLaw::default(),
-            Some(Slices::Fixed(400)),
-        ),
-        ("hertz 8 nodes", NormalLaw::Hertz, None),
+        ("iso 50 slices", NormalLaw::default(), Slices::Fixed(50)),
+        ("iso 6 nodes", NormalLaw::default(), Slices::Fitted(6)),
+        ("iso 400 slices", NormalLaw::default(), Slices::Fixed(400)),
+        ("hertz 6 nodes", NormalLaw::Hertz, Slices::Fitted(6)),
     ];
     for (name, law, slices) in cases {
         let mut scene = presets::wheel_bearing(3000.0);

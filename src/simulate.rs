@@ -354,7 +354,7 @@ fn broken(model: &Model, failure: &Failure) -> Error {
             "the step fell below the resolution of time; soften contacts, raise slip_speed or rtol"
         }
         FailureKind::TooManyRejections => {
-            "ten steps in a row were rejected; raise slip_speed or rtol"
+            "too many steps in a row were rejected; raise slip_speed or rtol"
         }
         FailureKind::Invalid(invalid) => invalid.0,
     };

@@ -7,7 +7,7 @@ use ballrace::{Run, simulate};
 
 fn bits(threads: usize) -> Vec<u64> {
     let mut scene = presets::wheel_bearing(3000.0);
-    scene.contact.slices = Some(Slices::Fixed(50));
+    scene.contact.slices = Slices::Fixed(50);
     let run = Run {
         duration: 2e-3,
         threads,

@@ -368,7 +368,7 @@ class FixedSlices(Variant, tag="fixed", wraps=True):
 
 @dataclass(frozen=True)
 class FittedSlices(Variant, tag="fitted", wraps=True):
-    """Quadrature nodes on the zone that touches; only with the Hertz law.
+    """Quadrature nodes on every smooth piece of the zone that touches.
 
     Attributes
     ----------
@@ -391,8 +391,8 @@ class Contact(Part):
     ----------
     law : NormalLaw
         Force of a slice from its penetration.
-    slices : Slices or None
-        Where the ball is cut; None: 100 fixed slices for the ISO law, 8 fitted nodes for the Hertz law.
+    slices : Slices
+        Where the ball is cut; 6 fitted nodes by default.
     damping : float
         Hunt-Crossley damping [s/m]: restitution is about ``1 - damping * v`` at an impact speed v.
     clamp_pull : bool
@@ -400,7 +400,7 @@ class Contact(Part):
     """
 
     law: NormalLaw = Iso16281()
-    slices: Slices | None = None
+    slices: Slices = FittedSlices(6)
     damping: float = 0.2
     clamp_pull: bool = True
 

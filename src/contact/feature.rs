@@ -39,59 +39,143 @@ struct Feature {
     arm_ring: V2,
 }
 
-impl<S: Sink> Contact<'_, S> {
-    /// One slice, with its healthy penetration, against whatever it meets.
-    pub(super) fn slice(&mut self, node: Node) {
+/// One feature of the ring against one of the ball.
+#[derive(Clone, Copy)]
+struct Meeting {
+    feature: Feature,
+    /// Drops of the ball's side.
+    ball_drops: (f64, f64),
+    tan: f64,
+}
+
+impl Meeting {
+    fn smooth(feature: Feature, node: &Node) -> Self {
+        Self {
+            feature,
+            ball_drops: (0.0, f64::INFINITY),
+            tan: node.zeta / node.rho,
+        }
+    }
+
+    /// The four drops of the law's argument and their signs; an infinite one does not count.
+    fn terms(&self) -> [(f64, f64); 4] {
+        let ((a, b), (p, q)) = (self.feature.drops, self.ball_drops);
+        [(1.0, a + p), (-1.0, a + q), (-1.0, b + p), (1.0, b + q)]
+    }
+}
+
+/// Penetrations of all elements that a place may meet; their zeros end the elements' zones.
+pub(super) struct Levels {
+    pub(super) values: [f64; MOST_LEVELS],
+    pub(super) count: usize,
+}
+
+/// Levels that are kept; a bed of floor circles can have more, at some loss of accuracy.
+const MOST_LEVELS: usize = 24;
+
+impl Contact<'_> {
+    /// One slice against whatever it meets.
+    pub(super) fn slice<S: Sink>(&self, node: &Node, sink: &mut S) {
         if node.depth <= 0.0 {
             return;
         }
-        let pair = self.pair;
-        let sigma = pair.race.sigma;
-        if !pair.race.reaches(node.z) {
-            self.sink.truncated();
+        if !self.pair.race.reaches(node.z) {
+            sink.truncated();
             return;
         }
-        let s_race = self.race_penetration(&node);
+        self.meetings(node, &mut |meeting| self.press(node, meeting, sink));
+    }
+
+    /// Whether a surface is absent where the slice meets it.
+    pub(super) fn is_open(&self, node: &Node) -> bool {
+        let direction = self.n * self.pair.race.sigma;
+        self.ring_arc(node).is_some() || self.ball_arc(node, direction).is_some()
+    }
+
+    /// Penetrations of the elements at a place, touching or not.
+    pub(super) fn levels(&self, node: &Node) -> Levels {
+        let mut levels = Levels {
+            values: [0.0; MOST_LEVELS],
+            count: 0,
+        };
+        let share = self.drop_share();
+        self.meetings(node, &mut |meeting| {
+            for (_, drop) in meeting.terms() {
+                if drop < f64::INFINITY && levels.count < MOST_LEVELS {
+                    levels.values[levels.count] = node.depth - share * drop;
+                    levels.count += 1;
+                }
+            }
+        });
+        levels
+    }
+
+    /// Fall of the law's penetration over that of the geometry: 1, or cos α' for the Hertz law.
+    fn drop_share(&self) -> f64 {
+        self.common.map_or(1.0, |(cos, _)| cos)
+    }
+
+    fn ring_arc(&self, node: &Node) -> Option<Arc> {
+        let faults = &self.pair.faults;
+        if self.ring_open {
+            absent(faults, node.z, node.torus_radius, self.on_ring)
+        } else {
+            None
+        }
+    }
+
+    fn ball_arc(&self, node: &Node, direction: V2) -> Option<Arc> {
+        if !self.ball_open {
+            return None;
+        }
+        let angle = direction.y.atan2(direction.x) - self.b.theta;
+        absent(&self.ball.faults, node.zeta, node.rho, angle)
+    }
+
+    /// All pairs of features that stand against each other at a slice.
+    fn meetings(&self, node: &Node, visit: &mut impl FnMut(&Meeting)) {
+        let s_race = self.race_penetration(node);
         let race = |drops| Feature {
             shape: Shape::Race,
-            n_e: self.n * sigma,
+            n_e: self.n * self.pair.race.sigma,
             s: s_race,
             drops,
             arm_ring: self.n * (node.torus_radius + self.wave),
         };
-        let arc = if self.ring_open {
-            absent(&pair.faults, node.z, node.torus_radius, self.on_ring)
-        } else {
-            None
-        };
-        let Some(arc) = arc else {
-            self.feature(&node, &race((0.0, f64::INFINITY)));
+        let Some(arc) = self.ring_arc(node) else {
+            self.feature(node, &race((0.0, f64::INFINITY)), visit);
             return;
         };
-        let Arc { low, high } = arc;
-        let first = self.ring_circle(&node, &low, 0.0);
-        let second = self.ring_circle(&node, &high, 0.0);
+        let [first, second] = [arc.low, arc.high].map(|edge| self.ring_circle(node, &edge, 0.0));
         let (drop_1, drop_2) = (s_race - first.s, s_race - second.s);
-        let behind = race((drop_1 + drop_2, f64::INFINITY));
+        let both = drop_1 + drop_2;
         self.feature(
-            &node,
+            node,
             &Feature {
-                drops: (drop_1, drop_1 + drop_2),
+                drops: (drop_1, both),
                 ..first
             },
+            visit,
         );
         self.feature(
-            &node,
+            node,
             &Feature {
-                drops: (drop_2, drop_1 + drop_2),
+                drops: (drop_2, both),
                 ..second
             },
+            visit,
         );
-        self.feature(&node, &behind);
-        for (edge, depth) in floors(&pair.faults, node.z, node.torus_radius, self.on_ring, &arc) {
-            let circle = self.ring_circle(&node, &edge, depth);
+        self.feature(node, &race((both, f64::INFINITY)), visit);
+        for (edge, depth) in floors(
+            &self.pair.faults,
+            node.z,
+            node.torus_radius,
+            self.on_ring,
+            &arc,
+        ) {
+            let circle = self.ring_circle(node, &edge, depth);
             let drops = (s_race - circle.s, f64::INFINITY);
-            self.feature(&node, &Feature { drops, ..circle });
+            self.feature(node, &Feature { drops, ..circle }, visit);
         }
     }
 
@@ -116,32 +200,41 @@ impl<S: Sink> Contact<'_, S> {
     }
 
     /// A feature of the ring against the ball, smooth or not.
-    fn feature(&mut self, node: &Node, feature: &Feature) {
-        if node.depth - self.drop_share * feature.drops.0 <= 0.0 {
-            return;
-        }
-        let faults = &self.ball.faults;
-        let direction = || feature.n_e.y.atan2(feature.n_e.x) - self.b.theta;
-        let arc = if self.ball_open {
-            absent(faults, node.zeta, node.rho, direction())
-        } else {
-            None
-        };
-        let smooth = node.zeta / node.rho;
-        let Some(arc) = arc else {
-            self.press(node, feature, (0.0, f64::INFINITY), smooth);
+    fn feature(&self, node: &Node, feature: &Feature, visit: &mut impl FnMut(&Meeting)) {
+        let Some(arc) = self.ball_arc(node, feature.n_e) else {
+            visit(&Meeting::smooth(*feature, node));
             return;
         };
-        let recessed = floors(faults, node.zeta, node.rho, direction(), &arc);
-        let (first, tan_1) = self.ball_circle(node, feature, &arc.low, 0.0);
-        let (second, tan_2) = self.ball_circle(node, feature, &arc.high, 0.0);
-        let (drop_1, drop_2) = (feature.s - first.s, feature.s - second.s);
-        self.press(node, &first, (drop_1, drop_1 + drop_2), tan_1);
-        self.press(node, &second, (drop_2, drop_1 + drop_2), tan_2);
-        self.press(node, feature, (drop_1 + drop_2, f64::INFINITY), smooth);
-        for (edge, depth) in recessed {
-            let (circle, tan) = self.ball_circle(node, feature, &edge, depth);
-            self.press(node, &circle, (feature.s - circle.s, f64::INFINITY), tan);
+        let meet = |edge: &Edge, depth: f64| {
+            let (met, tan) = self.ball_circle(node, feature, edge, depth);
+            (feature.s - met.s, met, tan)
+        };
+        let (drop_1, first, tan_1) = meet(&arc.low, 0.0);
+        let (drop_2, second, tan_2) = meet(&arc.high, 0.0);
+        let both = drop_1 + drop_2;
+        visit(&Meeting {
+            feature: first,
+            ball_drops: (drop_1, both),
+            tan: tan_1,
+        });
+        visit(&Meeting {
+            feature: second,
+            ball_drops: (drop_2, both),
+            tan: tan_2,
+        });
+        let ball_drops = (both, f64::INFINITY);
+        visit(&Meeting {
+            ball_drops,
+            ..Meeting::smooth(*feature, node)
+        });
+        let angle = feature.n_e.y.atan2(feature.n_e.x) - self.b.theta;
+        for (edge, depth) in floors(&self.ball.faults, node.zeta, node.rho, angle, &arc) {
+            let (drop, circle, tan) = meet(&edge, depth);
+            visit(&Meeting {
+                feature: circle,
+                ball_drops: (drop, f64::INFINITY),
+                tan,
+            });
         }
     }
 
@@ -198,19 +291,19 @@ impl<S: Sink> Contact<'_, S> {
     }
 
     /// Elastic force, damping and friction of one feature of the ring against one of the ball.
-    fn press(&mut self, node: &Node, feature: &Feature, ball_drops: (f64, f64), tan: f64) {
+    fn press<S: Sink>(&self, node: &Node, meeting: &Meeting, sink: &mut S) {
         let pair = self.pair;
-        let share = self.drop_share;
+        let share = self.drop_share();
+        let (feature, tan) = (&meeting.feature, meeting.tan);
         let split = |law: &dyn Fn(f64) -> f64| {
-            let at = |drop: f64| {
+            let at = |(sign, drop): (f64, f64)| {
                 if drop < f64::INFINITY {
-                    law(node.depth - share * drop)
+                    sign * law(node.depth - share * drop)
                 } else {
                     0.0
                 }
             };
-            let ((a, b), (p, q)) = (feature.drops, ball_drops);
-            at(a + p) - at(a + q) - at(b + p) + at(b + q)
+            meeting.terms().into_iter().map(at).sum::<f64>()
         };
         let elastic = split(&|depth| pair.law.force(depth, node.width));
         if elastic <= 0.0 {
@@ -231,7 +324,7 @@ impl<S: Sink> Contact<'_, S> {
             zeta: node.zeta,
             z: node.z,
             width: node.width,
-            depth: node.depth - share * (feature.drops.0 + ball_drops.0),
+            depth: node.depth - share * (feature.drops.0 + meeting.ball_drops.0),
             elastic,
             normal,
             energy: if S::ENERGY {
@@ -266,7 +359,7 @@ impl<S: Sink> Contact<'_, S> {
             touch.slip = slip;
             touch.friction_power = factor * slip * slip;
         }
-        self.sink.touch(&touch);
+        sink.touch(&touch);
     }
 }
 

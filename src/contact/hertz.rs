@@ -3,6 +3,9 @@
 use super::elliptic;
 use crate::scene::Material;
 
+/// Exponent of the local penetration.
+pub const EXPONENT: f64 = 1.0;
+
 /// The slice law q(τ) = k' (δ − κ τ²/2) dτ (model section 4), which integrates to F = K δ^{3/2} over a
 /// half-length a = c_a F^{1/3}.
 ///

@@ -1,5 +1,8 @@
 //! The paper's law, after the roller slices of ISO/TS 16281: F = (C/D) Σ s^{10/9} Δζ.
 
+/// Exponent of the penetration.
+pub const EXPONENT: f64 = 10.0 / 9.0;
+
 /// Equations (2) and (3) without damping.
 ///
 /// | symbol | meaning | unit |
@@ -34,7 +37,7 @@ impl Iso16281 {
     /// Elastic force \[N\] at a penetration > 0 \[m\] of a slice of a width \[m\].
     #[inline]
     pub fn force(&self, depth: f64, width: f64) -> f64 {
-        self.density * width * depth.powf(10.0 / 9.0)
+        self.density * width * depth.powf(EXPONENT)
     }
 
     /// Elastic energy \[J\].

@@ -25,7 +25,7 @@ pub use friction::Friction;
 pub use law::Law;
 pub use pair::{BallSide, Pair};
 pub use race::{Torus, Waves};
-pub use slices::Slices;
+pub use slices::{Rules, Slices};
 
 /// A vector in the x-y plane.
 pub type V2 = Vector2<f64>;

@@ -1,6 +1,6 @@
 //! One ball on one race: finds the zone that touches, and lets `walk` and `feature` do the rest.
 
-use super::walk::Gap;
+use super::walk::Line;
 use super::{Fault, Friction, Law, Motion, Sink, Slices, Torus, V2, Waves};
 
 /// What all contacts of a row's balls with one race share.
@@ -59,7 +59,15 @@ impl Pair {
         } - b.theta;
         let ring_open = self.faults.iter().any(|fault| fault.in_reach(on_ring));
         let ball_near = ball.faults.iter().any(|fault| fault.in_reach(on_ball));
-        let mut contact = Contact {
+        let (line, common) = match &self.law {
+            Law::Iso16281(_) => (Line::along_ball(&meridian, ball.radius), None),
+            Law::Hertz(law) => (
+                Line::along_tangent(law, &meridian, ball.radius),
+                Some(meridian.normal()),
+            ),
+        };
+        let Some(line) = line else { return };
+        let contact = Contact {
             pair: self,
             ball,
             b,
@@ -72,37 +80,14 @@ impl Pair {
             ring_open,
             // A ring edge is met in another direction than the race.
             ball_open: ball_near || ring_open && !ball.faults.is_empty(),
-            drop_share: 1.0,
-            common: None,
-            sink,
+            common,
         };
-        match (&self.law, &self.slices) {
-            (Law::Iso16281(_), _) => contact.iso_slices(&meridian),
-            (Law::Hertz(law), slices) if meridian.e > 0.0 => {
-                let half = law.half_zone(meridian.approach(ball.radius));
-                let (e, c, l) = (meridian.e, meridian.c, meridian.distance());
-                let direction = (e / l, -c / l);
-                contact.drop_share = direction.0;
-                contact.common = Some(direction);
-                let gap = Gap {
-                    approach: l + ball.radius - meridian.r,
-                    curvature: law.curvature,
-                };
-                match slices {
-                    Slices::Fixed(count) => contact.hertz_fixed(&gap, half, *count),
-                    Slices::Fitted(nodes) => {
-                        let ball_faults: &[Fault] = if ball_near { &ball.faults } else { &[] };
-                        contact.hertz_fitted(&gap, half, nodes, on_ball, ball_faults);
-                    }
-                }
-            }
-            (Law::Hertz(_), _) => {}
-        }
+        contact.walk(&line, sink);
     }
 }
 
 /// A contact being evaluated.
-pub(super) struct Contact<'a, S> {
+pub(super) struct Contact<'a> {
     pub(super) pair: &'a Pair,
     pub(super) ball: &'a BallSide,
     pub(super) b: &'a Motion,
@@ -117,9 +102,6 @@ pub(super) struct Contact<'a, S> {
     pub(super) wave: f64,
     pub(super) ring_open: bool,
     pub(super) ball_open: bool,
-    /// Fall of the law's penetration over that of the geometry: 1, or cos α' for the Hertz law.
-    pub(super) drop_share: f64,
     /// (cos α', sin α') of the common normal for the Hertz law.
     pub(super) common: Option<(f64, f64)>,
-    pub(super) sink: &'a mut S,
 }

@@ -75,12 +75,19 @@ impl Meridian {
         self.distance() + radius - self.r
     }
 
+    /// (cos α', sin α') of the common normal, out of the ball.
+    pub fn normal(&self) -> (f64, f64) {
+        let l = self.distance();
+        (self.e / l, -self.c / l)
+    }
+
     /// Ends of the touching zone along ζ for a ball of the given radius, in closed form: where the two
-    /// circles cut. None without contact; the whole ball where a circle cuts below the equator.
-    pub fn zone(&self, radius: f64) -> Option<(f64, f64)> {
+    /// circles cut; and whether they do: the end is the ball's own where a circle cuts below the equator.
+    /// None without contact.
+    pub fn zone(&self, radius: f64) -> Option<[(f64, bool); 2]> {
         if self.e <= 0.0 {
             // The ball is not in front of the groove's bottom: let every slice decide for itself.
-            return Some((-radius, radius));
+            return Some([(-radius, false), (radius, false)]);
         }
         let l = self.distance();
         if l + radius <= self.r {
@@ -92,12 +99,12 @@ impl Meridian {
         let end = |side: f64| {
             let height = -x * cos + side * h * sin;
             if height > 0.0 {
-                x * sin + side * h * cos
+                (x * sin + side * h * cos, true)
             } else {
-                side * radius
+                (side * radius, false)
             }
         };
-        Some((end(-1.0), end(1.0)))
+        Some([end(-1.0), end(1.0)])
     }
 }
 

@@ -1,4 +1,4 @@
-//! Where a ball is cut: fixed slices of equal width, or quadrature nodes on the zone that touches.
+//! Where a ball is cut: fixed slices of equal width, or quadrature nodes fitted to the zone that touches.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -7,39 +7,114 @@ use nalgebra::{DMatrix, SymmetricEigen};
 pub enum Slices {
     /// n slices of width D/n over the ball, at fixed places in it.
     Fixed(usize),
-    /// Nodes in −1 … 1 and weights that sum to 2, laid on every smooth piece of the zone.
-    Fitted(Vec<(f64, f64)>),
+    /// Nodes on every smooth piece of the zone.
+    Fitted(Rules),
 }
 
-impl Slices {
-    /// m Gauss–Legendre nodes a piece.
-    ///
-    /// Golub and Welsch: the eigenvalues of the recurrence's Jacobi matrix (Math. Comp. 23 (1969) 221).
+/// Quadrature rules on −1 … 1 for forces that vanish at some ends like a power of the penetration.
+///
+/// Nodes and weights (x, w) are such that ∫ f dx ≈ Σ w f(x) where f is smooth times (1 ± x)^β at the ends
+/// named; the weight function is divided out, so one sum serves all.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rules {
+    both: Vec<(f64, f64)>,
+    low: Vec<(f64, f64)>,
+    high: Vec<(f64, f64)>,
+    neither: Vec<(f64, f64)>,
+}
+
+impl Rules {
+    /// m nodes a piece for a law of exponent β.
     ///
     /// ```
-    /// use ballrace::contact::Slices;
-    /// let Slices::Fitted(nodes) = Slices::fitted(3) else { unreachable!() };
-    /// // Three nodes integrate x⁴ over −1 … 1 exactly: 2/5.
-    /// let sum: f64 = nodes.iter().map(|(x, w)| w * x.powi(4)).sum();
-    /// assert!((sum - 0.4).abs() < 1e-15);
+    /// use ballrace::contact::slices::Rules;
+    /// // ∫ (1 − x²)^{10/9} dx = √π Γ(19/9) / Γ(47/18).
+    /// let rules = Rules::new(4, 10.0 / 9.0);
+    /// let f = |x: f64| (1.0 - x * x).powf(10.0 / 9.0);
+    /// let sum: f64 = rules.on([true, true]).iter().map(|(x, w)| w * f(*x)).sum();
+    /// assert!((sum - 1.293_623_271_07).abs() < 1e-11, "{sum}");
     /// ```
-    pub fn fitted(m: usize) -> Self {
-        let recurrence = DMatrix::from_fn(m, m, |i, j| {
-            if i.abs_diff(j) == 1 {
-                let k = i.max(j) as f64;
-                k / (4.0 * k * k - 1.0).sqrt()
-            } else {
-                0.0
-            }
-        });
-        let eigen = SymmetricEigen::new(recurrence);
-        let mut nodes: Vec<(f64, f64)> = eigen
-            .eigenvalues
-            .iter()
-            .zip(eigen.eigenvectors.column_iter())
-            .map(|(x, v)| (*x, 2.0 * v[0] * v[0]))
-            .collect();
-        nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Self::Fitted(nodes)
+    pub fn new(m: usize, exponent: f64) -> Self {
+        let one_sided = jacobi(
+            m,
+            0.0,
+            exponent,
+            2_f64.powf(exponent + 1.0) / (exponent + 1.0),
+        );
+        let high = one_sided.iter().rev().map(|(x, w)| (-x, *w)).collect();
+        Self {
+            both: jacobi(m, exponent, exponent, both_sided_mass(exponent)),
+            low: one_sided,
+            high,
+            neither: jacobi(m, 0.0, 0.0, 2.0),
+        }
     }
+
+    /// The rule for a piece whose force vanishes at its low end, its high end, both or neither.
+    pub fn on(&self, sealed: [bool; 2]) -> &[(f64, f64)] {
+        match sealed {
+            [true, true] => &self.both,
+            [true, false] => &self.low,
+            [false, true] => &self.high,
+            [false, false] => &self.neither,
+        }
+    }
+
+    /// Nodes a piece.
+    pub fn count(&self) -> usize {
+        self.both.len()
+    }
+}
+
+/// ∫ (1 − x²)^β dx = 2 ∫₀¹ … by the one-sided rule, on which (1 + x)^β is smooth.
+fn both_sided_mass(exponent: f64) -> f64 {
+    let mass = 2_f64.powf(exponent + 1.0) / (exponent + 1.0);
+    let half: f64 = jacobi(24, 0.0, exponent, mass)
+        .into_iter()
+        // y = −1 … 1 lies over x = −1 … 0, x = (y − 1)/2: (1 + x) = (1 + y)/2, (1 − x) = (3 − y)/2.
+        .map(|(y, w)| {
+            0.5 * w * f64::midpoint(1.0, y).powf(exponent) * ((3.0 - y) / 2.0).powf(exponent)
+        })
+        .sum();
+    2.0 * half
+}
+
+/// Gauss–Jacobi nodes for the weight (1 − x)^α (1 + x)^β of the given mass, divided by that weight.
+///
+/// Golub and Welsch: the eigenvalues of the recurrence's Jacobi matrix (Math. Comp. 23 (1969) 221).
+fn jacobi(m: usize, alpha: f64, beta: f64, mass: f64) -> Vec<(f64, f64)> {
+    let sum = alpha + beta;
+    let matrix = DMatrix::from_fn(m, m, |i, j| {
+        let k = i.max(j) as f64;
+        let c = 2.0 * k + sum;
+        if i == j {
+            if alpha == beta {
+                0.0
+            } else {
+                (beta * beta - alpha * alpha) / (c * (c + 2.0))
+            }
+        } else if i.abs_diff(j) == 1 {
+            // At k = 1 the factors k + α + β and c − 1 are the same.
+            let shared = if i.max(j) == 1 {
+                1.0
+            } else {
+                (k + sum) / (c - 1.0)
+            };
+            (4.0 * k * (k + alpha) * (k + beta) * shared / (c * c * (c + 1.0))).sqrt()
+        } else {
+            0.0
+        }
+    });
+    let eigen = SymmetricEigen::new(matrix);
+    let mut nodes: Vec<(f64, f64)> = eigen
+        .eigenvalues
+        .iter()
+        .zip(eigen.eigenvectors.column_iter())
+        .map(|(&x, v)| {
+            let weight = (1.0 - x).powf(alpha) * (1.0 + x).powf(beta);
+            (x, mass * v[0] * v[0] / weight)
+        })
+        .collect();
+    nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    nodes
 }

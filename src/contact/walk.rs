@@ -1,18 +1,70 @@
-//! Walks the slices of a contact: fixed ones of either law, or the Hertz law's fitted nodes.
+//! Walks the slices of a contact: fixed ones, or nodes fitted to the zone that touches.
+//!
+//! Ball and groove are two circles in the meridional plane, so the ends of the zone are known in closed form,
+//! the penetration vanishes there linearly and the force with the law's exponent. Gauss–Jacobi nodes for that
+//! weight on the whole zone converge exponentially (model section 10). Where the end of a defect or a shoulder
+//! cuts the zone, the outer pieces keep the weight at their free end only. Inside a defect the elements have
+//! zones of their own: their ends are searched for, and plain Gauss nodes lie on every smooth piece.
 
+use super::hertz::Hertz;
 use super::pair::Contact;
 use super::race::Meridian;
+use super::slices::Rules;
 use super::{Fault, Sink, Slices};
 
-/// Penetration δ − κ τ²/2 of the Hertz law.
-pub(super) struct Gap {
-    pub(super) approach: f64,
-    pub(super) curvature: f64,
+/// The line along which a contact is cut: ζ = middle + u · cos, over the zone low … high of u.
+pub(super) struct Line {
+    middle: f64,
+    cos: f64,
+    low: f64,
+    high: f64,
+    /// Whether the penetration vanishes at the zone's ends.
+    sealed: [bool; 2],
+    depth: Depth,
 }
 
-impl Gap {
-    fn at(&self, tau: f64) -> f64 {
-        self.approach - self.curvature * tau * tau / 2.0
+/// Penetration that the law sees.
+enum Depth {
+    /// That of the slice in the plane, s_k.
+    Race,
+    /// δ − κ u²/2 of the Hertz law.
+    Gap { approach: f64, curvature: f64 },
+}
+
+impl Line {
+    /// Along ζ: the ISO law.
+    pub(super) fn along_ball(meridian: &Meridian, radius: f64) -> Option<Self> {
+        let [(low, low_sealed), (high, high_sealed)] = meridian.zone(radius)?;
+        let sealed = [low_sealed, high_sealed];
+        Some(Self {
+            middle: 0.0,
+            cos: 1.0,
+            low,
+            high,
+            sealed,
+            depth: Depth::Race,
+        })
+    }
+
+    /// Along the common tangent, whose normal has the angle α': the Hertz law.
+    pub(super) fn along_tangent(law: &Hertz, meridian: &Meridian, radius: f64) -> Option<Self> {
+        let approach = meridian.approach(radius);
+        if meridian.e <= 0.0 || approach <= 0.0 {
+            return None;
+        }
+        let (cos, sin) = meridian.normal();
+        let half = law.half_zone(approach);
+        Some(Self {
+            middle: radius * sin,
+            cos,
+            low: -half,
+            high: half,
+            sealed: [true; 2],
+            depth: Depth::Gap {
+                approach,
+                curvature: law.curvature,
+            },
+        })
     }
 }
 
@@ -30,72 +82,65 @@ pub(super) struct Node {
     pub(super) torus_radius: f64,
 }
 
-impl<S: Sink> Contact<'_, S> {
-    pub(super) fn iso_slices(&mut self, meridian: &Meridian) {
-        let Slices::Fixed(count) = self.pair.slices else {
-            return;
-        };
-        let radius = self.ball.radius;
-        let Some((low, high)) = meridian.zone(radius) else {
-            return;
-        };
-        let width = 2.0 * radius / count as f64;
-        for zeta in fixed_places(radius, count, low, high) {
-            let Some(node) = self.node(zeta, width) else {
-                continue;
-            };
-            let depth = self.race_penetration(&node);
-            self.slice(Node { depth, ..node });
+/// A stretch of the zone and how the penetration ends on both sides.
+#[derive(Clone, Copy)]
+struct Piece {
+    low: f64,
+    high: f64,
+    sealed: [bool; 2],
+}
+
+/// Places at which a piece inside a defect is looked at for the ends of the elements' zones.
+const LOOKS: usize = 12;
+/// Ends of zones in one piece that are kept; a bed of floor circles can have more, at some loss of accuracy.
+const MOST_ENDS: usize = 16;
+
+impl Contact<'_> {
+    /// Hands the forces of all slices to the sink.
+    pub(super) fn walk<S: Sink>(&self, line: &Line, sink: &mut S) {
+        match &self.pair.slices {
+            Slices::Fixed(count) => self.fixed(line, *count, sink),
+            Slices::Fitted(rules) => self.fitted(line, rules, sink),
         }
     }
 
-    pub(super) fn hertz_fixed(&mut self, gap: &Gap, half: f64, count: usize) {
-        let (cos, sin) = self.drop_common();
+    fn fixed<S: Sink>(&self, line: &Line, count: usize, sink: &mut S) {
         let radius = self.ball.radius;
         let width = 2.0 * radius / count as f64;
-        let (low, high) = (radius * sin - half * cos, radius * sin + half * cos);
+        let (low, high) = (
+            line.middle + line.low * line.cos,
+            line.middle + line.high * line.cos,
+        );
         for zeta in fixed_places(radius, count, low.max(-radius), high.min(radius)) {
-            let tau = (zeta - radius * sin) / cos;
-            let Some(node) = self.node(zeta, width / cos) else {
-                continue;
-            };
-            self.slice(Node {
-                depth: gap.at(tau),
-                ..node
-            });
+            let u = (zeta - line.middle) / line.cos;
+            if let Some(node) = self.node(line, u, width / line.cos) {
+                self.slice(&node, sink);
+            }
         }
     }
 
-    /// The zone, cut at the ends of shoulders and of defects in reach, with nodes on every piece.
-    pub(super) fn hertz_fitted(
-        &mut self,
-        gap: &Gap,
-        half: f64,
-        nodes: &[(f64, f64)],
-        on_ball: f64,
-        ball_faults: &[Fault],
-    ) {
-        let (cos, sin) = self.drop_common();
-        let middle = self.ball.radius * sin;
-        let pair = self.pair;
-        let (on_ring, dz) = (self.on_ring, self.b.z - self.r.z);
-        let tau_of = move |zeta: f64| (zeta - middle) / cos;
+    /// The zone in pieces between the ends of shoulders and of defects in reach.
+    fn fitted<S: Sink>(&self, line: &Line, rules: &Rules, sink: &mut S) {
+        let race = &self.pair.race;
+        let dz = self.b.z - self.r.z;
+        let shoulders = [race.centre + race.lowest, race.centre + race.highest];
         let ends = |fault: &Fault| {
             [
                 fault.middle - fault.length / 2.0,
                 fault.middle + fault.length / 2.0,
             ]
         };
-        let race = &pair.race;
-        let shoulders = [race.centre + race.lowest, race.centre + race.highest];
-        let on_race = pair
+        let on_race = self
+            .pair
             .faults
             .iter()
-            .filter(|fault| fault.in_reach(on_ring))
+            .filter(|f| f.in_reach(self.on_ring))
             .flat_map(ends);
-        let on_ball = ball_faults
+        let on_ball = self
+            .ball
+            .faults
             .iter()
-            .filter(|fault| fault.in_reach(on_ball))
+            .filter(|_| self.ball_open)
             .flat_map(ends);
         // Few, so the next one is found by looking at all.
         let cuts = shoulders
@@ -103,44 +148,110 @@ impl<S: Sink> Contact<'_, S> {
             .chain(on_race)
             .map(|z| z - dz)
             .chain(on_ball)
-            .map(tau_of);
-        let mut low = -half;
-        while low < half {
-            let high = cuts.clone().filter(|&tau| tau > low).fold(half, f64::min);
-            let (centre, radius) = (f64::midpoint(low, high), (high - low) / 2.0);
-            for (x, weight) in nodes {
-                let tau = centre + radius * x;
-                let Some(node) = self.node(middle + tau * cos, radius * weight) else {
-                    continue;
-                };
-                self.slice(Node {
-                    depth: gap.at(tau),
-                    ..node
-                });
-            }
+            .map(|zeta| (zeta - line.middle) / line.cos);
+        let mut low = line.low;
+        while low < line.high {
+            let high = cuts.clone().filter(|&u| u > low).fold(line.high, f64::min);
+            let sealed = [
+                line.sealed[0] && low == line.low,
+                line.sealed[1] && high == line.high,
+            ];
+            self.piece(line, Piece { low, high, sealed }, rules, sink);
             low = high;
         }
     }
 
-    fn drop_common(&self) -> (f64, f64) {
-        self.common.unwrap_or((1.0, 0.0))
+    fn piece<S: Sink>(&self, line: &Line, piece: Piece, rules: &Rules, sink: &mut S) {
+        let open = (self.ring_open || self.ball_open)
+            && self
+                .node(line, f64::midpoint(piece.low, piece.high), 0.0)
+                .is_some_and(|node| self.is_open(&node));
+        if !open {
+            self.nodes(line, piece, rules, sink);
+            return;
+        }
+        let (ends, count) = self.zone_ends(line, piece);
+        let mut low = piece.low;
+        for high in ends[..count].iter().copied().chain([piece.high]) {
+            self.nodes(
+                line,
+                Piece {
+                    low,
+                    high,
+                    sealed: [false; 2],
+                },
+                rules,
+                sink,
+            );
+            low = high;
+        }
     }
 
-    fn node(&self, zeta: f64, width: f64) -> Option<Node> {
+    fn nodes<S: Sink>(&self, line: &Line, piece: Piece, rules: &Rules, sink: &mut S) {
+        let (centre, half) = (
+            f64::midpoint(piece.low, piece.high),
+            (piece.high - piece.low) / 2.0,
+        );
+        for (x, weight) in rules.on(piece.sealed) {
+            if let Some(node) = self.node(line, centre + half * x, half * weight) {
+                self.slice(&node, sink);
+            }
+        }
+    }
+
+    /// Where a penetration of any element changes its sign within a piece, in order.
+    fn zone_ends(&self, line: &Line, piece: Piece) -> ([f64; MOST_ENDS], usize) {
+        let mut ends = [0.0; MOST_ENDS];
+        let mut count = 0;
+        // Not quite from end to end: a defect's own end may count as outside.
+        let inset = 1e-9 * (piece.high - piece.low);
+        let low = piece.low + inset;
+        let step = (piece.high - inset - low) / LOOKS as f64;
+        let at = |u: f64| self.node(line, u, 0.0).map(|node| self.levels(&node));
+        let mut before = at(low);
+        for k in 1..=LOOKS {
+            let u = low + step * k as f64;
+            let now = at(u);
+            if let (Some(a), Some(b)) = (&before, &now) {
+                let levels = if a.count == b.count { a.count } else { 0 };
+                for i in 0..levels {
+                    if (a.values[i] > 0.0) != (b.values[i] > 0.0) && count < MOST_ENDS {
+                        let level = |u: f64| at(u).map_or(0.0, |levels| levels.values[i]);
+                        ends[count] = root(level, (u - step, a.values[i]), (u, b.values[i]));
+                        count += 1;
+                    }
+                }
+            }
+            before = now;
+        }
+        ends[..count].sort_by(f64::total_cmp);
+        (ends, count)
+    }
+
+    fn node(&self, line: &Line, u: f64, width: f64) -> Option<Node> {
+        let zeta = line.middle + u * line.cos;
         let square = self.ball.radius * self.ball.radius - zeta * zeta;
         if square <= 0.0 {
             return None;
         }
         let z = self.b.z - self.r.z + zeta;
         let torus_radius = self.pair.race.radius(z)?;
-        Some(Node {
+        let mut node = Node {
             zeta,
             rho: square.sqrt(),
             z,
             width,
             depth: 0.0,
             torus_radius,
-        })
+        };
+        node.depth = match line.depth {
+            Depth::Race => self.race_penetration(&node),
+            Depth::Gap {
+                approach,
+                curvature,
+            } => approach - curvature * u * u / 2.0,
+        };
+        Some(node)
     }
 
     /// s_k of model section 3: d + ρ − R_o or R_i + ρ − d.
@@ -148,6 +259,24 @@ impl<S: Sink> Contact<'_, S> {
         let radius = node.torus_radius + self.wave;
         self.pair.race.sigma * (self.distance - radius) + node.rho
     }
+}
+
+/// A zero between two places of opposite sign, by the Illinois variant of regula falsi.
+fn root(f: impl Fn(f64) -> f64, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
+    for _ in 0..12 {
+        let x = (a.0 * b.1 - b.0 * a.1) / (b.1 - a.1);
+        let y = f(x);
+        if y == 0.0 || (b.0 - a.0).abs() < 1e-12 {
+            return x;
+        }
+        if (y > 0.0) == (b.1 > 0.0) {
+            a.1 /= 2.0;
+        } else {
+            a = b;
+        }
+        b = (x, y);
+    }
+    b.0
 }
 
 /// Middles of the fixed slices that may lie in a zone.

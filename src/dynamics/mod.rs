@@ -224,7 +224,7 @@ impl Model {
             .iter()
             .map(|ball| match &self.rows[ball.row].pairs[0].slices {
                 Slices::Fixed(count) => *count / 4,
-                Slices::Fitted(nodes) => nodes.len(),
+                Slices::Fitted(rules) => rules.count(),
             });
         2 * slices.sum::<usize>() > 4000
     }

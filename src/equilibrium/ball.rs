@@ -4,17 +4,20 @@ use nalgebra::{Matrix2, SVector, Vector2};
 
 use super::TOLERANCE;
 use super::problem::{Eight, Problem};
+use super::search::search;
 use crate::contact::V2;
 use crate::error::{Error, Result};
 use crate::model::Degree;
 
 /// Newton iterations of a ball before giving up.
 const BALL_ITERATIONS: usize = 100;
-/// The same for one ball, whose load is smaller.
+/// Residual of a ball, over its share of the load, that is accepted where a slice that enters a defect makes
+/// the force jump.
 const BALL_STALLED: f64 = 1e-2;
 
 impl Problem<'_> {
-    /// A ball on the line of the groove centres, sharing the approach; a loose ball on the outer race.
+    /// A ball on the line of the groove centres, sharing the approach or the gap; a loose ball where its own load presses
+    /// it into the outer race, or into the inner one if it falls.
     pub(super) fn seed(&self, j: usize, rings: &SVector<f64, 6>) -> Vector2<f64> {
         let ball = &self.model.balls[j];
         let pairs = &self.model.rows[ball.row].pairs;
@@ -27,13 +30,16 @@ impl Problem<'_> {
         let apart = inner - outer;
         let length = apart.norm();
         let reach = [0, 1].map(|race| pairs[race].race.r - ball.side.radius);
-        let approach = ((length - reach[0] - reach[1]) / 2.0).max(0.0);
-        let line = if length > 0.0 {
-            apart / length
-        } else {
-            Vector2::x()
-        };
-        outer + line * (reach[0] + approach)
+        let approach = (length - reach[0] - reach[1]) / 2.0;
+        // The normal of a ball's only contact lies along its load; without a load it floats in mid-gap.
+        let load = self.own_load(j);
+        if approach > 0.0 || load.norm() == 0.0 {
+            return outer + apart * ((reach[0] + approach) / length);
+        }
+        let race = usize::from(load.x < 0.0);
+        let normal = load.normalize();
+        let touching = reach[race] + 1e-3 * self.model.scales.approach;
+        [outer, inner][race] + normal * touching
     }
 
     /// A ball between rings that stand still.
@@ -56,45 +62,39 @@ impl Problem<'_> {
             u
         };
         let residual = |ball: &Vector2<f64>| {
-            self.ball_forces(j, &with(ball))
-                .fixed_rows::<2>(0)
-                .into_owned()
+            let forces = self.ball_forces(j, &with(ball));
+            forces.fixed_rows::<2>(0).into_owned()
         };
         let scale = self.magnitude / self.model.balls.len() as f64;
         let tolerance = TOLERANCE * 1e-2 * scale;
         let longest = 0.02 * self.model.balls[j].side.radius;
         let mut r = residual(ball);
-        let mut damping = 0.0;
-        let mut stalled = 0;
-        for _ in 0..BALL_ITERATIONS {
-            if r.norm() <= tolerance || stalled > 12 {
+        let mut best = (r.norm(), 0);
+        for iteration in 0..BALL_ITERATIONS {
+            if r.norm() < 0.5 * best.0 {
+                best = (r.norm(), iteration);
+            }
+            if r.norm() <= tolerance || iteration > best.1 + 20 {
                 break;
             }
             let jacobian = self.ball_jacobian(j, &with(ball), 2);
             let stiffness = -jacobian.fixed_view::<2, 2>(0, 0).into_owned();
             // Where the ball is loose or would tip over, follow the force.
-            let least = (stiffness + stiffness.transpose())
-                .symmetric_eigenvalues()
-                .min()
-                / 2.0;
-            let shift = damping + (1e-6 * self.stiffness() - least).max(0.0);
-            let shifted = stiffness + Matrix2::identity() * shift;
+            let symmetric = (stiffness + stiffness.transpose()) / 2.0;
+            let least = symmetric.symmetric_eigenvalues().min();
+            let shift = (1e-6 * self.stiffness() - least).max(0.0);
+            let shifted = symmetric + Matrix2::identity() * shift;
             let Some(mut step) = shifted.lu().solve(&r) else {
                 break;
             };
-            if step.norm() > longest {
-                step *= longest / step.norm();
-            }
-            let trial = *ball + step;
-            let trial_r = residual(&trial);
-            if trial_r.norm() < r.norm() {
-                (*ball, r) = (trial, trial_r);
-                damping *= 0.1;
-                stalled = 0;
-            } else {
-                damping = (damping * 10.0).max(1e-4 * self.stiffness());
-                stalled += 1;
-            }
+            step *= (longest / step.norm()).min(1.0);
+            let from = *ball;
+            (*ball, r) = search(r.dot(&step), |t| {
+                let trial = from + step * t;
+                let residual = residual(&trial);
+                Some((residual.dot(&step), (trial, residual)))
+            })
+            .unwrap_or((from, r));
         }
         if r.norm() > BALL_STALLED * scale.max(self.contact_size(j, &with(ball))) {
             return Err(Error::Equilibrium {

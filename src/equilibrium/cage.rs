@@ -8,6 +8,21 @@ use super::problem::Problem;
 use crate::contact::V2;
 use crate::scene::Cage;
 
+/// The cage's hold on a ball along its radius: its pull where the ball stood, and a stiffness that keeps a
+/// loose ball from jumping between the races from one round to the next.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct CageSpring {
+    force: f64,
+    stiffness: f64,
+    radius: f64,
+}
+
+impl CageSpring {
+    pub(super) fn pull(&self, radius: f64) -> f64 {
+        self.force - self.stiffness * (radius - self.radius)
+    }
+}
+
 impl Problem<'_> {
     /// The cage's part at the balls' present radii: angles at which all links of a row are equally long, and
     /// the links' pull on the balls.
@@ -53,12 +68,23 @@ impl Problem<'_> {
                 self.directions[row.first + k] = V2::new(angle.cos(), angle.sin());
             }
             let place = |k: usize| self.directions[row.first + k] * radii[k];
-            for k in 0..row.count {
+            for (k, &radius) in radii.iter().enumerate() {
                 let before = (k + row.count - 1) % row.count;
                 let pull = ((place(next(k)) - place(k)).normalize()
                     + (place(before) - place(k)).normalize())
                     * tension;
-                self.cage_pulls[row.first + k] = pull.dot(&self.directions[row.first + k]);
+                let j = row.first + k;
+                // What the row's cage has against all balls moving out together.
+                let chord = row.cage_distance / radius;
+                self.cage_spring[j] = CageSpring {
+                    force: pull.dot(&self.directions[j]),
+                    stiffness: if tension == 0.0 {
+                        0.0
+                    } else {
+                        cage.stiffness * chord * chord
+                    },
+                    radius,
+                };
             }
         }
     }

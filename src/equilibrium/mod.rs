@@ -9,6 +9,7 @@ mod ball;
 mod cage;
 mod problem;
 mod rings;
+mod search;
 
 use nalgebra::SVector;
 use serde::Serialize;
@@ -22,8 +23,10 @@ use problem::Problem;
 const TOLERANCE: f64 = 1e-10;
 /// Residual that is still accepted where a slice that enters a defect makes the force jump.
 const STALLED: f64 = 1e-3;
-/// Solves with the cage's pull renewed; each shrinks its error by the cage's share of the stiffness.
-const CAGE_ROUNDS: usize = 3;
+/// Solves with the cage's pull renewed, at most.
+const CAGE_ROUNDS: usize = 12;
+/// Movement of the balls over the contacts' approach at which the cage counts as engaged.
+const CAGE_TOLERANCE: f64 = 1e-3;
 
 /// Static state of a bearing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -80,7 +83,7 @@ pub struct ContactEquilibrium {
 /// ```
 ///
 /// # Errors
-/// [`Error::Scene`] for a scene that is not usable, [`Error::Equilibrium`] when the load cannot be carried.
+/// [`crate::Error::Scene`] for a scene that is not usable, [`crate::Error::Equilibrium`] when the load cannot be carried.
 pub fn equilibrium(scene: &Scene) -> Result<Equilibrium> {
     let model = Model::new(scene)?;
     let (y, iterations) = solve(&model)?;
@@ -140,8 +143,13 @@ fn solve(model: &Model) -> Result<(Vec<f64>, usize)> {
     let mut iterations = problem.balance(&mut rings, &mut balls)?;
     if let Some(cage) = &model.scene.cage {
         for _ in 0..CAGE_ROUNDS {
+            let before = balls.clone();
             problem.engage(cage, &balls);
             iterations += problem.balance(&mut rings, &mut balls)?;
+            let moved = before.iter().zip(&balls).map(|(a, b)| (a.x - b.x).abs());
+            if moved.fold(0.0, f64::max) < CAGE_TOLERANCE * model.scales.approach {
+                break;
+            }
         }
     }
     Ok((problem.state(&rings, &balls), iterations))

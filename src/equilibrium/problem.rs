@@ -2,6 +2,7 @@
 
 use nalgebra::{DVector, SMatrix, SVector, Vector2};
 
+use super::cage::CageSpring;
 use crate::contact::{Motion, Sink, Touch, V2};
 use crate::model::{Degree, Model};
 use crate::start::rolling_speeds;
@@ -15,8 +16,8 @@ pub(super) struct Problem<'m> {
     /// Constant forces on each ball along its radius and along z: weight and centrifugal force.
     pub(super) ball_loads: Vec<Vector2<f64>>,
     pub(super) directions: Vec<V2>,
-    /// Pull of the cage on each ball along its radius.
-    pub(super) cage_pulls: Vec<f64>,
+    /// The cage's hold on each ball.
+    pub(super) cage_spring: Vec<CageSpring>,
     /// Free directions of the rings, as indices into the six.
     pub(super) free: Vec<usize>,
     /// Constant forces on the rings.
@@ -75,7 +76,7 @@ impl<'m> Problem<'m> {
         Self {
             model,
             ball_loads,
-            cage_pulls: vec![0.0; directions.len()],
+            cage_spring: vec![CageSpring::default(); directions.len()],
             directions,
             free,
             loads,
@@ -90,6 +91,11 @@ impl<'m> Problem<'m> {
 
     pub(super) fn error(&self, residual: &DVector<f64>) -> f64 {
         residual.iter().map(|x| x.abs()).fold(0.0, f64::max) / self.magnitude
+    }
+
+    /// Weight and centrifugal force of a ball along its radius and along z.
+    pub(super) fn own_load(&self, j: usize) -> Vector2<f64> {
+        self.ball_loads[j]
     }
 
     /// Forces on a ball (radial, axial) and on the rings from its contacts and its own load and support.
@@ -133,7 +139,7 @@ impl<'m> Problem<'m> {
                 }
             }
         }
-        forces[0] += self.ball_loads[j].x + self.cage_pulls[j];
+        forces[0] += self.own_load(j).x + self.cage_spring[j].pull(u[0]);
         forces[1] += self.ball_loads[j].y;
         forces
     }

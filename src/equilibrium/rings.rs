@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector, Matrix2, SMatrix, SVector, Vector2};
 
 use super::problem::{Eight, Problem};
+use super::search::search;
 use super::{STALLED, TOLERANCE};
 use crate::contact::V2;
 use crate::error::{Error, Result};
@@ -10,8 +11,10 @@ use crate::model::Degree;
 
 /// Newton iterations of the rings before giving up.
 const RING_ITERATIONS: usize = 200;
-/// Steps in a row that did not help before giving up.
-const GIVE_UP: usize = 12;
+/// Iterations without halving the residual after which a small one is accepted.
+const STALL: usize = 8;
+/// The same before giving up.
+const GIVE_UP: usize = 40;
 
 /// The rings at some place, every ball in its own equilibrium.
 struct RingState {
@@ -26,35 +29,46 @@ impl Problem<'_> {
         rings: &mut SVector<f64, 6>,
         balls: &mut Vec<Vector2<f64>>,
     ) -> Result<usize> {
-        let mut stalled = 0;
-        let mut damping = 0.0;
         let mut state = self.rings(rings, balls)?;
+        let mut best = (f64::INFINITY, 0);
+        // As far as the balls can follow; further where nothing touches.
+        let shortest = 0.02 * self.model.balls[0].side.radius;
+        let mut longest = shortest;
         for iteration in 0..RING_ITERATIONS {
-            if stalled > GIVE_UP {
-                break;
-            }
             let error = self.error(&state.residual);
-            if error <= TOLERANCE || stalled > 6 && error <= STALLED {
+            if error < 0.5 * best.0 {
+                best = (error, iteration);
+            }
+            let stalled = iteration > best.1 + STALL;
+            if error <= TOLERANCE || stalled && error <= STALLED {
                 return self.check(&state, balls, rings).map(|()| iteration);
             }
-            let trial_rings = *rings + self.newton_step(&state, damping);
-            let mut trial_balls = balls.clone();
-            let trial = self.rings(&trial_rings, &mut trial_balls);
-            // Levenberg–Marquardt: shorter, steeper steps until the residual falls.
-            match trial {
-                Ok(trial) if self.error(&trial.residual) < error * (1.0 - 1e-6) => {
-                    stalled = 0;
-                    (*rings, *balls, state) = (trial_rings, trial_balls, trial);
-                    damping *= 0.1;
-                    if damping < 1e-12 * self.stiffness() {
-                        damping = 0.0;
-                    }
-                }
-                _ => {
-                    stalled += 1;
-                    damping = (damping * 10.0).max(1e-6 * self.stiffness());
-                }
+            if stalled && iteration > best.1 + GIVE_UP {
+                break;
             }
+            let step = self.newton_step(&state, longest);
+            let force = |state: &RingState| -> f64 {
+                self.free
+                    .iter()
+                    .zip(&state.residual)
+                    .map(|(&i, r)| r * step[i])
+                    .sum()
+            };
+            let clipped = step.norm() > 0.99 * longest;
+            let Some((moved, (trial_rings, trial_balls, trial))) = search(force(&state), |t| {
+                let trial_rings = *rings + step * t;
+                let mut trial_balls = balls.clone();
+                let trial = self.rings(&trial_rings, &mut trial_balls).ok()?;
+                Some((force(&trial), (t, (trial_rings, trial_balls, trial))))
+            }) else {
+                break;
+            };
+            longest = if clipped && moved == 1.0 {
+                2.0 * longest
+            } else {
+                shortest
+            };
+            (*rings, *balls, state) = (trial_rings, trial_balls, trial);
         }
         Err(Error::Equilibrium {
             reason: format!(
@@ -113,21 +127,19 @@ impl Problem<'_> {
         (own + own.transpose()).symmetric_eigenvalues().min() / 2.0 > 1e-9 * self.stiffness()
     }
 
-    fn newton_step(&self, state: &RingState, damping: f64) -> SVector<f64, 6> {
+    fn newton_step(&self, state: &RingState, longest: f64) -> SVector<f64, 6> {
         let n = self.free.len();
         let mut step = SVector::<f64, 6>::zeros();
         if n == 0 {
             return step;
         }
         let least = state.stiffness.clone().symmetric_eigenvalues().min();
-        let shift = damping + (1e-6 * self.stiffness() - least).max(0.0);
+        let shift = (1e-6 * self.stiffness() - least).max(0.0);
         let shifted = &state.stiffness + DMatrix::identity(n, n) * shift;
         let solved = shifted
             .lu()
             .solve(&state.residual)
             .unwrap_or_else(|| DVector::zeros(n));
-        // As far as the ball's size allows, so that balls can follow.
-        let longest = 0.02 * self.model.balls[0].side.radius;
         let scale = (longest / solved.norm()).min(1.0);
         for (a, &i) in self.free.iter().enumerate() {
             step[i] = solved[a] * scale;

@@ -4,16 +4,11 @@ use std::f64::consts::PI;
 
 use super::body::{Body, Degree, ball_mass, groove_radius, ring_mass};
 use super::{Ball, LoadModel, Model, RowModel, Scales, UnbalanceModel};
-use crate::contact::hertz::Hertz;
-use crate::contact::iso16281::Iso16281;
-use crate::contact::{BallSide, Fault, Friction, Law, Pair, Slices, Torus, Waves};
+use crate::contact::hertz::{self, Hertz};
+use crate::contact::iso16281::{self, Iso16281};
+use crate::contact::{BallSide, Fault, Friction, Law, Pair, Rules, Slices, Torus, Waves};
 use crate::error::{Error, Result};
 use crate::scene::{self, Drive, Mount, NormalLaw, RingName, Row, Scene, Surface};
-
-/// Fixed slices of the ISO law where the scene says nothing.
-const DEFAULT_FIXED: usize = 100;
-/// Nodes a piece of the Hertz law where the scene says nothing.
-const DEFAULT_FITTED: usize = 8;
 
 pub(super) fn compile(scene: &Scene) -> Result<Model> {
     scene.validate()?;
@@ -171,11 +166,13 @@ fn pair(scene: &Scene, index: usize, row: &Row, sigma: f64) -> Pair {
             &scene.materials.rings,
         )),
     };
-    let slices = match (contact.slices, law) {
-        (Some(scene::Slices::Fixed(n)), _) => Slices::Fixed(n),
-        (Some(scene::Slices::Fitted(m)), _) => Slices::fitted(m),
-        (None, Law::Iso16281(_)) => Slices::Fixed(DEFAULT_FIXED),
-        (None, Law::Hertz(_)) => Slices::fitted(DEFAULT_FITTED),
+    let exponent = match law {
+        Law::Iso16281(_) => iso16281::EXPONENT,
+        Law::Hertz(_) => hertz::EXPONENT,
+    };
+    let slices = match contact.slices {
+        scene::Slices::Fixed(n) => Slices::Fixed(n),
+        scene::Slices::Fitted(m) => Slices::Fitted(Rules::new(m, exponent)),
     };
     Pair {
         race,

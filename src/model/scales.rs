@@ -50,7 +50,9 @@ impl Scales {
             let centrifugal = body.mass[0] * orbit * orbit * geometry.pitch_diameter / 2.0;
             let squeeze = (-geometry.clearance / 4.0 * cos).max(0.0)
                 + (geometry.axial_preload / 2.0 * sin).max(0.0);
-            let mut load = external + centrifugal;
+            // Where nothing acts, a touch of a hundred-thousandth of the ball.
+            let touch = force_at(&row.pairs[0], &ball.side, 2e-5 * ball.side.radius);
+            let mut load = (external + centrifugal).max(touch);
             for pair in &row.pairs {
                 load = load.max(force_at(pair, &ball.side, squeeze) + external);
             }

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 pub struct Contact {
     /// Force of a slice from its penetration.
     pub law: NormalLaw,
-    /// Where the ball is cut; absent: 100 fixed slices for the ISO law, 8 fitted nodes for the Hertz law.
-    pub slices: Option<Slices>,
+    /// Where the ball is cut; 6 fitted nodes by default.
+    pub slices: Slices,
     /// Hunt–Crossley damping α_d \[s/m\]: restitution is about 1 − α_d v at an impact speed v.
     pub damping: f64,
     /// Whether a slice that would pull is set to zero (and counted); `false` keeps the paper's bare sum.
@@ -20,7 +20,7 @@ impl Default for Contact {
     fn default() -> Self {
         Self {
             law: NormalLaw::default(),
-            slices: None,
+            slices: Slices::Fitted(6),
             damping: 0.2,
             clamp_pull: true,
         }
@@ -67,7 +67,8 @@ impl Default for NormalLaw {
 pub enum Slices {
     /// Slices of equal width over the whole ball, fixed in it: the paper's method. 10 to 100 000.
     Fixed(usize),
-    /// Quadrature nodes on the zone that touches, a number a piece. 2 to 64; only with the Hertz law.
+    /// Quadrature nodes on every smooth piece of the zone that touches. 2 to 64; 6 give the force of a healthy
+    /// contact to 1e-5 and across defects to 1e-4.
     Fitted(usize),
 }
 

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
-from scipy.special import ellipe, ellipkm1
+from scipy.special import ellipe, ellipkm1, roots_jacobi
 
 Json = dict[str, Any]
 Vector = NDArray[np.float64]
@@ -366,16 +366,35 @@ class Contact:
         return self.iso_slices() if self.hertz is None else self.hertz_slices(self.hertz)
 
     def iso_slices(self) -> list[Slice]:
-        """Fixed slices with the law (2), (3)."""
-        n, D = self.model.slice_count, self.row["ball_diameter"]
+        """Slices or nodes with the law (2), (3)."""
+        D = self.row["ball_diameter"]
         C = self.model.iso["constant"] * (self.model.iso["length_ratio"] * D) ** (8 / 9)
-        c_s = C * (self.diameter / n) / D
-
+        if self.model.fitted:
+            nodes = self.fitted_nodes(self.plane_zone(), 10 / 9, 1.0, 0.0)
+        else:
+            width = self.diameter / self.model.slice_count
+            nodes = [(zeta, width) for zeta in self.fixed_places()]
         return [
-            Slice(zeta, self.race_penetration(zeta), 1.0, c_s, 10 / 9)
-            for zeta in self.fixed_places()
+            Slice(zeta, self.race_penetration(zeta), 1.0, C / D * width, 10 / 9)
+            for zeta, width in nodes
             if self.race_exists(zeta)
         ]
+
+    def plane_zone(self) -> tuple[float, float] | None:
+        """Where ball and groove cut in the meridional plane: the ends of the zone in ζ (section 10)."""
+        g = self.groove
+        away = self.sigma * (self.d - g.a - g.waviness(self.ring_angle(self.n)))
+        centre = complex(g.z - (self.ball.z - self.ring.z), -away)  # of the groove, from the ball's
+        L = abs(centre)
+        if L + self.R_b <= g.r:
+            return None
+        along = (L**2 + self.R_b**2 - g.r**2) / (2 * L)
+        across = math.sqrt(self.R_b**2 - along**2)
+        cuts = [(along + side * 1j * across) * centre / L for side in (-1, 1)]
+        assert away > 0
+        assert all(cut.imag > 0 for cut in cuts)
+        low, high = sorted(cut.real for cut in cuts)
+        return low, high
 
     def hertz_slices(self, constants: Hertz) -> list[Slice]:
         """Fitted nodes or fixed slices of the Hertz law."""
@@ -394,7 +413,8 @@ class Contact:
             return []
         self.direction = (cos, sin)
         if self.model.fitted:
-            nodes = self.fitted_nodes(math.sqrt(2 * delta / constants.kappa), cos, sin)
+            tau_max = math.sqrt(2 * delta / constants.kappa)
+            nodes = self.fitted_nodes((-tau_max, tau_max), 1.0, cos, sin)
         else:
             width = self.diameter / self.model.slice_count
             nodes = [((x - self.R_b * sin) / cos, width / cos) for x in self.fixed_places()]
@@ -412,16 +432,29 @@ class Contact:
         n, D = self.model.slice_count, self.diameter
         return [-D / 2 + (k + 0.5) * D / n for k in range(n)]
 
-    def fitted_nodes(self, tau_max: float, cos: float, sin: float) -> list[tuple[float, float]]:
-        """Places τ and weights of Gauss–Legendre nodes on every piece of the contact zone."""
+    def fitted_nodes(
+        self, zone: tuple[float, float] | None, exponent: float, cos: float, sin: float
+    ) -> list[tuple[float, float]]:
+        """Places τ and weights of Gauss–Jacobi nodes on every piece of the contact zone.
+
+        The law vanishes with `exponent` at the zone's own ends, and at no cut.
+        """
+        if zone is None:
+            return []
+        low, high = zone
         cuts = [(zeta - self.R_b * sin) / cos for zeta in self.axial_ends()]
-        ends = [-tau_max, *sorted(x for x in cuts if -tau_max < x < tau_max), tau_max]
-        places, weights = np.polynomial.legendre.leggauss(self.model.slice_count)
-        return [
-            (float((low + high) / 2 + x * (high - low) / 2), float(w * (high - low) / 2))
-            for low, high in itertools.pairwise(ends)
-            for x, w in zip(places, weights, strict=True)
-        ]
+        ends = [low, *sorted(x for x in cuts if low < x < high), high]
+        nodes = []
+        for a, b in itertools.pairwise(ends):
+            beta, alpha = exponent * (a == low), exponent * (b == high)
+            places, weights = roots_jacobi(self.model.slice_count, alpha, beta)
+            weights = weights / ((1 - places) ** alpha * (1 + places) ** beta)
+            half = (b - a) / 2
+            nodes += [
+                ((a + b) / 2 + half * float(x), half * float(w))
+                for x, w in zip(places, weights, strict=True)
+            ]
+        return nodes
 
     def axial_ends(self) -> list[float]:
         """ζ where the zone is cut: shoulders, and the axial ends of defects near the contact."""
@@ -708,8 +741,6 @@ class Reference:
         contact = scene["contact"]
         law, slices = contact["law"], contact["slices"]
         is_hertz = law == "hertz"
-        if slices is None:
-            slices = {"fitted": 8} if is_hertz else {"fixed": 100}
         self.fitted = "fitted" in slices
         self.slice_count = int(next(iter(slices.values())))
         self.iso: Json = {} if is_hertz else law["iso16281"]

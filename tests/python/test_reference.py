@@ -19,7 +19,11 @@ from reference import INNER, OUTER, Body, Contact, Json, Reference, Vector, hert
 
 TAU = 2 * math.pi
 KINDS = ["healthy", "outer", "inner", "ball", "outer+ball", "overlap", "floor"]
-LAWS = ["iso", "hertz_fitted", "hertz_fixed"]
+LAWS = ["iso", "hertz_fixed"]
+# Inside a defect fitted nodes depend on a search for the ends of the elements' zones; tests/fitted.rs
+# holds them to a converged sum. Here they are compared on whole races.
+FITTED = ["iso_fitted", "hertz_fitted"]
+CASES = [(kind, law) for kind in KINDS for law in LAWS] + [("healthy", law) for law in FITTED]
 # What must carry force, lest a comparison pass without having looked at a defect.
 EXPECTED = {
     "healthy": ["race"],
@@ -73,7 +77,7 @@ def make_row(side: int, place: float, balls: int) -> Json:
 def make_scene(rows: int = 1, law: str = "iso", balls: int = 3) -> Json:
     """A healthy bearing without friction, supports, gravity or loads."""
     iso = {"iso16281": {"constant": 3.5948e10, "length_ratio": 0.5}}
-    slices = {"iso": {"fixed": 40}, "hertz_fitted": {"fitted": 8}, "hertz_fixed": {"fixed": 30}}
+    slices = {"iso": {"fixed": 40}, "hertz_fixed": {"fixed": 30}}
     material = {"density": 7850.0, "youngs_modulus": 206e9, "poisson_ratio": 0.3}
     ring = {"mass": 0.8, "inertia": None, "diameter": None, "width": None}
     moving = {"x": "free", "y": "free", "z": "free", "theta": "free"}
@@ -86,8 +90,8 @@ def make_scene(rows: int = 1, law: str = "iso", balls: int = 3) -> Json:
         "inner_ring": ring | {"mass": 0.6, "support": FREE},
         "materials": {"rings": material, "balls": material},
         "contact": {
-            "law": iso if law == "iso" else "hertz",
-            "slices": slices[law],
+            "law": iso if law.startswith("iso") else "hertz",
+            "slices": slices.get(law, {"fitted": 6}),
             "damping": 1.0,
             "clamp_pull": True,
         },
@@ -349,9 +353,8 @@ def combination(kind: str, rows: int, law: str, friction: str) -> tuple[Json, np
 
 
 @pytest.mark.parametrize("friction", ["none", "coulomb"])
-@pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("rows", [1, 2])
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(("kind", "law"), CASES)
 def test_right_hand_side(core: Any, kind: str, rows: int, law: str, friction: str) -> None:
     scene, rng = combination(kind, rows, law, friction)
     states = [draw_state(scene, rng) for _ in range(8)]
@@ -394,6 +397,7 @@ def test_few_balls(core: Any, balls: int) -> None:
 @pytest.mark.parametrize("axial_load", [0.0, 3000.0])
 def test_wheel_bearing(core: Any, axial_load: float) -> None:
     scene = json.loads(core.preset_wheel_bearing(axial_load))
+    scene["contact"]["slices"] = {"fixed": 100}
     rng = np.random.default_rng(int(axial_load))
     states = [draw_state(scene, rng, -60e-6j) for _ in range(4)]
     compare(core, scene, states)
@@ -557,9 +561,8 @@ def test_reference_without_width_is_healthy(kind: str, law: str) -> None:
     forces, size = reference.evaluate(0.0, y)
     assert any("edge" in name for name in reference.active)
     expected, _ = healthy.evaluate(0.0, y)
-    # Fitted nodes lie elsewhere once the zone is cut: that is their quadrature error, no more.
     assert np.all(
-        np.abs(forces - expected) < (1e-4 if law == "hertz_fitted" else 1e-6) * size + 1e-9
+        np.abs(forces - expected) < (1e-6) * size + 1e-9
     )
 
 

@@ -332,7 +332,7 @@ def test_replace_reaches_every_field(wheel: s.Scene) -> None:
         ("rows[2].clearance", 0.0, "rows[2].clearance"),
         ("loads.sideways.force", 1.0, "loads.sideways.force"),
         ("defects.spall.length", 0.1, "defects.spall.length"),
-        ("contact.slices", s.FittedSlices(6), "contact.slices"),
+        ("contact.slices", s.FittedSlices(1), "contact.slices.fitted"),
         ("drive", "full speed ahead", "drive"),
         ("gravity", object(), "gravity"),
     ],

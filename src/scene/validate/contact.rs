@@ -28,17 +28,12 @@ pub(super) fn contact(contact: &Contact) -> Result<()> {
         )?;
     }
     match contact.slices {
-        Some(Slices::Fixed(n)) if !(10..=100_000).contains(&n) => {
+        Slices::Fixed(n) if !(10..=100_000).contains(&n) => {
             Err(Error::scene("contact.slices.fixed", n, "10 to 100000"))
         }
-        Some(Slices::Fitted(n)) if !(2..=64).contains(&n) => {
+        Slices::Fitted(n) if !(2..=64).contains(&n) => {
             Err(Error::scene("contact.slices.fitted", n, "2 to 64"))
         }
-        Some(Slices::Fitted(n)) if contact.law != NormalLaw::Hertz => Err(Error::scene(
-            "contact.slices.fitted",
-            n,
-            "fixed slices with the law iso16281",
-        )),
         _ => within("contact.damping", contact.damping, 0.0..=1e3),
     }
 }
