@@ -70,6 +70,6 @@ pub use equilibrium::{BallEquilibrium, ContactEquilibrium, Equilibrium, equilibr
 pub use error::{Error, Result};
 pub use model::{Body, Degree, Model, Scales};
 pub use scene::Scene;
-pub use signals::{Column, Signals, SliceRow};
-pub use simulate::{Provenance, Run, Statistics, simulate};
+pub use signals::{Column, Provenance, Signals, SliceRow, Statistics};
+pub use simulate::{Run, simulate};
 pub use start::{Start, start};

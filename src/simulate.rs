@@ -3,8 +3,6 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use serde::Serialize;
-
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
 use crate::integrate::{
@@ -13,7 +11,7 @@ use crate::integrate::{
 use crate::model::Model;
 use crate::pool::pool;
 use crate::scene::{Drive, SCHEMA, Scene};
-use crate::signals::{Recorder, Signals};
+use crate::signals::{Provenance, Recorder, Signals, Statistics};
 use crate::start::{Start, start};
 
 /// What to run.
@@ -42,56 +40,6 @@ impl Default for Run {
             threads: 0,
         }
     }
-}
-
-/// Effort and mishaps of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Statistics {
-    /// Steps accepted.
-    pub accepted: usize,
-    /// Steps rejected.
-    pub rejected: usize,
-    /// Evaluations of the right-hand side by the integrator; sampling adds one a sample.
-    pub nfev: usize,
-    /// Smallest accepted step \[s\], not counting steps shortened to land on a breakpoint; absent without any.
-    pub smallest_step: Option<f64>,
-    /// Where it began \[s\].
-    pub smallest_step_time: Option<f64>,
-    /// Largest accepted step \[s\].
-    pub largest_step: f64,
-    /// Share of the accepted steps at the stability limit (stiffness quotient above 3.25), 0 to 1.
-    pub stiff_share: f64,
-    /// Share of the accepted steps that the step cap limited, 0 to 1.
-    pub capped_share: f64,
-    /// Slices at accepted steps whose damping wanted to pull and was clamped.
-    pub clamped_pulls: usize,
-    /// Contacts at accepted steps that reached beyond a shoulder.
-    pub truncated_contacts: usize,
-    /// Wall time of the integration \[s\].
-    pub wall_time: f64,
-}
-
-/// What produced the signals.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Provenance {
-    /// Version of this crate.
-    pub version: &'static str,
-    /// Version of the scene document.
-    pub schema: u32,
-    /// Method.
-    pub method: &'static str,
-    /// Relative tolerance.
-    pub rtol: f64,
-    /// Step cap \[s\]; absent: none.
-    pub max_step: Option<f64>,
-    /// How it began.
-    pub start: &'static str,
-    /// Simulated time \[s\].
-    pub duration: f64,
-    /// Threads used.
-    pub threads: usize,
-    /// Processor architecture.
-    pub architecture: &'static str,
 }
 
 /// The most that the signals of one run may take \[bytes\].
@@ -352,9 +300,6 @@ fn broken(model: &Model, failure: &Failure) -> Error {
         FailureKind::NonFinite => "a force is not finite; check masses, stiffnesses and loads",
         FailureKind::TooSmall => {
             "the step fell below the resolution of time; soften contacts, raise slip_speed or rtol"
-        }
-        FailureKind::TooManyRejections => {
-            "too many steps in a row were rejected; raise slip_speed or rtol"
         }
         FailureKind::Invalid(invalid) => invalid.0,
     };

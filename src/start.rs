@@ -58,22 +58,12 @@ pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
     }
 }
 
-/// Orbit rate of the balls and their rotation about z for pure rolling at the nominal contact angle,
-/// fixed outer ring: ω_c = Ω(1 − γ)/2, θ̇_b = −ω_c d_m / (D cos α₀), γ = D cos α₀ / d_m.
-pub(crate) fn rolling_speeds(model: &Model, row: usize) -> (f64, f64) {
-    let speed = model.scene.drive.initial_speed();
-    let row = &model.scene.rows[row];
-    let gamma = row.ball_diameter * row.contact_angle.cos() / row.pitch_diameter;
-    let orbit = speed * (1.0 - gamma) / 2.0;
-    (orbit, -orbit / gamma)
-}
-
 /// Sets pure-rolling speeds at the places of a state.
 fn roll(model: &Model, y: &mut [f64]) {
     let half = y.len() / 2;
     y[half + 7] = model.scene.drive.initial_speed();
     for (j, ball) in model.balls.iter().enumerate() {
-        let (orbit, spin) = rolling_speeds(model, ball.row);
+        let (orbit, spin) = model.rolling_speeds(ball.row);
         let q = 4 * (2 + j);
         y[half + q] = -orbit * y[q + 1];
         y[half + q + 1] = orbit * y[q];
@@ -109,7 +99,7 @@ fn settle_speeds(model: &Model, y: &mut [f64]) {
         let orbit = if weight > 0.0 {
             weighted / weight
         } else {
-            rolling_speeds(model, row).0
+            model.rolling_speeds(row).0
         };
         for (j, r, [outer, inner], [on_outer, on_inner]) in rolling {
             let q = 4 * (2 + j);

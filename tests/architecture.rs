@@ -17,20 +17,6 @@ const ORDER: [&str; 11] = [
     "signals",
     "simulate",
 ];
-/// Uses against the order, each with its reason.
-const ALLOWED: [(&str, &str, &str); 2] = [
-    (
-        "equilibrium",
-        "start",
-        "the rolling speeds of the balls set their centrifugal force",
-    ),
-    (
-        "signals",
-        "simulate",
-        "the result carries the run's statistics and provenance",
-    ),
-];
-
 fn sources(folder: &Path, found: &mut Vec<(String, String)>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -71,8 +57,7 @@ fn rooms_import_downwards() {
                     .collect();
                 let Some(other) = place(&used) else { continue };
                 seen += 1;
-                let excused = ALLOWED.iter().any(|(a, b, _)| *a == room && *b == used);
-                assert!(other <= own || excused, "{path} uses {used}: {line}");
+                assert!(other <= own, "{path} uses {used}: {line}");
             }
         }
     }

@@ -38,7 +38,7 @@ fn effort_is_pinned() {
         ..Run::default()
     };
     for (scene, steps) in [
-        (presets::wheel_bearing(3000.0), (149, 1)),
+        (presets::wheel_bearing(3000.0), (150, 1)),
         (presets::deep_groove_6205(500.0, 0.0, 1800.0), (300, 1)),
     ] {
         let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();

@@ -11,6 +11,8 @@
 //! | slice of a roller, load exponent 10/9 | ISO/TS 16281 |
 //! | ball over a slot | geometry |
 
+mod common;
+
 use std::f64::consts::PI;
 
 use ballrace::contact::hertz::Hertz;
@@ -19,19 +21,7 @@ use ballrace::contact::{
     BallSide, Fault, Law, Motion, Pair, Sink, Slices, Torus, Touch, V2, Waves,
 };
 use ballrace::scene::{Defect, Material, Surface};
-
-/// Shows a number beside the published one and holds it to a relative tolerance.
-fn meets(case: &str, published: f64, ours: f64, tolerance: f64) {
-    let deviation = ours / published - 1.0;
-    println!(
-        "{case}: published {published}, ours {ours:.6}, {:+.4} %",
-        100.0 * deviation
-    );
-    assert!(
-        deviation.abs() <= tolerance,
-        "{case}: published {published}, ours {ours}, more than {tolerance} apart"
-    );
-}
+use common::meets;
 
 /// K in N/mm^1.5.
 fn in_millimetres(hertz: &Hertz) -> f64 {

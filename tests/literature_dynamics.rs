@@ -10,6 +10,8 @@
 //! | restitution | K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440, and its closed form |
 //! | undamped impact | H. Hertz 1881; K. L. Johnson, *Contact Mechanics*, section 11.4 |
 
+mod common;
+
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
@@ -19,19 +21,7 @@ use ballrace::scene::{
     Support, presets,
 };
 use ballrace::{Model, Run, Signals, Start, simulate, start};
-
-/// Shows a number beside the published one and holds it to a relative tolerance.
-fn meets(case: &str, published: f64, ours: f64, tolerance: f64) {
-    let deviation = ours / published - 1.0;
-    println!(
-        "{case}: published {published}, ours {ours:.6}, {:+.4} %",
-        100.0 * deviation
-    );
-    assert!(
-        deviation.abs() <= tolerance,
-        "{case}: published {published}, ours {ours}, more than {tolerance} apart"
-    );
-}
+use common::meets;
 
 fn run(scene: &Scene, run: &Run) -> Signals {
     simulate(scene, run, &mut |_| ControlFlow::Continue(())).unwrap()

@@ -3,24 +3,14 @@
 //! Source: N. Sawalhi, R. B. Randall, and Deshpande, PhD thesis, UNSW: 0.685 ms by the formula for 0.8 mm on a
 //! Koyo 1205 at 10 Hz, about 0.6 ms measured. `--nocapture` shows every case with the published and the obtained number.
 
+mod common;
+
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
 
 use ballrace::scene::{ContactQuantity, Defect, Probe, Row, Scene, Support, Surface, presets};
 use ballrace::{Run, Signals, simulate};
-
-/// Shows a number beside the published one and holds it to a relative tolerance.
-fn meets(case: &str, published: f64, ours: f64, tolerance: f64) {
-    let deviation = ours / published - 1.0;
-    println!(
-        "{case}: published {published}, ours {ours:.6}, {:+.4} %",
-        100.0 * deviation
-    );
-    assert!(
-        deviation.abs() <= tolerance,
-        "{case}: published {published}, ours {ours}, more than {tolerance} apart"
-    );
-}
+use common::meets;
 
 fn run(scene: &Scene, run: &Run) -> Signals {
     simulate(scene, run, &mut |_| ControlFlow::Continue(())).unwrap()

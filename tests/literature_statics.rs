@@ -14,23 +14,13 @@
 //! There, both forces on a ball lie on one radius; here each points to the centre of its ring, and a radial load moves
 //! the two centres apart: 0.1 % of the largest load of the 209.
 
+mod common;
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use ballrace::scene::{Mount, RingName, Row, Scene, Support, TimeFunction, presets};
 use ballrace::{Equilibrium, equilibrium};
-
-/// Shows a number beside the published one and holds it to a relative tolerance.
-fn meets(case: &str, published: f64, ours: f64, tolerance: f64) {
-    let deviation = ours / published - 1.0;
-    println!(
-        "{case}: published {published}, ours {ours:.6}, {:+.4} %",
-        100.0 * deviation
-    );
-    assert!(
-        deviation.abs() <= tolerance,
-        "{case}: published {published}, ours {ours}, more than {tolerance} apart"
-    );
-}
+use common::meets;
 
 /// One row between a held outer and a free inner ring: Hertz, at rest, no gravity, no cage, no clearance, ball 0
 /// at −90°. Lengths in mm.

@@ -13,7 +13,7 @@ All numbers are in SI units, at every face.
 
 from __future__ import annotations
 
-from . import frequencies, presets, scene
+from . import frequencies, presets, scene, spectra
 from .errors import BallraceError, EquilibriumError, IntegrationError, SceneError
 from .model import Model
 from .run import simulate
@@ -36,4 +36,5 @@ __all__ = [
     "presets",
     "scene",
     "simulate",
+    "spectra",
 ]

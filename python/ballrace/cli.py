@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from . import presets
+from . import paper, presets
 from ._files import check_writable, whole
 from ._progress import Bar
 from .errors import BallraceError, SceneError
@@ -87,6 +87,22 @@ def _parser() -> argparse.ArgumentParser:
         help="simulated time of each case (default: %(default)s)",
     )  # fmt: skip
     demo.set_defaults(command=_demo)
+
+    published = commands.add_parser(
+        "paper", help="run the published cases: figures 6 to 11 and a table, published against ours"
+    )
+    published.add_argument(
+        "-o", "--output", type=Path, default=Path("ballrace-paper"), metavar="FOLDER",
+        help="folder for the results (default: %(default)s)",
+    )  # fmt: skip
+    published.add_argument(
+        "--json", action="store_true", help="the numbers alone: print and write paper.json"
+    )
+    published.add_argument(
+        "--duration", type=float, default=paper.DURATION, metavar="SECONDS",
+        help="simulated time of each case (default: %(default)s)",
+    )  # fmt: skip
+    published.set_defaults(command=_paper)
 
     run = commands.add_parser("run", help="run a scene and write its signals to a Parquet file")
     run.add_argument("scene", type=Path, metavar="SCENE", help="scene, a .toml or .json file")
@@ -222,6 +238,21 @@ def _page(outs: dict[str, Signals], solved: dict[str, Equilibrium]) -> str:
             "</body></html>",
         ]
     )
+
+
+def _paper(options: argparse.Namespace) -> None:
+    folder: Path = options.output
+    check_writable(folder / "paper.json" if folder.exists() else folder)
+    with Bar("paper") as bar:
+        found = paper.run(duration=options.duration, progress=bar.show)
+    written = paper.write(found, folder, numbers_only=options.json)
+    if options.json:
+        print(paper.dumps(found), end="")
+        return
+    _print_table(paper.HEADER, paper.rows(found))
+    print("\nWritten:", *written, sep="\n  ")
+    if importlib.util.find_spec("plotly") is None:
+        print('\nFor the figures: pip install "ballrace[plot]"')
 
 
 def _run(options: argparse.Namespace) -> None:

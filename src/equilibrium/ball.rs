@@ -19,6 +19,28 @@ impl Problem<'_> {
     /// A ball on the line of the groove centres, sharing the approach or the gap; a loose ball where its own load presses
     /// it into the outer race, or into the inner one if it falls.
     pub(super) fn seed(&self, j: usize, rings: &SVector<f64, 6>) -> Vector2<f64> {
+        let (centres, reach) = self.grooves(j, rings);
+        let apart = centres[1] - centres[0];
+        let length = apart.norm();
+        let approach = (length - reach[0] - reach[1]) / 2.0;
+        if approach > 0.0 || self.own_load(j).norm() == 0.0 {
+            return centres[0] + apart * ((reach[0] + approach) / length);
+        }
+        self.seat(j, rings)
+    }
+
+    /// Where a loose ball's own load presses it: the normal of its only contact lies along the load.
+    fn seat(&self, j: usize, rings: &SVector<f64, 6>) -> Vector2<f64> {
+        let (centres, reach) = self.grooves(j, rings);
+        let load = self.own_load(j);
+        let race = usize::from(load.x < 0.0);
+        let normal = load.try_normalize(0.0).unwrap_or_else(Vector2::x);
+        centres[race] + normal * (reach[race] + 1e-3 * self.model.scales.approach)
+    }
+
+    /// Groove centres (radius, axial place) in the ball's meridional plane, and how far from them a ball that
+    /// just touches has its centre.
+    fn grooves(&self, j: usize, rings: &SVector<f64, 6>) -> ([Vector2<f64>; 2], [f64; 2]) {
         let ball = &self.model.balls[j];
         let pairs = &self.model.rows[ball.row].pairs;
         let centre = |race: usize| {
@@ -26,20 +48,8 @@ impl Problem<'_> {
             let torus = &pairs[race].race;
             Vector2::new(torus.a + shift, torus.centre + rings[3 * race + 2])
         };
-        let (outer, inner) = (centre(0), centre(1));
-        let apart = inner - outer;
-        let length = apart.norm();
         let reach = [0, 1].map(|race| pairs[race].race.r - ball.side.radius);
-        let approach = (length - reach[0] - reach[1]) / 2.0;
-        // The normal of a ball's only contact lies along its load; without a load it floats in mid-gap.
-        let load = self.own_load(j);
-        if approach > 0.0 || load.norm() == 0.0 {
-            return outer + apart * ((reach[0] + approach) / length);
-        }
-        let race = usize::from(load.x < 0.0);
-        let normal = load.normalize();
-        let touching = reach[race] + 1e-3 * self.model.scales.approach;
-        [outer, inner][race] + normal * touching
+        ([centre(0), centre(1)], reach)
     }
 
     /// A ball between rings that stand still.
@@ -55,6 +65,34 @@ impl Problem<'_> {
             *ball = Vector2::new(body.nominal[0].hypot(body.nominal[1]), body.nominal[2]);
             return Ok(());
         }
+        let scale = self.magnitude / self.model.balls.len() as f64;
+        let mut left = 0.0;
+        // Over a defect a ball may have lost one race, and lie far along the other.
+        for start in [*ball, self.seat(j, rings)] {
+            let (place, residual, contact) = self.relax(j, rings, start, scale);
+            *ball = place;
+            left = residual;
+            if residual <= BALL_STALLED * scale.max(contact) {
+                return Ok(());
+            }
+        }
+        Err(Error::Equilibrium {
+            reason: format!(
+                "{} finds no place between the rings: {left:.3e} N are not balanced",
+                body.name
+            ),
+        })
+    }
+
+    /// Newton's method from a place: where it ends, what is not balanced there, and the size of the contact forces.
+    fn relax(
+        &self,
+        j: usize,
+        rings: &SVector<f64, 6>,
+        start: Vector2<f64>,
+        scale: f64,
+    ) -> (Vector2<f64>, f64, f64) {
+        let mut ball = start;
         let with = |ball: &Vector2<f64>| {
             let mut u = Eight::zeros();
             u.fixed_rows_mut::<2>(0).copy_from(ball);
@@ -65,10 +103,9 @@ impl Problem<'_> {
             let forces = self.ball_forces(j, &with(ball));
             forces.fixed_rows::<2>(0).into_owned()
         };
-        let scale = self.magnitude / self.model.balls.len() as f64;
         let tolerance = TOLERANCE * 1e-2 * scale;
         let longest = 0.02 * self.model.balls[j].side.radius;
-        let mut r = residual(ball);
+        let mut r = residual(&ball);
         let mut best = (r.norm(), 0);
         for iteration in 0..BALL_ITERATIONS {
             if r.norm() < 0.5 * best.0 {
@@ -77,7 +114,7 @@ impl Problem<'_> {
             if r.norm() <= tolerance || iteration > best.1 + 20 {
                 break;
             }
-            let jacobian = self.ball_jacobian(j, &with(ball), 2);
+            let jacobian = self.ball_jacobian(j, &with(&ball), 2);
             let stiffness = -jacobian.fixed_view::<2, 2>(0, 0).into_owned();
             // Where the ball is loose or would tip over, follow the force.
             let symmetric = (stiffness + stiffness.transpose()) / 2.0;
@@ -88,24 +125,15 @@ impl Problem<'_> {
                 break;
             };
             step *= (longest / step.norm()).min(1.0);
-            let from = *ball;
-            (*ball, r) = search(r.dot(&step), |t| {
+            let from = ball;
+            (ball, r) = search(r.dot(&step), |t| {
                 let trial = from + step * t;
                 let residual = residual(&trial);
                 Some((residual.dot(&step), (trial, residual)))
             })
             .unwrap_or((from, r));
         }
-        if r.norm() > BALL_STALLED * scale.max(self.contact_size(j, &with(ball))) {
-            return Err(Error::Equilibrium {
-                reason: format!(
-                    "{} finds no place between the rings: {:.3e} N are not balanced",
-                    body.name,
-                    r.norm()
-                ),
-            });
-        }
-        Ok(())
+        (ball, r.norm(), self.contact_size(j, &with(&ball)))
     }
 
     /// Size of the contact forces at a ball.

@@ -5,7 +5,6 @@ use nalgebra::{DVector, SMatrix, SVector, Vector2};
 use super::cage::CageSpring;
 use crate::contact::{Motion, Sink, Touch, V2};
 use crate::model::{Degree, Model};
-use crate::start::rolling_speeds;
 
 /// The two displacements of a ball and the six of the rings: radius and place z of the ball, then
 /// x, y, z of outer and inner ring; and the forces along them.
@@ -36,7 +35,7 @@ impl<'m> Problem<'m> {
             let body = &model.bodies[2 + j];
             let place = V2::new(body.nominal[0], body.nominal[1]);
             let direction = place.normalize();
-            let orbit = rolling_speeds(model, ball.row).0;
+            let orbit = model.rolling_speeds(ball.row).0;
             let centrifugal = body.mass[0] * orbit * orbit * place.norm();
             let weight = body.mass[0] * (gravity[0] * direction.x + gravity[1] * direction.y);
             ball_loads.push(Vector2::new(

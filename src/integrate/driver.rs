@@ -45,8 +45,7 @@ pub struct Solution {
 ///   hold a step or a breakpoint that is no such thing;
 /// * [`FailureKind::NonFinite`] — the derivative at the start or after a
 ///   breakpoint is not finite, or [`Options::max_rejections`] ever smaller steps
-///   were rejected, the last for a non-finite number;
-/// * [`FailureKind::TooManyRejections`] — the same, the last for its error;
+///   in a row met a non-finite number;
 /// * [`FailureKind::TooSmall`] — the step fell below 16 ulps of the time.
 pub fn integrate<S: System, O: Observer<S>>(
     system: &mut S,
@@ -121,14 +120,10 @@ pub fn integrate<S: System, O: Observer<S>>(
         group = error.group;
         if !finite || !(fixed || error.value <= 1.0) {
             stats.rejected += 1;
-            failures += 1;
+            // A finite error has no such limit: at a jump of the derivative many small steps back are needed.
+            failures = if finite { 0 } else { failures + 1 };
             if fixed || failures >= options.max_rejections {
-                let kind = if finite {
-                    FailureKind::TooManyRejections
-                } else {
-                    FailureKind::NonFinite
-                };
-                return Err(fail(t, plan.h, group, kind));
+                return Err(fail(t, plan.h, group, FailureKind::NonFinite));
             }
             free = plan.h * control.rejected(error.value);
             continue;

@@ -36,8 +36,6 @@ pub enum FailureKind {
     NonFinite,
     /// The step has shrunk to the resolution of time.
     TooSmall,
-    /// Too many steps in a row were rejected for their error.
-    TooManyRejections,
     /// The input is unusable.
     Invalid(Invalid),
 }
@@ -62,7 +60,6 @@ impl fmt::Display for Failure {
         let reason = match self.kind {
             FailureKind::NonFinite => "a number became non-finite",
             FailureKind::TooSmall => "the step fell below the resolution of time",
-            FailureKind::TooManyRejections => "too many steps in a row were rejected",
             FailureKind::Invalid(reason) => return reason.fmt(f),
         };
         write!(

@@ -22,7 +22,7 @@ pub struct Options {
     /// evaluated anew there. In any order; those outside the span are ignored.
     /// Default none.
     pub breakpoints: Vec<f64>,
-    /// Rejections in a row that make a failure. Default 10.
+    /// Steps in a row that meet a non-finite number and make a failure. Default 10.
     pub max_rejections: usize,
     /// Step-size control.
     pub controller: Controller,

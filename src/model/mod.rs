@@ -129,4 +129,14 @@ impl Model {
     pub fn scales(&self) -> &Scales {
         &self.scales
     }
+
+    /// Orbit rate of a row's balls and their rotation about z \[rad/s\] for pure rolling at the nominal contact
+    /// angle, fixed outer ring: ω_c = Ω(1 − γ)/2, θ̇_b = −ω_c d_m / (D cos α₀), γ = D cos α₀ / d_m.
+    pub fn rolling_speeds(&self, row: usize) -> (f64, f64) {
+        let speed = self.scene.drive.initial_speed();
+        let row = &self.scene.rows[row];
+        let gamma = row.ball_diameter * row.contact_angle.cos() / row.pitch_diameter;
+        let orbit = speed * (1.0 - gamma) / 2.0;
+        (orbit, -orbit / gamma)
+    }
 }

@@ -565,7 +565,9 @@ class Contact:
         """The race and, inside a ring defect, its circles."""
         z, s_race = self.ring_z(zeta), self.race_penetration(zeta)
         self.model.near(s_race)
-        if self.hertz is None and s_race <= 0.0:  # a slice that does not reach the race touches nothing
+        if (
+            self.hertz is None and s_race <= 0.0
+        ):  # a slice that does not reach the race touches nothing
             return []
         angle = self.ring_angle(self.n)
         n_e = self.sigma * self.n

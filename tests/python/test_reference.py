@@ -561,9 +561,7 @@ def test_reference_without_width_is_healthy(kind: str, law: str) -> None:
     forces, size = reference.evaluate(0.0, y)
     assert any("edge" in name for name in reference.active)
     expected, _ = healthy.evaluate(0.0, y)
-    assert np.all(
-        np.abs(forces - expected) < (1e-6) * size + 1e-9
-    )
+    assert np.all(np.abs(forces - expected) < (1e-6) * size + 1e-9)
 
 
 @pytest.mark.parametrize("kind", ["outer", "inner", "ball", "overlap", "floor"])

@@ -1,0 +1,308 @@
+"""Spectra of signals, and the frequencies of their lines to a fraction of a bin.
+
+A defect speaks in bursts: each blow rings at the frequencies of the structure, and the blows come at the
+rate of the defect. The squared envelope of the ringing keeps the blows and drops the ringing, and its
+spectrum has a line at the rate of the blows and at its multiples (J. Antoni, R. B. Randall, *The spectral
+kurtosis*, Mech. Syst. Signal Process. 20 (2006) 308, on the squared envelope in particular).
+
+All functions take plain arrays, remove the mean, weigh with a Hann window and give amplitudes: a sine of
+amplitude 2 has a line of height 2. Lines nearer to each other than four over the length of the record
+[1/s] flow together.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .errors import SceneError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["comb", "envelope", "floor", "line", "spectrum", "squared_envelope"]
+
+
+def squared_envelope(
+    x: ArrayLike, fs: float, band: tuple[float, float] | None = None
+) -> NDArray[np.float64]:
+    """Return the squared envelope of a signal in a band: the square of its analytic signal's magnitude.
+
+    Parameters
+    ----------
+    x : array_like, shape (n,)
+        Signal.
+    fs : float
+        Sampling rate [Hz].
+    band : tuple of two floats, optional
+        Lowest and highest frequency [Hz] that count; by default all. The edges are sharp, so the first and
+        the last few periods of the lower edge carry the filter's ringing.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Squared envelope, in the unit of ``x`` squared.
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable.
+
+    Examples
+    --------
+    >>> t = np.arange(1000) / 1000.0
+    >>> burst = (1.0 + 0.5 * np.cos(2 * np.pi * 7.0 * t)) * np.sin(2 * np.pi * 200.0 * t)
+    >>> found = squared_envelope(burst, 1000.0, band=(150.0, 250.0))
+    >>> bool(np.allclose(found, (1.0 + 0.5 * np.cos(2 * np.pi * 7.0 * t)) ** 2))
+    True
+    """
+    signal = _signal(x, fs)
+    n = signal.size
+    low, high = (0.0, fs / 2.0) if band is None else band
+    if not 0.0 <= low < high <= fs / 2.0:
+        raise SceneError("band", str(band), f"two rising frequencies from 0 to fs/2, {fs / 2.0}")
+    lines = np.fft.rfft(signal)
+    f = np.fft.rfftfreq(n, 1.0 / fs)
+    lines[(f < low) | (f > high)] = 0.0
+    # The analytic signal: no negative frequencies, and twice the positive ones.
+    lines[1 : (n + 1) // 2] *= 2.0
+    analytic = np.fft.ifft(lines, n)
+    return analytic.real**2 + analytic.imag**2
+
+
+def spectrum(x: ArrayLike, fs: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the amplitude spectrum of a signal.
+
+    Parameters
+    ----------
+    x : array_like, shape (n,)
+        Signal.
+    fs : float
+        Sampling rate [Hz].
+
+    Returns
+    -------
+    f : ndarray
+        Frequencies, from 0 to fs/2 [Hz].
+    value : ndarray
+        Amplitudes, in the unit of ``x``.
+
+    Examples
+    --------
+    >>> f, value = spectrum(2.0 * np.sin(2 * np.pi * 50.0 * np.arange(1000) / 1000.0), 1000.0)
+    >>> at = int(np.argmax(value))
+    >>> float(f[at]), round(float(value[at]), 3)
+    (50.0, 2.0)
+    """
+    weighted = _weighted(_signal(x, fs))
+    f = np.fft.rfftfreq(weighted.size, 1.0 / fs)
+    value = np.abs(np.fft.rfft(weighted))
+    return f.astype(np.float64, copy=False), value.astype(np.float64, copy=False)
+
+
+def envelope(
+    x: ArrayLike, fs: float, band: tuple[float, float] | None = None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the spectrum of the squared envelope of a signal in a band.
+
+    Parameters
+    ----------
+    x, fs, band
+        As for :func:`squared_envelope`.
+
+    Returns
+    -------
+    f : ndarray
+        Frequencies, from 0 to fs/2 [Hz].
+    value : ndarray
+        Amplitudes, in the unit of ``x`` squared.
+    """
+    return spectrum(squared_envelope(x, fs, band), fs)
+
+
+def line(x: ArrayLike, fs: float, near: float, width: float) -> tuple[float, float]:
+    """Find the strongest line near a frequency, between the bins.
+
+    The maximum of the Hann-weighted Fourier transform at any frequency, not only at multiples of fs/n. For
+    a lone sine in white noise it is, but for the window's loss of a factor 1.1 or so, the estimate of
+    maximum likelihood (D. C. Rife, R. R. Boorstyn, IEEE Trans. Inf. Theory 20 (1974) 591).
+
+    Parameters
+    ----------
+    x : array_like, shape (n,)
+        Signal; to find a line of the squared envelope, the envelope itself.
+    fs : float
+        Sampling rate [Hz].
+    near, width : float
+        The line is sought from ``near - width`` to ``near + width`` [Hz].
+
+    Returns
+    -------
+    f : float
+        Frequency [Hz].
+    value : float
+        Amplitude, in the unit of ``x``.
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable.
+
+    Examples
+    --------
+    A line between two bins, which are 1 Hz apart:
+
+    >>> t = np.arange(1000) / 1000.0
+    >>> f, value = line(3.0 * np.sin(2 * np.pi * 50.37 * t), 1000.0, near=52.0, width=5.0)
+    >>> round(f, 4), round(value, 3)
+    (50.37, 3.0)
+    """
+    f, values = comb(x, fs, near, width)
+    return f, float(values[0])
+
+
+def comb(
+    x: ArrayLike,
+    fs: float,
+    near: float,
+    width: float,
+    *,
+    orders: Iterable[int] = (1,),
+    offset: float = 0.0,
+) -> tuple[float, NDArray[np.float64]]:
+    """Find the frequency whose multiples are the strongest family of lines.
+
+    All lines are fitted at once, the sum of their squared amplitudes as large as it gets, so the higher ones
+    make the frequency sharper.
+
+    Parameters
+    ----------
+    x, fs
+        As for :func:`line`.
+    near, width : float
+        The frequency is sought from ``near - width`` to ``near + width`` [Hz].
+    orders : iterable of int
+        The lines stand at these multiples.
+    offset : float
+        Distance of all lines from the multiples [Hz]: sidebands.
+
+    Returns
+    -------
+    f : float
+        The frequency [Hz].
+    value : ndarray, one entry an order
+        Amplitudes of the lines, in the unit of ``x``.
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable.
+
+    Examples
+    --------
+    >>> t = np.arange(2000) / 1000.0
+    >>> x = sum(np.cos(2 * np.pi * k * 20.123 * t) / k for k in (1, 2, 3))
+    >>> f, value = comb(x, 1000.0, near=20.0, width=1.0, orders=(1, 2, 3))
+    >>> round(f, 3), value.round(2).tolist()
+    (20.123, [1.0, 0.5, 0.33])
+    """
+    signal = _signal(x, fs)
+    multiples = sorted(set(orders))
+    if not multiples or multiples[0] < 1:
+        raise SceneError("orders", str(orders), "at least one, from 1")
+    low, high = near - width, near + width
+    if not (width > 0.0 and multiples[0] * low + offset > 0.0):
+        raise SceneError("width", str(width), "above 0, and lines at positive frequencies")
+    if multiples[-1] * high + offset > fs / 2.0:
+        raise SceneError("near", str(near), f"lines up to fs/2, {fs / 2.0}")
+
+    weighted = _weighted(signal)
+    padded = 4 * weighted.size
+    power = np.abs(np.fft.rfft(weighted, padded)) ** 2
+    table = np.fft.rfftfreq(padded, 1.0 / fs)
+    step = fs / (padded * multiples[-1])
+    grid = np.linspace(low, high, max(3, math.ceil((high - low) / step) + 1))
+    sums = sum(np.interp(k * grid + offset, table, power) for k in multiples)
+    found = float(grid[int(np.argmax(sums))])
+
+    t = (np.arange(signal.size) - signal.size / 2.0) / fs
+
+    def amplitude(f: float) -> float:
+        phase = 2.0 * np.pi * f * t
+        return math.hypot(np.sum(weighted * np.cos(phase)), np.sum(weighted * np.sin(phase)))
+
+    def strength(f: float) -> float:
+        return sum(amplitude(k * f + offset) ** 2 for k in multiples)
+
+    for span in (step, 0.1 * step, 0.01 * step):
+        found = min(max(_summit(strength, found, span), low), high)
+    return found, np.array([amplitude(k * found + offset) for k in multiples])
+
+
+def floor(
+    f: NDArray[np.float64], value: NDArray[np.float64], at: float, width: float
+) -> tuple[float, float]:
+    """Return what a spectrum has around a frequency besides its lines: the median.
+
+    Parameters
+    ----------
+    f, value : ndarray
+        A spectrum.
+    at, width : float
+        The frequencies from ``at - width`` to ``at + width`` count [Hz].
+
+    Returns
+    -------
+    f : float
+        ``at`` [Hz].
+    value : float
+        Median, in the unit of the spectrum.
+
+    Raises
+    ------
+    SceneError
+        The spectrum has nothing there.
+
+    Examples
+    --------
+    >>> f = np.arange(5.0)
+    >>> floor(f, np.array([1.0, 1.0, 9.0, 1.0, 1.0]), at=2.0, width=2.0)
+    (2.0, 1.0)
+    """
+    near = (f >= at - width) & (f <= at + width)
+    if not near.any():
+        raise SceneError("at", str(at), "within the spectrum, and width above its resolution")
+    return at, float(np.median(value[near]))
+
+
+def _signal(x: ArrayLike, fs: float) -> NDArray[np.float64]:
+    signal = np.asarray(x, dtype=np.float64)
+    if signal.ndim != 1 or signal.size < 8:
+        raise SceneError(
+            "x", f"an array of shape {signal.shape}", "an array of shape (n,), n at least 8"
+        )
+    if not np.isfinite(signal).all():
+        raise SceneError("x", "not a number, or infinite, at places", "finite everywhere")
+    if not 0.0 < fs < math.inf:
+        raise SceneError("fs", str(fs), "above 0")
+    return signal
+
+
+def _weighted(signal: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Weigh a signal so that the magnitude of its transform is the amplitude."""
+    window = 1.0 - np.cos(2.0 * np.pi * (np.arange(signal.size) + 0.5) / signal.size)
+    window *= 2.0 / window.sum()
+    return window * (signal - np.sum(window * signal) / 2.0)
+
+
+def _summit(function: Callable[[float], float], middle: float, span: float) -> float:
+    """Return the summit of the parabola through three values, within the span."""
+    left, centre, right = (function(middle + shift) for shift in (-span, 0.0, span))
+    bend = left - 2.0 * centre + right
+    if bend >= 0.0:
+        return middle
+    return middle + span * min(max(0.5 * (left - right) / bend, -1.0), 1.0)

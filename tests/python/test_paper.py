@@ -1,0 +1,234 @@
+"""The published case: its measures on signals with known answers, and the table that ``ballrace paper`` prints."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import polars as pl
+import pytest
+
+import ballrace as br
+from ballrace import paper, plot
+from ballrace.cli import main
+
+FILES = {
+    "paper.json",
+    "comparison.csv",
+    "balls.csv",
+    "slices.csv",
+    "axial_0N.parquet",
+    "axial_3000N.parquet",
+    "axial_-3000N.parquet",
+    "paper.html",
+}
+
+# Two impacts a case: everything runs, the numbers are not the table's.
+SHORT = 0.035
+
+
+@pytest.fixture(scope="module")
+def short() -> paper.Paper:
+    return paper.run(duration=SHORT)
+
+
+@pytest.fixture(scope="module")
+def full() -> paper.Paper:
+    return paper.run()
+
+
+def test_orbit() -> None:
+    t = np.arange(2000) / 10_000.0
+    angle = -2.0 + 75.0 * t
+    rate, first = paper.orbit(t, 0.03 * np.cos(angle), 0.03 * np.sin(angle))
+    assert rate == pytest.approx(75.0)
+    assert first == pytest.approx(-2.0)
+
+
+def test_passages_have_the_place_in_their_middle() -> None:
+    t = np.arange(100_000) / 1e6
+    rate, first, count = 75.0, 0.3, 13
+    edges = paper.passages(t, rate, first, count=count, place=-np.pi / 2.0, after=0.02)
+    period = 2.0 * np.pi / (count * rate)
+    np.testing.assert_allclose(np.diff(t[edges]), period, atol=1.1e-6)
+    assert 0.02 <= t[edges[0]] < 0.02 + period
+    assert t[-1] - period < t[edges[-1]] <= t[-1]
+    middle = first + rate * (t[edges[:-1]] + period / 2.0) + np.pi / 2.0
+    balls = middle * count / (2.0 * np.pi)
+    np.testing.assert_allclose(balls, np.round(balls), atol=1e-3)
+    assert paper.passages(t, rate, first, count=count, place=0.0, after=0.2).size == 0
+
+
+def test_impacts() -> None:
+    signal = np.zeros(400)
+    signal[[50, 150, 260, 340]] = 4.0, -2.0, 3.0, -5.0
+    # Balanced, so that the mean does not count.
+    found = paper.impacts(signal, np.array([0, 100, 200, 300, 400]))
+    np.testing.assert_array_equal(found, [4.0, 2.0, 3.0, 5.0])
+    shifted = paper.impacts(signal + 7.0, np.array([0, 100, 200, 300, 400]))
+    np.testing.assert_allclose(shifted, found)
+
+
+def test_envelope_line_sees_the_swing_and_not_the_tone() -> None:
+    t = np.arange(20_000) / 200_000.0
+    tone = (1.0 + 0.25 * np.cos(2.0 * np.pi * 100.0 * t)) * np.sin(2.0 * np.pi * 3000.0 * t)
+    assert paper.envelope_line(tone, 200_000.0, 100.0) == pytest.approx(0.25, rel=1e-9)
+    assert paper.envelope_line(tone, 200_000.0, 130.0) < 1e-9
+    # A swing outside the band is not heard.
+    assert paper.envelope_line(tone, 200_000.0, 100.0, (5000.0, 20_000.0)) < 1e-9
+
+
+def test_settling_time() -> None:
+    t = np.arange(1000) / 1000.0
+    signal = 5.0 + 3.0 * np.exp(-t / 0.05) * np.cos(2.0 * np.pi * 250.0 * t)
+    found = paper.settling_time(t, signal, 0.3)
+    assert found == pytest.approx(0.05 * math.log(10.0), abs=0.005)
+    assert paper.settling_time(t, signal, 10.0) == 0.0
+
+
+def test_zone() -> None:
+    z = np.linspace(-1.0, 1.0, 21)
+    force = np.maximum(0.0, 0.2 - (z - 0.2) ** 2)
+    found = paper.zone(z, np.full(21, 0.1), force)
+    assert found.middle == pytest.approx(0.2)
+    assert found.length == pytest.approx(0.9)
+    assert (found.first, found.last) == pytest.approx((-0.25, 0.65))
+    empty = paper.zone(z, np.full(21, 0.1), np.zeros(21))
+    assert empty.force == empty.length == 0.0
+    assert math.isnan(empty.middle)
+
+
+@pytest.mark.parametrize(
+    ("ours", "met", "deviation"), [(30.0, True, 0.0), (22.0, True, -0.2667), (39.0, False, 0.3)]
+)
+def test_comparison(ours: float, met: bool, deviation: float) -> None:
+    target = paper.Target("change", "6", "impacts", "+30", 30.0, 22.0, 38.0)
+    line = paper.Comparison(target, ours)
+    assert line.met is met
+    assert line.deviation == pytest.approx(deviation, abs=1e-4)
+    assert line.wanted == "22 … 38"
+    assert not paper.Comparison(target, math.nan).met
+
+
+def test_static_puts_a_ball_at_the_bottom() -> None:
+    none, towards, away = (
+        paper.static(br.presets.wheel_bearing(load)) for load in (0, 3000, -3000)
+    )
+    assert away.load < none.load < towards.load
+    # Ours at rest: figure 9's shifts of the ball and of its contact zone.
+    ball, outer = towards.ball_z - none.ball_z, towards.outer_z - none.outer_z
+    assert ball == pytest.approx(0.05e-3, rel=0.1)
+    assert ball - outer == pytest.approx(0.05e-3, rel=0.1)
+    assert towards.zone_middle - none.zone_middle == pytest.approx(0.9e-3, rel=0.1)
+    assert outer < 0.1 * ball
+
+
+def test_snapshot_is_one_state(short: paper.Paper) -> None:
+    for case in short.cases.values():
+        shot = case.snapshot
+        balls = shot.balls
+        assert balls.row[shot.middle] == 0
+        assert np.degrees(balls.angle[shot.middle]) == pytest.approx(-90.0, abs=180.0 / 13)
+        # The slices of equal width, another quadrature of the same contact, give the load's radial part.
+        aside = shot.zone.middle + shot.outer_z - balls.z[shot.middle]
+        radial = balls.outer_load[shot.middle] * math.sqrt(1.0 - (aside / 5.953e-3) ** 2)
+        assert shot.zone.force == pytest.approx(radial, rel=0.03)
+        lifted = balls.outer_load[balls.row == 0] * np.sin(balls.angle[balls.row == 0])
+        assert lifted.sum() < 0.0
+
+
+def test_files(short: paper.Paper, tmp_path: Path) -> None:
+    folder = tmp_path / "paper"
+    assert {path.name for path in paper.write(short, folder)} == FILES
+    assert {path.name for path in folder.iterdir()} == FILES
+    numbers = json.loads((folder / "paper.json").read_text(encoding="utf-8"))
+    for line, entry in zip(short.table, numbers["table"], strict=True):
+        assert entry["key"] == line.target.key
+        assert entry["ours"] == line.ours
+        assert entry["met"] is line.met
+    out = br.Signals.read_parquet(folder / "axial_3000N.parquet")
+    assert out.fs == paper.FS
+    assert paper.dynamic(out).impact == short.cases["+3 kN"].dynamic.impact
+    assert pl.read_csv(folder / "balls.csv").height == 3 * 26
+    page = (folder / "paper.html").read_text(encoding="utf-8")
+    for figure in range(6, 12):
+        assert f"Figure {figure}:" in page
+    # Self-contained: no script is fetched.
+    assert "<script src" not in page
+
+
+def test_figures_hold_their_numbers(short: paper.Paper) -> None:
+    shot = short.cases["+3 kN"].snapshot
+    forces = plot.force_distribution(shot.balls, title="Forces")
+    assert [trace.name for trace in forces.data] == ["outer race", "inner race"] * 2
+    np.testing.assert_array_equal(forces.data[1].r[:13], shot.balls.inner_load[:13])
+    np.testing.assert_array_equal(forces.data[2].r[:13], shot.balls.outer_load[13:])
+    assert forces.layout.title.text == "Forces"
+    slices = plot.slice_forces({"a": shot.slices, "b": shot.slices}, bands=[(-9e-3, -8e-3)])
+    np.testing.assert_array_equal(slices.data[1].y, shot.slices["force"])
+    assert slices.data[0].y.sum() == pytest.approx(shot.zone.force)
+    assert len(slices.layout.shapes) == 2
+
+
+def test_without_plotly(
+    short: paper.Paper, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    assert {path.name for path in paper.write(short, tmp_path)} == FILES - {"paper.html"}
+
+
+def test_command(
+    short: paper.Paper,
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked = {}
+
+    def run(**options: object) -> paper.Paper:
+        asked.update(options)
+        return short
+
+    monkeypatch.setattr(paper, "run", run)
+    folder = tmp_path / "numbers"
+    assert main(["paper", "-o", str(folder), "--json", "--duration", str(SHORT)]) == 0
+    printed = capsys.readouterr()
+    assert printed.err == ""
+    assert [path.name for path in folder.iterdir()] == ["paper.json"]
+    assert printed.out == (folder / "paper.json").read_text(encoding="utf-8")
+    assert set(json.loads(printed.out)["cases"]) == set(paper.AXIAL_LOADS)
+    assert asked["duration"] == SHORT
+
+    assert main(["paper", "-o", str(folder)]) == 0
+    table = capsys.readouterr().out
+    assert all(line.target.what in table for line in short.table)
+    assert asked["duration"] == paper.DURATION
+    assert {path.name for path in folder.iterdir()} == FILES
+
+
+def test_too_short(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    folder = tmp_path / "none"
+    assert main(["paper", "-o", str(folder), "--duration", "0.01"]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert "duration" in captured.err
+    assert not folder.exists()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("key", [target.key for target in paper.TARGETS])
+def test_published(full: paper.Paper, key: str) -> None:
+    (line,) = (line for line in full.table if line.target.key == key)
+    assert line.met, f"{line.target.what}: {line.ours:.4g}, wanted {line.wanted}"
+
+
+@pytest.mark.long
+def test_impacts_repeat(full: paper.Paper) -> None:
+    """The mean is of impacts that resemble each other, not of a few outliers."""
+    for name in ("0", "+3 kN"):
+        features = full.cases[name].dynamic
+        assert features.impact_spread < 0.15 * features.impact
+    # The clear fault structure of figure 6: impacts stand out of the signal.
+    assert full.cases["+3 kN"].dynamic.impact > 5.0 * full.cases["+3 kN"].dynamic.rms
