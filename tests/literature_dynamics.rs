@@ -297,3 +297,52 @@ fn undamped_impact() {
         meets("impact, restitution", 1.0, -v.last().unwrap() / speed, 1e-8);
     }
 }
+
+/// |R(z)| of the pair for y' = λ y, z = h λ = x + i y: the stages' recursion in complex numbers.
+fn amplification(x: f64, y: f64) -> f64 {
+    let table = ballrace::integrate::DORMAND_PRINCE;
+    let times = |(a, b): (f64, f64)| (x * a - y * b, x * b + y * a);
+    let sum = |weights: &[f64], stages: &[(f64, f64)]| {
+        let mut total = (1.0, 0.0);
+        for (weight, stage) in weights.iter().zip(stages) {
+            total = (total.0 + weight * stage.0, total.1 + weight * stage.1);
+        }
+        total
+    };
+    let mut stages: Vec<(f64, f64)> = Vec::new();
+    for row in table.a {
+        stages.push(times(sum(row, &stages)));
+    }
+    while stages.len() < table.stages {
+        stages.push(times(sum(table.b, &stages)));
+    }
+    let end = sum(table.b, &stages);
+    end.0.hypot(end.1)
+}
+
+/// Computed: the pair of Dormand and Prince is stable to 3.306 on the negative real axis and to about 1.0 on the
+/// imaginary one (Hairer, Wanner, *Solving Ordinary Differential Equations II*, section IV.2).
+#[test]
+fn dormand_prince_is_stable_as_far_as_it_should() {
+    let limit = |inside: &dyn Fn(f64) -> bool| {
+        let (mut low, mut high) = (0.5, 8.0);
+        for _ in 0..50 {
+            let middle = f64::midpoint(low, high);
+            if inside(middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    };
+    let real = limit(&|r| amplification(-r, 0.0) <= 1.0);
+    meets("Dormand-Prince, limit on the real axis", 3.306, real, 1e-3);
+    let imaginary = limit(&|r| amplification(0.0, r) <= 1.0);
+    meets(
+        "Dormand-Prince, limit on the imaginary axis",
+        1.0,
+        imaginary,
+        1e-2,
+    );
+}

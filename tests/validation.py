@@ -28,7 +28,10 @@ LITERATURE = [
 # Python tests that print rows of the same form.
 MEASURED = ["test_defects_speak.py", "test_cwru.py", "test_exudyn.py"]
 HEADER = "| case | published | ours | deviation | tolerance |\n|---|---|---|---|---|\n"
-ROW = re.compile(r"^(?:test \S+ \.\.\. )?(\| .* \|)$", re.MULTILINE)
+# case, published, ours, deviation, tolerance, behind whatever the test runner has printed on the line.
+ROW = re.compile(
+    r"\| ([^|\n]+) \| ([^|\n]+) \| ([^|\n]+) \| ([^|\n]+) % \| ([^|\n]+) % \|$", re.MULTILINE
+)
 
 
 def output(command: list[str]) -> str:
@@ -41,8 +44,16 @@ def output(command: list[str]) -> str:
 
 
 def rows(text: str) -> str:
-    """Return the table rows that tests have printed."""
-    return "\n".join(match[1] for match in ROW.finditer(text)) + "\n"
+    """Return the table rows that tests have printed; of several with one name the worst."""
+    worst: dict[str, list[float]] = {}
+    for case, *numbers in ROW.findall(text):
+        found = [float(number) for number in numbers]
+        if case not in worst or abs(found[2]) > abs(worst[case][2]):
+            worst[case] = found
+    return "".join(
+        f"| {case} | {published:.6g} | {ours:.6g} | {deviation:+.3f} % | {tolerance:.2g} % |\n"
+        for case, (published, ours, deviation, tolerance) in worst.items()
+    )
 
 
 def source(test: str) -> str:
@@ -113,12 +124,31 @@ def main() -> None:
     )
 
 
-LIMITS = """## Not validated
+LIMITS = """## Misfits, explained
+
+- *209 and MASTA, 0.05 to 0.1 %*: the books let both forces on a ball lie on one radius; here each points to the
+  centre of its own ring, and a radial load moves the two apart.
+- *Orbit of the balls, +0.1 to +0.2 %*: a contact of finite length rolls on a diameter a little below the ball's
+  (Heathcote), and friction acts slice by slice; a point contact, Exudyn's, rolls on the full diameter. Ball
+  defects are compared with the rate of that rolling diameter; plain BSF/cos α is 0.4 % lower.
+- *Time to impact*: the published formula knows no race curvature and no load. The race's curvature makes a slot
+  0.84 times (outer) or 1.23 times (inner) as deep as a plane one; a heavily loaded ball meets the far edge early,
+  a fast or lightly loaded one flies on and lands late. Within 15 % only for the loads chosen here
+  (900 N for 0.8 mm, as the cube of the width).
+- *CWRU*: rig load and clearance are not published; 300 N and 100 N of thrust, 5 µm were chosen of three settings
+  tried. The sign of the shift alone does not prove thrust: cage play and rolling diameter also raise BPFO.
+- *Paper*: "zone" is the middle of force. 0.1° of the start phase moves the dynamic zone shift by 0.06 mm, 0.01 mm
+  of the defect's place the impacts by 1.3 points; pitch diameters from 54 to 70 mm are equally good at rest. On
+  50, 100 and 200 fixed slices the impacts grow by 56, 23 and 32 %: fixed slices are a model of their own.
+- *Impacts over width* stop growing once the ball loses its load within the defect.
+
+## Not validated
 
 - Sjövall's ratio at working load (1.192 and 1.134 in the reference list): the source names no bearing.
 - Friction torque, temperature, lubricant film: no reference at hand, and no film in the model.
 - Ball defects of a real bearing: here a ball spins about z only, and a short defect meets one race at a contact
   angle; a real ball tumbles.
+- Lines are taken from runs of 0.5 to 1 s by a fit, not from 2 s.
 """
 
 if __name__ == "__main__":

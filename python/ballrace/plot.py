@@ -161,6 +161,7 @@ def force_distribution(
         specs = [[{"type": "polar"} for _ in numbers]]
         titles = tuple(f"row {row}" for row in numbers)
         fig = make_subplots(rows=1, cols=numbers.size, specs=specs, subplot_titles=titles)
+        fig.update_annotations(yshift=18)  # clear of the label at 90°
     races = {"outer race": balls.outer_load, "inner race": balls.inner_load}
     for place, row in enumerate(numbers, start=1):
         of_row = np.flatnonzero(balls.row == row)
