@@ -90,6 +90,7 @@ def pictures(result: Paper) -> None:
     import matplotlib as mpl
 
     mpl.use("svg")
+    mpl.rcParams["svg.hashsalt"] = "ballrace"  # the same bytes every time
     import matplotlib.pyplot as plt
 
     cases = result.cases
