@@ -68,7 +68,7 @@ pub enum Slices {
     /// Slices of equal width over the whole ball, fixed in it: the paper's method. 10 to 100 000.
     Fixed(usize),
     /// Quadrature nodes on every smooth piece of the zone that touches. 2 to 64; 6 give the force of a healthy
-    /// contact to 1e-5 and across defects to 1e-4.
+    /// contact to 2e-5 and across defects to 1e-4 (root mean square).
     Fitted(usize),
 }
 
