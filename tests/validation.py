@@ -142,8 +142,8 @@ LIMITS = """## Misfits, explained
   of the defect's place the impacts by 1.3 points; pitch diameters from 54 to 70 mm are equally good at rest. On
   50, 100 and 200 fixed slices the impacts grow by 56, 23 and 32 %: fixed slices are a model of their own.
 - *Bounds of our own*: where the paper gives no number ("about 0.02 s", "next to none") the bounds 0.01 to
-  0.03 s and 2 % are ours, and the unknowns of the preset were fitted to the very targets of this table: it shows that one set
-  of plausible values meets them together, not that the model predicted them.
+  0.03 s and 2 % are ours, and the unknowns of the preset were fitted to the very targets of this table: it shows
+  that one set of plausible values meets them together, not that the model predicted them.
 - *Impacts over width* stop growing once the ball loses its load within the defect.
 
 ## Not validated
