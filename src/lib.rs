@@ -23,6 +23,7 @@
 //! scene  →  model  →  dynamics  →  integrate  →  signals
 //! ```
 //!
+//! * [`simd`] — eight numbers at once, compiled for three levels of vector instructions.
 //! * [`scene`] — what a user says: names, numbers, defaults; a serde document that is only validated.
 //! * [`contact`] — laws of one ball on one race: races, slices, ISO and Hertz laws, damping, friction, fault
 //!   circles. Numbers in, numbers out; no indices, no state.
@@ -63,6 +64,7 @@ mod model;
 mod pool;
 pub mod scene;
 mod signals;
+pub mod simd;
 mod simulate;
 mod start;
 

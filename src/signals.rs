@@ -82,6 +82,8 @@ pub struct Provenance {
     pub duration: f64,
     /// Threads used.
     pub threads: usize,
+    /// Level of vector instructions.
+    pub simd: &'static str,
     /// Processor architecture.
     pub architecture: &'static str,
 }

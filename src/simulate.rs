@@ -1,7 +1,11 @@
 //! A run: scene → model → start → integrate → signals. The lines to read first.
 
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, mpsc};
 use std::time::{Duration, Instant};
+
+use rayon::ThreadPool;
 
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
@@ -80,15 +84,18 @@ pub fn simulate(
     check_memory(run, count, recorder.width())?;
     let y0 = start(&model, &run.start)?;
     recorder.reserve();
-    // The callback stays on this thread: it may hold a lock that a pool's thread must not wait for.
     let threads = threads(&model, run.threads)?;
-    let dynamics = if threads > 1 {
-        Dynamics::parallel(&model, pool(threads)?)
-    } else {
-        Dynamics::new(&model)
-    };
     let options = options(&model);
-    let (recorder, stats) = follow(dynamics, recorder, &y0, run.duration, &options, progress)?;
+    let (recorder, stats) = if threads > 1 {
+        let pool = pool(threads)?;
+        let dynamics = Dynamics::parallel(&model, Arc::clone(&pool));
+        inside(&pool, progress, |progress| {
+            follow(dynamics, recorder, &y0, run.duration, &options, progress)
+        })?
+    } else {
+        let dynamics = Dynamics::new(&model);
+        follow(dynamics, recorder, &y0, run.duration, &options, progress)?
+    };
     let start = match run.start {
         Start::Equilibrium => "equilibrium",
         Start::Rolling => "rolling",
@@ -109,10 +116,43 @@ pub fn simulate(
             start,
             duration: run.duration,
             threads,
+            simd: model.level().name(),
             architecture: std::env::consts::ARCH,
         },
         scene,
     })
+}
+
+/// Works inside a pool: to enter one takes some 10 µs, to hand out work from inside next to nothing. `progress`
+/// stays on this thread: it may hold a lock that a thread of the pool must not wait for.
+fn inside<T: Send>(
+    pool: &ThreadPool,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    work: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlow<()>) -> T + Send,
+) -> T {
+    let (told, listen) = mpsc::channel();
+    let stop = AtomicBool::new(false);
+    let mut result = None;
+    pool.in_place_scope(|scope| {
+        scope.spawn(|_| {
+            // Owned here, so that listening ends with the work.
+            let told = told;
+            result = Some(work(&mut |share| {
+                let _ = told.send(share);
+                if stop.load(Ordering::Relaxed) {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            }));
+        });
+        for share in &listen {
+            if progress(share).is_break() {
+                stop.store(true, Ordering::Relaxed);
+            }
+        }
+    });
+    result.expect("the scope waits for the work")
 }
 
 /// Integrates and records.

@@ -3,8 +3,6 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::ControlFlow;
 
-use ballrace::dynamics::Dynamics;
-use ballrace::integrate::System;
 use ballrace::scene::{
     Defect, Friction, Load, NormalLaw, Probe, RingName, Scene, Slices, Support, Surface, presets,
 };
@@ -385,27 +383,4 @@ fn unbalance_turns_with_the_ring() {
     let force = 1e-3 * (TAU * 30.0_f64).powi(2);
     assert!((load[0] - force * 0.75_f64.cos()).abs() < 1e-9 * force);
     assert!((load[1] - force * 0.75_f64.sin()).abs() < 1e-9 * force);
-}
-
-/// Analytic: the contributions add up to what the right-hand side uses.
-#[test]
-fn contributions_sum_to_the_forces() {
-    let scene = presets::wheel_bearing(3000.0);
-    let model = Model::new(&scene).unwrap();
-    let y = start(&model, &Start::Equilibrium).unwrap();
-    let mut dynamics = Dynamics::new(&model);
-    let mut dy = vec![0.0; model.dim()];
-    dynamics.rhs(0.0, &y, &mut dy);
-    let parts = model.forces(0.0, &y);
-    for (b, force) in dynamics.last_forces().iter().enumerate() {
-        for i in 0..4 {
-            let sum: f64 = parts.iter().map(|(_, part)| part[4 * b + i]).sum();
-            let size: f64 = parts.iter().map(|(_, part)| part[4 * b + i].abs()).sum();
-            assert!(
-                (sum - force[i]).abs() <= 1e-12 * size.max(1e-3),
-                "{b} {i}: {sum} {}",
-                force[i]
-            );
-        }
-    }
 }

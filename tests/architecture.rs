@@ -4,8 +4,9 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 11] = [
+const ORDER: [&str; 12] = [
     "error",
+    "simd",
     "scene",
     "contact",
     "integrate",

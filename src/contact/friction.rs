@@ -1,6 +1,7 @@
 //! Friction of a slice: −μ(u) F u⃗ / √(u² + v_s²) (equations 8 and 9, regularised).
 
 use crate::scene;
+use crate::simd::Lanes;
 
 /// Coefficient of friction over slip speed, and the speed below which it fades.
 ///
@@ -72,5 +73,22 @@ impl Friction {
             Coefficient::Traction { a, b, c, d } => (a + b * slip) * (-c * slip).exp() + d,
         };
         mu / (slip * slip + self.slip_speed * self.slip_speed).sqrt()
+    }
+
+    /// The same of eight squares of slip speeds.
+    // Into the vector loop that uses it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    pub(super) fn factors(&self, squares: Lanes) -> Lanes {
+        if let Coefficient::Constant(mu) = self.coefficient {
+            return Lanes::all(mu) / (squares + self.slip_speed * self.slip_speed).sqrt();
+        }
+        self.one_by_one(squares)
+    }
+
+    /// Exponentials have no vector instructions; apart, so that they do not spoil the loop of the others.
+    #[inline(never)]
+    fn one_by_one(&self, squares: Lanes) -> Lanes {
+        squares.map(|square| self.factor(square.sqrt()))
     }
 }

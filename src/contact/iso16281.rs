@@ -1,5 +1,7 @@
 //! The paper's law, after the roller slices of ISO/TS 16281: F = (C/D) Σ s^{10/9} Δζ.
 
+use super::power::ten_ninths;
+
 /// Exponent of the penetration.
 pub const EXPONENT: f64 = 10.0 / 9.0;
 
@@ -34,10 +36,15 @@ impl Iso16281 {
         }
     }
 
+    /// C/D \[N m^{−19/9}\].
+    pub(super) fn density(self) -> f64 {
+        self.density
+    }
+
     /// Elastic force \[N\] at a penetration > 0 \[m\] of a slice of a width \[m\].
     #[inline]
     pub fn force(&self, depth: f64, width: f64) -> f64 {
-        self.density * width * depth.powf(EXPONENT)
+        self.density * width * ten_ninths::<false>(depth)
     }
 
     /// Elastic energy \[J\].

@@ -67,7 +67,7 @@ pub struct Meridian {
 impl Meridian {
     /// Distance of the two centres \[m\].
     pub fn distance(&self) -> f64 {
-        self.e.hypot(self.c)
+        (self.e * self.e + self.c * self.c).sqrt()
     }
 
     /// Normal approach δ of a ball of the given radius; negative without contact \[m\].

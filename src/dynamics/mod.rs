@@ -1,33 +1,32 @@
-//! The right-hand side: every ball's contacts into its own slot, then one sum in one order.
-//!
-//! Slots may be filled by several threads; since each ball's forces are computed alone and the slots are
-//! added up row by row and ball by ball afterwards, the bits do not depend on the number of threads.
+//! The right-hand side: contacts, evaluated by eights, and all other forces, in one order.
 
+mod batch;
 mod contacts;
 mod energy;
 mod others;
-mod slot;
+mod sums;
 
 use std::sync::Arc;
 
 use rayon::ThreadPool;
-use rayon::prelude::*;
 
 use crate::contact::{Motion, Slices};
 use crate::integrate::System;
-use crate::model::{Degree, Model};
+use crate::model::Model;
 use crate::scene::Drive;
 
 pub use contacts::{ContactSummary, SliceForce};
 pub use energy::Energy;
 
-use slot::{Named, Slot};
+use batch::Batch;
+use sums::Named;
 
 /// A model with the memory that evaluating it needs. One a thread of control.
 #[derive(Debug)]
 pub struct Dynamics<'m> {
     model: &'m Model,
-    slots: Vec<Slot>,
+    contacts: Batch,
+    contact_torques: [f64; 2],
     forces: Vec<[f64; 4]>,
     pool: Option<Arc<ThreadPool>>,
 }
@@ -37,12 +36,16 @@ pub const CONTRIBUTIONS: [&str; 8] = [
     "contact", "damping", "friction", "cage", "support", "gravity", "load", "drive",
 ];
 
+/// The inner ring's rotation among the accelerations: what a speed drives.
+const INNER_ANGLE: usize = 7;
+
 impl<'m> Dynamics<'m> {
     /// For evaluations on one thread.
     pub fn new(model: &'m Model) -> Self {
         Self {
             model,
-            slots: vec![Slot::default(); model.balls.len()],
+            contacts: Batch::new(model),
+            contact_torques: [0.0; 2],
             forces: vec![[0.0; 4]; model.bodies.len()],
             pool: None,
         }
@@ -63,12 +66,12 @@ impl<'m> Dynamics<'m> {
 
     /// Slices whose damping wanted to pull in the last evaluation.
     pub fn pulls(&self) -> usize {
-        self.slots.iter().map(|slot| slot.pulls as usize).sum()
+        self.contacts.pulls()
     }
 
     /// Contacts cut off by a shoulder in the last evaluation.
     pub fn truncated(&self) -> usize {
-        self.slots.iter().map(|slot| slot.truncated as usize).sum()
+        self.contacts.truncated()
     }
 
     /// The forces of the last evaluation on every body: x, y, z \[N\] and about z \[N m\]. For a direction
@@ -79,27 +82,14 @@ impl<'m> Dynamics<'m> {
 
     /// Moment about z that the balls put on outer and inner ring in the last evaluation \[N m\].
     pub fn ring_torques(&self) -> [f64; 2] {
-        [0, 1].map(|ring| self.slots.iter().map(|slot| slot.rings[ring][3]).sum())
-    }
-
-    fn fill_slots(&mut self, y: &[f64]) {
-        let model = self.model;
-        let rings = [motion(y, 0), motion(y, 1)];
-        let fill = |(j, slot): (usize, &mut Slot)| slot.fill(model, j, &motion(y, 2 + j), &rings);
-        let slots = &mut self.slots;
-        match &self.pool {
-            Some(pool) => pool.install(|| slots.par_iter_mut().enumerate().for_each(fill)),
-            None => slots.iter_mut().enumerate().for_each(fill),
-        }
+        self.contact_torques
     }
 
     fn sum(&mut self, t: f64, y: &[f64]) {
+        self.contacts.fill(self.model, y, self.pool.as_deref());
         self.forces.fill([0.0; 4]);
-        for (j, slot) in self.slots.iter().enumerate() {
-            add(&mut self.forces[2 + j], &slot.ball);
-            add(&mut self.forces[0], &slot.rings[0]);
-            add(&mut self.forces[1], &slot.rings[1]);
-        }
+        self.contacts.add_to(&mut self.forces);
+        self.contact_torques = [0, 1].map(|ring| self.forces[ring][3]);
         others::cage(self.model, y, &mut self.forces);
         others::supports(self.model, y, &mut self.forces);
         others::gravity(self.model, &mut self.forces);
@@ -143,28 +133,18 @@ impl System for Dynamics<'_> {
     /// M q̈ = F(t, q, q̇) in state space (model section 1). Directions that are fixed do not accelerate;
     /// the driven ring's rotation accelerates as prescribed.
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
-        self.fill_slots(y);
         self.sum(t, y);
         let half = y.len() / 2;
         let (rates, accelerations) = dy.split_at_mut(half);
         rates.copy_from_slice(&y[half..]);
-        for ((body, force), acceleration) in self
-            .model
-            .bodies
-            .iter()
-            .zip(&self.forces)
-            .zip(accelerations.chunks_exact_mut(4))
-        {
+        let moved = self.forces.iter().zip(&self.model.mobility);
+        for (acceleration, (force, mobility)) in accelerations.chunks_exact_mut(4).zip(moved) {
             for i in 0..4 {
-                acceleration[i] = match body.degrees[i] {
-                    Degree::Free { .. } => force[i] / body.mass[i],
-                    Degree::Fixed => 0.0,
-                    Degree::Driven => match &self.model.scene.drive {
-                        Drive::Speed(speed) => speed.rate(t),
-                        Drive::Torque { .. } => 0.0,
-                    },
-                };
+                acceleration[i] = force[i] * mobility[i];
             }
+        }
+        if let Drive::Speed(speed) = &self.model.scene.drive {
+            accelerations[INNER_ANGLE] = speed.rate(t);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Forces that are not contacts: cage, supports, gravity, loads, drive.
 
 use crate::contact::V2;
-use crate::model::{Degree, Model};
+use crate::model::Model;
 use crate::scene::{Cage, Drive, TimeFunction};
 
 /// A cage link between two balls: unit vector from the first to the second, force (positive in tension),
@@ -17,8 +17,10 @@ pub(super) struct Link {
 pub(super) fn link(cage: &Cage, nominal: f64, y: &[f64], i: usize, j: usize) -> Link {
     let (first, second) = (super::motion(y, 2 + i), super::motion(y, 2 + j));
     let apart = second.centre - first.centre;
-    let length = apart.norm();
-    let direction = apart / length;
+    // One division: this runs for every ball in every evaluation.
+    let inverse = 1.0 / apart.norm_squared().sqrt();
+    let length = apart.norm_squared() * inverse;
+    let direction = apart * inverse;
     let extension = length - nominal;
     let half = cage.play / 2.0;
     if cage.play > 0.0 && extension.abs() <= half {
@@ -56,17 +58,11 @@ pub(super) fn cage(model: &Model, y: &[f64], forces: &mut [[f64; 4]]) {
 }
 
 pub(super) fn supports(model: &Model, y: &[f64], forces: &mut [[f64; 4]]) {
-    let half = y.len() / 2;
-    for (b, (body, force)) in model.bodies.iter().zip(forces).enumerate() {
-        for i in 0..4 {
-            if let Degree::Free { stiffness, damping } = body.degrees[i]
-                && (stiffness != 0.0 || damping != 0.0)
-            {
-                // Relaxed at the body's nominal place.
-                let nominal = body.nominal[i];
-                force[i] -= stiffness * (y[4 * b + i] - nominal) + damping * y[half + 4 * b + i];
-            }
-        }
+    let (q, v) = y.split_at(y.len() / 2);
+    for spring in &model.springs {
+        let state = 4 * spring.body + spring.direction;
+        forces[spring.body][spring.direction] -=
+            spring.stiffness * (q[state] - spring.nominal) + spring.damping * v[state];
     }
 }
 

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, Matrix2, SMatrix, SVector, Vector2};
 
 use super::problem::{Eight, Problem};
 use super::search::search;
-use super::{STALLED, TOLERANCE};
+use super::{ROUNDING, STALLED, TOLERANCE};
 use crate::contact::V2;
 use crate::error::{Error, Result};
 use crate::model::Degree;
@@ -61,6 +61,9 @@ impl Problem<'_> {
                 let trial = self.rings(&trial_rings, &mut trial_balls).ok()?;
                 Some((force(&trial), (t, (trial_rings, trial_balls, trial))))
             }) else {
+                if error <= ROUNDING {
+                    return self.check(&state, balls, rings).map(|()| iteration);
+                }
                 break;
             };
             longest = if clipped && moved == 1.0 {

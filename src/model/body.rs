@@ -17,6 +17,16 @@ pub struct Body {
     pub nominal: [f64; 4],
 }
 
+impl Body {
+    /// One over the mass where a direction is free, 0 where it is not.
+    pub(super) fn mobility(&self) -> [f64; 4] {
+        std::array::from_fn(|i| match self.degrees[i] {
+            Degree::Free { .. } => 1.0 / self.mass[i],
+            Degree::Fixed | Degree::Driven => 0.0,
+        })
+    }
+}
+
 /// How one direction of a body moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Degree {

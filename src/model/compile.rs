@@ -3,12 +3,13 @@
 use std::f64::consts::PI;
 
 use super::body::{Body, Degree, ball_mass, groove_radius, ring_mass};
-use super::{Ball, LoadModel, Model, RowModel, Scales, UnbalanceModel};
+use super::{Ball, LoadModel, Model, RowModel, Scales, Spring, UnbalanceModel};
 use crate::contact::hertz::{self, Hertz};
 use crate::contact::iso16281::{self, Iso16281};
 use crate::contact::{BallSide, Fault, Friction, Law, Pair, Rules, Slices, Torus, Waves};
 use crate::error::{Error, Result};
 use crate::scene::{self, Drive, Mount, NormalLaw, RingName, Row, Scene, Surface};
+use crate::simd::Level;
 
 pub(super) fn compile(scene: &Scene) -> Result<Model> {
     scene.validate()?;
@@ -55,7 +56,6 @@ pub(super) fn compile(scene: &Scene) -> Result<Model> {
     }
     let mut model = Model {
         scene: scene.clone(),
-        bodies,
         rows,
         balls,
         loads: loads(scene),
@@ -68,7 +68,14 @@ pub(super) fn compile(scene: &Scene) -> Result<Model> {
                 angle: u.angle,
             })
             .collect(),
+        springs: springs(&bodies),
+        mobility: bodies.iter().map(Body::mobility).collect(),
+        bodies,
         scales: Scales::default(),
+        level: Level::chosen().map_err(|unknown| {
+            let allowed = format!("one of {}, or unset", unknown.available.join(", "));
+            Error::scene("BALLRACE_SIMD", unknown.value, allowed)
+        })?,
     };
     model.scales = Scales::of(&model);
     Ok(model)
@@ -197,6 +204,26 @@ fn ball_faults(scene: &Scene, row: usize, ball: usize, radius: f64) -> Vec<Fault
             Fault::new(defect, defect.axial_offset, slice)
         })
         .collect()
+}
+
+fn springs(bodies: &[Body]) -> Vec<Spring> {
+    let mut springs = Vec::new();
+    for (b, body) in bodies.iter().enumerate() {
+        for (direction, degree) in body.degrees.iter().enumerate() {
+            if let Degree::Free { stiffness, damping } = *degree
+                && (stiffness != 0.0 || damping != 0.0)
+            {
+                springs.push(Spring {
+                    body: b,
+                    direction,
+                    stiffness,
+                    damping,
+                    nominal: body.nominal[direction],
+                });
+            }
+        }
+    }
+    springs
 }
 
 fn loads(scene: &Scene) -> Vec<LoadModel> {

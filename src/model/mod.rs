@@ -10,6 +10,7 @@ mod scales;
 use crate::contact::{BallSide, Pair};
 use crate::error::Result;
 use crate::scene::{Component, Scene, TimeFunction};
+use crate::simd::Level;
 
 pub use body::{Body, Degree};
 pub use scales::Scales;
@@ -30,7 +31,11 @@ pub struct Model {
     pub(crate) balls: Vec<Ball>,
     pub(crate) loads: Vec<LoadModel>,
     pub(crate) unbalances: Vec<UnbalanceModel>,
+    pub(crate) springs: Vec<Spring>,
+    /// One over the mass of every body's free directions, 0 for the others.
+    pub(crate) mobility: Vec<[f64; 4]>,
     pub(crate) scales: Scales,
+    pub(crate) level: Level,
 }
 
 /// A row compiled.
@@ -64,6 +69,17 @@ pub(crate) struct Ball {
     pub side: BallSide,
 }
 
+/// Spring and damper of a direction of a body against the frame, relaxed at its nominal place.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Spring {
+    pub body: usize,
+    /// 0 to 3.
+    pub direction: usize,
+    pub stiffness: f64,
+    pub damping: f64,
+    pub nominal: f64,
+}
+
 /// A load compiled: force at a ring's centre.
 #[derive(Debug, Clone)]
 pub(crate) struct LoadModel {
@@ -84,7 +100,8 @@ impl Model {
     /// Checks and compiles a scene.
     ///
     /// # Errors
-    /// [`crate::Error::Scene`] names the first field that is not usable.
+    /// [`crate::Error::Scene`] names the first field that is not usable, or the environment variable
+    /// `BALLRACE_SIMD` where it names no level of this processor.
     pub fn new(scene: &Scene) -> Result<Self> {
         compile::compile(scene)
     }
@@ -123,6 +140,18 @@ impl Model {
         };
         let (positions, velocities) = (&Component::ALL[..4], &Component::ALL[4..8]);
         [of(positions), of(velocities)].concat()
+    }
+
+    /// Level of vector instructions that evaluations use.
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
+    /// The same model for another level of instructions.
+    #[must_use]
+    pub fn with_level(mut self, level: Level) -> Self {
+        self.level = level;
+        self
     }
 
     /// Scales of the scene, which the tolerances and the step cap follow.

@@ -1,39 +1,15 @@
-//! What a ball's two contacts put on the ball and on the rings.
+//! What the forces of a contact add up to.
 
 use super::add;
-use crate::contact::{Motion, Sink, Touch};
-use crate::model::Model;
+use crate::contact::{Sink, Touch};
 
-/// Sums of one ball's contacts: force and moment on the ball and on both rings.
+/// Force and moment on ball and ring.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Slot {
+pub(super) struct Sum {
     pub ball: [f64; 4],
-    pub rings: [[f64; 4]; 2],
+    pub ring: [f64; 4],
     pub pulls: u32,
-    pub truncated: u32,
-}
-
-impl Slot {
-    pub fn fill(&mut self, model: &Model, j: usize, ball: &Motion, rings: &[Motion; 2]) {
-        *self = Self::default();
-        let compiled = &model.balls[j];
-        for (side, pair) in model.rows[compiled.row].pairs.iter().enumerate() {
-            let mut sum = Sum::default();
-            pair.evaluate(&compiled.side, ball, &rings[side], &mut sum);
-            add(&mut self.ball, &sum.ball);
-            self.rings[side] = sum.ring;
-            self.pulls += sum.pulls;
-            self.truncated += u32::from(sum.truncated);
-        }
-    }
-}
-
-#[derive(Default)]
-struct Sum {
-    ball: [f64; 4],
-    ring: [f64; 4],
-    pulls: u32,
-    truncated: bool,
+    pub truncated: bool,
 }
 
 impl Sink for Sum {

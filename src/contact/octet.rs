@@ -1,0 +1,125 @@
+//! Eight contacts side by side: which of them touch, and what is gathered of those that do.
+
+// Everything here must be compiled for the instructions of its caller.
+#![allow(clippy::inline_always)]
+
+use std::f64::consts::PI;
+
+use super::{Law, Motion, Pair};
+use crate::simd::{Lanes, Mask};
+
+/// Positions of eight balls of one row, for [`Pair::near`].
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Places {
+    /// Ball radius \[m\].
+    pub radius: Lanes,
+    /// x, y, z \[m\].
+    pub q: [Lanes; 3],
+}
+
+/// Which of eight balls of a row touch a race, which of these may see a defect of it, and how the race is raised
+/// there.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Near {
+    pub touching: Mask,
+    pub faulted: Mask,
+    pub wave: Lanes,
+}
+
+/// Eight touching contacts, not necessarily of one row, all with the outer or all with the inner ring.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Octet {
+    pub constants: Constants<Lanes>,
+    /// Raise of the race by its waves \[m\].
+    pub wave: Lanes,
+    /// Position x, y, z of the ball \[m\].
+    pub q: [Lanes; 3],
+    /// Velocity \[m/s\] and angular speed \[rad/s\] of the ball.
+    pub v: [Lanes; 4],
+}
+
+/// Constants of a contact, or of eight.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Constants<T> {
+    /// Ball radius \[m\].
+    pub radius: T,
+    /// The race, as in `Torus`.
+    pub a: T,
+    pub centre: T,
+    pub r: T,
+    pub lowest: T,
+    pub highest: T,
+    /// C/D of the ISO law, or k' of the Hertz law and half of its κ.
+    pub strength: T,
+    pub half_curvature: T,
+}
+
+impl Constants<Lanes> {
+    /// Takes the constants of one contact into a lane.
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, of: &Constants<f64>) {
+        self.radius[lane] = of.radius;
+        self.a[lane] = of.a;
+        self.centre[lane] = of.centre;
+        self.r[lane] = of.r;
+        self.lowest[lane] = of.lowest;
+        self.highest[lane] = of.highest;
+        self.strength[lane] = of.strength;
+        self.half_curvature[lane] = of.half_curvature;
+    }
+}
+
+impl Pair {
+    /// Constants of the contact with a ball of some radius.
+    pub(crate) fn constants(&self, radius: f64) -> Constants<f64> {
+        let race = &self.race;
+        let (strength, half_curvature) = match &self.law {
+            Law::Iso16281(law) => (law.density(), 0.0),
+            Law::Hertz(law) => (law.slope, 0.5 * law.curvature),
+        };
+        Constants {
+            radius,
+            a: race.a,
+            centre: race.centre,
+            r: race.r,
+            lowest: race.lowest,
+            highest: race.highest,
+            strength,
+            half_curvature,
+        }
+    }
+
+    /// Which of eight balls touch, as [`Pair::evaluate`] decides it.
+    #[inline(always)]
+    pub(crate) fn near<const FMA: bool>(&self, balls: &Places, ring: &Motion) -> Near {
+        let race = &self.race;
+        let (x, y) = (balls.q[0] - ring.centre.x, balls.q[1] - ring.centre.y);
+        let d = x.mul_add::<FMA>(x, y * y).sqrt();
+        let wave = if self.waves.is_round() {
+            Lanes::ZERO
+        } else {
+            x.zip(y, |x, y| self.waves.at(y.atan2(x) - ring.theta))
+        };
+        let e = (d - wave - race.a) * race.sigma;
+        let c = balls.q[2] - (race.centre + ring.z);
+        let approach = e.mul_add::<FMA>(e, c * c).sqrt() + balls.radius - race.r;
+        // Negated, so that what is not a number counts as touching and stays one.
+        let clear = e.above(Lanes::ZERO).and((-approach).above(Lanes::ZERO));
+        let touching = clear.not();
+        let mut faulted = Mask::default();
+        if touching.any() {
+            for fault in &self.faults {
+                let (sin, cos) = (fault.angle + ring.theta).sin_cos();
+                let along = x * cos + y * sin;
+                // A little more than the reach, for rounding.
+                let bound = d * (fault.reach.min(PI).cos() - 1e-12);
+                faulted = faulted.or(along.above(bound));
+            }
+        }
+        Near {
+            touching,
+            faulted: faulted.and(touching),
+            wave,
+        }
+    }
+}

@@ -1,0 +1,309 @@
+//! Forces of eight contacts at once.
+//!
+//! The same contacts as `pair` and `walk` evaluate one by one, wherever ball and race are whole and the zone ends
+//! in the groove: then a node is the same few lines for all, and the contacts lie side by side in [`Lanes`].
+//! Whatever is not so simple (a shoulder, a ball that is not in front of its groove) is told, and left to
+//! [`Pair::evaluate`].
+
+// Everything here must be compiled for the instructions of its caller.
+#![allow(clippy::inline_always)]
+
+use super::octet::Octet;
+use super::power::ten_ninths;
+use super::{Law, Motion, Pair, Slices};
+use crate::simd::{Counters, Lanes, Mask};
+
+/// What eight contacts put on balls and ring: force \[N\] and moment about z \[N m\].
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Press {
+    pub ball: [Lanes; 4],
+    pub ring: [Lanes; 4],
+    /// Slices whose damping wanted to pull.
+    pub pulls: u32,
+    /// Contacts left out here.
+    pub careful: Mask,
+}
+
+/// The eight contacts as two circles each in their meridional planes (see `Meridian`), and how they move.
+struct Circles {
+    /// Ball radius, and one over it.
+    radius: Lanes,
+    inverse: Lanes,
+    /// Groove radius squared.
+    r_square: Lanes,
+    e: Lanes,
+    c: Lanes,
+    approach: Lanes,
+    /// (cos α', sin α') of the common normal.
+    normal: (Lanes, Lanes),
+    /// Middle and half-length of the zone along ζ.
+    middle: Lanes,
+    half: Lanes,
+    strength: Lanes,
+    half_curvature: Lanes,
+    /// The contact's arm from the ball's centre, R(z) − d, is this and σ √(r² − x²).
+    arm: Lanes,
+    v_e: Lanes,
+    v_z: Lanes,
+    /// v_t is slide + spin · arm.
+    slide: Lanes,
+    spin: Lanes,
+}
+
+/// A zone along ζ.
+struct Zone {
+    middle: Lanes,
+    half: Lanes,
+    /// Height of the lower end above the ball's equator: not positive where the zone's end is the ball's.
+    lowest: Lanes,
+}
+
+/// A node of every contact.
+struct Node {
+    /// ζ/R and ρ/R.
+    sin: Lanes,
+    cos: Lanes,
+    /// √(r² − x²).
+    groove: Lanes,
+    elastic: Lanes,
+    /// In-plane and axial part of the normal force over its magnitude.
+    share: (Lanes, Lanes),
+}
+
+/// Sums over the nodes: forces along n_e, t_e and z, and the moment of those along t_e about the ball.
+#[derive(Default)]
+struct Sums {
+    normal: Lanes,
+    tangential: Lanes,
+    axial: Lanes,
+    moment: Lanes,
+    pulls: Counters,
+}
+
+impl Pair {
+    /// Forces of eight contacts of this or another row: what their constants do not say (the kind of law, where
+    /// the ball is cut, damping, friction) is the same for all rows.
+    #[inline(always)]
+    pub(crate) fn press<const FMA: bool>(&self, octet: &Octet, ring: &Motion) -> Press {
+        let of = &octet.constants;
+        let sigma = self.race.sigma;
+        let (dx, dy) = (octet.q[0] - ring.centre.x, octet.q[1] - ring.centre.y);
+        let d = dx.mul_add::<FMA>(dx, dy * dy).sqrt();
+        let over = Lanes::all(1.0) / d;
+        let n = (dx * over, dy * over);
+        let raised = of.a + octet.wave;
+        let e = (d - raised) * sigma;
+        let c = of.centre + ring.z - octet.q[2];
+        let l = e.mul_add::<FMA>(e, c * c).sqrt();
+        let over = Lanes::all(1.0) / l;
+        let normal = (e * over, -(c * over));
+        let approach = l + of.radius - of.r;
+        let zone = self.zone(octet, normal, l, approach);
+        let simple = is_simple(octet, e, c, &zone);
+        // Contacts that are not evaluated here get a place just clear of the groove.
+        let clear = (of.r - of.radius) * 0.5;
+        let (zero, one) = (Lanes::ZERO, Lanes::all(1.0));
+        let v = [
+            octet.v[0] - ring.velocity.x,
+            octet.v[1] - ring.velocity.y,
+            octet.v[2] - ring.vz,
+        ];
+        let sums = self.sum::<FMA>(&Circles {
+            radius: of.radius,
+            inverse: one / of.radius,
+            r_square: of.r * of.r,
+            e: simple.choose(e, clear),
+            c: simple.choose(c, zero),
+            approach: simple.choose(approach, zero),
+            normal: (simple.choose(normal.0, one), simple.choose(normal.1, zero)),
+            middle: simple.choose(zone.middle, zero),
+            half: simple.choose(zone.half, zero),
+            strength: of.strength,
+            half_curvature: of.half_curvature,
+            arm: raised - d,
+            v_e: (v[0] * n.0 + v[1] * n.1) * sigma,
+            v_z: v[2],
+            slide: (v[1] * n.0 - v[0] * n.1 - d * ring.omega) * sigma,
+            spin: (octet.v[3] - ring.omega) * sigma,
+        });
+        let (along, across) = (sums.normal * sigma, sums.tangential * sigma);
+        let plane = (n.0 * along - n.1 * across, n.1 * along + n.0 * across);
+        let moment = sums.moment * sigma;
+        Press {
+            ball: [plane.0, plane.1, sums.axial, moment],
+            // About the ring's centre the arm is longer by d.
+            ring: [-plane.0, -plane.1, -sums.axial, -moment - d * across],
+            pulls: sums.pulls.total(),
+            careful: simple.not(),
+        }
+    }
+
+    /// The zones in closed form, as in `Meridian::zone` and `Line::along_tangent`.
+    #[inline(always)]
+    fn zone(&self, octet: &Octet, normal: (Lanes, Lanes), l: Lanes, approach: Lanes) -> Zone {
+        let (radius, r) = (octet.constants.radius, octet.constants.r);
+        match &self.law {
+            Law::Iso16281(_) => {
+                // The circles cut at x from the ball's centre towards the groove's, h beside that line. Without
+                // the cancellation in R² − x²: R + x = δ (l + R + r) / (2 l).
+                let sum = approach * (l + radius + r) * 0.5 / l;
+                let x = sum - radius;
+                let h = (sum * (radius - x)).or_zero().sqrt();
+                Zone {
+                    middle: -(x * normal.1),
+                    half: h * normal.0,
+                    lowest: -(x * normal.0) - (h * normal.1).abs(),
+                }
+            }
+            Law::Hertz(_) => Zone {
+                middle: radius * normal.1,
+                half: (approach / octet.constants.half_curvature).or_zero().sqrt() * normal.0,
+                lowest: normal.0,
+            },
+        }
+    }
+
+    /// The law, cut as the scene says.
+    #[inline(always)]
+    fn sum<const FMA: bool>(&self, circles: &Circles) -> Sums {
+        let mut sums = Sums::default();
+        let (middle, half) = (circles.middle, circles.half);
+        match (&self.slices, &self.law) {
+            (Slices::Fitted(rules), Law::Iso16281(_)) => {
+                let (middle, reach) = (middle * circles.inverse, half * circles.inverse);
+                for &(x, weight) in rules.on([true; 2]) {
+                    let sin = reach.mul_add::<FMA>(Lanes::all(x), middle);
+                    let node = circles.iso::<FMA>(sin, half * weight);
+                    self.add::<FMA>(circles, &node, &mut sums);
+                }
+            }
+            (Slices::Fitted(rules), Law::Hertz(_)) => {
+                let half = half / circles.normal.0;
+                for &(x, weight) in rules.on([true; 2]) {
+                    let node = circles.hertz::<FMA>(half * x, half * weight);
+                    self.add::<FMA>(circles, &node, &mut sums);
+                }
+            }
+            (Slices::Fixed(count), Law::Iso16281(_)) => {
+                let width = circles.radius * (2.0 / *count as f64);
+                for sin in circles.fixed_sines(*count) {
+                    let node = circles.iso::<FMA>(Lanes::all(sin), width);
+                    self.add::<FMA>(circles, &node, &mut sums);
+                }
+            }
+            (Slices::Fixed(count), Law::Hertz(_)) => {
+                let length = circles.radius * (2.0 / *count as f64) / circles.normal.0;
+                for sin in circles.fixed_sines(*count) {
+                    let u = (circles.radius * sin - middle) / circles.normal.0;
+                    let node = circles.hertz::<FMA>(u, length);
+                    self.add::<FMA>(circles, &node, &mut sums);
+                }
+            }
+        }
+        sums
+    }
+
+    /// Damping and friction of a node (model section 5), and its part in the sums.
+    #[inline(always)]
+    fn add<const FMA: bool>(&self, circles: &Circles, node: &Node, sums: &mut Sums) {
+        let (in_plane, axial) = node.share;
+        let (v_e, v_z) = (circles.v_e, circles.v_z);
+        let approach = v_e.mul_add::<FMA>(in_plane, v_z * axial);
+        let damped = node.elastic * (approach * (1.5 * self.damping) + 1.0);
+        sums.pulls.add(Lanes::ZERO.above(damped));
+        let pressed = damped.or_zero();
+        let normal = if self.clamp_pull { pressed } else { damped };
+        let (mut along, mut out) = (normal * in_plane, normal * axial);
+        if let Some(friction) = &self.friction {
+            let arm = node
+                .groove
+                .mul_add::<FMA>(Lanes::all(self.race.sigma), circles.arm);
+            let v_t = circles.spin.mul_add::<FMA>(arm, circles.slide);
+            let u_m = v_z * node.cos - v_e * node.sin;
+            let factor = friction.factors(v_t.mul_add::<FMA>(v_t, u_m * u_m)) * pressed;
+            let (tangential, meridional) = (factor * v_t, factor * u_m);
+            along = along - meridional * node.sin;
+            out = meridional.mul_add::<FMA>(node.cos, out);
+            sums.tangential = sums.tangential - tangential;
+            sums.moment = sums.moment - tangential * arm;
+        }
+        sums.normal = sums.normal - along;
+        sums.axial = sums.axial - out;
+    }
+}
+
+/// Whether the zone's ends lie on ball and race.
+#[inline(always)]
+fn is_simple(octet: &Octet, e: Lanes, c: Lanes, zone: &Zone) -> Mask {
+    /// Of the ball's or the groove's radius: nothing is singular yet.
+    const EDGE: f64 = 1.0 - 1e-9;
+    let of = &octet.constants;
+    let (low, high) = (zone.middle - zone.half, zone.middle + zone.half);
+    let (left, right) = (low - c, high - c);
+    let (ball, groove) = (of.radius * EDGE, of.r * EDGE);
+    let on_ball = low.above(-ball).and(ball.above(high));
+    let on_groove = left.above(-groove).and(groove.above(right));
+    let on_race = left.above(of.lowest).and(of.highest.above(right));
+    let in_front = e.above(Lanes::ZERO).and(zone.lowest.above(Lanes::ZERO));
+    // What is not a number is evaluated here, so that it shows.
+    let unknown = (e + c).is_nan();
+    on_ball
+        .and(on_groove)
+        .and(on_race)
+        .and(in_front)
+        .or(unknown)
+}
+
+impl Circles {
+    /// A slice or node of the ISO law at sin α = ζ/R.
+    #[inline(always)]
+    fn iso<const FMA: bool>(&self, sin: Lanes, width: Lanes) -> Node {
+        let (cos, groove) = self.heights::<FMA>(sin);
+        // s = σ(d − R(z)) + ρ.
+        let depth = (self.e + (cos * self.radius - groove)).or_zero();
+        Node {
+            sin,
+            cos,
+            groove,
+            elastic: width * self.strength * depth.map(ten_ninths::<FMA>),
+            share: (Lanes::all(1.0), sin / cos),
+        }
+    }
+
+    /// A slice or node of the Hertz law at u along the common tangent.
+    #[inline(always)]
+    fn hertz<const FMA: bool>(&self, u: Lanes, length: Lanes) -> Node {
+        let sin = (u * self.inverse).mul_add::<FMA>(self.normal.0, self.normal.1);
+        let (cos, groove) = self.heights::<FMA>(sin);
+        let depth = (self.approach - u * u * self.half_curvature).or_zero();
+        Node {
+            sin,
+            cos,
+            groove,
+            elastic: depth * length * self.strength,
+            share: self.normal,
+        }
+    }
+
+    /// ρ/R and √(r² − x²) at a place of the ball.
+    #[inline(always)]
+    fn heights<const FMA: bool>(&self, sin: Lanes) -> (Lanes, Lanes) {
+        let x = sin.mul_add::<FMA>(self.radius, -self.c);
+        let cos = (-sin).mul_add::<FMA>(sin, Lanes::all(1.0)).sqrt();
+        (cos, (-x).mul_add::<FMA>(x, self.r_square).sqrt())
+    }
+
+    /// ζ/R in the middle of all fixed slices that may lie in any of the zones.
+    #[inline(always)]
+    fn fixed_sines(&self, count: usize) -> impl Iterator<Item = f64> + use<> {
+        let low = (self.middle - self.half) * self.inverse;
+        let high = (self.middle + self.half) * self.inverse;
+        let slices = count as f64;
+        // A float becomes the nearest index that exists; one slice more on either side decides for itself.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let index = |sin: f64| (0.5 * (sin + 1.0) * slices) as usize;
+        let (first, last) = (index(low.least()), index(high.greatest()));
+        (first.saturating_sub(1)..(last + 2).min(count))
+            .map(move |k| (2 * k + 1) as f64 / slices - 1.0)
+    }
+}
