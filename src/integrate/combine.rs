@@ -2,6 +2,8 @@
 
 use std::array::from_fn;
 
+use crate::simd::{Level, Task, mul_add};
+
 /// Most nonzero weights a row may have; one arm of the match below for each.
 const MAX_TERMS: usize = 8;
 
@@ -21,40 +23,69 @@ pub(super) fn combine(
     weights: &[f64],
     k: &[Vec<f64>],
 ) {
-    let mut terms: [Term; MAX_TERMS] = [(0.0, &[]); MAX_TERMS];
-    let mut count = 0;
-    for (&weight, k) in weights.iter().zip(k) {
-        if weight != 0.0 {
-            terms[count] = (weight, k);
-            count += 1;
+    Level::current().run(Combination {
+        out,
+        base,
+        h,
+        weights,
+        k,
+    });
+}
+
+struct Combination<'a> {
+    out: &'a mut [f64],
+    base: Option<&'a [f64]>,
+    h: f64,
+    weights: &'a [f64],
+    k: &'a [Vec<f64>],
+}
+
+impl Task for Combination<'_> {
+    type Output = ();
+
+    // Compiled for the level that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        let mut terms: [Term; MAX_TERMS] = [(0.0, &[]); MAX_TERMS];
+        let mut count = 0;
+        for (&weight, k) in self.weights.iter().zip(self.k) {
+            if weight != 0.0 {
+                terms[count] = (weight, k);
+                count += 1;
+            }
         }
-    }
-    match count {
-        0 => fused::<0>(out, base, h, &terms),
-        1 => fused::<1>(out, base, h, &terms),
-        2 => fused::<2>(out, base, h, &terms),
-        3 => fused::<3>(out, base, h, &terms),
-        4 => fused::<4>(out, base, h, &terms),
-        5 => fused::<5>(out, base, h, &terms),
-        6 => fused::<6>(out, base, h, &terms),
-        7 => fused::<7>(out, base, h, &terms),
-        _ => fused::<8>(out, base, h, &terms),
+        match count {
+            0 => self.fused::<0, FMA>(&terms),
+            1 => self.fused::<1, FMA>(&terms),
+            2 => self.fused::<2, FMA>(&terms),
+            3 => self.fused::<3, FMA>(&terms),
+            4 => self.fused::<4, FMA>(&terms),
+            5 => self.fused::<5, FMA>(&terms),
+            6 => self.fused::<6, FMA>(&terms),
+            7 => self.fused::<7, FMA>(&terms),
+            _ => self.fused::<8, FMA>(&terms),
+        }
     }
 }
 
-/// The loop with the number of terms known, so that it is unrolled over the
-/// terms and vectorised over the states.
-fn fused<const N: usize>(out: &mut [f64], base: Option<&[f64]>, h: f64, terms: &[Term; MAX_TERMS]) {
-    let len = out.len();
-    let weight: [f64; N] = from_fn(|j| terms[j].0);
-    let k: [&[f64]; N] = from_fn(|j| &terms[j].1[..len]);
-    let base = base.map(|base| &base[..len]);
-    for i in 0..len {
-        let mut sum = 0.0;
-        for j in 0..N {
-            sum += weight[j] * k[j][i];
+impl Combination<'_> {
+    /// The loop with the number of terms known, so that it is unrolled over the terms and vectorised over the
+    /// states.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn fused<const N: usize, const FMA: bool>(self, terms: &[Term; MAX_TERMS]) {
+        let len = self.out.len();
+        let weight: [f64; N] = from_fn(|j| terms[j].0);
+        let k: [&[f64]; N] = from_fn(|j| &terms[j].1[..len]);
+        let base = self.base.map(|base| &base[..len]);
+        for i in 0..len {
+            let mut sum = 0.0;
+            for j in 0..N {
+                sum = mul_add::<FMA>(weight[j], k[j][i], sum);
+            }
+            self.out[i] = mul_add::<FMA>(self.h, sum, base.map_or(0.0, |base| base[i]));
         }
-        out[i] = h * sum + base.map_or(0.0, |base| base[i]);
     }
 }
 

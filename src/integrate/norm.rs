@@ -1,6 +1,7 @@
 //! Tolerances, and the norm that weighs an error against them.
 
 use super::failure::Invalid;
+use crate::simd::{Level, Task};
 
 /// What error is acceptable in each state, and which states belong together.
 ///
@@ -139,17 +140,12 @@ impl<'a> Norm<'a> {
     /// A non-finite `y1` counts as a non-finite `x`: it would otherwise make
     /// the scale infinite and the error vanish.
     pub(super) fn measure(&mut self, y0: &[f64], y1: &[f64], x: &[f64]) -> Worst {
-        let n = self.weight.len();
-        let (atol, rtol) = (&self.tolerance.atol[..n], &self.tolerance.rtol[..n]);
-        let (y0, y1, x) = (&y0[..n], &y1[..n], &x[..n]);
-        let (weight, square) = (&mut self.weight[..n], &mut self.square[..n]);
-        for i in 0..n {
-            let (before, after) = (y0[i].abs(), y1[i].abs());
-            let size = if before > after { before } else { after };
-            weight[i] = 1.0 / (atol[i] + rtol[i] * size);
-            let scaled = x[i] * weight[i];
-            square[i] = scaled * scaled + 0.0 * after;
-        }
+        Level::current().run(Scaling {
+            norm: self,
+            y0,
+            y1,
+            x,
+        });
         self.sum.fill(0.0);
         for run in &self.tolerance.runs {
             self.sum[run.group] += self.square[run.start..run.end].iter().sum::<f64>();
@@ -177,6 +173,38 @@ impl<'a> Norm<'a> {
     /// One over the scale of each state, as of the last measurement.
     pub(super) fn weights(&self) -> &[f64] {
         &self.weight
+    }
+}
+
+/// Weights and scaled squares of every state.
+struct Scaling<'n, 'a> {
+    norm: &'n mut Norm<'a>,
+    y0: &'n [f64],
+    y1: &'n [f64],
+    x: &'n [f64],
+}
+
+impl Task for Scaling<'_, '_> {
+    type Output = ();
+
+    // Compiled for the level that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        let n = self.norm.weight.len();
+        let (atol, rtol) = (
+            &self.norm.tolerance.atol[..n],
+            &self.norm.tolerance.rtol[..n],
+        );
+        let (y0, y1, x) = (&self.y0[..n], &self.y1[..n], &self.x[..n]);
+        let (weight, square) = (&mut self.norm.weight[..n], &mut self.norm.square[..n]);
+        for i in 0..n {
+            let (before, after) = (y0[i].abs(), y1[i].abs());
+            let size = if before > after { before } else { after };
+            weight[i] = 1.0 / (atol[i] + rtol[i] * size);
+            let scaled = x[i] * weight[i];
+            square[i] = scaled * scaled + 0.0 * after;
+        }
     }
 }
 

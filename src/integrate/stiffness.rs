@@ -1,7 +1,6 @@
 //! The stiffness quotient.
 
-/// Number of independent partial sums, so that the loop can be vectorised.
-const LANES: usize = 4;
+use crate::simd::{LANES, Level, Task};
 
 /// `h · ‖k1 − k0‖ / ‖y1 − y0‖`, an estimate of `h·|λ|` for the dominant
 /// eigenvalue λ, from two states `y` at the same time and their derivatives
@@ -21,22 +20,38 @@ pub(super) fn quotient(h: f64, y: [&[f64]; 2], k: [&[f64]; 2], weights: &[f64]) 
 }
 
 /// The weighted sum of squared differences.
-fn distance([x0, x1]: [&[f64]; 2], weights: &[f64]) -> f64 {
-    let term = |x0: f64, x1: f64, w: f64| ((x1 - x0) * w) * ((x1 - x0) * w);
-    let (x0, rest0) = x0.as_chunks::<LANES>();
-    let (x1, rest1) = x1.as_chunks::<LANES>();
-    let (w, rest_w) = weights.as_chunks::<LANES>();
-    let mut sums = [0.0; LANES];
-    for ((x0, x1), w) in x0.iter().zip(x1).zip(w) {
-        for lane in 0..LANES {
-            sums[lane] += term(x0[lane], x1[lane], w[lane]);
+fn distance(x: [&[f64]; 2], weights: &[f64]) -> f64 {
+    Level::current().run(Distance { x, weights })
+}
+
+struct Distance<'a> {
+    x: [&'a [f64]; 2],
+    weights: &'a [f64],
+}
+
+impl Task for Distance<'_> {
+    type Output = f64;
+
+    // Compiled for the level that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn run<const FMA: bool>(self) -> f64 {
+        let term = |x0: f64, x1: f64, w: f64| ((x1 - x0) * w) * ((x1 - x0) * w);
+        let (x0, rest0) = self.x[0].as_chunks::<LANES>();
+        let (x1, rest1) = self.x[1].as_chunks::<LANES>();
+        let (w, rest_w) = self.weights.as_chunks::<LANES>();
+        let mut sums = [0.0; LANES];
+        for ((x0, x1), w) in x0.iter().zip(x1).zip(w) {
+            for lane in 0..LANES {
+                sums[lane] += term(x0[lane], x1[lane], w[lane]);
+            }
         }
+        let mut sum: f64 = sums.iter().sum();
+        for ((x0, x1), w) in rest0.iter().zip(rest1).zip(rest_w) {
+            sum += term(*x0, *x1, *w);
+        }
+        sum
     }
-    let mut sum: f64 = sums.iter().sum();
-    for ((x0, x1), w) in rest0.iter().zip(rest1).zip(rest_w) {
-        sum += term(*x0, *x1, *w);
-    }
-    sum
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! One program for three levels of instructions.
 
 use std::fmt;
+use std::sync::OnceLock;
 
 use pulp::NullaryFnOnce;
 
@@ -71,6 +72,12 @@ impl Level {
                 value: value.to_string_lossy().into_owned(),
                 available: available.iter().map(Self::name).collect(),
             })
+    }
+
+    /// The level of this process, read once; the baseline if the environment names none of this processor.
+    pub(crate) fn current() -> Self {
+        static CURRENT: OnceLock<Level> = OnceLock::new();
+        *CURRENT.get_or_init(|| Self::chosen().unwrap_or(Self::Baseline))
     }
 
     /// Its name, as the environment variable takes it.
