@@ -36,9 +36,11 @@ struct Circles {
     approach: Lanes,
     /// (cos α', sin α') of the common normal.
     normal: (Lanes, Lanes),
-    /// Middle and half-length of the zone along ζ.
-    middle: Lanes,
+    /// Half-length of the zone along the common tangent.
     half: Lanes,
+    /// Its ends along ζ.
+    low: Lanes,
+    high: Lanes,
     strength: Lanes,
     half_curvature: Lanes,
     /// The contact's arm from the ball's centre, R(z) − d, is this and σ √(r² − x²).
@@ -50,10 +52,11 @@ struct Circles {
     spin: Lanes,
 }
 
-/// A zone along ζ.
+/// Zones: half-length along the common tangent, and ends along ζ.
 struct Zone {
-    middle: Lanes,
     half: Lanes,
+    low: Lanes,
+    high: Lanes,
     /// Height of the lower end above the ball's equator: not positive where the zone's end is the ball's.
     lowest: Lanes,
 }
@@ -116,8 +119,9 @@ impl Pair {
             c: simple.choose(c, zero),
             approach: simple.choose(approach, zero),
             normal: (simple.choose(normal.0, one), simple.choose(normal.1, zero)),
-            middle: simple.choose(zone.middle, zero),
             half: simple.choose(zone.half, zero),
+            low: simple.choose(zone.low, zero),
+            high: simple.choose(zone.high, zero),
             strength: of.strength,
             half_curvature: of.half_curvature,
             arm: raised - d,
@@ -142,24 +146,23 @@ impl Pair {
     #[inline(always)]
     fn zone(&self, octet: &Octet, normal: (Lanes, Lanes), l: Lanes, approach: Lanes) -> Zone {
         let (radius, r) = (octet.constants.radius, octet.constants.r);
-        match &self.law {
+        let (half, height) = match &self.law {
             Law::Iso16281(_) => {
-                // The circles cut at x from the ball's centre towards the groove's, h beside that line. Without
-                // the cancellation in R² − x²: R + x = δ (l + R + r) / (2 l).
                 let sum = approach * (l + radius + r) * 0.5 / l;
-                let x = sum - radius;
-                let h = (sum * (radius - x)).or_zero().sqrt();
-                Zone {
-                    middle: -(x * normal.1),
-                    half: h * normal.0,
-                    lowest: -(x * normal.0) - (h * normal.1).abs(),
-                }
+                let half = (sum * (radius + radius - sum)).or_zero().sqrt();
+                (half, radius - sum)
             }
-            Law::Hertz(_) => Zone {
-                middle: radius * normal.1,
-                half: (approach / octet.constants.half_curvature).or_zero().sqrt() * normal.0,
-                lowest: normal.0,
-            },
+            Law::Hertz(_) => {
+                let square = approach / octet.constants.half_curvature;
+                (square.or_zero().sqrt(), radius)
+            }
+        };
+        let (middle, reach) = (height * normal.1, half * normal.0);
+        Zone {
+            half,
+            low: middle - reach,
+            high: middle + reach,
+            lowest: height * normal.0 - (half * normal.1).abs(),
         }
     }
 
@@ -167,18 +170,16 @@ impl Pair {
     #[inline(always)]
     fn sum<const FMA: bool>(&self, circles: &Circles) -> Sums {
         let mut sums = Sums::default();
-        let (middle, half) = (circles.middle, circles.half);
+        let half = circles.half;
         match (&self.slices, &self.law) {
             (Slices::Fitted(rules), Law::Iso16281(_)) => {
-                let (middle, reach) = (middle * circles.inverse, half * circles.inverse);
+                let reach = half * circles.inverse;
                 for &(x, weight) in rules.on([true; 2]) {
-                    let sin = reach.mul_add::<FMA>(Lanes::all(x), middle);
-                    let node = circles.iso::<FMA>(sin, half * weight);
+                    let node = circles.iso_node::<FMA>(reach * x, half * weight);
                     self.add::<FMA>(circles, &node, &mut sums);
                 }
             }
             (Slices::Fitted(rules), Law::Hertz(_)) => {
-                let half = half / circles.normal.0;
                 for &(x, weight) in rules.on([true; 2]) {
                     let node = circles.hertz::<FMA>(half * x, half * weight);
                     self.add::<FMA>(circles, &node, &mut sums);
@@ -187,14 +188,16 @@ impl Pair {
             (Slices::Fixed(count), Law::Iso16281(_)) => {
                 let width = circles.radius * (2.0 / *count as f64);
                 for sin in circles.fixed_sines(*count) {
-                    let node = circles.iso::<FMA>(Lanes::all(sin), width);
+                    let node = circles.iso_slice::<FMA>(sin, width);
                     self.add::<FMA>(circles, &node, &mut sums);
                 }
             }
             (Slices::Fixed(count), Law::Hertz(_)) => {
-                let length = circles.radius * (2.0 / *count as f64) / circles.normal.0;
+                let over = Lanes::all(1.0) / circles.normal.0;
+                let length = circles.radius * (2.0 / *count as f64) * over;
+                let middle = circles.radius * circles.normal.1;
                 for sin in circles.fixed_sines(*count) {
-                    let u = (circles.radius * sin - middle) / circles.normal.0;
+                    let u = (circles.radius * sin - middle) * over;
                     let node = circles.hertz::<FMA>(u, length);
                     self.add::<FMA>(circles, &node, &mut sums);
                 }
@@ -238,10 +241,9 @@ fn is_simple(octet: &Octet, e: Lanes, c: Lanes, zone: &Zone) -> Mask {
     /// Of the ball's or the groove's radius: nothing is singular yet.
     const EDGE: f64 = 1.0 - 1e-9;
     let of = &octet.constants;
-    let (low, high) = (zone.middle - zone.half, zone.middle + zone.half);
-    let (left, right) = (low - c, high - c);
+    let (left, right) = (zone.low - c, zone.high - c);
     let (ball, groove) = (of.radius * EDGE, of.r * EDGE);
-    let on_ball = low.above(-ball).and(ball.above(high));
+    let on_ball = zone.low.above(-ball).and(ball.above(zone.high));
     let on_groove = left.above(-groove).and(groove.above(right));
     let on_race = left.above(of.lowest).and(of.highest.above(right));
     let in_front = e.above(Lanes::ZERO).and(zone.lowest.above(Lanes::ZERO));
@@ -255,10 +257,30 @@ fn is_simple(octet: &Octet, e: Lanes, c: Lanes, zone: &Zone) -> Mask {
 }
 
 impl Circles {
-    /// A slice or node of the ISO law at sin α = ζ/R.
+    /// A node of the ISO law at u/R along the common chord, as in `Chord::zeta`.
     #[inline(always)]
-    fn iso<const FMA: bool>(&self, sin: Lanes, width: Lanes) -> Node {
-        let (cos, groove) = self.heights::<FMA>(sin);
+    fn iso_node<const FMA: bool>(&self, u: Lanes, stretch: Lanes) -> Node {
+        let (normal_cos, normal_sin) = self.normal;
+        let height = (-u).mul_add::<FMA>(u, Lanes::all(1.0)).sqrt();
+        let sin = u.mul_add::<FMA>(normal_cos, height * normal_sin);
+        let cos = height * normal_cos - u * normal_sin;
+        // One division for 1/height and 1/cos.
+        let over = Lanes::all(1.0) / (height * cos);
+        let tan = sin * (height * over);
+        self.iso::<FMA>(sin, cos, tan, stretch * cos * (cos * over))
+    }
+
+    /// A slice of the ISO law at sin α = ζ/R of the ball.
+    #[inline(always)]
+    fn iso_slice<const FMA: bool>(&self, sin: f64, width: Lanes) -> Node {
+        let cos = (1.0 - sin * sin).sqrt();
+        let [sin, cos, tan] = [sin, cos, sin / cos].map(Lanes::all);
+        self.iso::<FMA>(sin, cos, tan, width)
+    }
+
+    #[inline(always)]
+    fn iso<const FMA: bool>(&self, sin: Lanes, cos: Lanes, tan: Lanes, width: Lanes) -> Node {
+        let groove = self.groove::<FMA>(sin);
         // s = σ(d − R(z)) + ρ.
         let depth = (self.e + (cos * self.radius - groove)).or_zero();
         Node {
@@ -266,7 +288,7 @@ impl Circles {
             cos,
             groove,
             elastic: width * self.strength * depth.map(ten_ninths::<FMA>),
-            share: (Lanes::all(1.0), sin / cos),
+            share: (Lanes::all(1.0), tan),
         }
     }
 
@@ -274,7 +296,8 @@ impl Circles {
     #[inline(always)]
     fn hertz<const FMA: bool>(&self, u: Lanes, length: Lanes) -> Node {
         let sin = (u * self.inverse).mul_add::<FMA>(self.normal.0, self.normal.1);
-        let (cos, groove) = self.heights::<FMA>(sin);
+        let cos = (-sin).mul_add::<FMA>(sin, Lanes::all(1.0)).sqrt();
+        let groove = self.groove::<FMA>(sin);
         let depth = (self.approach - u * u * self.half_curvature).or_zero();
         Node {
             sin,
@@ -285,19 +308,17 @@ impl Circles {
         }
     }
 
-    /// ρ/R and √(r² − x²) at a place of the ball.
+    /// √(r² − x²) at sin α = ζ/R of the ball.
     #[inline(always)]
-    fn heights<const FMA: bool>(&self, sin: Lanes) -> (Lanes, Lanes) {
+    fn groove<const FMA: bool>(&self, sin: Lanes) -> Lanes {
         let x = sin.mul_add::<FMA>(self.radius, -self.c);
-        let cos = (-sin).mul_add::<FMA>(sin, Lanes::all(1.0)).sqrt();
-        (cos, (-x).mul_add::<FMA>(x, self.r_square).sqrt())
+        (-x).mul_add::<FMA>(x, self.r_square).sqrt()
     }
 
     /// ζ/R in the middle of all fixed slices that may lie in any of the zones.
     #[inline(always)]
     fn fixed_sines(&self, count: usize) -> impl Iterator<Item = f64> + use<> {
-        let low = (self.middle - self.half) * self.inverse;
-        let high = (self.middle + self.half) * self.inverse;
+        let (low, high) = (self.low * self.inverse, self.high * self.inverse);
         let slices = count as f64;
         // A float becomes the nearest index that exists; one slice more on either side decides for itself.
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]

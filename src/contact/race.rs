@@ -81,30 +81,71 @@ impl Meridian {
         (self.e / l, -self.c / l)
     }
 
-    /// Ends of the touching zone along ζ for a ball of the given radius, in closed form: where the two
-    /// circles cut; and whether they do: the end is the ball's own where a circle cuts below the equator.
-    /// None without contact.
-    pub fn zone(&self, radius: f64) -> Option<[(f64, bool); 2]> {
+    /// The touching zone of a ball of the given radius, in closed form: where the two circles cut. None without
+    /// contact.
+    pub fn zone(&self, radius: f64) -> Option<Chord> {
         if self.e <= 0.0 {
             // The ball is not in front of the groove's bottom: let every slice decide for itself.
-            return Some([(-radius, false), (radius, false)]);
+            return Some(Chord {
+                radius,
+                normal: (1.0, 0.0),
+                ends: [(-radius, false), (radius, false)],
+            });
         }
         let l = self.distance();
         if l + radius <= self.r {
             return None;
         }
-        let x = (l * l + radius * radius - self.r * self.r) / (2.0 * l);
-        let h = (radius * radius - x * x).max(0.0).sqrt();
-        let (cos, sin) = (self.e / l, self.c / l);
+        let normal = self.normal();
+        // R + x = δ (l + R + r) / (2 l), without the cancellation in l² + R² − r².
+        let sum = (l + radius - self.r) * (l + radius + self.r) / (2.0 * l);
+        let half = (sum * (2.0 * radius - sum)).max(0.0).sqrt();
         let end = |side: f64| {
-            let height = -x * cos + side * h * sin;
-            if height > 0.0 {
-                (x * sin + side * h * cos, true)
+            // The ball ends at its equator, ρ = 0, towards which the normal leans.
+            let equator = radius * normal.0;
+            if side * normal.1 > 0.0 && half > equator {
+                (side * equator, false)
             } else {
-                (side * radius, false)
+                (side * half, true)
             }
         };
-        Some([end(-1.0), end(1.0)])
+        Some(Chord {
+            radius,
+            normal,
+            ends: [end(-1.0), end(1.0)],
+        })
+    }
+}
+
+/// A zone along the chord that ball and groove have in common: u runs along the common tangent, and the ball's
+/// surface stands over it at √(R² − u²).
+///
+/// Both circles are symmetric about the common normal, so the penetration is very nearly even in u, and quadrature
+/// converges faster than along ζ, on which the zone of an inclined contact is lopsided.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Chord {
+    /// Ball radius \[m\].
+    pub radius: f64,
+    /// (cos α', sin α') of the common normal.
+    pub normal: (f64, f64),
+    /// Ends of u, and whether the penetration vanishes there: else the ball itself ends.
+    pub ends: [(f64, bool); 2],
+}
+
+impl Chord {
+    /// Place ζ of a point of the ball's surface, and dζ/du.
+    pub fn zeta(&self, u: f64) -> (f64, f64) {
+        let (cos, sin) = self.normal;
+        let height = (self.radius * self.radius - u * u).sqrt();
+        let rho = height * cos - u * sin;
+        (height * sin + u * cos, rho / height)
+    }
+
+    /// u of the point at a place ζ in −R … R.
+    pub fn u(&self, zeta: f64) -> f64 {
+        let (cos, sin) = self.normal;
+        let rho = (self.radius * self.radius - zeta * zeta).max(0.0).sqrt();
+        zeta * cos - rho * sin
     }
 }
 

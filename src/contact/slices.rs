@@ -24,7 +24,7 @@ pub struct Rules {
 }
 
 impl Rules {
-    /// m nodes a piece for a law of exponent β.
+    /// m nodes a piece for a law of exponent β, 2 m on one where the force vanishes at neither end.
     ///
     /// ```
     /// use ballrace::contact::slices::Rules;
@@ -46,7 +46,8 @@ impl Rules {
             both: jacobi(m, exponent, exponent, both_sided_mass(exponent)),
             low: one_sided,
             high,
-            neither: jacobi(m, 0.0, 0.0, 2.0),
+            // Inside a defect the forces of its elements vanish at ends of their own, with no weight for them.
+            neither: jacobi(2 * m, 0.0, 0.0, 2.0),
         }
     }
 
@@ -60,7 +61,7 @@ impl Rules {
         }
     }
 
-    /// Nodes a piece.
+    /// Nodes of a whole zone.
     pub fn count(&self) -> usize {
         self.both.len()
     }

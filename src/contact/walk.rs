@@ -2,47 +2,48 @@
 //!
 //! Ball and groove are two circles in the meridional plane, so the ends of the zone are known in closed form,
 //! the penetration vanishes there linearly and the force with the law's exponent. Gauss–Jacobi nodes for that
-//! weight on the whole zone converge exponentially (model section 10). Where the end of a defect or a shoulder
+//! weight on the whole zone converge exponentially (model section 10, but along the common chord instead of ζ:
+//! at 30° six nodes are then better by a factor of 500). Where the end of a defect or a shoulder
 //! cuts the zone, the outer pieces keep the weight at their free end only. Inside a defect the elements have
 //! zones of their own: their ends are searched for, and plain Gauss nodes lie on every smooth piece.
 
 use super::hertz::Hertz;
 use super::pair::Contact;
-use super::race::Meridian;
+use super::race::{Chord, Meridian};
 use super::slices::Rules;
 use super::{Fault, Sink, Slices};
 
-/// The line along which a contact is cut: ζ = middle + u · cos, over the zone low … high of u.
+/// The line along which a contact is cut, over the zone low … high of u.
 pub(super) struct Line {
-    middle: f64,
-    cos: f64,
+    along: Along,
     low: f64,
     high: f64,
     /// Whether the penetration vanishes at the zone's ends.
     sealed: [bool; 2],
-    depth: Depth,
 }
 
-/// Penetration that the law sees.
-enum Depth {
-    /// That of the slice in the plane, s_k.
-    Race,
-    /// δ − κ u²/2 of the Hertz law.
-    Gap { approach: f64, curvature: f64 },
+enum Along {
+    /// The ball's surface over the common chord; the penetration is that of the slice in the plane, s_k.
+    Surface(Chord),
+    /// The common tangent, ζ = middle + u · cos; the penetration is δ − κ u²/2 of the Hertz law.
+    Tangent {
+        middle: f64,
+        cos: f64,
+        approach: f64,
+        curvature: f64,
+    },
 }
 
 impl Line {
-    /// Along ζ: the ISO law.
+    /// Along the ball's surface: the ISO law.
     pub(super) fn along_ball(meridian: &Meridian, radius: f64) -> Option<Self> {
-        let [(low, low_sealed), (high, high_sealed)] = meridian.zone(radius)?;
-        let sealed = [low_sealed, high_sealed];
+        let chord = meridian.zone(radius)?;
+        let [(low, low_sealed), (high, high_sealed)] = chord.ends;
         Some(Self {
-            middle: 0.0,
-            cos: 1.0,
+            along: Along::Surface(chord),
             low,
             high,
-            sealed,
-            depth: Depth::Race,
+            sealed: [low_sealed, high_sealed],
         })
     }
 
@@ -55,16 +56,40 @@ impl Line {
         let (cos, sin) = meridian.normal();
         let half = law.half_zone(approach);
         Some(Self {
-            middle: radius * sin,
-            cos,
-            low: -half,
-            high: half,
-            sealed: [true; 2],
-            depth: Depth::Gap {
+            along: Along::Tangent {
+                middle: radius * sin,
+                cos,
                 approach,
                 curvature: law.curvature,
             },
+            low: -half,
+            high: half,
+            sealed: [true; 2],
         })
+    }
+
+    /// Place ζ at u, and the width that a unit of u stands for: of a slice, or of the common tangent.
+    fn zeta(&self, u: f64) -> (f64, f64) {
+        match &self.along {
+            Along::Surface(chord) => chord.zeta(u),
+            Along::Tangent { middle, cos, .. } => (middle + u * cos, 1.0),
+        }
+    }
+
+    /// u at a place ζ of the ball.
+    fn u(&self, zeta: f64) -> f64 {
+        match &self.along {
+            Along::Surface(chord) => chord.u(zeta),
+            Along::Tangent { middle, cos, .. } => (zeta - middle) / cos,
+        }
+    }
+
+    /// Width of a fixed slice that is `width` wide along ζ.
+    fn of_slice(&self, width: f64) -> f64 {
+        match &self.along {
+            Along::Surface(_) => width,
+            Along::Tangent { cos, .. } => width / cos,
+        }
     }
 }
 
@@ -106,14 +131,10 @@ impl Contact<'_> {
 
     fn fixed<S: Sink>(&self, line: &Line, count: usize, sink: &mut S) {
         let radius = self.ball.radius;
-        let width = 2.0 * radius / count as f64;
-        let (low, high) = (
-            line.middle + line.low * line.cos,
-            line.middle + line.high * line.cos,
-        );
-        for zeta in fixed_places(radius, count, low.max(-radius), high.min(radius)) {
-            let u = (zeta - line.middle) / line.cos;
-            if let Some(node) = self.node(line, u, width / line.cos) {
+        let width = line.of_slice(2.0 * radius / count as f64);
+        let ends = [line.low, line.high].map(|u| line.zeta(u).0.clamp(-radius, radius));
+        for zeta in fixed_places(radius, count, ends) {
+            if let Some(node) = self.node_at(line, zeta, line.u(zeta), width) {
                 self.slice(&node, sink);
             }
         }
@@ -148,7 +169,9 @@ impl Contact<'_> {
             .chain(on_race)
             .map(|z| z - dz)
             .chain(on_ball)
-            .map(|zeta| (zeta - line.middle) / line.cos);
+            // One that lies beyond the ball cuts nothing.
+            .filter(|zeta| zeta.abs() < self.ball.radius)
+            .map(|zeta| line.u(zeta));
         let mut low = line.low;
         while low < line.high {
             let high = cuts.clone().filter(|&u| u > low).fold(line.high, f64::min);
@@ -228,8 +251,13 @@ impl Contact<'_> {
         (ends, count)
     }
 
-    fn node(&self, line: &Line, u: f64, width: f64) -> Option<Node> {
-        let zeta = line.middle + u * line.cos;
+    /// The node at u that stands for a stretch of u.
+    fn node(&self, line: &Line, u: f64, stretch: f64) -> Option<Node> {
+        let (zeta, width) = line.zeta(u);
+        self.node_at(line, zeta, u, stretch * width)
+    }
+
+    fn node_at(&self, line: &Line, zeta: f64, u: f64, width: f64) -> Option<Node> {
         let square = self.ball.radius * self.ball.radius - zeta * zeta;
         if square <= 0.0 {
             return None;
@@ -244,11 +272,12 @@ impl Contact<'_> {
             depth: 0.0,
             torus_radius,
         };
-        node.depth = match line.depth {
-            Depth::Race => self.race_penetration(&node),
-            Depth::Gap {
+        node.depth = match line.along {
+            Along::Surface(_) => self.race_penetration(&node),
+            Along::Tangent {
                 approach,
                 curvature,
+                ..
             } => approach - curvature * u * u / 2.0,
         };
         Some(node)
@@ -280,7 +309,7 @@ fn root(f: impl Fn(f64) -> f64, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
 }
 
 /// Middles of the fixed slices that may lie in a zone.
-fn fixed_places(radius: f64, count: usize, low: f64, high: f64) -> impl Iterator<Item = f64> {
+fn fixed_places(radius: f64, count: usize, [low, high]: [f64; 2]) -> impl Iterator<Item = f64> {
     let width = 2.0 * radius / count as f64;
     let place = move |k: usize| -radius + (k as f64 + 0.5) * width;
     // A float becomes the nearest index that exists; one slice more on either side decides for itself.

@@ -370,7 +370,7 @@ class Contact:
         D = self.row["ball_diameter"]
         C = self.model.iso["constant"] * (self.model.iso["length_ratio"] * D) ** (8 / 9)
         if self.model.fitted:
-            nodes = self.fitted_nodes(self.plane_zone(), 10 / 9, 1.0, 0.0)
+            nodes = self.chord_nodes()
         else:
             width = self.diameter / self.model.slice_count
             nodes = [(zeta, width) for zeta in self.fixed_places()]
@@ -380,21 +380,39 @@ class Contact:
             if self.race_exists(zeta)
         ]
 
-    def plane_zone(self) -> tuple[float, float] | None:
-        """Where ball and groove cut in the meridional plane: the ends of the zone in ζ (section 10)."""
+    def chord_nodes(self) -> list[tuple[float, float]]:
+        """Places ζ and widths of nodes fitted to the chord that ball and groove have in common.
+
+        In the meridional plane (axial + i · radial, from the ball's centre) the two circles cut in
+        ±h along the tangent t of the line of centres; a node at u on the chord is the ball's point
+        u t + √(R² − u²) n, and stands for the width dζ = Im(i · point) / √(R² − u²) du.
+        """
         g = self.groove
         away = self.sigma * (self.d - g.a - g.waviness(self.ring_angle(self.n)))
         centre = complex(g.z - (self.ball.z - self.ring.z), -away)  # of the groove, from the ball's
         L = abs(centre)
         if L + self.R_b <= g.r:
-            return None
-        along = (L**2 + self.R_b**2 - g.r**2) / (2 * L)
-        across = math.sqrt(self.R_b**2 - along**2)
-        cuts = [(along + side * 1j * across) * centre / L for side in (-1, 1)]
+            return []
         assert away > 0
-        assert all(cut.imag > 0 for cut in cuts)
-        low, high = sorted(cut.real for cut in cuts)
-        return low, high
+        normal = -centre / L
+        tangent = -1j * normal
+        along = (g.r**2 - L**2 - self.R_b**2) / (2 * L)
+        h = math.sqrt(self.R_b**2 - along**2)
+
+        def point(u: float) -> complex:
+            return u * tangent + math.sqrt(self.R_b**2 - u**2) * normal
+
+        assert all(point(u).imag > 0 for u in (-h, h))
+        cuts = []
+        for zeta in self.axial_ends():
+            if abs(zeta) < self.R_b:
+                on_ball = complex(zeta, self.rho(zeta))
+                cuts.append((on_ball * tangent.conjugate()).real)
+        nodes = []
+        for u, weight in self.fitted_nodes((-h, h), cuts, 10 / 9):
+            p = point(u)
+            nodes.append((p.real, weight * p.imag / math.sqrt(self.R_b**2 - u**2)))
+        return nodes
 
     def hertz_slices(self, constants: Hertz) -> list[Slice]:
         """Fitted nodes or fixed slices of the Hertz law."""
@@ -414,7 +432,8 @@ class Contact:
         self.direction = (cos, sin)
         if self.model.fitted:
             tau_max = math.sqrt(2 * delta / constants.kappa)
-            nodes = self.fitted_nodes((-tau_max, tau_max), 1.0, cos, sin)
+            cuts = [(zeta - self.R_b * sin) / cos for zeta in self.axial_ends()]
+            nodes = self.fitted_nodes((-tau_max, tau_max), cuts, 1.0)
         else:
             width = self.diameter / self.model.slice_count
             nodes = [((x - self.R_b * sin) / cos, width / cos) for x in self.fixed_places()]
@@ -433,21 +452,19 @@ class Contact:
         return [-D / 2 + (k + 0.5) * D / n for k in range(n)]
 
     def fitted_nodes(
-        self, zone: tuple[float, float] | None, exponent: float, cos: float, sin: float
+        self, zone: tuple[float, float], cuts: list[float], exponent: float
     ) -> list[tuple[float, float]]:
         """Places τ and weights of Gauss–Jacobi nodes on every piece of the contact zone.
 
         The law vanishes with `exponent` at the zone's own ends, and at no cut.
         """
-        if zone is None:
-            return []
         low, high = zone
-        cuts = [(zeta - self.R_b * sin) / cos for zeta in self.axial_ends()]
         ends = [low, *sorted(x for x in cuts if low < x < high), high]
         nodes = []
         for a, b in itertools.pairwise(ends):
             beta, alpha = exponent * (a == low), exponent * (b == high)
-            places, weights = roots_jacobi(self.model.slice_count, alpha, beta)
+            count = self.model.slice_count * (2 if alpha == beta == 0 else 1)
+            places, weights = roots_jacobi(count, alpha, beta)
             weights = weights / ((1 - places) ** alpha * (1 + places) ** beta)
             half = (b - a) / 2
             nodes += [
