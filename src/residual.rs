@@ -6,8 +6,10 @@
 //! estimate does not see but this residual does:
 //!
 //! ```text
-//! residual² = Σ |a − v̇|² / Σ |a|²     over the samples, along x, y, z of one ring
+//! residual² = Σ |a − v̇|² / Σ max(|a|², a₀²)     over the samples, along x, y, z of one ring
 //! ```
+//!
+//! A bearing at rest is not judged by its rounding noise: a₀ = 0.2 m/s², a fiftieth of g.
 //!
 //! It judges steps, not runs: an error that builds up over undamped oscillations does not show.
 
@@ -16,6 +18,8 @@ use std::ops::Range;
 use crate::integrate::DenseStep;
 use crate::model::{Degree, Model};
 
+/// a₀ \[m/s²\].
+const QUIET: f64 = 0.2;
 /// Share of a step on either side over which the velocity is differentiated.
 const REACH: f64 = 0.01;
 
@@ -52,15 +56,17 @@ impl Residual {
         let (from, to) = ((t - reach).max(step.t0()), (t + reach).min(step.t1()));
         step.interpolate(from, &mut self.before);
         step.interpolate(to, &mut self.after);
+        let mut size: f64 = 0.0;
         for i in self.velocities.clone() {
             let rate = (self.after[i] - self.before[i]) / (to - from);
             self.apart += (dy[i] - rate).powi(2);
-            self.size += dy[i].powi(2);
+            size += dy[i].powi(2);
         }
+        self.size += size.max(QUIET * QUIET);
     }
 
-    /// The residual; none without accelerations.
+    /// The residual; none without accelerations, or where both rings are held.
     pub fn value(&self) -> Option<f64> {
-        (self.size > 0.0).then(|| (self.apart / self.size).sqrt())
+        (self.size > 0.0 && !self.velocities.is_empty()).then(|| (self.apart / self.size).sqrt())
     }
 }
