@@ -6,13 +6,23 @@ mod common;
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
 
 use ballrace::scene::{Drive, Friction, Mount, Profile, Scene, TimeFunction, presets};
 use ballrace::{Error, Model, Run, Signals, Start, simulate, start};
 use common::{rms, run, short, soon_over_the_spall};
 
+/// The error of a run that must not come to its end, nor go on for ever.
 fn refused(scene: &Scene, run: &Run) -> Error {
-    simulate(scene, run, &mut |_| ControlFlow::Continue(()))
+    let begun = Instant::now();
+    let mut patience = |_: f64| {
+        if begun.elapsed() < Duration::from_secs(60) {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
+    };
+    simulate(scene, run, &mut patience)
         .map(|out| out.stats)
         .expect_err(&scene.name)
 }

@@ -294,31 +294,40 @@ fn doubts_accelerations(out: &Signals) -> bool {
 /// for the cap, the run is warned of.
 #[test]
 fn a_loose_tolerance_lies_unless_capped_or_warned_of() {
-    for (slip_speed, damping, cap, rtol, wrong) in [
-        (0.1, 0.2, false, 1e-2, true),
-        (0.1, 0.2, true, 1e-2, false),
-        (0.1, 0.2, true, 1e-6, false),
-        (0.01, 0.2, true, 1e-3, true),
-        (0.001, 0.2, true, 1e-4, true),
-        (0.001, 0.2, true, 1e-6, false),
-        (0.1, 5.0, true, 1e-2, true),
-        (0.1, 5.0, true, 1e-4, true),
-        (0.1, 5.0, true, 1e-6, false),
+    for (slip_speed, damping, runs) in [
+        (
+            0.1,
+            0.2,
+            vec![
+                (false, 1e-2, true),
+                (true, 1e-2, false),
+                (true, 1e-6, false),
+            ],
+        ),
+        (0.01, 0.2, vec![(true, 1e-3, true)]),
+        (0.001, 0.2, vec![(true, 1e-4, true), (true, 1e-6, false)]),
+        (
+            0.1,
+            5.0,
+            vec![(true, 1e-2, true), (true, 1e-4, true), (true, 1e-6, false)],
+        ),
     ] {
         let truth = impact(slip_speed, damping, true, 1e-10);
-        let out = impact(slip_speed, damping, cap, rtol);
-        let error = apart(ay(&out), ay(&truth));
-        let residual = out.stats.acceleration_residual.unwrap();
-        println!(
-            "v_s {slip_speed}, α_d {damping}, cap {cap}, rtol {rtol:e}: error {error:.1e}, residual {residual:.1e}, \
-             {} evaluations, {} warnings",
-            out.stats.nfev,
-            out.warnings().len()
-        );
-        assert_eq!(error > 0.1, wrong, "{error}");
-        assert!(wrong || error < 0.01, "{error}");
-        assert_eq!(doubts_accelerations(&out), wrong, "residual {residual}");
         assert!(!doubts_accelerations(&truth));
+        for (cap, rtol, wrong) in runs {
+            let out = impact(slip_speed, damping, cap, rtol);
+            let error = apart(ay(&out), ay(&truth));
+            let residual = out.stats.acceleration_residual.unwrap();
+            println!(
+                "v_s {slip_speed}, α_d {damping}, cap {cap}, rtol {rtol:e}: error {error:.1e}, residual {residual:.1e}, \
+                 {} evaluations, {} warnings",
+                out.stats.nfev,
+                out.warnings().len()
+            );
+            assert_eq!(error > 0.1, wrong, "{error}");
+            assert!(wrong || error < 0.01, "{error}");
+            assert_eq!(doubts_accelerations(&out), wrong, "residual {residual}");
+        }
     }
 }
 
