@@ -3,7 +3,7 @@
 // Every test program uses a part of it.
 #![allow(dead_code)]
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::ControlFlow;
 
 use ballrace::scene::{Friction, Mount, Probe, Scene, Support, presets};
@@ -99,4 +99,9 @@ pub fn one_ball(squeeze: f64) -> Scene {
     )]
     .into();
     scene
+}
+
+/// Mass of the ball of [`one_ball`] \[kg\].
+pub fn ball_mass() -> f64 {
+    7850.0 * PI * 7.94e-3_f64.powi(3) / 6.0
 }
