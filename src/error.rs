@@ -31,7 +31,10 @@ pub enum Error {
         step: f64,
         /// The body with the largest error, as in the names of the states.
         body: String,
-        /// What failed and what to try.
+        /// What held it up, the fastest first: contacts as `row0.ball3.outer` (ball and race), a cage as
+        /// `row0.cage`, a support as `outer.support`. Empty if nothing acts there.
+        contacts: Vec<String>,
+        /// What failed, at which contacts, and what to try.
         reason: String,
     },
     /// The observer (Ctrl-C, a callback) asked to stop.

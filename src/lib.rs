@@ -32,6 +32,7 @@
 //! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
 //! * `equilibrium` ([`equilibrium()`]) — the static solve; `start` ([`start()`]) — how a run begins.
 //! * `signals` ([`Signals`]) — probes read on a uniform grid from the dense output.
+//! * `residual`, `collapse`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
 //! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
 //! * `python` (feature `python`) — the only place that knows Python.
 //!
@@ -55,6 +56,7 @@
 #[cfg(feature = "python")]
 mod python;
 
+mod collapse;
 pub mod contact;
 pub mod dynamics;
 mod equilibrium;
@@ -62,11 +64,13 @@ mod error;
 pub mod integrate;
 mod model;
 mod pool;
+mod residual;
 pub mod scene;
 mod signals;
 pub mod simd;
 mod simulate;
 mod start;
+mod warning;
 
 pub use equilibrium::{BallEquilibrium, ContactEquilibrium, Equilibrium, equilibrium};
 pub use error::{Error, Result};
@@ -75,3 +79,4 @@ pub use scene::Scene;
 pub use signals::{Column, Provenance, Signals, SliceRow, Statistics};
 pub use simulate::{Run, simulate};
 pub use start::{Start, start};
+pub use warning::Warning;

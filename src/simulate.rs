@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use rayon::ThreadPool;
 
+use crate::collapse::{Crawl, culprits};
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
 use crate::integrate::{
@@ -167,7 +168,9 @@ fn follow(
     let model = dynamics.model();
     let begun = Instant::now();
     let mut told = begun;
-    let (mut pulls, mut truncated, mut escaped) = (0, 0, None);
+    let (mut pulls, mut truncated, mut halt) = (0, 0, None);
+    let mut crawl = Crawl::new(model, options.max_step);
+    let mut last = y0.to_vec();
     recorder.first(&mut dynamics, y0);
     let mut observe =
         |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &integrate::Statistics| {
@@ -175,10 +178,14 @@ fn follow(
             pulls += dynamics.pulls();
             truncated += dynamics.truncated();
             recorder.step(dynamics, step);
-            escaped = model
-                .escaped(step.y1())
-                .map(|body| (step.t1(), step.h(), body));
-            if escaped.is_some() {
+            last.copy_from_slice(step.y1());
+            let crawls = crawl.after(step.h());
+            if let Some(body) = model.escaped(&last) {
+                halt = Some((step.t1(), step.h(), Some(body), ESCAPED));
+            } else if crawls {
+                halt = Some((step.t1(), step.h(), None, CRAWLING));
+            }
+            if halt.is_some() {
                 return ControlFlow::Break(());
             }
             if told.elapsed() >= TELL_EVERY {
@@ -195,16 +202,10 @@ fn follow(
         &tolerance(model)?,
         options,
         &mut observe,
-    )
-    .map_err(|failure| broken(model, &failure))?;
-    if let Some((time, step, body)) = escaped {
-        return Err(Error::Integration {
-            time,
-            step,
-            body: model.bodies[body].name.clone(),
-            reason: "the ball has left its groove; check loads, clearance and shoulders, or use a smaller rtol"
-                .to_owned(),
-        });
+    );
+    let solution = solution.map_err(|failure| broken(model, &last, &failure))?;
+    if let Some((time, step, body, reason)) = halt {
+        return Err(stopped(model, &last, (time, step), body, reason));
     }
     if solution.interrupted {
         return Err(Error::Interrupted { time: solution.t });
@@ -222,6 +223,7 @@ fn follow(
         capped_share: stats.capped as f64 / stats.accepted.max(1) as f64,
         clamped_pulls: pulls,
         truncated_contacts: truncated,
+        acceleration_residual: recorder.residual.value(),
         wall_time: begun.elapsed().as_secs_f64(),
     };
     Ok((recorder, statistics))
@@ -335,7 +337,13 @@ fn tolerance(model: &Model) -> Result<Tolerance> {
         .map_err(|invalid| Error::scene("solver.rtol", rtol, invalid.to_string()))
 }
 
-fn broken(model: &Model, failure: &Failure) -> Error {
+/// Why a run ends though the integrator could go on.
+const ESCAPED: &str =
+    "the ball has left its groove; check loads, clearance and shoulders, or use a smaller rtol";
+const CRAWLING: &str = "the step has collapsed to less than 1e-5 of the contacts' period and stays there; \
+                        raise slip_speed, lower the damping, or soften the contacts";
+
+fn broken(model: &Model, last: &[f64], failure: &Failure) -> Error {
     let reason = match failure.kind {
         FailureKind::NonFinite => "a force is not finite; check masses, stiffnesses and loads",
         FailureKind::TooSmall => {
@@ -343,10 +351,30 @@ fn broken(model: &Model, failure: &Failure) -> Error {
         }
         FailureKind::Invalid(invalid) => invalid.0,
     };
+    let when = (failure.time, failure.step);
+    stopped(model, last, when, Some(failure.group), reason)
+}
+
+/// The error with what held up the run in its last state: a body's contacts, or the fastest of all.
+fn stopped(
+    model: &Model,
+    last: &[f64],
+    (time, step): (f64, f64),
+    body: Option<usize>,
+    reason: &str,
+) -> Error {
+    let found = culprits(model, last, body);
+    let listed: Vec<String> = found.iter().map(ToString::to_string).collect();
+    let body = body.or(found.first().map(|first| first.body)).unwrap_or(0);
     Error::Integration {
-        time: failure.time,
-        step: failure.step,
-        body: model.bodies[failure.group].name.clone(),
-        reason: reason.to_owned(),
+        time,
+        step,
+        body: model.bodies[body].name.clone(),
+        reason: if listed.is_empty() {
+            format!("{reason} (no contact touches)")
+        } else {
+            format!("{reason}. Fastest: {}", listed.join(", "))
+        },
+        contacts: found.into_iter().map(|culprit| culprit.name).collect(),
     }
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 15] = [
     "error",
     "simd",
     "scene",
@@ -15,7 +15,10 @@ const ORDER: [&str; 12] = [
     "pool",
     "equilibrium",
     "start",
+    "residual",
     "signals",
+    "warning",
+    "collapse",
     "simulate",
 ];
 fn sources(folder: &Path, found: &mut Vec<(String, String)>) {

@@ -14,7 +14,7 @@ All numbers are in SI units, at every face.
 from __future__ import annotations
 
 from . import frequencies, presets, scene, spectra
-from .errors import BallraceError, EquilibriumError, IntegrationError, SceneError
+from .errors import AccuracyWarning, BallraceError, EquilibriumError, IntegrationError, SceneError
 from .model import Model
 from .run import simulate
 from .scene import Scene
@@ -22,6 +22,7 @@ from .signals import Record, Signals
 from .statics import Equilibrium, equilibrium
 
 __all__ = [
+    "AccuracyWarning",
     "BallraceError",
     "Equilibrium",
     "EquilibriumError",

@@ -1,8 +1,19 @@
-"""What ballrace refuses or fails at."""
+"""What ballrace refuses, fails at or warns of."""
 
 from __future__ import annotations
 
-__all__ = ["BallraceError", "EquilibriumError", "IntegrationError", "SceneError"]
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = [
+    "AccuracyWarning",
+    "BallraceError",
+    "EquilibriumError",
+    "IntegrationError",
+    "SceneError",
+]
 
 
 class BallraceError(Exception):
@@ -48,14 +59,30 @@ class IntegrationError(BallraceError, RuntimeError):
         Step size of the last attempt [s].
     body : str
         The body with the largest error, as in the names of the states.
+    contacts : tuple of str
+        What held it up, the fastest first: contacts as ``row0.ball3.outer`` (ball and race), a cage as
+        ``row0.cage``, a support as ``outer.support``. Empty if nothing acts there.
     """
 
-    def __init__(self, message: str, time: float, step: float, body: str) -> None:
-        super().__init__(message, time, step, body)
+    def __init__(
+        self, message: str, time: float, step: float, body: str, contacts: Sequence[str] = ()
+    ) -> None:
+        super().__init__(message, time, step, body, tuple(contacts))
         self.message = message
         self.time = time
         self.step = step
         self.body = body
+        self.contacts = tuple(contacts)
 
     def __str__(self) -> str:
         return self.message
+
+
+class AccuracyWarning(UserWarning):
+    """A run came to its end, but its signals want a second look; the message has the numbers and what to do.
+
+    Given where the recorded accelerations of a ring differ by more than 5 % from the derivative of its
+    velocities (``out.stats.acceleration_residual``), so that the steps do not resolve the contacts, and
+    where contacts rode over a shoulder (``out.stats.truncated_contacts``). ``out.warnings`` keeps the texts.
+    ``warnings.simplefilter("error", ballrace.AccuracyWarning)`` makes it an error.
+    """

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from . import _core
 from ._progress import Bar
-from .errors import SceneError
+from .errors import AccuracyWarning, SceneError
 from .signals import Signals
 
 if TYPE_CHECKING:
@@ -66,7 +67,12 @@ def simulate(
     EquilibriumError
         There is no stable equilibrium to start from.
     IntegrationError
-        The integration could not go on.
+        The integration could not go on; it names the contacts that held it up.
+
+    Warns
+    -----
+    AccuracyWarning
+        The steps do not resolve the contacts, or contacts rode over a shoulder.
 
     Examples
     --------
@@ -86,7 +92,10 @@ def simulate(
     else:
         callback = progress or None
         raw = _core.simulate(document, duration, fs, kind, state, rtol, threads, callback)
-    return Signals._from_core(raw)
+    out = Signals._from_core(raw)
+    for text in out.warnings:
+        warnings.warn(text, AccuracyWarning, stacklevel=2)
+    return out
 
 
 def _state(start: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -6,7 +6,7 @@ import base64
 import difflib
 import io
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -94,6 +94,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
         scene: str,
         stats: Mapping[str, Any],
         provenance: Mapping[str, Any],
+        warnings: Iterable[str] = (),
         slices: pl.DataFrame | Mapping[str, Any] | None = None,
     ) -> None:
         self._fs = fs
@@ -103,6 +104,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
         self._scene: str | Scene = scene
         self._stats = Record(stats)
         self._provenance = Record(provenance)
+        self._warnings = tuple(warnings)
         self._slices = slices
 
     @classmethod
@@ -115,6 +117,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
             scene=raw["scene"],
             stats=json.loads(raw["stats"]),
             provenance=json.loads(raw["provenance"]),
+            warnings=raw["warnings"],
             slices=raw["slices"],
         )
 
@@ -189,6 +192,11 @@ class Signals(Mapping[str, NDArray[np.float64]]):
         return self._provenance
 
     @property
+    def warnings(self) -> tuple[str, ...]:
+        """Reasons to look twice, as :class:`ballrace.AccuracyWarning` told them; usually none."""
+        return self._warnings
+
+    @property
     def slices(self) -> pl.DataFrame | None:
         """Forces of single slices, a line each, as asked for by the probes ``slices``; None without them."""
         if isinstance(self._slices, Mapping):
@@ -220,6 +228,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
             "scene": self.scene.to_json(),
             "stats": json.dumps(self._stats.to_dict()),
             "provenance": json.dumps(self._provenance.to_dict()),
+            "warnings": json.dumps(self._warnings),
         }
         if self.slices is not None:
             table = io.BytesIO()
@@ -261,6 +270,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
             scene=metadata["scene"],
             stats=json.loads(metadata["stats"]),
             provenance=json.loads(metadata["provenance"]),
+            warnings=json.loads(metadata.get("warnings", "[]")),
             slices=None if slices is None else pl.read_parquet(base64.b64decode(slices)),
         )
 

@@ -21,8 +21,6 @@ use problem::Problem;
 
 /// Residual over the sum of the acting forces that counts as zero.
 const TOLERANCE: f64 = 1e-10;
-/// Residual that counts as zero where no step makes it smaller: positions are known to 1e-17 m.
-const ROUNDING: f64 = 1e-8;
 /// Residual that is still accepted where a slice that enters a defect makes the force jump.
 const STALLED: f64 = 1e-3;
 /// Solves with the cage's pull renewed, at most.

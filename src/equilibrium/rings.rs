@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, Matrix2, SMatrix, SVector, Vector2};
 
 use super::problem::{Eight, Problem};
 use super::search::search;
-use super::{ROUNDING, STALLED, TOLERANCE};
+use super::{STALLED, TOLERANCE};
 use crate::contact::V2;
 use crate::error::{Error, Result};
 use crate::model::Degree;
@@ -61,7 +61,8 @@ impl Problem<'_> {
                 let trial = self.rings(&trial_rings, &mut trial_balls).ok()?;
                 Some((force(&trial), (t, (trial_rings, trial_balls, trial))))
             }) else {
-                if error <= ROUNDING {
+                // Rounding, or a jump, leaves no better place: large forces of a misfit cancel to no more than this.
+                if error <= STALLED {
                     return self.check(&state, balls, rings).map(|()| iteration);
                 }
                 break;
@@ -184,9 +185,13 @@ impl Problem<'_> {
                 // The contact point lies where the line of centres meets the groove.
                 let point = offset / meridian.distance() * pair.race.r;
                 let pressed = meridian.approach(compiled.side.radius) > 0.0;
-                if pressed
-                    && (meridian.e <= 0.0 || point < pair.race.lowest || point > pair.race.highest)
-                {
+                // Behind the groove's centre a ball is loose, as long as it is in the groove at all.
+                let left = if meridian.e > 0.0 {
+                    pressed && (point < pair.race.lowest || point > pair.race.highest)
+                } else {
+                    offset.abs() >= pair.race.r
+                };
+                if left {
                     return Err(Error::Equilibrium {
                         reason: format!(
                             "{} leaves the groove of the {} race: its contact lies {point:.3e} m from the groove's \

@@ -18,11 +18,12 @@ pub(super) fn raise(py: Python<'_>, error: Error) -> PyErr {
             ref time,
             ref step,
             ref body,
+            ref contacts,
             ..
         } => make(
             py,
             "IntegrationError",
-            (error.to_string(), *time, *step, body),
+            (error.to_string(), *time, *step, body, contacts.clone()),
         ),
         // The observer's own exception takes precedence over this one.
         Error::Interrupted { .. } => return PyKeyboardInterrupt::new_err(error.to_string()),

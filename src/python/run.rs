@@ -187,6 +187,7 @@ fn attend(py: Python<'_>, progress: Option<&Py<PyAny>>, share: f64) -> PyResult<
 }
 
 fn hand_over(py: Python<'_>, signals: Signals) -> PyResult<Bound<'_, PyDict>> {
+    let warnings: Vec<String> = signals.warnings().iter().map(ToString::to_string).collect();
     let out = PyDict::new(py);
     out.set_item("fs", signals.fs)?;
     out.set_item("t", signals.t.into_pyarray(py))?;
@@ -197,6 +198,7 @@ fn hand_over(py: Python<'_>, signals: Signals) -> PyResult<Bound<'_, PyDict>> {
     out.set_item("columns", columns)?;
     out.set_item("slices", slices(py, &signals.slices)?)?;
     out.set_item("stats", json(&signals.stats)?)?;
+    out.set_item("warnings", warnings)?;
     out.set_item("provenance", json(&signals.provenance)?)?;
     out.set_item("scene", signals.scene.to_json())?;
     Ok(out)

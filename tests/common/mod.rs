@@ -1,4 +1,13 @@
-//! What the literature tests share.
+//! What the tests share.
+
+// Every test program uses a part of it.
+#![allow(dead_code)]
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::ops::ControlFlow;
+
+use ballrace::scene::{Friction, Mount, Probe, Scene, Support, presets};
+use ballrace::{Run, Signals, simulate};
 
 /// Shows a number beside the published one and holds it to a relative tolerance. `tests/validation.py` reads
 /// the line into the validation page.
@@ -13,4 +22,86 @@ pub fn meets(case: &str, published: f64, ours: f64, tolerance: f64) {
         deviation.abs() <= tolerance,
         "{case}: published {published}, ours {ours}, more than {tolerance} apart"
     );
+}
+
+/// A run that must come to its end.
+pub fn run(scene: &Scene, run: &Run) -> Signals {
+    simulate(scene, run, &mut |_| ControlFlow::Continue(()))
+        .unwrap_or_else(|error| panic!("{}: {error}", scene.name))
+}
+
+/// A run of some duration from equilibrium at 200 kHz, on one thread.
+pub fn short(duration: f64) -> Run {
+    Run {
+        duration,
+        fs: 200e3,
+        threads: 1,
+        ..Run::default()
+    }
+}
+
+/// Root mean square.
+pub fn rms(x: &[f64]) -> f64 {
+    (x.iter().map(|v| v * v).sum::<f64>() / x.len() as f64).sqrt()
+}
+
+/// Relative difference in the L2 norm.
+pub fn apart(x: &[f64], truth: &[f64]) -> f64 {
+    let difference: Vec<f64> = x.iter().zip(truth).map(|(a, b)| a - b).collect();
+    rms(&difference) / rms(truth)
+}
+
+/// Slope of the least-squares line through `(ln h, ln error)`.
+pub fn slope(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let logs = points.iter().map(|(h, e)| (h.ln(), e.ln()));
+    let (mx, my) = logs
+        .clone()
+        .fold((0.0, 0.0), |(a, b), (x, y)| (a + x / n, b + y / n));
+    let (xy, xx) = logs.fold((0.0, 0.0), |(xy, xx), (x, y)| {
+        (xy + (x - mx) * (y - my), xx + (x - mx) * (x - mx))
+    });
+    xy / xx
+}
+
+/// The faulted wheel bearing, turned so that a ball crosses the spall about 1.2 ms after the start.
+pub fn soon_over_the_spall(axial_load: f64) -> Scene {
+    let mut scene = presets::wheel_bearing(axial_load);
+    let (orbit, pitch) = (76.0, TAU / 13.0);
+    scene.rows[0].start_angle = -FRAC_PI_2 - orbit * 1.2e-3;
+    scene.rows[1].start_angle = scene.rows[0].start_angle + pitch / 2.0;
+    scene
+}
+
+/// A ball of 7.94 mm at angle 0 between held rings that stand still, squeezed by an interference \[m\]; without
+/// gravity, friction, damping and cage. The load rests on a held ring: it only tells how large a contact is.
+pub fn one_ball(squeeze: f64) -> Scene {
+    let mut scene = presets::deep_groove_6205(1000.0, 0.0, 0.0);
+    let fixed = Some(Mount::Fixed);
+    let held = Support {
+        x: fixed,
+        y: fixed,
+        z: fixed,
+        theta: None,
+    };
+    scene.rows[0].ball_count = 1;
+    scene.rows[0].start_angle = 0.0;
+    scene.rows[0].clearance = -squeeze;
+    (scene.outer_ring.support, scene.inner_ring.support) = (held.clone(), held);
+    (scene.cage, scene.friction, scene.gravity) = (None, Friction::None, [0.0; 3]);
+    scene.contact.damping = 0.0;
+    scene.probes = [(
+        "ball".to_owned(),
+        Probe::Motion {
+            body: "row0.ball0".to_owned(),
+            components: None,
+        },
+    )]
+    .into();
+    scene
+}
+
+/// Mass of the ball of [`one_ball`] \[kg\].
+pub fn ball_mass() -> f64 {
+    7850.0 * PI * 7.94e-3_f64.powi(3) / 6.0
 }

@@ -1,0 +1,127 @@
+//! When the step collapses: how it is seen, and which contacts did it.
+
+use crate::model::{Degree, Model};
+
+/// Steps in a row below the limit that make a collapse.
+const PATIENCE: usize = 1000;
+/// Share of the contacts' 1/ω, or of a smaller largest step, below which a step leads nowhere: at 1e-5 a
+/// millisecond takes more than ten million steps.
+const HOPELESS: f64 = 1e-5;
+/// Contacts, cages and supports that an error names at most.
+const NAMED: usize = 4;
+
+/// Counts hopelessly small steps.
+pub(crate) struct Crawl {
+    limit: f64,
+    steps: usize,
+}
+
+impl Crawl {
+    pub fn new(model: &Model, max_step: f64) -> Self {
+        Self {
+            limit: HOPELESS * max_step.min(1.0 / model.scales.frequency),
+            steps: 0,
+        }
+    }
+
+    /// Whether the run is no longer worth waiting for after an accepted step.
+    pub fn after(&mut self, step: f64) -> bool {
+        self.steps = if step < self.limit { self.steps + 1 } else { 0 };
+        self.steps >= PATIENCE
+    }
+}
+
+/// What held up a run: a contact, the cage or a support.
+pub(crate) struct Culprit {
+    /// `row0.ball3.outer` (ball and race), `row0.cage` or `outer.support`.
+    pub name: String,
+    /// A body it acts on.
+    pub body: usize,
+    /// What it does, in numbers.
+    state: String,
+    /// Rate at which its friction and damping change the motion of what it acts on \[1/s\].
+    rate: f64,
+}
+
+impl std::fmt::Display for Culprit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self {
+            name, state, rate, ..
+        } = self;
+        write!(f, "{name} ({state}rate {rate:.1e} 1/s)")
+    }
+}
+
+/// The contacts that touch, cages and supports of a body in a state, the fastest first; all without a body. An
+/// explicit step is held below about 3.3 over the rate.
+pub(crate) fn culprits(model: &Model, y: &[f64], body: Option<usize>) -> Vec<Culprit> {
+    let concerns = |touched: &[usize]| body.is_none_or(|b| touched.contains(&b));
+    let contacts = (0..model.balls.len())
+        .flat_map(|j| [(j, 0), (j, 1)])
+        .filter(|&(j, race)| concerns(&[2 + j, race]))
+        .filter_map(|(j, race)| contact(model, y, j, race));
+    let cages = (0..model.rows.len())
+        .filter(|&row| body.is_none_or(|b| b > 1 && model.balls[b - 2].row == row))
+        .filter_map(|row| cage(model, row));
+    let supports = (0..model.bodies.len())
+        .filter(|&b| concerns(&[b]))
+        .filter_map(|b| support(model, b));
+    let mut found: Vec<Culprit> = contacts.chain(cages).chain(supports).collect();
+    found.sort_by(|a, b| b.rate.total_cmp(&a.rate));
+    found.truncate(NAMED);
+    found
+}
+
+/// A sliding ball's N (1/m + R²/I) μ(u)/√(u² + v_s²), and Hunt–Crossley's 3/2 α_d N/m.
+fn contact(model: &Model, y: &[f64], j: usize, race: usize) -> Option<Culprit> {
+    let (ball, body) = (&model.balls[j], &model.bodies[2 + j]);
+    let pair = &model.rows[ball.row].pairs[race];
+    let contact = model.contact(y, j, race);
+    let mobility = 1.0 / body.mass[0] + ball.side.radius.powi(2) / body.mass[3];
+    let friction = pair
+        .friction
+        .map_or(0.0, |law| law.factor(contact.slip) * mobility);
+    let damping = 1.5 * pair.damping / body.mass[0];
+    (contact.load > 0.0).then(|| Culprit {
+        name: format!("{}.{}", body.name, ["outer", "inner"][race]),
+        body: 2 + j,
+        state: format!(
+            "load {:.3e} N, slip {:.3e} m/s, ",
+            contact.load, contact.slip
+        ),
+        rate: contact.load * (friction + damping),
+    })
+}
+
+/// Two links damp a ball: at most 4 c_c/m.
+fn cage(model: &Model, row: usize) -> Option<Culprit> {
+    let damping = model.scene.cage.as_ref()?.damping;
+    let ball = 2 + model.rows[row].first;
+    let mass = model.bodies[ball].mass[0];
+    (damping > 0.0).then(|| Culprit {
+        name: format!("row{row}.cage"),
+        body: ball,
+        state: String::new(),
+        rate: 4.0 * damping / mass,
+    })
+}
+
+/// The fastest direction of a body's dampers.
+fn support(model: &Model, index: usize) -> Option<Culprit> {
+    let body = &model.bodies[index];
+    let rates = body
+        .degrees
+        .iter()
+        .zip(body.mass)
+        .map(|(degree, mass)| match degree {
+            Degree::Free { damping, .. } => damping / mass,
+            _ => 0.0,
+        });
+    let rate = rates.fold(0.0, f64::max);
+    (rate > 0.0).then(|| Culprit {
+        name: format!("{}.support", body.name),
+        body: index,
+        state: String::new(),
+        rate,
+    })
+}

@@ -1,0 +1,72 @@
+//! How well the recorded accelerations agree with the recorded motion.
+//!
+//! A sample's acceleration a is the model's at the interpolated state, and the interpolated velocity has a
+//! derivative v̇ of its own. Where the step resolves the motion the two agree; where stability alone holds it, the
+//! state is within the tolerance and stiff contacts turn that into a noise of accelerations, which the error
+//! estimate does not see but this residual does:
+//!
+//! ```text
+//! residual² = Σ |a − v̇|² / Σ max(|a|², a₀²)     over the samples, along x, y, z of one ring
+//! ```
+//!
+//! A bearing at rest is not judged by its rounding noise: a₀ = 0.2 m/s², a fiftieth of g.
+//!
+//! It judges steps, not runs: an error that builds up over undamped oscillations does not show.
+
+use std::ops::Range;
+
+use crate::integrate::DenseStep;
+use crate::model::{Degree, Model};
+
+/// a₀ \[m/s²\].
+const QUIET: f64 = 0.2;
+/// Share of a step on either side over which the velocity is differentiated.
+const REACH: f64 = 0.01;
+
+/// The sums over a run, for the outer ring or, where that is held, for the inner one.
+pub(crate) struct Residual {
+    velocities: Range<usize>,
+    before: Vec<f64>,
+    after: Vec<f64>,
+    apart: f64,
+    size: f64,
+}
+
+impl Residual {
+    pub fn new(model: &Model) -> Self {
+        let free = |degree: &Degree| matches!(degree, Degree::Free { .. });
+        let moves = |ring: &usize| model.bodies[*ring].degrees[..3].iter().any(free);
+        let first = |ring: usize| model.dim() / 2 + 4 * ring;
+        let velocities = [0, 1]
+            .into_iter()
+            .find(moves)
+            .map_or(0..0, |ring| first(ring)..first(ring) + 3);
+        Self {
+            before: vec![0.0; velocities.end],
+            after: vec![0.0; velocities.end],
+            velocities,
+            apart: 0.0,
+            size: 0.0,
+        }
+    }
+
+    /// Adds a sample at `t` within a step, whose derivatives are `dy`.
+    pub fn add(&mut self, step: &DenseStep<'_>, t: f64, dy: &[f64]) {
+        let reach = REACH * step.h();
+        let (from, to) = ((t - reach).max(step.t0()), (t + reach).min(step.t1()));
+        step.interpolate(from, &mut self.before);
+        step.interpolate(to, &mut self.after);
+        let mut size: f64 = 0.0;
+        for i in self.velocities.clone() {
+            let rate = (self.after[i] - self.before[i]) / (to - from);
+            self.apart += (dy[i] - rate).powi(2);
+            size += dy[i].powi(2);
+        }
+        self.size += size.max(QUIET * QUIET);
+    }
+
+    /// The residual; none without accelerations, or where both rings are held.
+    pub fn value(&self) -> Option<f64> {
+        (self.size > 0.0 && !self.velocities.is_empty()).then(|| (self.apart / self.size).sqrt())
+    }
+}

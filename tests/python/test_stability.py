@@ -1,0 +1,194 @@
+"""Where methods fail, seen from Python; the numerics themselves are shown in ``tests/stability_*.rs``.
+
+Each test names the failure, shows it, and shows what ballrace does instead.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import math
+import pickle
+import sys
+import warnings
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+import ballrace as br
+
+
+def soon_over_the_spall(slip_speed: float = 0.1, damping: float = 0.2) -> br.Scene:
+    """The faulted wheel bearing, a ball of which crosses the spall about 1.2 ms after the start."""
+    first = -math.pi / 2.0 - 76.0 * 1.2e-3
+    return br.presets.wheel_bearing(axial_load=3000.0).replace(
+        {
+            "rows[0].start_angle": first,
+            "rows[1].start_angle": first + math.pi / 13.0,
+            "friction.coulomb.slip_speed": slip_speed,
+            "contact.damping": damping,
+        }
+    )
+
+
+def quietly(scene: br.Scene, rtol: float, duration: float = 2e-3) -> br.Signals:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", br.AccuracyWarning)
+        return br.simulate(scene, duration=duration, fs=200e3, rtol=rtol, threads=1)
+
+
+def apart(x: NDArray[np.float64], truth: NDArray[np.float64]) -> float:
+    return float(np.linalg.norm(x - truth) / np.linalg.norm(truth))
+
+
+@pytest.mark.parametrize(
+    ("slip_speed", "damping", "cap", "rtol", "lies"),
+    [
+        (0.1, 0.2, True, 1e-2, False),
+        (0.1, 0.2, False, 1e-2, True),
+        (0.001, 0.2, True, 1e-4, True),
+        (0.1, 5.0, True, 1e-4, True),
+        (0.1, 5.0, True, 1e-6, False),
+    ],
+)
+def test_success_with_wrong_accelerations_is_warned_of(
+    slip_speed: float, damping: float, cap: bool, rtol: float, lies: bool
+) -> None:
+    """Failure: a loose tolerance reports success; truth: the same at rtol 1e-10."""
+    scene = soon_over_the_spall(slip_speed, damping)
+    truth = quietly(scene, 1e-10)["outer.ay"]
+    scene = scene.replace({"solver.frequency_cap": cap})
+    if lies:
+        with pytest.warns(br.AccuracyWarning, match=r"uncertain by about \d+ %.*rtol = 1e-\d"):
+            out = br.simulate(scene, duration=2e-3, fs=200e3, rtol=rtol)
+        assert len(out.warnings) == 1
+        assert out.stats.acceleration_residual > 0.05
+    else:
+        # Warnings are errors here.
+        out = br.simulate(scene, duration=2e-3, fs=200e3, rtol=rtol)
+        assert out.warnings == ()
+        assert out.stats.acceleration_residual < 0.01
+    assert (apart(out["outer.ay"], truth) > 0.1) == lies
+
+
+def test_the_warning_points_at_the_caller_and_stays_with_the_signals(tmp_path: Path) -> None:
+    scene = soon_over_the_spall(damping=5.0)
+    with pytest.warns(br.AccuracyWarning) as caught:
+        out = br.simulate(scene, duration=1e-3, rtol=1e-3)
+    assert caught[0].filename == __file__
+    out.write_parquet(tmp_path / "out.parquet")
+    assert br.Signals.read_parquet(tmp_path / "out.parquet").warnings == out.warnings
+    with pytest.raises(br.AccuracyWarning):  # pyproject.toml makes warnings errors
+        br.simulate(scene, duration=1e-3, rtol=1e-3)
+
+
+def test_a_contact_over_the_shoulder_is_warned_of() -> None:
+    scene = br.presets.deep_groove_6205(radial_load=0.0, axial_load=4000.0)
+    angle = float(br.equilibrium(scene).outer_angle[0])
+    low = scene.replace({"rows[0].outer_shoulders": (1.1 * angle, 1.1 * angle)})
+    with pytest.warns(br.AccuracyWarning, match=r"over a shoulder \d+ times in \d+ steps"):
+        out = br.simulate(low, duration=0.2e-3)
+    assert out.stats.truncated_contacts > 0
+
+
+@pytest.mark.parametrize(
+    ("changes", "rtol", "named"),
+    [
+        (
+            {"friction.coulomb.slip_speed": 1e-8, "friction.coulomb.coefficient": 1e6},
+            1e-6,
+            ".outer",
+        ),
+        ({"contact.damping": 1e3, "materials.balls.density": 1.0}, 1e-12, "row0.ball"),
+        ({"cage.damping": 1e9}, 1e-6, "row0.cage"),
+        ({"outer_ring.support.x.spring.damping": 1e12}, 1e-6, "outer.support"),
+    ],
+)
+def test_a_collapsed_step_names_what_caused_it(
+    wheel: br.Scene, changes: dict[str, object], rtol: float, named: str
+) -> None:
+    """Failure: a run that goes on for ever; instead an error within a thousand hopeless steps."""
+    with pytest.raises(br.IntegrationError, match="step has collapsed") as caught:
+        br.simulate(wheel.replace(changes), duration=1e-3, rtol=rtol)
+    error = caught.value
+    assert named in error.contacts[0]
+    assert error.contacts[0] in str(error)
+    assert error.body in br.Model(wheel).bodies
+    assert 0.0 < error.step < 1e-9
+    again = pickle.loads(pickle.dumps(error))
+    assert (again.contacts, str(again)) == (error.contacts, str(error))
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf, 1e300])
+@pytest.mark.parametrize(
+    "field", ["rows[0].clearance", "contact.damping", "loads.radial.force", "solver.rtol"]
+)
+def test_numbers_that_are_none_are_refused_by_name(wheel: br.Scene, field: str, bad: float) -> None:
+    with pytest.raises(br.SceneError) as caught:
+        wheel.replace({field: bad})
+    assert field in caught.value.path
+
+
+def test_a_cold_start_is_repeatable_to_the_bit(wheel: br.Scene) -> None:
+    """Failure: chaos from the rolling start; instead the same bits for any number of threads."""
+    runs = [
+        br.simulate(wheel, duration=1e-3, start="rolling", threads=threads) for threads in (1, 1, 2)
+    ]
+    for out in runs[1:]:
+        for name in out:
+            np.testing.assert_array_equal(out[name], runs[0][name])
+
+
+def test_a_peer_reports_success_with_wrong_accelerations() -> None:
+    """Failure: SciPy's RK45 on our right-hand side with strong damping, at rtol = atol = 1e-4, reports success.
+
+    Truth: rtol 1e-10. Instead: the default tolerance is right at the same cost, and a loose one warned of (above).
+    """
+    model = br.Model(soon_over_the_spall(damping=5.0))
+    t = np.arange(0.0, 2e-3, 5e-6)
+    peer = solve_ivp(model.rhs, (0.0, 2e-3), model.start(), t_eval=t, rtol=1e-4, atol=1e-4)
+    assert peer.success
+    row = model.names.index("outer.vy")
+    theirs = np.array([model.rhs(t, y)[row] for t, y in zip(t, peer.y.T, strict=True)])
+    truth = quietly(model.scene, 1e-10)["outer.ay"]
+    ours = br.simulate(model.scene, duration=2e-3, fs=200e3)
+    errors = apart(theirs, truth), apart(ours["outer.ay"], truth)
+    print(f"RK45 {peer.nfev}, error {errors[0]:.1e}; ours {ours.stats.nfev}, {errors[1]:.1e}")
+    assert errors[0] > 0.3
+    assert errors[1] < 0.01
+    assert ours.stats.nfev < 1.2 * peer.nfev
+
+
+def stability_map() -> ModuleType:
+    path = Path(__file__).parents[2] / "benches" / "stability_map.py"
+    spec = importlib.util.spec_from_file_location("stability_map", path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module  # where dataclasses look their annotations up
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize(
+    ("slip_speed", "damping", "rtol", "mark"),
+    [(0.1, 0.2, 1e-2, "works"), (0.001, 0.2, 1e-6, "slowly"), (0.1, 5.0, 1e-2, "warns")],
+)
+def test_marks_of_the_map(slip_speed: float, damping: float, rtol: float, mark: str) -> None:
+    module = stability_map()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", br.AccuracyWarning)
+        truth = module.simulate(module.bearing(slip_speed, damping), 1e-10, "default")
+        point = module.judge("default", slip_speed, damping, rtol, truth["outer.ay"])
+    assert point.mark == mark
+
+
+@pytest.mark.long
+def test_nowhere_on_the_map_a_run_lies() -> None:
+    """Truth: rtol 1e-10 at each place; success without a warning is within 10 %."""
+    module = stability_map()
+    points = module.survey(module.QUICK, ["default"], workers=2)
+    assert {point.mark for point in points} <= {"works", "slowly", "warns"}
