@@ -31,6 +31,7 @@
 //! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
 //! * `equilibrium` ([`equilibrium()`]) — the static solve; `start` ([`start()`]) — how a run begins.
 //! * `signals` ([`Signals`]) — probes read on a uniform grid from the dense output.
+//! * `method` — the method a run asked for, and the switch between two of them.
 //! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
 //! * `python` (feature `python`) — the only place that knows Python.
 //!
@@ -42,7 +43,7 @@
 //! | a friction law | `contact/friction.rs`, a variant in `scene/contact.rs` | dissipation ≥ 0 |
 //! | a race profile | `contact/race.rs` | gap against a closed form |
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
-//! | a Runge–Kutta method | a constant in `integrate/tableau.rs` | row sums, order of convergence |
+//! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` | row sums, order of convergence |
 //! | a signal | a variant in `scene/probe.rs`, an arm in `signals.rs` | unit, value at a known state |
 //!
 //! # Units and frames
@@ -59,6 +60,7 @@ pub mod dynamics;
 mod equilibrium;
 mod error;
 pub mod integrate;
+mod method;
 mod model;
 mod pool;
 pub mod scene;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 11] = [
+const ORDER: [&str; 12] = [
     "error",
     "scene",
     "contact",
@@ -15,6 +15,7 @@ const ORDER: [&str; 11] = [
     "equilibrium",
     "start",
     "signals",
+    "method",
     "simulate",
 ];
 fn sources(folder: &Path, found: &mut Vec<(String, String)>) {

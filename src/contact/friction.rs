@@ -73,4 +73,25 @@ impl Friction {
         };
         mu / (slip * slip + self.slip_speed * self.slip_speed).sqrt()
     }
+
+    /// φ = [`Friction::factor`] and φ'(u)/u, the part of its slope that −φ u⃗ has along u⃗ u⃗ᵀ.
+    pub fn factor_and_bend(&self, slip: f64) -> (f64, f64) {
+        let square = slip * slip + self.slip_speed * self.slip_speed;
+        let factor = self.factor(slip);
+        // μ'(u)/u.
+        let bend = match self.coefficient {
+            Coefficient::Constant(_) => 0.0,
+            Coefficient::Stribeck {
+                fixed,
+                moving,
+                speed,
+            } => -2.0 * (fixed - moving) * (-(slip / speed).powi(2)).exp() / (speed * speed),
+            // A corner at rest, where u⃗ u⃗ᵀ vanishes faster.
+            Coefficient::Traction { .. } if slip == 0.0 => 0.0,
+            Coefficient::Traction { a, b, c, .. } => {
+                (b - c * (a + b * slip)) * (-c * slip).exp() / slip
+            }
+        };
+        (factor, bend / square.sqrt() - factor / square)
+    }
 }

@@ -3,8 +3,11 @@
 //! Slots may be filled by several threads; since each ball's forces are computed alone and the slots are
 //! added up row by row and ball by ball afterwards, the bits do not depend on the number of threads.
 
+mod arrow;
 mod contacts;
 mod energy;
+mod grip;
+mod implicit;
 mod others;
 mod slot;
 
@@ -21,6 +24,7 @@ use crate::scene::Drive;
 pub use contacts::{ContactSummary, SliceForce};
 pub use energy::Energy;
 
+use implicit::Implicit;
 use slot::{Named, Slot};
 
 /// A model with the memory that evaluating it needs. One a thread of control.
@@ -30,6 +34,8 @@ pub struct Dynamics<'m> {
     slots: Vec<Slot>,
     forces: Vec<[f64; 4]>,
     pool: Option<Arc<ThreadPool>>,
+    /// Memory of implicit stages, once there was one.
+    implicit: Option<Box<Implicit>>,
 }
 
 /// Names of the contributions of [`Dynamics::contributions`], in their order.
@@ -45,6 +51,7 @@ impl<'m> Dynamics<'m> {
             slots: vec![Slot::default(); model.balls.len()],
             forces: vec![[0.0; 4]; model.bodies.len()],
             pool: None,
+            implicit: None,
         }
     }
 
@@ -100,11 +107,30 @@ impl<'m> Dynamics<'m> {
             add(&mut self.forces[0], &slot.rings[0]);
             add(&mut self.forces[1], &slot.rings[1]);
         }
+        self.others(t, y);
+    }
+
+    /// Adds the forces that are not contacts.
+    fn others(&mut self, t: f64, y: &[f64]) {
         others::cage(self.model, y, &mut self.forces);
         others::supports(self.model, y, &mut self.forces);
         others::gravity(self.model, &mut self.forces);
         others::loads(self.model, t, y, &mut self.forces);
         others::drive(self.model, t, &mut self.forces);
+    }
+
+    /// M⁻¹ F of a body. Directions that are fixed do not accelerate; the driven ring's rotation accelerates as
+    /// prescribed.
+    fn acceleration(&self, t: f64, body: usize) -> [f64; 4] {
+        let (compiled, force) = (&self.model.bodies[body], &self.forces[body]);
+        std::array::from_fn(|i| match compiled.degrees[i] {
+            Degree::Free { .. } => force[i] / compiled.mass[i],
+            Degree::Fixed => 0.0,
+            Degree::Driven => match &self.model.scene.drive {
+                Drive::Speed(speed) => speed.rate(t),
+                Drive::Torque { .. } => 0.0,
+            },
+        })
     }
 
     /// The same forces apart by origin, as in [`CONTRIBUTIONS`]: for each, four numbers a body.
@@ -140,31 +166,15 @@ impl System for Dynamics<'_> {
         self.model.dim()
     }
 
-    /// M q̈ = F(t, q, q̇) in state space (model section 1). Directions that are fixed do not accelerate;
-    /// the driven ring's rotation accelerates as prescribed.
+    /// M q̈ = F(t, q, q̇) in state space (model section 1).
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         self.fill_slots(y);
         self.sum(t, y);
         let half = y.len() / 2;
         let (rates, accelerations) = dy.split_at_mut(half);
         rates.copy_from_slice(&y[half..]);
-        for ((body, force), acceleration) in self
-            .model
-            .bodies
-            .iter()
-            .zip(&self.forces)
-            .zip(accelerations.chunks_exact_mut(4))
-        {
-            for i in 0..4 {
-                acceleration[i] = match body.degrees[i] {
-                    Degree::Free { .. } => force[i] / body.mass[i],
-                    Degree::Fixed => 0.0,
-                    Degree::Driven => match &self.model.scene.drive {
-                        Drive::Speed(speed) => speed.rate(t),
-                        Drive::Torque { .. } => 0.0,
-                    },
-                };
-            }
+        for (b, acceleration) in accelerations.as_chunks_mut().0.iter_mut().enumerate() {
+            *acceleration = self.acceleration(t, b);
         }
     }
 }
@@ -215,6 +225,15 @@ impl Model {
                         && meridian.approach(ball.side.radius) < 0.5 * ball.side.radius)
                 })
         })
+    }
+
+    /// The radius that makes a length of a body's rotation \[m\]: a ball's own, half the pitch diameter of the
+    /// first row for a ring.
+    pub(crate) fn radius(&self, body: usize) -> f64 {
+        match body.checked_sub(2) {
+            Some(ball) => self.balls[ball].side.radius,
+            None => self.scene.rows[0].pitch_diameter / 2.0,
+        }
     }
 
     /// Whether sharing one evaluation among threads pays: handing the balls out costs some 10 µs.
