@@ -85,7 +85,9 @@ def simulate(
     document = scene.to_json()
     if progress is True:
         with Bar(scene.name or "simulating") as bar:
-            raw = _core.simulate(document, duration, fs, kind, state, rtol, method, threads, bar.show)
+            raw = _core.simulate(
+                document, duration, fs, kind, state, rtol, method, threads, bar.show
+            )
     else:
         callback = progress or None
         raw = _core.simulate(document, duration, fs, kind, state, rtol, method, threads, callback)

@@ -757,8 +757,9 @@ Method = Literal[
     "implicit-friction",
     "auto",
 ]
-"""The method of integration: explicit pairs of order 5, 3, 5 and 6, two of fixed steps, the one that is
-explicit in positions and implicit in velocities, and the choice of it or the first by the stiffness of friction."""
+"""The method of integration: explicit pairs of order 5, 3, 5 and 6, two of fixed steps, the one that
+is explicit in positions and implicit in velocities, and the choice of it or the first by friction's stiffness."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Solver(Part):

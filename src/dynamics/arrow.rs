@@ -50,16 +50,15 @@ impl Arrow {
         };
         let part = inverse * right;
         let mut coupling = SMatrix::<f64, 4, 8>::zeros();
-        for s in 0..2 {
-            coupling
-                .fixed_view_mut::<4, 4>(0, 4 * s)
-                .copy_from(&(inverse * to[s]));
+        for (s, to) in to.iter().enumerate() {
+            let mut block = coupling.fixed_view_mut::<4, 4>(0, 4 * s);
+            block.copy_from(&(inverse * to));
         }
-        for s in 0..2 {
+        for (s, from) in from.iter().enumerate() {
             let mut right = self.rings_right.fixed_rows_mut::<4>(4 * s);
-            right -= from[s] * part;
+            right -= from * part;
             let mut rows = self.rings.fixed_rows_mut::<4>(4 * s);
-            rows -= from[s] * coupling;
+            rows -= from * coupling;
         }
         self.balls.push((part, coupling));
         true

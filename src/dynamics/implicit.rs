@@ -173,8 +173,7 @@ impl Dynamics<'_> {
                 for i in 0..4 {
                     y[half + 4 * b + i] += correction[i];
                     let size = correction[i].abs() * if i == 3 { radius } else { 1.0 };
-                    // Negated, so that a number that is none counts as largest.
-                    if !(size <= largest) {
+                    if size > largest || size.is_nan() {
                         (largest, worst) = (size, half + 4 * b + i);
                     }
                 }

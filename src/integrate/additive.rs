@@ -86,7 +86,7 @@ impl Additive {
             work.calls += 1;
             let solved =
                 system.solve_velocity(time.min(latest), &mut work.stage, &base[half..], gamma_h);
-            work.iterations += solved.map_or_else(|stuck| stuck.iterations, |count| count);
+            work.iterations += solved.unwrap_or_else(|stuck| stuck.iterations);
             solved.map_err(|stuck| stuck.state)?;
             let (rates, accelerations) = new[0].split_at_mut(half);
             let velocities = &work.stage[half..];
