@@ -54,13 +54,19 @@ impl ImplicitVelocity for Rubbed {
         base: &[f64],
         gamma_h: f64,
     ) -> Result<usize, Stuck> {
+        let mut before = f64::INFINITY;
         for iteration in 1..=50 {
-            let (a, slope) = self.acceleration(t, y[0], y[1]);
+            let (a, mut slope) = self.acceleration(t, y[0], y[1]);
+            if before.is_finite() && before > 0.1 {
+                // Far away Newton's tangent leads across: the secant through rest does not.
+                slope = (a + y[0]) / (y[1] - t.cos());
+            }
             let correction = (base[0] + gamma_h * a - y[1]) / (1.0 - gamma_h * slope);
             y[1] += correction;
             if correction.abs() < 1e-14 {
                 return Ok(iteration);
             }
+            before = correction.abs();
         }
         Err(Stuck {
             state: 1,

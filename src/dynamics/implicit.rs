@@ -19,6 +19,9 @@ use crate::model::{Degree, Model};
 /// Iterations before a stage is given up and the step tried again smaller.
 const MOST_ITERATIONS: usize = 20;
 
+/// Ratio of one correction to that before it, above which the next one follows secants.
+const DIVERGING: f64 = 0.7;
+
 /// Residual of a velocity over what the tolerance sees of it.
 const RESIDUAL_SHARE: f64 = 0.02;
 
@@ -30,6 +33,8 @@ pub(super) struct Implicit {
     arrow: Arrow,
     residual: Vec<Vector4<f64>>,
     slopes: Vec<[Matrix4<f64>; 2]>,
+    /// Whether slopes are secants, since tangents led astray.
+    secant: bool,
 }
 
 impl Implicit {
@@ -39,6 +44,7 @@ impl Implicit {
             arrow: Arrow::new(balls),
             residual: vec![Vector4::zeros(); balls + 2],
             slopes: vec![[Matrix4::zeros(); 2]; balls],
+            secant: false,
         }
     }
 
@@ -75,7 +81,7 @@ impl Implicit {
                 }
                 let carried = carried(grip.apart);
                 let twist = velocity(y, 2 + j) - carried * velocity(y, s);
-                let (wrench, slope) = grip.wrench_and_slope(pair, &twist);
+                let (wrench, slope) = grip.wrench_and_slope(pair, &twist, self.secant);
                 add(&mut forces[2 + j], &wrench.into());
                 add(&mut forces[s], &(-carried.tr_mul(&wrench)).into());
                 self.slopes[j][s] = slope;
@@ -105,7 +111,7 @@ impl Implicit {
                 self.arrow.pass(right);
                 continue;
             }
-            let scale = Matrix4::from_diagonal(&(mobility(model, 2 + j) * gamma_h));
+            let scale = mobility(model, 2 + j) * gamma_h;
             let mut own = Matrix4::identity();
             let (mut to, mut from) = ([Matrix4::zeros(); 2], [Matrix4::zeros(); 2]);
             for s in 0..2 {
@@ -114,9 +120,10 @@ impl Implicit {
                 }
                 let slope = &self.slopes[j][s];
                 let carried = carried(grips[s].apart);
-                let ring = Matrix4::from_diagonal(&scales[s]) * carried.transpose() * slope;
-                own -= scale * slope;
-                to[s] = scale * slope * carried;
+                let ring = scaled(&scales[s], carried.tr_mul(slope));
+                let ball = scaled(&scale, *slope);
+                own -= ball;
+                to[s] = ball * carried;
                 from[s] = ring;
                 self.arrow.add_ring(s, &(-ring * carried));
             }
@@ -161,7 +168,8 @@ impl Dynamics<'_> {
     ) -> Result<usize, Stuck> {
         let half = y.len() / 2;
         let limit = self.velocity_limit();
-        let mut worst = 0;
+        let (mut worst, mut before) = (0, 0.0);
+        work.secant = false;
         for iteration in 1..=MOST_ITERATIONS {
             self.residual(t, y, base, gamma_h, work);
             if !work.correct(self.model, gamma_h) {
@@ -178,9 +186,13 @@ impl Dynamics<'_> {
                     }
                 }
             }
-            if largest <= limit {
+            // What is left after a correction, by the rate at which they shrink (Hairer & Wanner II, IV.8).
+            let rate = largest / before;
+            if largest <= limit || rate < 1.0 && largest * rate / (1.0 - rate) <= limit {
                 return Ok(iteration);
             }
+            work.secant = rate > DIVERGING && before > 0.0;
+            before = largest;
         }
         Err(Stuck {
             state: worst,
@@ -221,6 +233,7 @@ impl ImplicitVelocity for Dynamics<'_> {
         let mut work = self.implicit_memory();
         work.grip(self, y);
         work.slopes.fill([Matrix4::zeros(); 2]);
+        work.secant = false;
         work.contacts(self.model, y, &mut self.forces);
         let rates = work.slopes.iter().enumerate().map(|(j, slopes)| {
             let mobility = mobility(self.model, 2 + j);
@@ -234,6 +247,14 @@ impl ImplicitVelocity for Dynamics<'_> {
         self.implicit = Some(work);
         fastest
     }
+}
+
+/// The rows of a matrix, each times its scale.
+fn scaled(scale: &Vector4<f64>, mut matrix: Matrix4<f64>) -> Matrix4<f64> {
+    for mut column in matrix.column_iter_mut() {
+        column.component_mul_assign(scale);
+    }
+    matrix
 }
 
 /// One over the mass of every degree that forces move.

@@ -82,6 +82,11 @@ impl Additive {
                 a[i],
                 known,
             );
+            // A first guess along the acceleration of the stage before.
+            let ahead = (c[i] - c[i - 1]) * h;
+            for (v, a) in work.stage[half..].iter_mut().zip(&known[i - 1][half..]) {
+                *v += ahead * a;
+            }
             let time = if c[i] == 1.0 { t1 } else { t + c[i] * h };
             work.calls += 1;
             let solved =

@@ -18,10 +18,11 @@ pub enum Method {
     /// The classical Runge–Kutta method with fixed steps, each the largest allowed.
     #[serde(rename = "runge-kutta-4")]
     RungeKutta4,
-    /// Velocity Verlet with fixed steps, each the largest allowed.
+    /// Velocity Verlet with fixed steps, each the largest allowed; damped contacts want a `max_step` of a
+    /// fifth of the cap or less.
     VelocityVerlet,
     /// Kennedy–Carpenter 4(3), explicit in positions and implicit in velocities: its steps do not depend on how
-    /// stiff friction is.
+    /// stiff friction is. For slip speeds below about 0.01 m/s.
     ImplicitFriction,
     /// Dormand–Prince or the implicit one, whichever the stiffness of friction asks for, at any time of the run.
     Auto,
