@@ -33,6 +33,7 @@
 //! * `equilibrium` ([`equilibrium()`]) — the static solve; `start` ([`start()`]) — how a run begins.
 //! * `signals` ([`Signals`]) — probes read on a uniform grid from the dense output.
 //! * `residual`, `collapse`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
+//! * `method` — the method a run asked for, and the switch between two of them.
 //! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
 //! * `python` (feature `python`) — the only place that knows Python.
 //!
@@ -44,7 +45,7 @@
 //! | a friction law | `contact/friction.rs`, a variant in `scene/contact.rs` | dissipation ≥ 0 |
 //! | a race profile | `contact/race.rs` | gap against a closed form |
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
-//! | a Runge–Kutta method | a constant in `integrate/tableau.rs` | row sums, order of convergence |
+//! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` | row sums, order of convergence |
 //! | a signal | a variant in `scene/probe.rs`, an arm in `signals.rs` | unit, value at a known state |
 //!
 //! # Units and frames
@@ -62,6 +63,7 @@ pub mod dynamics;
 mod equilibrium;
 mod error;
 pub mod integrate;
+mod method;
 mod model;
 mod pool;
 mod residual;

@@ -46,6 +46,8 @@ pub struct Statistics {
     pub rejected: usize,
     /// Evaluations of the right-hand side by the integrator; sampling adds one a sample.
     pub nfev: usize,
+    /// Iterations of implicit stages; 0 for an explicit method.
+    pub iterations: usize,
     /// Smallest accepted step \[s\], not counting steps shortened to land on a breakpoint; absent without any.
     pub smallest_step: Option<f64>,
     /// Where it began \[s\].
@@ -54,6 +56,8 @@ pub struct Statistics {
     pub largest_step: f64,
     /// Share of the accepted steps at the stability limit (stiffness quotient above 3.25), 0 to 1.
     pub stiff_share: f64,
+    /// Share of the accepted steps that were implicit in velocities, 0 to 1.
+    pub implicit_share: f64,
     /// Share of the accepted steps that the step cap limited, 0 to 1.
     pub capped_share: f64,
     /// Slices at accepted steps whose damping wanted to pull and was clamped.
@@ -75,8 +79,11 @@ pub struct Provenance {
     pub version: &'static str,
     /// Version of the scene document.
     pub schema: u32,
-    /// Method.
-    pub method: &'static str,
+    /// Method; after `auto: ` the methods that were chosen, in their order.
+    pub method: String,
+    /// Largest stiffness quotient that `auto` met: rate of friction times step cap over the explicit method's
+    /// limit; absent for any other method.
+    pub stiffness: Option<f64>,
     /// Relative tolerance.
     pub rtol: f64,
     /// Step cap \[s\]; absent: none.

@@ -10,12 +10,11 @@ use rayon::ThreadPool;
 use crate::collapse::{Crawl, culprits};
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
-use crate::integrate::{
-    self, DORMAND_PRINCE, DenseStep, Failure, FailureKind, Options, Tolerance, integrate,
-};
+use crate::integrate::{self, DenseStep, Failure, FailureKind, Options, Tolerance};
+use crate::method::{self, Choice, Task};
 use crate::model::Model;
 use crate::pool::pool;
-use crate::scene::{Drive, SCHEMA, Scene};
+use crate::scene::{Drive, Method, SCHEMA, Scene};
 use crate::signals::{Provenance, Recorder, Signals, Statistics};
 use crate::start::{Start, start};
 
@@ -30,6 +29,8 @@ pub struct Run {
     pub start: Start,
     /// Relative tolerance; absent: the scene's.
     pub rtol: Option<f64>,
+    /// Method; absent: the scene's.
+    pub method: Option<Method>,
     /// Threads that share the balls of one evaluation; 0: as many as pay. The bits are the same for any.
     pub threads: usize,
 }
@@ -42,6 +43,7 @@ impl Default for Run {
             fs: 50e3,
             start: Start::Equilibrium,
             rtol: None,
+            method: None,
             threads: 0,
         }
     }
@@ -79,6 +81,7 @@ pub fn simulate(
 ) -> Result<Signals> {
     let mut scene = scene.clone();
     scene.solver.rtol = run.rtol.unwrap_or(scene.solver.rtol);
+    scene.solver.method = run.method.unwrap_or(scene.solver.method);
     let model = Model::new(&scene)?;
     let count = samples(run)?;
     let mut recorder = Recorder::new(&model, run.fs, count);
@@ -86,8 +89,8 @@ pub fn simulate(
     let y0 = start(&model, &run.start)?;
     recorder.reserve();
     let threads = threads(&model, run.threads)?;
-    let options = options(&model);
-    let (recorder, stats) = if threads > 1 {
+    let options = options(&model)?;
+    let (recorder, stats, choice) = if threads > 1 {
         let pool = pool(threads)?;
         let dynamics = Dynamics::parallel(&model, Arc::clone(&pool));
         inside(&pool, progress, |progress| {
@@ -111,7 +114,8 @@ pub fn simulate(
         provenance: Provenance {
             version: env!("CARGO_PKG_VERSION"),
             schema: SCHEMA,
-            method: DORMAND_PRINCE.name,
+            method: choice.to_string(),
+            stiffness: choice.stiffness,
             rtol: scene.solver.rtol,
             max_step: Some(options.max_step).filter(|h| h.is_finite()),
             start,
@@ -164,7 +168,7 @@ fn follow(
     duration: f64,
     options: &Options,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<(Recorder, Statistics)> {
+) -> Result<(Recorder, Statistics, Choice)> {
     let model = dynamics.model();
     let begun = Instant::now();
     let mut told = begun;
@@ -194,16 +198,17 @@ fn follow(
             }
             ControlFlow::Continue(())
         };
-    let solution = integrate(
+    let solved = method::run(
         &mut dynamics,
-        &DORMAND_PRINCE,
-        (0.0, duration),
-        y0,
-        &tolerance(model)?,
-        options,
+        Task {
+            span: (0.0, duration),
+            y0,
+            tolerance: &tolerance(model)?,
+            options,
+        },
         &mut observe,
     );
-    let solution = solution.map_err(|failure| broken(model, &last, &failure))?;
+    let (solution, choice) = solved.map_err(|failure| broken(model, &last, &failure))?;
     if let Some((time, step, body, reason)) = halt {
         return Err(stopped(model, &last, (time, step), body, reason));
     }
@@ -216,17 +221,19 @@ fn follow(
         accepted: stats.accepted,
         rejected: stats.rejected,
         nfev: stats.nfev,
+        iterations: stats.iterations,
         smallest_step: Some(stats.smallest_step).filter(|h| h.is_finite()),
         smallest_step_time: Some(stats.smallest_step_time).filter(|t| t.is_finite()),
         largest_step: stats.largest_step,
         stiff_share: stats.share_stiff(),
+        implicit_share: choice.implicit as f64 / stats.accepted.max(1) as f64,
         capped_share: stats.capped as f64 / stats.accepted.max(1) as f64,
         clamped_pulls: pulls,
         truncated_contacts: truncated,
         acceleration_residual: recorder.residual.value(),
         wall_time: begun.elapsed().as_secs_f64(),
     };
-    Ok((recorder, statistics))
+    Ok((recorder, statistics, choice))
 }
 
 /// Number of samples k / fs below the duration.
@@ -287,7 +294,7 @@ fn threads(model: &Model, asked: usize) -> Result<usize> {
 }
 
 /// Step cap, first step, breakpoints of loads and drive.
-fn options(model: &Model) -> Options {
+fn options(model: &Model) -> Result<Options> {
     let scene = &model.scene;
     let solver = &scene.solver;
     let cap = if solver.frequency_cap {
@@ -303,12 +310,22 @@ fn options(model: &Model) -> Options {
     breakpoints.extend(match &scene.drive {
         Drive::Speed(value) | Drive::Torque { value, .. } => value.breakpoints(),
     });
-    Options {
+    let max_step = solver.max_step.unwrap_or(f64::INFINITY).min(cap);
+    let fixed = method::is_fixed(solver.method);
+    if fixed && max_step.is_infinite() {
+        return Err(Error::scene(
+            "solver.max_step",
+            "absent",
+            "a step [s], since the method has a fixed one and solver.frequency_cap is false",
+        ));
+    }
+    Ok(Options {
         first_step: solver.first_step,
-        max_step: solver.max_step.unwrap_or(f64::INFINITY).min(cap),
+        max_step,
+        fixed_step: fixed.then_some(max_step),
         breakpoints,
         ..Options::default()
-    }
+    })
 }
 
 /// Every body is a group; lengths are measured by the contact's approach δ, speeds by δ ω of the highest
@@ -321,11 +338,7 @@ fn tolerance(model: &Model) -> Result<Tolerance> {
     let length = rtol * scales.approach;
     let half = |scale: f64| {
         (0..bodies).flat_map(move |b| {
-            let radius = if b < 2 {
-                model.scene.rows[0].pitch_diameter / 2.0
-            } else {
-                model.balls[b - 2].side.radius
-            };
+            let radius = model.radius(b);
             [scale, scale, scale, scale / radius]
         })
     };
@@ -347,7 +360,7 @@ fn broken(model: &Model, last: &[f64], failure: &Failure) -> Error {
     let reason = match failure.kind {
         FailureKind::NonFinite => "a force is not finite; check masses, stiffnesses and loads",
         FailureKind::TooSmall => {
-            "the step fell below the resolution of time; soften contacts, raise slip_speed or rtol"
+            "the step fell below the resolution of time; soften contacts, raise slip_speed or rtol, or try another method"
         }
         FailureKind::Invalid(invalid) => invalid.0,
     };

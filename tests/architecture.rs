@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 15] = [
+const ORDER: [&str; 16] = [
     "error",
     "simd",
     "scene",
@@ -19,6 +19,7 @@ const ORDER: [&str; 15] = [
     "signals",
     "warning",
     "collapse",
+    "method",
     "simulate",
 ];
 fn sources(folder: &Path, found: &mut Vec<(String, String)>) {

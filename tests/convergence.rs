@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 
 use ballrace::integrate::{
     DORMAND_PRINCE, DenseStep, Failure, FailureKind, Observer, Options, Solution, Statistics,
-    System, Tableau, Tolerance, integrate,
+    System, Tableau, Tolerance, VERNER, integrate,
 };
 
 /// A right-hand side from a closure; remembers when and where it was last asked.
@@ -122,6 +122,15 @@ fn solution_is_of_order_five() {
         .collect();
     let order = slope(&points);
     assert!((order - 5.0).abs() < 0.15, "{order}: {points:?}");
+}
+
+/// Truth: the same, for the pair of order six: its large coefficients leave it few steps between the coarse ones
+/// and rounding.
+#[test]
+fn verner_is_of_order_six() {
+    let points = [0.4, 0.2, 0.1, 0.05].map(|h| (h, errors(&VERNER, h).0));
+    let order = slope(&points);
+    assert!((order - 6.0).abs() < 0.25, "{order}: {points:?}");
 }
 
 /// Truth: the analytic solution between the steps; a fourth-order interpolant

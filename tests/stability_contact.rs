@@ -251,6 +251,7 @@ fn restitution_stays_positive_and_free_impacts_never_pull() {
                 duration: 0.4e-3,
                 fs: 1e6,
                 start: Start::State(y0),
+                method: None,
                 rtol: Some(1e-9),
                 threads: 1,
             },

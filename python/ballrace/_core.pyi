@@ -48,6 +48,7 @@ def simulate(
     kind: str,
     state: _Array | None,
     rtol: float | None,
+    method: str | None,
     threads: int,
     progress: Callable[[float], object] | None,
 ) -> _Signals: ...

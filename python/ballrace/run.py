@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from .scene import Scene
+    from .scene import Method, Scene
 
 __all__ = ["simulate"]
 
@@ -29,6 +29,7 @@ def simulate(
     fs: float = 50_000.0,
     start: Literal["equilibrium", "rolling"] | NDArray[np.float64] = "equilibrium",
     rtol: float | None = None,
+    method: Method | None = None,
     threads: int = 0,
     progress: bool | Callable[[float], object] | None = None,
 ) -> Signals:
@@ -49,6 +50,8 @@ def simulate(
         order of ``Model(scene).names``.
     rtol : float, optional
         Relative tolerance; by default ``scene.solver.rtol``.
+    method : str, optional
+        Method of integration; by default ``scene.solver.method``.
     threads : int
         Threads of the run; 0 chooses. The result is the same, bit by bit, for any number.
     progress : bool or callable, optional
@@ -88,10 +91,12 @@ def simulate(
     document = scene.to_json()
     if progress is True:
         with Bar(scene.name or "simulating") as bar:
-            raw = _core.simulate(document, duration, fs, kind, state, rtol, threads, bar.show)
+            raw = _core.simulate(
+                document, duration, fs, kind, state, rtol, method, threads, bar.show
+            )
     else:
         callback = progress or None
-        raw = _core.simulate(document, duration, fs, kind, state, rtol, threads, callback)
+        raw = _core.simulate(document, duration, fs, kind, state, rtol, method, threads, callback)
     out = Signals._from_core(raw)
     for text in out.warnings:
         warnings.warn(text, AccuracyWarning, stacklevel=2)

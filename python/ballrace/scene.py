@@ -45,6 +45,7 @@ __all__ = [
     "Load",
     "Material",
     "Materials",
+    "Method",
     "MotionProbe",
     "Mount",
     "NormalLaw",
@@ -746,6 +747,19 @@ Probe = (
 
 # The whole
 
+Method = Literal[
+    "dormand-prince",
+    "bogacki-shampine",
+    "tsitouras",
+    "verner",
+    "runge-kutta-4",
+    "velocity-verlet",
+    "implicit-friction",
+    "auto",
+]
+"""The method of integration: explicit pairs of order 5, 3, 5 and 6, two of fixed steps, the one that
+is explicit in positions and implicit in velocities, and the choice of it or the first by friction's stiffness."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Solver(Part):
@@ -753,6 +767,9 @@ class Solver(Part):
 
     Attributes
     ----------
+    method : Method
+        The method. Explicit steps shrink with the slip speed of friction; those of ``"implicit-friction"`` do
+        not, and ``"auto"`` chooses. Methods of fixed steps take the largest step allowed.
     rtol : float
         Relative tolerance, 1e-12 to 1e-1; each kind of state has its scale from the scene.
     first_step : float or None
@@ -764,6 +781,7 @@ class Solver(Part):
         Without it, loose tolerances report success with accelerations wrong by 30 % and more.
     """
 
+    method: Method = "dormand-prince"
     rtol: float = 1e-6
     first_step: float | None = None
     max_step: float | None = None

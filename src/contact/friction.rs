@@ -91,4 +91,35 @@ impl Friction {
     fn one_by_one(&self, squares: Lanes) -> Lanes {
         squares.map(|square| self.factor(square.sqrt()))
     }
+
+    /// φ = [`Friction::factor`] and φ'(u)/u, the part of its slope that −φ u⃗ has along u⃗ u⃗ᵀ, at the square of a
+    /// slip speed.
+    #[inline]
+    pub fn factor_and_bend(&self, square: f64) -> (f64, f64) {
+        let root = 1.0 / (square + self.slip_speed * self.slip_speed).sqrt();
+        // μ and μ'(u)/u.
+        let (mu, bend) = match self.coefficient {
+            Coefficient::Constant(mu) => (mu, 0.0),
+            Coefficient::Stribeck {
+                fixed,
+                moving,
+                speed,
+            } => {
+                let excess = (fixed - moving) * (-square / (speed * speed)).exp();
+                (moving + excess, -2.0 * excess / (speed * speed))
+            }
+            Coefficient::Traction { a, b, c, d } => {
+                let slip = square.sqrt();
+                let (line, fade) = (a + b * slip, (-c * slip).exp());
+                // A corner at rest, where u⃗ u⃗ᵀ vanishes faster.
+                let bend = if slip > 0.0 {
+                    (b - c * line) * fade / slip
+                } else {
+                    0.0
+                };
+                (line * fade + d, bend)
+            }
+        };
+        (mu * root, (bend - mu * root * root) * root)
+    }
 }

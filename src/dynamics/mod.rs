@@ -1,8 +1,11 @@
 //! The right-hand side: contacts, evaluated by eights, and all other forces, in one order.
 
+mod arrow;
 mod batch;
 mod contacts;
 mod energy;
+mod grip;
+mod implicit;
 mod others;
 mod sums;
 
@@ -19,6 +22,7 @@ pub use contacts::{ContactSummary, SliceForce};
 pub use energy::Energy;
 
 use batch::Batch;
+use implicit::Implicit;
 use sums::Named;
 
 /// A model with the memory that evaluating it needs. One a thread of control.
@@ -29,6 +33,8 @@ pub struct Dynamics<'m> {
     contact_torques: [f64; 2],
     forces: Vec<[f64; 4]>,
     pool: Option<Arc<ThreadPool>>,
+    /// Memory of implicit stages, once there was one.
+    implicit: Option<Box<Implicit>>,
 }
 
 /// Names of the contributions of [`Dynamics::contributions`], in their order.
@@ -36,8 +42,8 @@ pub const CONTRIBUTIONS: [&str; 8] = [
     "contact", "damping", "friction", "cage", "support", "gravity", "load", "drive",
 ];
 
-/// The inner ring's rotation among the accelerations: what a speed drives.
-const INNER_ANGLE: usize = 7;
+/// The body whose rotation a speed drives.
+const INNER: usize = 1;
 
 impl<'m> Dynamics<'m> {
     /// For evaluations on one thread.
@@ -48,6 +54,7 @@ impl<'m> Dynamics<'m> {
             contact_torques: [0.0; 2],
             forces: vec![[0.0; 4]; model.bodies.len()],
             pool: None,
+            implicit: None,
         }
     }
 
@@ -90,11 +97,27 @@ impl<'m> Dynamics<'m> {
         self.forces.fill([0.0; 4]);
         self.contacts.add_to(&mut self.forces);
         self.contact_torques = [0, 1].map(|ring| self.forces[ring][3]);
+        self.others(t, y);
+    }
+
+    /// Adds the forces that are not contacts.
+    fn others(&mut self, t: f64, y: &[f64]) {
         others::cage(self.model, y, &mut self.forces);
         others::supports(self.model, y, &mut self.forces);
         others::gravity(self.model, &mut self.forces);
         others::loads(self.model, t, y, &mut self.forces);
         others::drive(self.model, t, &mut self.forces);
+    }
+
+    /// M⁻¹ F of a body. Directions that are fixed do not accelerate; the driven ring's rotation accelerates as
+    /// prescribed.
+    fn acceleration(&self, t: f64, body: usize) -> [f64; 4] {
+        let (force, mobility) = (&self.forces[body], &self.model.mobility[body]);
+        let mut acceleration = std::array::from_fn(|i| force[i] * mobility[i]);
+        if let (INNER, Drive::Speed(speed)) = (body, &self.model.scene.drive) {
+            acceleration[3] = speed.rate(t);
+        }
+        acceleration
     }
 
     /// The same forces apart by origin, as in [`CONTRIBUTIONS`]: for each, four numbers a body.
@@ -130,21 +153,14 @@ impl System for Dynamics<'_> {
         self.model.dim()
     }
 
-    /// M q̈ = F(t, q, q̇) in state space (model section 1). Directions that are fixed do not accelerate;
-    /// the driven ring's rotation accelerates as prescribed.
+    /// M q̈ = F(t, q, q̇) in state space (model section 1).
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         self.sum(t, y);
         let half = y.len() / 2;
         let (rates, accelerations) = dy.split_at_mut(half);
         rates.copy_from_slice(&y[half..]);
-        let moved = self.forces.iter().zip(&self.model.mobility);
-        for (acceleration, (force, mobility)) in accelerations.chunks_exact_mut(4).zip(moved) {
-            for i in 0..4 {
-                acceleration[i] = force[i] * mobility[i];
-            }
-        }
-        if let Drive::Speed(speed) = &self.model.scene.drive {
-            accelerations[INNER_ANGLE] = speed.rate(t);
+        for (b, acceleration) in accelerations.as_chunks_mut().0.iter_mut().enumerate() {
+            *acceleration = self.acceleration(t, b);
         }
     }
 }
@@ -195,6 +211,15 @@ impl Model {
                         && meridian.approach(ball.side.radius) < 0.5 * ball.side.radius)
                 })
         })
+    }
+
+    /// The radius that makes a length of a body's rotation \[m\]: a ball's own, half the pitch diameter of the
+    /// first row for a ring.
+    pub(crate) fn radius(&self, body: usize) -> f64 {
+        match body.checked_sub(2) {
+            Some(ball) => self.balls[ball].side.radius,
+            None => self.scene.rows[0].pitch_diameter / 2.0,
+        }
     }
 
     /// Whether sharing one evaluation among threads pays: handing the balls out costs some 10 µs.

@@ -42,6 +42,21 @@ impl Default for Controller {
     }
 }
 
+impl Controller {
+    /// The default for an embedded solution of another order: its exponents times 5/(order + 1).
+    #[must_use]
+    pub fn for_order(error_order: u32) -> Self {
+        let default = Self::default();
+        let scale = 5.0 / f64::from(error_order + 1);
+        Self {
+            error_exponent: scale * default.error_exponent,
+            memory_exponent: scale * default.memory_exponent,
+            rejection_exponent: scale * default.rejection_exponent,
+            ..default
+        }
+    }
+}
+
 /// The controller at work: settings and what it remembers.
 #[derive(Debug)]
 pub(super) struct Control<'a> {

@@ -5,13 +5,13 @@ use std::ops::ControlFlow;
 use super::clock::{Clock, ulp};
 use super::control::Control;
 use super::failure::{Failure, FailureKind, Invalid};
+use super::method::Method;
 use super::norm::{Norm, Tolerance, Worst};
 use super::options::Options;
 use super::start::first_step;
 use super::stats::Statistics;
 use super::step::Stepper;
 use super::stops::{Plan, Stops};
-use super::tableau::Tableau;
 use super::{Observer, System};
 
 /// A step below this many ulps of the time is too small.
@@ -45,17 +45,18 @@ pub struct Solution {
 ///   hold a step or a breakpoint that is no such thing;
 /// * [`FailureKind::NonFinite`] — the derivative at the start or after a
 ///   breakpoint is not finite, or [`Options::max_rejections`] ever smaller steps
-///   in a row met a non-finite number;
+///   in a row met a non-finite number or an implicit stage without a solution;
 /// * [`FailureKind::TooSmall`] — the step fell below 16 ulps of the time.
-pub fn integrate<S: System, O: Observer<S>>(
+pub fn integrate<S: System, M: Method<S>, O: Observer<S>>(
     system: &mut S,
-    tableau: &Tableau,
+    method: &M,
     t_span: (f64, f64),
     y0: &[f64],
     tolerance: &Tolerance,
     options: &Options,
     observer: &mut O,
 ) -> Result<Solution, Failure> {
+    let tableau = method.tableau();
     let (t0, end) = t_span;
     check(system.dim(), t_span, y0, tolerance)
         .and_then(|()| options.check())
@@ -109,7 +110,8 @@ pub fn integrate<S: System, O: Observer<S>>(
         } else {
             clock.advanced(plan.h)
         };
-        let error = match work.attempt(system, (t, next.now()), plan.h, stop.latest()) {
+        let error = match method.attempt(&mut work, system, (t, next.now()), plan.h, stop.latest())
+        {
             Ok(()) => norm.measure(&work.y, &work.y1, &work.error),
             Err(i) => Worst {
                 value: f64::INFINITY,
@@ -140,6 +142,7 @@ pub fn integrate<S: System, O: Observer<S>>(
         let stiffness = work.stiffness(plan.h, norm.weights());
         stats.accept(tableau, t, &plan, stiffness);
         stats.nfev = work.calls;
+        stats.iterations = work.iterations;
 
         let step = work.dense(t, next.now(), plan.h);
         interrupted = observer.accepted(system, &step, &stats) == ControlFlow::Break(());
@@ -155,6 +158,7 @@ pub fn integrate<S: System, O: Observer<S>>(
         }
     }
     stats.nfev = work.calls;
+    stats.iterations = work.iterations;
     Ok(Solution {
         t: clock.now(),
         y: work.y,

@@ -1,11 +1,14 @@
-//! Adaptive explicit Runge–Kutta integration of a smooth-by-pieces system of
+//! Adaptive Runge–Kutta integration of a smooth-by-pieces system of
 //! ordinary differential equations.
 //!
 //! The room knows nothing of what it integrates. Its parts are orthogonal:
 //!
 //! | file           | what it knows                                             |
 //! |----------------|-----------------------------------------------------------|
-//! | `tableau.rs`   | a method, as data: coefficients in a constant              |
+//! | `tableau*.rs`  | methods, as data: coefficients in constants                |
+//! | `method.rs`    | what the driver asks of a method                           |
+//! | `additive.rs`  | a step explicit in positions, implicit in velocities       |
+//! | `verlet.rs`    | velocity Verlet                                            |
 //! | `combine.rs`   | base + h · weighted sum of stages, in one pass             |
 //! | `step.rs`      | one step of any tableau, in preallocated memory            |
 //! | `norm.rs`      | tolerances and the worst group's scaled error              |
@@ -48,12 +51,14 @@
 //! Equations I*, 2nd ed., sections II.4–II.6, and volume II, section IV.2, for
 //! the step-size control with memory and the stiffness quotient.
 
+mod additive;
 mod clock;
 mod combine;
 mod control;
 mod dense;
 mod driver;
 mod failure;
+mod method;
 mod norm;
 mod options;
 mod start;
@@ -62,15 +67,23 @@ mod step;
 mod stiffness;
 mod stops;
 mod tableau;
+mod tableau_additive;
+mod tableau_pairs;
+mod verlet;
 
+pub use additive::{Additive, ImplicitVelocity, Stuck};
 pub use control::Controller;
 pub use dense::DenseStep;
 pub use driver::{Solution, integrate};
 pub use failure::{Failure, FailureKind, Invalid};
+pub use method::Method;
 pub use norm::Tolerance;
 pub use options::Options;
 pub use stats::Statistics;
 pub use tableau::{DORMAND_PRINCE, Tableau};
+pub use tableau_additive::KENNEDY_CARPENTER;
+pub use tableau_pairs::{BOGACKI_SHAMPINE, RUNGE_KUTTA_4, TSITOURAS, VERNER};
+pub use verlet::VelocityVerlet;
 
 use std::ops::ControlFlow;
 

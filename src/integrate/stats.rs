@@ -16,6 +16,8 @@ pub struct Statistics {
     pub rejected: usize,
     /// Evaluations of the right-hand side by the integrator.
     pub nfev: usize,
+    /// Iterations of implicit stages; 0 for an explicit method.
+    pub iterations: usize,
     /// The smallest accepted step, leaving out those that were shortened only
     /// to land on a breakpoint or the end. Infinite if there was none.
     pub smallest_step: f64,
@@ -36,6 +38,7 @@ impl Default for Statistics {
             accepted: 0,
             rejected: 0,
             nfev: 0,
+            iterations: 0,
             smallest_step: f64::INFINITY,
             smallest_step_time: f64::NAN,
             largest_step: 0.0,
@@ -50,6 +53,21 @@ impl Statistics {
     #[must_use]
     pub fn share_stiff(&self) -> f64 {
         self.stiff as f64 / self.accepted.max(1) as f64
+    }
+
+    /// Adds those of the integration that went on from here.
+    pub fn merge(&mut self, next: &Self) {
+        if next.smallest_step < self.smallest_step {
+            self.smallest_step = next.smallest_step;
+            self.smallest_step_time = next.smallest_step_time;
+        }
+        self.largest_step = self.largest_step.max(next.largest_step);
+        self.accepted += next.accepted;
+        self.rejected += next.rejected;
+        self.nfev += next.nfev;
+        self.iterations += next.iterations;
+        self.stiff += next.stiff;
+        self.capped += next.capped;
     }
 
     /// Counts an accepted step that began at `t`.

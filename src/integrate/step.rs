@@ -8,7 +8,7 @@ use super::tableau::Tableau;
 
 /// The workspace of a step: the state, the derivatives and what they give.
 #[derive(Debug)]
-pub(super) struct Stepper<'a> {
+pub struct Stepper<'a> {
     tableau: &'a Tableau,
     /// The accepted state.
     pub(super) y: Vec<f64>,
@@ -23,6 +23,8 @@ pub(super) struct Stepper<'a> {
     pub(super) k: Vec<Vec<f64>>,
     /// Evaluations of the right-hand side so far.
     pub(super) calls: usize,
+    /// Iterations of implicit stages so far.
+    pub(super) iterations: usize,
 }
 
 impl<'a> Stepper<'a> {
@@ -37,6 +39,7 @@ impl<'a> Stepper<'a> {
             stage: zero.clone(),
             k: vec![zero; derivatives],
             calls: 0,
+            iterations: 0,
         }
     }
 
@@ -83,8 +86,12 @@ impl<'a> Stepper<'a> {
         Ok(())
     }
 
-    /// The stiffness quotient at the end of the last attempt.
+    /// The stiffness quotient at the end of the last attempt; 0 where the last stage but one is not there.
     pub(super) fn stiffness(&self, h: f64, weights: &[f64]) -> f64 {
+        let before = self.tableau.stages - 1 - usize::from(self.tableau.fsal);
+        if self.tableau.c[before] != 1.0 {
+            return 0.0;
+        }
         let last = self.k.len() - 1;
         let slopes = [&self.k[last - 1][..], &self.k[last]];
         quotient(h, [&self.stage, &self.y1], slopes, weights)
@@ -104,7 +111,7 @@ impl<'a> Stepper<'a> {
 }
 
 /// The index of the first non-finite entry, as the error.
-fn check_finite(x: &[f64]) -> Result<(), usize> {
+pub(super) fn check_finite(x: &[f64]) -> Result<(), usize> {
     // Without an early exit the usual case is vectorised.
     if x.iter().fold(true, |finite, x| finite & x.is_finite()) {
         return Ok(());

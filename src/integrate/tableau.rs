@@ -26,7 +26,7 @@ pub struct Tableau {
     /// "First same as last": the last stage is the derivative at the new state.
     /// Without it one more evaluation per step supplies that derivative.
     pub fsal: bool,
-    /// Dense output, `stages` rows: `y(t0 + θh) = y0 + h Σ bᵢ(θ) kᵢ` with
+    /// Dense output, one row a derivative (`stages`, one more without FSAL): `y(t0 + θh) = y0 + h Σ bᵢ(θ) kᵢ` with
     /// `bᵢ(θ) = d₀θ + d₁θ² + d₂θ³ + d₃θ⁴`.
     pub dense: &'static [[f64; 4]],
     /// Where the region of absolute stability ends on the negative real axis,
@@ -34,6 +34,21 @@ pub struct Tableau {
     /// not accuracy, holds the step. The quotient compares the last two states
     /// evaluated and is meaningful where both stand at the end of the step.
     pub stability_limit: f64,
+}
+
+/// Dense output by the cubic through both ends and their slopes, of order three: `N` weights of the
+/// solution, `M` derivatives, of which the last is at the new state.
+pub(super) const fn hermite<const N: usize, const M: usize>(b: &[f64; N]) -> [[f64; 4]; M] {
+    let mut dense = [[0.0; 4]; M];
+    let mut i = 0;
+    while i < N {
+        dense[i] = [0.0, 3.0 * b[i], -2.0 * b[i], 0.0];
+        i += 1;
+    }
+    dense[0] = [1.0, dense[0][1] - 2.0, dense[0][2] + 1.0, 0.0];
+    dense[M - 1][1] -= 1.0;
+    dense[M - 1][2] += 1.0;
+    dense
 }
 
 /// Dormand–Prince 5(4), seven stages, FSAL, quartic dense output.
@@ -139,8 +154,16 @@ pub const DORMAND_PRINCE: Tableau = Tableau {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::integrate::{BOGACKI_SHAMPINE, KENNEDY_CARPENTER, RUNGE_KUTTA_4, TSITOURAS, VERNER};
 
-    const ALL: [Tableau; 1] = [DORMAND_PRINCE];
+    const ALL: [Tableau; 6] = [
+        DORMAND_PRINCE,
+        BOGACKI_SHAMPINE,
+        TSITOURAS,
+        VERNER,
+        RUNGE_KUTTA_4,
+        KENNEDY_CARPENTER.explicit,
+    ];
 
     fn dot(u: &[f64], v: &[f64]) -> f64 {
         u.iter().zip(v).map(|(x, y)| x * y).sum()
@@ -150,16 +173,32 @@ mod tests {
         assert!((x - y).abs() < 1e-13, "{what}: {x} is not {y}");
     }
 
-    /// Elementary weights of the 17 rooted trees to order five, with their
-    /// order and density: `Σ bᵢ Φᵢ = 1/γ` (Hairer I, theorem II.2.13).
+    /// What rounding of the coefficients may do to an order condition: those of Verner's pair reach 200.
+    fn rounding(t: &Tableau) -> f64 {
+        let largest = |row: &[f64]| row.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+        let coefficients = t.a.iter().map(|row| largest(row)).fold(1.0, f64::max);
+        3e-15 * coefficients * largest(t.b) + 5e-15
+    }
+
+    /// Stage times and coefficients, with the derivative at the new state that a method without FSAL adds.
+    fn stages(t: &Tableau) -> (Vec<f64>, Vec<&[f64]>) {
+        let (mut c, mut a) = (t.c.to_vec(), t.a.to_vec());
+        if !t.fsal {
+            c.push(1.0);
+            a.push(t.b);
+        }
+        (c, a)
+    }
+
+    /// Elementary weights of the 17 rooted trees to order five and of one of order six, with their order and
+    /// density: `Σ bᵢ Φᵢ = 1/γ` (Hairer I, theorem II.2.13).
     fn trees(t: &Tableau) -> Vec<(u32, f64, Vec<f64>)> {
-        let apply =
-            |v: &[f64]| -> Vec<f64> { t.a.iter().map(|row| dot(row, v)).collect::<Vec<_>>() };
+        let (c, a) = stages(t);
+        let apply = |v: &[f64]| -> Vec<f64> { a.iter().map(|row| dot(row, v)).collect::<Vec<_>>() };
         let times = |u: &[f64], v: &[f64]| -> Vec<f64> {
             u.iter().zip(v).map(|(x, y)| x * y).collect::<Vec<_>>()
         };
-        let one = vec![1.0; t.stages];
-        let c = t.c.to_vec();
+        let one = vec![1.0; c.len()];
         let (c2, ac) = (times(&c, &c), apply(&c));
         let (c3, cac, ac2, aac) = (times(&c2, &c), times(&c, &ac), apply(&c2), apply(&ac));
         vec![
@@ -180,23 +219,20 @@ mod tests {
             (5, 40.0, apply(&cac)),
             (5, 60.0, apply(&ac2)),
             (5, 120.0, apply(&aac)),
+            (6, 6.0, times(&c3, &c2)),
         ]
     }
 
     #[test]
     fn shapes_and_row_sums() {
         for t in ALL {
-            let lengths = [
-                t.c.len(),
-                t.a.len(),
-                t.b.len(),
-                t.b_err.len(),
-                t.dense.len(),
-            ];
-            assert_eq!(lengths, [t.stages; 5], "{}", t.name);
+            let lengths = [t.c.len(), t.a.len(), t.b.len(), t.b_err.len()];
+            assert_eq!(lengths, [t.stages; 4], "{}", t.name);
+            assert_eq!(t.dense.len(), t.stages + usize::from(!t.fsal), "{}", t.name);
             for (i, row) in t.a.iter().enumerate() {
                 assert_eq!(row.len(), i);
-                close(row.iter().sum(), t.c[i], "row sum");
+                let sum: f64 = row.iter().sum();
+                assert!((sum - t.c[i]).abs() < rounding(&t), "{}: row {i}", t.name);
             }
         }
     }
@@ -205,13 +241,21 @@ mod tests {
     fn solution_and_embedded_weights_meet_their_order_conditions() {
         for t in ALL {
             let embedded: Vec<f64> = t.b.iter().zip(t.b_err).map(|(b, e)| b - e).collect();
+            let meets = |weights: &[f64], phi: &[f64], density: f64| {
+                let off = dot(weights, phi) - 1.0 / density;
+                assert!(
+                    off.abs() < rounding(&t),
+                    "{}, γ = {density}: {off:e}",
+                    t.name
+                );
+            };
             close(t.b_err.iter().sum(), 0.0, "sum of b_err");
             for (order, density, phi) in trees(&t) {
                 if order <= t.order {
-                    close(dot(t.b, &phi), 1.0 / density, "solution");
+                    meets(t.b, &phi, density);
                 }
                 if order <= t.error_order {
-                    close(dot(&embedded, &phi), 1.0 / density, "embedded");
+                    meets(&embedded, &phi, density);
                 }
             }
         }
@@ -220,9 +264,9 @@ mod tests {
     /// An embedded solution of the solution's own order would measure nothing.
     #[test]
     fn the_error_estimate_sees_the_leading_error() {
-        for t in ALL {
-            let seen = trees(&t).into_iter().any(|(order, _, phi)| {
-                order == t.error_order + 1 && dot(t.b_err, &phi).abs() > 1e-5
+        for t in ALL.iter().filter(|t| t.error_order > 0) {
+            let seen = trees(t).into_iter().any(|(order, _, phi)| {
+                order == t.error_order + 1 && dot(t.b_err, &phi).abs() > 1e-6
             });
             assert!(seen, "{}", t.name);
         }
@@ -238,24 +282,40 @@ mod tests {
         }
     }
 
-    /// `Σ bᵢ(θ) Φᵢ = θ^order / γ` holds power by power up to order four, the
-    /// polynomial ends on `b`, and its slope ends on the last stage.
+    /// `Σ bᵢ(θ) Φᵢ = θ^order / γ` holds power by power up to the order of the dense output: four for the two
+    /// pairs of order five, three for a cubic. The polynomial ends on `b`, its slope on the last derivative.
     #[test]
-    fn dense_output_is_of_order_four_and_smooth() {
+    fn dense_output_is_of_its_order_and_smooth() {
         for t in ALL {
-            for (order, density, phi) in trees(&t).into_iter().filter(|tree| tree.0 <= 4) {
-                for power in 1..=4_u32 {
+            let known = if t.dense.iter().any(|d| d[3] != 0.0) {
+                4
+            } else {
+                3
+            };
+            assert_eq!(known, if t.order == 5 { 4 } else { 3 }, "{}", t.name);
+            for (order, density, phi) in trees(&t).into_iter().filter(|tree| tree.0 <= known) {
+                for power in 1..=known {
                     let column: Vec<f64> = t.dense.iter().map(|d| d[power as usize - 1]).collect();
                     let expected = if power == order { 1.0 / density } else { 0.0 };
                     let got = dot(&column, &phi);
-                    assert!((got - expected).abs() < 1e-12, "θ^{power}: {got}");
+                    let off = (got - expected).abs();
+                    assert!(
+                        off < 10.0 * rounding(&t) + 1e-12,
+                        "{} θ^{power}: {got}",
+                        t.name
+                    );
                 }
             }
-            for (i, (d, b)) in t.dense.iter().zip(t.b).enumerate() {
-                close(d.iter().sum(), *b, "dense output at the end");
+            let last = t.dense.len() - 1;
+            for (i, d) in t.dense.iter().enumerate() {
+                let weight = t.b.get(i).copied().unwrap_or(0.0);
+                close(d.iter().sum(), weight, "dense output at the end");
                 let slope = d[0] + 2.0 * d[1] + 3.0 * d[2] + 4.0 * d[3];
-                let last = if i + 1 == t.stages { 1.0 } else { 0.0 };
-                assert!((slope - last).abs() < 1e-12, "slope of stage {i}: {slope}");
+                let expected = if i == last { 1.0 } else { 0.0 };
+                assert!(
+                    (slope - expected).abs() < 1e-12,
+                    "slope of stage {i}: {slope}"
+                );
             }
         }
     }
@@ -263,7 +323,7 @@ mod tests {
     /// The stability function, run on `y' = −limit·y`, has modulus one there.
     #[test]
     fn stability_limit_is_where_the_amplification_is_one() {
-        for t in ALL {
+        for t in ALL.iter().filter(|t| t.stability_limit.is_finite()) {
             let amplification = |z: f64| {
                 let mut k: Vec<f64> = Vec::new();
                 for row in t.a {

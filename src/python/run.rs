@@ -9,9 +9,12 @@ use std::time::{Duration, Instant};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use serde::Deserialize;
+use serde::de::IntoDeserializer;
+use serde::de::value::Error as ValueError;
 
 use super::errors::{OrRaise, json};
-use crate::scene::RingName;
+use crate::scene::{Method, RingName};
 use crate::{Error, Run, Scene, Signals, SliceRow, Start};
 
 /// Least time between two looks at signals and callbacks; Ctrl-C is answered within it.
@@ -121,6 +124,7 @@ pub(super) fn simulate<'py>(
     kind: &str,
     state: Option<PyReadonlyArray1<'py, f64>>,
     rtol: Option<f64>,
+    method: Option<&str>,
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
@@ -131,6 +135,7 @@ pub(super) fn simulate<'py>(
         fs,
         start: start(kind, state).or_raise(py)?,
         rtol,
+        method: method.map(self::method).transpose().or_raise(py)?,
         threads,
     };
     let mut raised = None;
@@ -178,6 +183,11 @@ fn start(kind: &str, state: Option<Vec<f64>>) -> crate::Result<Start> {
             "\"equilibrium\", \"rolling\" or an array of states",
         )),
     }
+}
+
+fn method(name: &str) -> crate::Result<Method> {
+    Method::deserialize(name.into_deserializer())
+        .map_err(|e: ValueError| Error::scene("method", format!("{name:?}"), e.to_string()))
 }
 
 /// Lets Ctrl-C and the callback speak.

@@ -37,7 +37,7 @@ pub use defect::{Defect, Floor, Surface, Width, WidthProfile};
 pub use load::{Drive, Load, Unbalance};
 pub use material::{Material, Materials};
 pub use probe::{Component, ContactQuantity, Probe};
-pub use solver::Solver;
+pub use solver::{Method, Solver};
 pub use time::{Profile, TimeFunction};
 
 /// Version of the document this crate reads.

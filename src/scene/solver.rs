@@ -2,10 +2,38 @@
 
 use serde::{Deserialize, Serialize};
 
+/// The method of integration; measured against each other in `benches/README.md`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Dormand–Prince 5(4), explicit: the default.
+    #[default]
+    DormandPrince,
+    /// Bogacki–Shampine 3(2), explicit.
+    BogackiShampine,
+    /// Tsitouras 5(4), explicit.
+    Tsitouras,
+    /// Verner 6(5), explicit; a dense output of order three only.
+    Verner,
+    /// The classical Runge–Kutta method with fixed steps, each the largest allowed.
+    #[serde(rename = "runge-kutta-4")]
+    RungeKutta4,
+    /// Velocity Verlet with fixed steps, each the largest allowed; damped contacts want a `max_step` of a
+    /// fifth of the cap or less.
+    VelocityVerlet,
+    /// Kennedy–Carpenter 4(3), explicit in positions and implicit in velocities: its steps do not depend on how
+    /// stiff friction is. For slip speeds below about 0.01 m/s.
+    ImplicitFriction,
+    /// Dormand–Prince or the implicit one, whichever the stiffness of friction asks for, at any time of the run.
+    Auto,
+}
+
 /// How the equations are integrated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Solver {
+    /// The method. Default `dormand-prince`.
+    pub method: Method,
     /// Relative tolerance, 1e-12 to 1e-1; each kind of state has its scale from the scene. Default 1e-6.
     pub rtol: f64,
     /// First step \[s\]; absent: Hairer's estimate.
@@ -20,6 +48,7 @@ pub struct Solver {
 impl Default for Solver {
     fn default() -> Self {
         Self {
+            method: Method::default(),
             rtol: 1e-6,
             first_step: None,
             max_step: None,

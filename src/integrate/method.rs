@@ -1,0 +1,64 @@
+//! What the driver asks of a method.
+
+use super::System;
+use super::additive::{Additive, ImplicitVelocity};
+use super::step::Stepper;
+use super::tableau::Tableau;
+
+/// A way to take one step; the driver does the rest.
+///
+/// Its implementations are the explicit [`Tableau`] for any system and [`Additive`] for systems with
+/// stiff velocities.
+pub trait Method<S> {
+    /// Weights, error weights and dense output.
+    fn tableau(&self) -> &Tableau;
+
+    /// Tries a step `h` from `(t, y)` to `t1`: fills the new state, the derivatives and the error.
+    ///
+    /// No evaluation sees a time beyond `latest`, and the last one is at the new state.
+    ///
+    /// # Errors
+    /// The index of the first state that is not finite, or of the one whose implicit stage has no solution.
+    fn attempt(
+        &self,
+        work: &mut Stepper<'_>,
+        system: &mut S,
+        span: (f64, f64),
+        h: f64,
+        latest: f64,
+    ) -> Result<(), usize>;
+}
+
+impl<S: System> Method<S> for Tableau {
+    fn tableau(&self) -> &Tableau {
+        self
+    }
+
+    fn attempt(
+        &self,
+        work: &mut Stepper<'_>,
+        system: &mut S,
+        span: (f64, f64),
+        h: f64,
+        latest: f64,
+    ) -> Result<(), usize> {
+        work.attempt(system, span, h, latest)
+    }
+}
+
+impl<S: ImplicitVelocity> Method<S> for Additive {
+    fn tableau(&self) -> &Tableau {
+        &self.explicit
+    }
+
+    fn attempt(
+        &self,
+        work: &mut Stepper<'_>,
+        system: &mut S,
+        span: (f64, f64),
+        h: f64,
+        latest: f64,
+    ) -> Result<(), usize> {
+        self.step(work, system, span, h, latest)
+    }
+}

@@ -1,0 +1,206 @@
+//! The method a run asked for, and the switch between explicit and implicit ones.
+
+use std::fmt;
+use std::ops::ControlFlow;
+
+use crate::dynamics::Dynamics;
+use crate::integrate::{
+    self, BOGACKI_SHAMPINE, Controller, DORMAND_PRINCE, DenseStep, Failure, ImplicitVelocity,
+    KENNEDY_CARPENTER, Observer, Options, RUNGE_KUTTA_4, Solution, Statistics, TSITOURAS,
+    Tolerance, VERNER, VelocityVerlet, integrate,
+};
+use crate::scene::Method;
+
+/// Stiffness quotients at which `auto` takes to implicit steps and back to explicit ones. At a quotient of 1
+/// friction begins to hold explicit steps below the cap: beyond it they cost more, and at loose tolerance report
+/// success with wrong accelerations.
+const SWITCH: (f64, f64) = (1.0, 0.5);
+
+/// Accepted steps between two looks at the stiffness; one costs about an evaluation.
+const LOOK_EVERY: usize = 50;
+
+/// What was done.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Choice {
+    auto: bool,
+    names: Vec<&'static str>,
+    /// Accepted steps that were implicit.
+    pub implicit: usize,
+    /// Largest stiffness quotient seen.
+    pub stiffness: Option<f64>,
+}
+
+impl fmt::Display for Choice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let auto = if self.auto { "auto: " } else { "" };
+        write!(f, "{auto}{}", self.names.join(", "))
+    }
+}
+
+/// Whether a method has no error estimate and so wants a step.
+pub(crate) fn is_fixed(method: Method) -> bool {
+    matches!(method, Method::RungeKutta4 | Method::VelocityVerlet)
+}
+
+/// From where to where, and how well.
+#[derive(Clone, Copy)]
+pub(crate) struct Task<'a> {
+    pub span: (f64, f64),
+    pub y0: &'a [f64],
+    pub tolerance: &'a Tolerance,
+    pub options: &'a Options,
+}
+
+/// Integrates by the scene's method.
+pub(crate) fn run<'m, O: Observer<Dynamics<'m>>>(
+    dynamics: &mut Dynamics<'m>,
+    task: Task<'_>,
+    observer: &mut O,
+) -> Result<(Solution, Choice), Failure> {
+    match dynamics.model().scene().solver.method {
+        Method::DormandPrince => by(&DORMAND_PRINCE, dynamics, task, observer),
+        Method::BogackiShampine => by(&BOGACKI_SHAMPINE, dynamics, task, observer),
+        Method::Tsitouras => by(&TSITOURAS, dynamics, task, observer),
+        Method::Verner => by(&VERNER, dynamics, task, observer),
+        Method::RungeKutta4 => by(&RUNGE_KUTTA_4, dynamics, task, observer),
+        Method::VelocityVerlet => by(&VelocityVerlet, dynamics, task, observer),
+        Method::ImplicitFriction => {
+            let (solution, mut choice) = by(&KENNEDY_CARPENTER, dynamics, task, observer)?;
+            choice.implicit = solution.stats.accepted;
+            Ok((solution, choice))
+        }
+        Method::Auto => choose(dynamics, task, observer),
+    }
+}
+
+/// Integrates by one method.
+fn by<'m, M, O>(
+    method: &M,
+    dynamics: &mut Dynamics<'m>,
+    task: Task<'_>,
+    observer: &mut O,
+) -> Result<(Solution, Choice), Failure>
+where
+    M: integrate::Method<Dynamics<'m>>,
+    O: Observer<Dynamics<'m>>,
+{
+    let Task {
+        span,
+        y0,
+        tolerance,
+        options,
+    } = task;
+    let tableau = method.tableau();
+    let options = Options {
+        controller: Controller::for_order(tableau.error_order),
+        ..options.clone()
+    };
+    let choice = Choice {
+        names: vec![tableau.name],
+        ..Choice::default()
+    };
+    let solution = integrate(dynamics, method, span, y0, tolerance, &options, observer)?;
+    Ok((solution, choice))
+}
+
+/// Integrates explicitly or implicitly, as the stiffness quotient asks.
+fn choose<'m, O: Observer<Dynamics<'m>>>(
+    dynamics: &mut Dynamics<'m>,
+    task: Task<'_>,
+    observer: &mut O,
+) -> Result<(Solution, Choice), Failure> {
+    let step = task
+        .options
+        .max_step
+        .min(1.0 / dynamics.model().scales().frequency);
+    let first = quotient(dynamics, task.span.0, task.y0, step);
+    let mut watch = Watch {
+        observer,
+        step,
+        implicit: first > SWITCH.0,
+        switch: false,
+        quotient: first,
+        last: 0.0,
+    };
+    let mut choice = Choice {
+        auto: true,
+        ..Choice::default()
+    };
+    let mut options = task.options.clone();
+    let mut whole: Option<Solution> = None;
+    loop {
+        let (t, y) = whole
+            .as_ref()
+            .map_or((task.span.0, task.y0), |s| (s.t, &s.y));
+        let part = Task {
+            span: (t, task.span.1),
+            y0: y,
+            options: &options,
+            ..task
+        };
+        let (mut solution, done) = if watch.implicit {
+            by(&KENNEDY_CARPENTER, dynamics, part, &mut watch)?
+        } else {
+            by(&DORMAND_PRINCE, dynamics, part, &mut watch)?
+        };
+        choice.names.extend(done.names);
+        if watch.implicit {
+            choice.implicit += solution.stats.accepted;
+        }
+        if let Some(before) = whole {
+            let mut stats = before.stats;
+            stats.merge(&solution.stats);
+            solution.stats = stats;
+        }
+        if !watch.switch {
+            choice.stiffness = Some(watch.quotient);
+            return Ok((solution, choice));
+        }
+        watch.switch = false;
+        watch.implicit = !watch.implicit;
+        options.first_step = Some(watch.last);
+        whole = Some(solution);
+    }
+}
+
+/// Looks at the stiffness now and then, and ends the integration where the other method should go on.
+struct Watch<'o, O> {
+    observer: &'o mut O,
+    step: f64,
+    implicit: bool,
+    switch: bool,
+    /// Largest quotient so far.
+    quotient: f64,
+    /// Last step size.
+    last: f64,
+}
+
+impl<'m, O: Observer<Dynamics<'m>>> Observer<Dynamics<'m>> for Watch<'_, O> {
+    fn accepted(
+        &mut self,
+        dynamics: &mut Dynamics<'m>,
+        step: &DenseStep<'_>,
+        stats: &Statistics,
+    ) -> ControlFlow<()> {
+        self.observer.accepted(dynamics, step, stats)?;
+        if stats.accepted.is_multiple_of(LOOK_EVERY) {
+            let quotient = quotient(dynamics, step.t1(), step.y1(), self.step);
+            self.quotient = self.quotient.max(quotient);
+            self.last = step.h();
+            self.switch = if self.implicit {
+                quotient < SWITCH.1
+            } else {
+                quotient > SWITCH.0
+            };
+            if self.switch {
+                return ControlFlow::Break(());
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+/// Rate of friction times a step, over what Dormand–Prince bears.
+fn quotient(dynamics: &mut Dynamics<'_>, t: f64, y: &[f64], step: f64) -> f64 {
+    dynamics.fastest_rate(t, y) * step / DORMAND_PRINCE.stability_limit
+}

@@ -1,0 +1,497 @@
+//! The methods against each other, and each against what is proved of it.
+//!
+//! Each test says which truth it tells.
+
+use std::f64::consts::FRAC_PI_2;
+use std::ops::ControlFlow;
+
+use ballrace::integrate::{
+    self, Additive, BOGACKI_SHAMPINE, Controller, DORMAND_PRINCE, DenseStep, ImplicitVelocity,
+    KENNEDY_CARPENTER, Options, RUNGE_KUTTA_4, Statistics, Stuck, System, TSITOURAS, Tableau,
+    Tolerance, VERNER, VelocityVerlet, integrate,
+};
+use ballrace::scene::{Friction, Method, presets};
+use ballrace::{Model, Run, Scene, Signals, simulate};
+
+/// An oscillator rubbed by regularised Coulomb friction against a belt that moves: q' = v,
+/// v' = −q − rate·s·(v − w)/√((v − w)² + s²), w = cos t. Its fastest rate is `rate`.
+struct Rubbed {
+    rate: f64,
+    slip_speed: f64,
+    /// Velocities at which the right-hand side was asked for.
+    asked: usize,
+}
+
+impl Rubbed {
+    fn acceleration(&self, t: f64, q: f64, v: f64) -> (f64, f64) {
+        let u = v - t.cos();
+        let root = (u * u + self.slip_speed * self.slip_speed).sqrt();
+        let strength = self.rate * self.slip_speed;
+        (
+            -q - strength * u / root,
+            -strength * (self.slip_speed / root).powi(2) / root,
+        )
+    }
+}
+
+impl System for Rubbed {
+    fn dim(&self) -> usize {
+        2
+    }
+
+    fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        self.asked += 1;
+        dy[0] = y[1];
+        dy[1] = self.acceleration(t, y[0], y[1]).0;
+    }
+}
+
+impl ImplicitVelocity for Rubbed {
+    fn solve_velocity(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        base: &[f64],
+        gamma_h: f64,
+    ) -> Result<usize, Stuck> {
+        let mut before = f64::INFINITY;
+        for iteration in 1..=50 {
+            let (a, mut slope) = self.acceleration(t, y[0], y[1]);
+            if before.is_finite() && before > 0.1 {
+                // Far away Newton's tangent leads across: the secant through rest does not.
+                slope = (a + y[0]) / (y[1] - t.cos());
+            }
+            let correction = (base[0] + gamma_h * a - y[1]) / (1.0 - gamma_h * slope);
+            y[1] += correction;
+            if correction.abs() < 1e-14 {
+                return Ok(iteration);
+            }
+            before = correction.abs();
+        }
+        Err(Stuck {
+            state: 1,
+            iterations: 50,
+        })
+    }
+
+    fn fastest_rate(&mut self, _t: f64, _y: &[f64]) -> f64 {
+        self.rate
+    }
+}
+
+fn fixed(h: f64) -> Options {
+    Options {
+        fixed_step: Some(h),
+        ..Options::default()
+    }
+}
+
+/// End state, largest difference between dense output and `truth`, and effort.
+fn follow<M: integrate::Method<Rubbed>>(
+    method: &M,
+    rate: f64,
+    end: f64,
+    options: &Options,
+    truth: impl Fn(f64) -> f64,
+) -> (Vec<f64>, f64, Statistics) {
+    let mut system = Rubbed {
+        rate,
+        slip_speed: 0.5,
+        asked: 0,
+    };
+    let mut between: f64 = 0.0;
+    let mut watch = |_: &mut _, step: &DenseStep<'_>, _: &Statistics| {
+        for part in 0..5 {
+            let t = step.t0() + f64::from(part) / 5.0 * (step.t1() - step.t0());
+            let mut y = [0.0; 2];
+            step.interpolate(t, &mut y);
+            between = between.max((y[0] - truth(t)).abs());
+        }
+        ControlFlow::Continue(())
+    };
+    let tolerance = Tolerance::uniform(2, 1e-9, 1e-9).unwrap();
+    let y0 = [0.3, 0.8];
+    let solution = integrate(
+        &mut system,
+        method,
+        (0.0, end),
+        &y0,
+        &tolerance,
+        options,
+        &mut watch,
+    );
+    let solution = solution.unwrap();
+    (solution.y, between, solution.stats)
+}
+
+/// Slopes of the errors of the end state over halved steps.
+fn orders<M: integrate::Method<Rubbed>>(method: &M, rate: f64, steps: &[f64]) -> Vec<f64> {
+    let exact = follow(&VERNER, rate, 1.0, &fixed(1e-3), |_| 0.0).0;
+    let error = |h: f64| {
+        let end = follow(method, rate, 1.0, &fixed(h), |_| 0.0).0;
+        (end[0] - exact[0]).hypot(end[1] - exact[1])
+    };
+    let errors: Vec<f64> = steps.iter().map(|&h| error(h)).collect();
+    errors
+        .windows(2)
+        .zip(steps.windows(2))
+        .map(|(e, h)| (e[0] / e[1]).ln() / (h[0] / h[1]).ln())
+        .collect()
+}
+
+fn has_order<M: integrate::Method<Rubbed>>(method: &M, order: f64, steps: &[f64]) {
+    let measured = orders(method, 6.0, steps);
+    for slope in &measured {
+        let name = method.tableau().name;
+        // Tsitouras made the leading error of his pair small: it nears its order from above.
+        assert!(
+            (-0.25..0.4).contains(&(slope - order)),
+            "{name}: {measured:?}"
+        );
+    }
+}
+
+/// Truth: the order proved for each method, on a smooth problem that depends on time, place and velocity.
+#[test]
+fn every_method_has_its_order() {
+    let steps = [0.02, 0.01, 0.005];
+    has_order(&BOGACKI_SHAMPINE, 3.0, &steps);
+    has_order(&RUNGE_KUTTA_4, 4.0, &steps);
+    has_order(&KENNEDY_CARPENTER, 4.0, &steps);
+    has_order(&VelocityVerlet, 2.0, &steps);
+    has_order(&DORMAND_PRINCE, 5.0, &[0.02, 0.01, 0.005]);
+    has_order(&TSITOURAS, 5.0, &[0.02, 0.01, 0.005]);
+}
+
+/// Truth: a dense output of order p has a local error of order p + 1, the cubic's included.
+#[test]
+fn dense_outputs_have_their_order() {
+    let truth = {
+        // The right-hand side is smooth: tiny steps of the highest order stand for the solution.
+        let mut places = vec![];
+        let mut system = Rubbed {
+            rate: 2.0,
+            slip_speed: 0.5,
+            asked: 0,
+        };
+        let mut watch = |_: &mut Rubbed, step: &DenseStep<'_>, _: &Statistics| {
+            places.push(step.y0()[0]);
+            ControlFlow::Continue(())
+        };
+        let tolerance = Tolerance::uniform(2, 1e-9, 1e-9).unwrap();
+        let span = (0.0, 1.0);
+        integrate(
+            &mut system,
+            &VERNER,
+            span,
+            &[0.3, 0.8],
+            &tolerance,
+            &fixed(1e-3),
+            &mut watch,
+        )
+        .unwrap();
+        places
+    };
+    // Fifths of the steps below fall on whole milliseconds.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let at = |t: f64| truth[(t * 1e3).round() as usize];
+    let order = |method: &dyn Fn(f64) -> f64| (method(0.1) / method(0.05)).log2();
+    let tableaux: [(&Tableau, f64); 5] = [
+        (&BOGACKI_SHAMPINE, 3.0),
+        (&RUNGE_KUTTA_4, 4.0),
+        (&DORMAND_PRINCE, 5.0),
+        (&TSITOURAS, 5.0),
+        (&VERNER, 4.0),
+    ];
+    for (tableau, least) in tableaux {
+        let measured = order(&|h| follow(tableau, 2.0, 1.0, &fixed(h), at).1);
+        assert!(measured > least - 0.3, "{}: {measured}", tableau.name);
+    }
+    let measured = order(&|h| follow(&KENNEDY_CARPENTER, 2.0, 1.0, &fixed(h), at).1);
+    assert!(measured > 3.7, "{measured}");
+}
+
+/// Truth: Dormand–Prince at a step a tenth of its limit. At a rate of 10⁶ the implicit method takes steps that
+/// are 3000 times too long for the explicit one, and is right.
+#[test]
+fn stiff_velocities_do_not_hold_implicit_steps() {
+    let rate = 1e6;
+    let loose = |h: f64| follow(&KENNEDY_CARPENTER, rate, 0.1, &fixed(h), |_| 0.0).0;
+    let exact = follow(&DORMAND_PRINCE, rate, 0.1, &fixed(3e-7), |_| 0.0).0;
+    for (h, most) in [(0.01, 2e-5), (0.005, 1e-5)] {
+        let end = loose(h);
+        let error = (end[0] - exact[0]).hypot(end[1] - exact[1]);
+        assert!(error < most, "h = {h}: {error:e}");
+    }
+    let options = Options {
+        controller: Controller::for_order(3),
+        ..Options::default()
+    };
+    let (end, _, stats) = follow(&KENNEDY_CARPENTER, rate, 0.1, &options, |_| 0.0);
+    assert!((end[0] - exact[0]).hypot(end[1] - exact[1]) < 1e-7);
+    assert!(stats.nfev < 3000, "{stats:?}");
+    let (_, _, explicit) = follow(&DORMAND_PRINCE, rate, 0.1, &Options::default(), |_| 0.0);
+    assert!(explicit.nfev > 50 * stats.nfev, "{explicit:?}");
+    assert!(explicit.share_stiff() > 0.5 && stats.share_stiff() == 0.0);
+}
+
+/// The amplification of y' = λy over a step, |R(hλ)|, run through the method's own coefficients.
+fn amplification(t: &Tableau, real: f64, imaginary: f64) -> f64 {
+    let mut k: Vec<(f64, f64)> = Vec::new();
+    let stage = |row: &[f64], k: &[(f64, f64)]| {
+        row.iter()
+            .zip(k)
+            .fold((1.0, 0.0), |sum: (f64, f64), (a, k)| {
+                (sum.0 + a * k.0, sum.1 + a * k.1)
+            })
+    };
+    for row in t.a {
+        let y = stage(row, &k);
+        k.push((real * y.0 - imaginary * y.1, real * y.1 + imaginary * y.0));
+    }
+    let end = stage(t.b, &k);
+    end.0.hypot(end.1)
+}
+
+/// Computed: where |R| passes 1 on both axes. Dormand–Prince and the classical method: Hairer & Wanner II,
+/// section IV.2, and I, section IV.2 (2√2). The small numbers on the imaginary axis belong to pairs whose |R|
+/// passes 1 by less than 10⁻³ there; with a hundredth of damping they reach further.
+#[test]
+fn stability_limits_of_the_tableaux() {
+    let limits = [
+        (&DORMAND_PRINCE, 3.3066, 0.9972),
+        (&BOGACKI_SHAMPINE, 2.5127, 1.7321),
+        (&TSITOURAS, 3.5068, 0.4780),
+        (&VERNER, 4.8553, 2.5849),
+        (&RUNGE_KUTTA_4, 2.7853, 2.8284),
+        (&KENNEDY_CARPENTER.explicit, 4.2342, 4.0004),
+    ];
+    for (tableau, real, imaginary) in limits {
+        let inside = |z: f64, x: f64| amplification(tableau, -z, x) < 1.0 + 1e-11;
+        let name = tableau.name;
+        assert!(
+            inside(real - 1e-3, 0.0) && !inside(real + 1e-3, 0.0),
+            "{name}, real"
+        );
+        let (below, above) = (inside(0.0, imaginary - 1e-3), inside(0.0, imaginary + 1e-3));
+        assert!(below && !above, "{name}, imaginary");
+    }
+}
+
+/// Spectral radius over a step of q'' = −ω²q − 2ζωq', explicit in q and implicit in q'.
+fn oscillation(t: &Additive, omega: f64, damping: f64) -> f64 {
+    let column = |q0: f64, v0: f64| {
+        let (mut v, mut a): (Vec<f64>, Vec<f64>) = (vec![], vec![]);
+        let sum = |row: &[f64], k: &[f64]| row.iter().zip(k).map(|(a, k)| a * k).sum::<f64>();
+        for i in 0..t.explicit.stages {
+            let q = q0 + sum(t.explicit.a[i], &v);
+            let base = v0 + sum(t.implicit[i], &a);
+            let gamma = if i == 0 { 0.0 } else { t.gamma };
+            let rate = 2.0 * damping * omega;
+            let speed = (base - gamma * omega * omega * q) / (1.0 + gamma * rate);
+            v.push(speed);
+            a.push(-omega * omega * q - rate * speed);
+        }
+        (q0 + sum(t.explicit.b, &v), v0 + sum(t.explicit.b, &a))
+    };
+    let ((a, c), (b, d)) = (column(1.0, 0.0), column(0.0, 1.0));
+    let (trace, determinant) = (a + d, a * d - b * c);
+    let square = trace * trace / 4.0 - determinant;
+    if square < 0.0 {
+        determinant.sqrt()
+    } else {
+        trace.abs() / 2.0 + square.sqrt()
+    }
+}
+
+/// Computed: what the additive method does to the contact modes, for which the step cap allows ωh = 1.
+#[test]
+fn implicit_velocities_and_the_contact_modes() {
+    let growth = |omega, damping| oscillation(&KENNEDY_CARPENTER, omega, damping);
+    assert!((growth(1.0, 0.0) - 1.0027).abs() < 1e-4);
+    assert!(growth(0.3, 0.0) < 1.0 + 1e-5);
+    for damping in [0.01, 0.05, 0.5, 2.0, 50.0] {
+        assert!((1..=100_u32).all(|i| growth(f64::from(i) / 100.0, damping) < 1.0));
+    }
+    assert!(growth(1.98, 0.05) < 1.0 && growth(2.02, 0.05) > 1.0);
+}
+
+/// The wheel bearing with a ball that meets the spall at about 0.6 ms.
+fn scene(slip_speed: f64) -> Scene {
+    let mut scene = presets::wheel_bearing(3000.0);
+    scene.friction = Friction::Coulomb {
+        coefficient: 0.05,
+        slip_speed,
+    };
+    // From equilibrium the first ball meets it at 5.3 ms.
+    let (orbit, _) = Model::new(&scene).unwrap().rolling_speeds(0);
+    scene.defects.get_mut("spall").unwrap().angle = -FRAC_PI_2 - 4.7e-3 * orbit;
+    scene
+}
+
+fn run(scene: &Scene, method: Method, rtol: f64) -> Signals {
+    let run = Run {
+        duration: 2e-3,
+        fs: 100e3,
+        rtol: Some(rtol),
+        method: Some(method),
+        threads: 1,
+        ..Run::default()
+    };
+    simulate(scene, &run, &mut |_| ControlFlow::Continue(())).unwrap()
+}
+
+/// Relative L2 error of the outer ring's acceleration.
+fn error(signals: &Signals, truth: &Signals) -> f64 {
+    let (mut off, mut size) = (0.0, 0.0);
+    for (x, y) in signals
+        .get("outer.ay")
+        .unwrap()
+        .iter()
+        .zip(truth.get("outer.ay").unwrap())
+    {
+        off += (x - y) * (x - y);
+        size += y * y;
+    }
+    (off / size).sqrt()
+}
+
+/// Truth: each other at tight tolerance. Every method gives the same signal.
+#[test]
+fn methods_agree() {
+    let scene = scene(0.1);
+    let truth = run(&scene, Method::DormandPrince, 1e-9);
+    let peak = truth
+        .get("outer.ay")
+        .unwrap()
+        .iter()
+        .fold(0.0, |most: f64, a| most.max(a.abs()));
+    assert!(peak > 30.0, "no impact: {peak} m/s²");
+    for (method, most) in [
+        (Method::BogackiShampine, 1e-3),
+        (Method::Tsitouras, 1e-3),
+        (Method::Verner, 1e-3),
+        (Method::RungeKutta4, 1e-2),
+        (Method::ImplicitFriction, 1e-3),
+        (Method::Auto, 1e-3),
+    ] {
+        let off = error(&run(&scene, method, 1e-7), &truth);
+        assert!(off < most, "{method:?}: {off:e}");
+    }
+}
+
+/// Truth: Dormand–Prince at tight tolerance. At a slip speed of 1 mm/s the implicit method is within 1 % over an
+/// impact for a fifth of the evaluations of the cheapest explicit run that is.
+#[test]
+fn stiff_friction_costs_an_implicit_step_nothing() {
+    let scene = scene(1e-3);
+    let truth = run(&scene, Method::DormandPrince, 1e-9);
+    let implicit = run(&scene, Method::ImplicitFriction, 1e-5);
+    let off = error(&implicit, &truth);
+    assert!(off < 1e-2, "{off:e}");
+    let explicit = [1e-3, 1e-4, 1e-5, 1e-6].map(|rtol| run(&scene, Method::DormandPrince, rtol));
+    let cheapest = explicit
+        .iter()
+        .filter(|signals| error(signals, &truth) < 1e-2)
+        .map(|signals| signals.stats.nfev)
+        .min()
+        .unwrap();
+    let ratio = cheapest as f64 / implicit.stats.nfev as f64;
+    assert!(ratio > 5.0, "{ratio}");
+    assert_eq!(implicit.stats.implicit_share, 1.0);
+    assert!(implicit.stats.iterations < 3 * implicit.stats.nfev);
+}
+
+/// Truth: the rate of friction, 5 μN/(m v_s), and the step cap.
+#[test]
+fn auto_says_what_it_chose() {
+    let easy = run(&scene(0.1), Method::Auto, 1e-4);
+    assert_eq!(easy.provenance.method, "auto: Dormand-Prince 5(4)");
+    assert_eq!(easy.stats.implicit_share, 0.0);
+    assert_eq!(
+        easy.columns,
+        run(&scene(0.1), Method::DormandPrince, 1e-4).columns
+    );
+    let stiff = run(&scene(1e-3), Method::Auto, 1e-4);
+    assert_eq!(
+        stiff.provenance.method,
+        "auto: Kennedy-Carpenter ARK4(3)6L[2]SA"
+    );
+    assert_eq!(
+        stiff.columns,
+        run(&scene(1e-3), Method::ImplicitFriction, 1e-4).columns
+    );
+    let quotient = |signals: &Signals| signals.provenance.stiffness.unwrap();
+    assert!((quotient(&stiff) / quotient(&easy) / 100.0 - 1.0).abs() < 0.8);
+    assert_eq!(
+        run(&scene(0.1), Method::DormandPrince, 1e-4)
+            .provenance
+            .stiffness,
+        None
+    );
+}
+
+/// A load that comes within the run makes friction stiff, and its going makes it soft again.
+#[test]
+fn auto_switches_within_a_run() {
+    let mut scene = presets::deep_groove_6205(0.0, 0.0, 1800.0);
+    scene.friction = Friction::Coulomb {
+        coefficient: 0.05,
+        slip_speed: 2e-3,
+    };
+    let load = r#"{"table": {"times": [0.0, 0.001, 0.0015, 0.003, 0.0035, 0.005],
+        "values": [20.0, 20.0, 3000.0, 3000.0, 20.0, 20.0]}}"#;
+    let radial = scene.loads.get_mut("radial").unwrap();
+    radial.force = serde_json::from_str(load).unwrap();
+    let run = Run {
+        duration: 5e-3,
+        method: Some(Method::Auto),
+        threads: 1,
+        ..Run::default()
+    };
+    let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
+    let (explicit, implicit) = (DORMAND_PRINCE.name, KENNEDY_CARPENTER.explicit.name);
+    let switched = format!("auto: {explicit}, {implicit}");
+    assert!(
+        out.provenance.method.starts_with(&switched),
+        "{}",
+        out.provenance.method
+    );
+    assert!(out.stats.implicit_share > 0.1 && out.stats.implicit_share < 0.9);
+}
+
+/// A method of fixed steps needs one.
+#[test]
+fn a_fixed_step_must_come_from_somewhere() {
+    let mut scene = scene(0.1);
+    scene.solver.method = Method::RungeKutta4;
+    scene.solver.frequency_cap = false;
+    let run = Run {
+        duration: 1e-4,
+        ..Run::default()
+    };
+    let go = |scene: &Scene| simulate(scene, &run, &mut |_| ControlFlow::Continue(()));
+    let message = go(&scene).unwrap_err().to_string();
+    assert!(message.contains("solver.max_step"), "{message}");
+    scene.solver.max_step = Some(1e-6);
+    let stats = go(&scene).unwrap().stats;
+    assert_eq!((stats.accepted, stats.rejected, stats.nfev), (100, 0, 401));
+}
+
+/// Implicit steps give the same bits for any number of threads.
+#[test]
+fn implicit_steps_do_not_depend_on_threads() {
+    let scene = scene(1e-3);
+    let columns = [1, 2].map(|threads| {
+        let run = Run {
+            duration: 5e-4,
+            method: Some(Method::ImplicitFriction),
+            threads,
+            ..Run::default()
+        };
+        simulate(&scene, &run, &mut |_| ControlFlow::Continue(()))
+            .unwrap()
+            .columns
+    });
+    assert_eq!(columns[0], columns[1]);
+}
