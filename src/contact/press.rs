@@ -10,6 +10,7 @@
 
 use super::octet::Octet;
 use super::power::ten_ninths;
+use super::race::SHALLOW;
 use super::{Law, Motion, Pair, Slices};
 use crate::simd::{Counters, Lanes, Mask};
 
@@ -55,6 +56,8 @@ struct Circles {
 /// Zones: half-length along the common tangent, and ends along ζ.
 struct Zone {
     half: Lanes,
+    /// Height of the chord over the ball's centre.
+    height: Lanes,
     low: Lanes,
     high: Lanes,
     /// Height of the lower end above the ball's equator: not positive where the zone's end is the ball's.
@@ -160,6 +163,7 @@ impl Pair {
         let (middle, reach) = (height * normal.1, half * normal.0);
         Zone {
             half,
+            height,
             low: middle - reach,
             high: middle + reach,
             lowest: height * normal.0 - (half * normal.1).abs(),
@@ -247,12 +251,14 @@ fn is_simple(octet: &Octet, e: Lanes, c: Lanes, zone: &Zone) -> Mask {
     let on_groove = left.above(-groove).and(groove.above(right));
     let on_race = left.above(of.lowest).and(of.highest.above(right));
     let in_front = e.above(Lanes::ZERO).and(zone.lowest.above(Lanes::ZERO));
+    let on_top = zone.height.above(of.radius * SHALLOW);
     // What is not a number is evaluated here, so that it shows.
     let unknown = (e + c).is_nan();
     on_ball
         .and(on_groove)
         .and(on_race)
         .and(in_front)
+        .and(on_top)
         .or(unknown)
 }
 

@@ -96,14 +96,31 @@ impl Meridian {
         if l + radius <= self.r {
             return None;
         }
-        let normal = self.normal();
-        // R + x = δ (l + R + r) / (2 l), without the cancellation in l² + R² − r².
+        let (cos, sin) = self.normal();
+        // The chord stands at R − sum from the ball's centre; without the cancellation in l² + R² − r².
         let sum = (l + radius - self.r) * (l + radius + self.r) / (2.0 * l);
+        let height = radius - sum;
         let half = (sum * (2.0 * radius - sum)).max(0.0).sqrt();
+        if height < SHALLOW * radius {
+            // A groove that hugs the ball: the zone goes round it, and ζ itself is the better line.
+            let end = |side: f64| {
+                let rho = height * cos - side * half * sin;
+                if rho > 0.0 {
+                    (height * sin + side * half * cos, true)
+                } else {
+                    (side * radius, false)
+                }
+            };
+            return Some(Chord {
+                radius,
+                normal: (1.0, 0.0),
+                ends: [end(-1.0), end(1.0)],
+            });
+        }
         let end = |side: f64| {
             // The ball ends at its equator, ρ = 0, towards which the normal leans.
-            let equator = radius * normal.0;
-            if side * normal.1 > 0.0 && half > equator {
+            let equator = radius * cos;
+            if side * sin > 0.0 && half > equator {
                 (side * equator, false)
             } else {
                 (side * half, true)
@@ -111,11 +128,14 @@ impl Meridian {
         };
         Some(Chord {
             radius,
-            normal,
+            normal: (cos, sin),
             ends: [end(-1.0), end(1.0)],
         })
     }
 }
+
+/// Height of a chord over the ball's centre, as a share of its radius, below which a zone is not cut along it.
+pub(super) const SHALLOW: f64 = 0.2;
 
 /// A zone along the chord that ball and groove have in common: u runs along the common tangent, and the ball's
 /// surface stands over it at √(R² − u²).
@@ -141,11 +161,11 @@ impl Chord {
         (height * sin + u * cos, rho / height)
     }
 
-    /// u of the point at a place ζ in −R … R.
-    pub fn u(&self, zeta: f64) -> f64 {
+    /// u of the point at a place ζ; none beyond the ball.
+    pub fn u(&self, zeta: f64) -> Option<f64> {
         let (cos, sin) = self.normal;
-        let rho = (self.radius * self.radius - zeta * zeta).max(0.0).sqrt();
-        zeta * cos - rho * sin
+        let square = self.radius * self.radius - zeta * zeta;
+        (square > 0.0).then(|| zeta * cos - square.sqrt() * sin)
     }
 }
 

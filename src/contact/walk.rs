@@ -76,11 +76,11 @@ impl Line {
         }
     }
 
-    /// u at a place ζ of the ball.
-    fn u(&self, zeta: f64) -> f64 {
+    /// u at a place ζ; a surface has none beyond the ball.
+    fn u(&self, zeta: f64) -> Option<f64> {
         match &self.along {
             Along::Surface(chord) => chord.u(zeta),
-            Along::Tangent { middle, cos, .. } => (zeta - middle) / cos,
+            Along::Tangent { middle, cos, .. } => Some((zeta - middle) / cos),
         }
     }
 
@@ -134,7 +134,10 @@ impl Contact<'_> {
         let width = line.of_slice(2.0 * radius / count as f64);
         let ends = [line.low, line.high].map(|u| line.zeta(u).0.clamp(-radius, radius));
         for zeta in fixed_places(radius, count, ends) {
-            if let Some(node) = self.node_at(line, zeta, line.u(zeta), width) {
+            let node = line
+                .u(zeta)
+                .and_then(|u| self.node_at(line, zeta, u, width));
+            if let Some(node) = node {
                 self.slice(&node, sink);
             }
         }
@@ -169,9 +172,7 @@ impl Contact<'_> {
             .chain(on_race)
             .map(|z| z - dz)
             .chain(on_ball)
-            // One that lies beyond the ball cuts nothing.
-            .filter(|zeta| zeta.abs() < self.ball.radius)
-            .map(|zeta| line.u(zeta));
+            .filter_map(|zeta| line.u(zeta));
         let mut low = line.low;
         while low < line.high {
             let high = cuts.clone().filter(|&u| u > low).fold(line.high, f64::min);
