@@ -32,6 +32,8 @@
 //! * `equilibrium` ([`equilibrium()`]) — the static solve; `start` ([`start()`]) — how a run begins.
 //! * `signals` ([`Signals`]) — probes read on a uniform grid from the dense output.
 //! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
+//! * `features` ([`Feature`]) — the few numbers a case is known by: moments, fault lines, contact loads.
+//! * `campaign` ([`campaign()`]) — many cases on all cores; a case that fails is an outcome.
 //! * `python` (feature `python`) — the only place that knows Python.
 //!
 //! # To add
@@ -44,6 +46,7 @@
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
 //! | a Runge–Kutta method | a constant in `integrate/tableau.rs` | row sums, order of convergence |
 //! | a signal | a variant in `scene/probe.rs`, an arm in `signals.rs` | unit, value at a known state |
+//! | a feature | a file in `features/`, a line in its `mod.rs` | value of a synthetic signal |
 //!
 //! # Units and frames
 //!
@@ -54,10 +57,12 @@
 #[cfg(feature = "python")]
 mod python;
 
+mod campaign;
 pub mod contact;
 pub mod dynamics;
 mod equilibrium;
 mod error;
+mod features;
 pub mod integrate;
 mod model;
 mod pool;
@@ -66,8 +71,10 @@ mod signals;
 mod simulate;
 mod start;
 
+pub use campaign::{Case, Finished, Outcome, campaign, stream};
 pub use equilibrium::{BallEquilibrium, ContactEquilibrium, Equilibrium, equilibrium};
 pub use error::{Error, Result};
+pub use features::{Feature, FeatureOptions, feature_columns};
 pub use model::{Body, Degree, Model, Scales};
 pub use scene::Scene;
 pub use signals::{Column, Provenance, Signals, SliceRow, Statistics};

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 11] = [
+const ORDER: [&str; 13] = [
     "error",
     "scene",
     "contact",
@@ -16,6 +16,8 @@ const ORDER: [&str; 11] = [
     "start",
     "signals",
     "simulate",
+    "features",
+    "campaign",
 ];
 fn sources(folder: &Path, found: &mut Vec<(String, String)>) {
     for entry in fs::read_dir(folder).unwrap() {

@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
-__all__ = ["BallraceError", "EquilibriumError", "IntegrationError", "SceneError"]
+__all__ = [
+    "BallraceError",
+    "CampaignError",
+    "CampaignWarning",
+    "EquilibriumError",
+    "IntegrationError",
+    "SceneError",
+]
 
 
 class BallraceError(Exception):
@@ -59,3 +66,11 @@ class IntegrationError(BallraceError, RuntimeError):
 
     def __str__(self) -> str:
         return self.message
+
+
+class CampaignError(BallraceError, RuntimeError):
+    """A campaign could not go on; the message says why, what is safe and what to do."""
+
+
+class CampaignWarning(UserWarning):
+    """Something about a campaign that one should know, and that did not stop it."""

@@ -10,7 +10,7 @@ use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-use super::errors::{OrRaise, json};
+use super::errors::{OrRaise, to_json};
 use crate::scene::RingName;
 use crate::{Error, Run, Scene, Signals, SliceRow, Start};
 
@@ -164,10 +164,10 @@ pub(super) fn simulate<'py>(
 #[pyfunction]
 pub(super) fn equilibrium(py: Python<'_>, scene: &str) -> PyResult<String> {
     let scene = Scene::from_json(scene).or_raise(py)?;
-    json(&py.detach(|| crate::equilibrium(&scene)).or_raise(py)?)
+    to_json(&py.detach(|| crate::equilibrium(&scene)).or_raise(py)?)
 }
 
-fn start(kind: &str, state: Option<Vec<f64>>) -> crate::Result<Start> {
+pub(super) fn start(kind: &str, state: Option<Vec<f64>>) -> crate::Result<Start> {
     match (kind, state) {
         (_, Some(state)) => Ok(Start::State(state)),
         ("equilibrium", None) => Ok(Start::Equilibrium),
@@ -186,7 +186,7 @@ fn attend(py: Python<'_>, progress: Option<&Py<PyAny>>, share: f64) -> PyResult<
     progress.map_or(Ok(()), |callback| callback.call1(py, (share,)).map(drop))
 }
 
-fn hand_over(py: Python<'_>, signals: Signals) -> PyResult<Bound<'_, PyDict>> {
+pub(super) fn hand_over(py: Python<'_>, signals: Signals) -> PyResult<Bound<'_, PyDict>> {
     let out = PyDict::new(py);
     out.set_item("fs", signals.fs)?;
     out.set_item("t", signals.t.into_pyarray(py))?;
@@ -196,8 +196,8 @@ fn hand_over(py: Python<'_>, signals: Signals) -> PyResult<Bound<'_, PyDict>> {
     }
     out.set_item("columns", columns)?;
     out.set_item("slices", slices(py, &signals.slices)?)?;
-    out.set_item("stats", json(&signals.stats)?)?;
-    out.set_item("provenance", json(&signals.provenance)?)?;
+    out.set_item("stats", to_json(&signals.stats)?)?;
+    out.set_item("provenance", to_json(&signals.provenance)?)?;
     out.set_item("scene", signals.scene.to_json())?;
     Ok(out)
 }
