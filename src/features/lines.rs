@@ -68,7 +68,7 @@ pub(super) fn of(
         for (i, fault) in NAMES.iter().enumerate() {
             let near = frequencies
                 .map(|f| (f[i], (SHARE * f[i]).max(bin)))
-                .filter(|(f, width)| *f >= BINS * bin && f + width < fs / 2.0);
+                .filter(|(f, width)| *f >= BINS * bin && f + width + bin < fs / 2.0);
             for (suffix, spectrum) in [("", &plain), ("_envelope", &envelope)] {
                 found.push(Feature {
                     name: format!("{name}.row{row}.{fault}{suffix}"),

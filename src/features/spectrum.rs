@@ -58,32 +58,40 @@ impl Spectrum {
         }
     }
 
-    /// The highest amplitude from `low` to `high` \[Hz\], on a parabola through its neighbours. At most an
-    /// eighth of a bin from an entry, the parabola of the Hann window's main lobe is good to 1e-4.
+    /// The highest amplitude from `low` to `high` \[Hz\], between the entries on a parabola through the highest
+    /// and its neighbours. At most an eighth of a bin from an entry, the parabola of the Hann window's main lobe
+    /// is good to 1e-4.
     pub fn highest(&self, low: f64, high: f64) -> f64 {
-        let last = self.amplitudes.len() - 1;
-        let (first, end) = (self.index(low.max(0.0)), self.index(high).min(last));
-        let at = (first..=end)
-            .max_by(|&i, &j| self.amplitudes[i].total_cmp(&self.amplitudes[j]))
-            .unwrap_or(first);
-        let top = self.amplitudes[at];
-        if at == first || at == end {
-            return top;
-        }
-        let (left, right) = (self.amplitudes[at - 1], self.amplitudes[at + 1]);
-        let bend = left - 2.0 * top + right;
-        if bend < 0.0 {
-            top - (left - right).powi(2) / (8.0 * bend)
-        } else {
-            top
-        }
+        let edges = self.at(low).max(self.at(high));
+        let range = index((low / self.spacing).ceil())..=index((high / self.spacing).floor());
+        let within = range.max_by(|&i, &j| self.amplitudes[i].total_cmp(&self.amplitudes[j]));
+        within.map_or(edges, |top| self.summit(top).max(edges))
     }
 
-    // Frequencies are neither negative nor beyond fs/2.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    fn index(&self, f: f64) -> usize {
-        (f / self.spacing).round() as usize
+    /// On the parabola through the nearest entry and its neighbours.
+    fn at(&self, f: f64) -> f64 {
+        let place = f / self.spacing;
+        let i = index(place.round()).max(1);
+        let [left, middle, right] = [i - 1, i, i + 1].map(|i| self.amplitudes[i]);
+        let s = place - i as f64;
+        middle + s * (right - left) / 2.0 + s * s * (left - 2.0 * middle + right) / 2.0
     }
+
+    /// Summit of the parabola through an entry and its neighbours, if the entry is above them.
+    fn summit(&self, i: usize) -> f64 {
+        let [left, top, right] = [i - 1, i, i + 1].map(|i| self.amplitudes[i]);
+        let bend = left - 2.0 * top + right;
+        if top < left || top < right || bend >= 0.0 {
+            return top;
+        }
+        top - (left - right).powi(2) / (8.0 * bend)
+    }
+}
+
+/// Frequencies are above 0 and below fs/2, and so are the entries beside them.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+fn index(place: f64) -> usize {
+    place as usize
 }
 
 #[cfg(test)]

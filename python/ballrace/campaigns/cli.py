@@ -24,8 +24,8 @@ _BUILDERS = ("table", "grid", "latin_hypercube", "sobol", "scatter")
 _PLAN = (
     "A sweep is a .toml file: scene (a file or a preset) or [scenes] by name; the arguments of ballrace.campaign "
     f"{', '.join(_ARGUMENTS)}; and what builds the table, crossed if there are several: table = FILE (.csv or "
-    ".parquet), [grid] of lists, or of { from, to, count }, by dotted paths in quotes; [latin_hypercube] or [sobol] "
-    "of [low, high] with n and seed; [scatter] with n, seed and standard deviations."
+    ".parquet), [grid] of lists, or of { from, to, count }, by dotted paths in quotes; [latin_hypercube] or "
+    "[sobol] of [low, high] with n and seed; [scatter] with n, seed and standard deviations."
 )
 
 

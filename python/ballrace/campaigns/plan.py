@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +16,7 @@ from .spread import Executor
 from .work import Job, version
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     from .store import Store
     from .work import Document
@@ -113,8 +114,12 @@ def check_choices(**given: object) -> None:
 
 def scenes_of(given: Scene | Mapping[str, Scene], features: dict[str, Any]) -> dict[str, str]:
     """Return the scenes as JSON, having checked that they give the features."""
-    scenes = {"": given} if isinstance(given, Scene) else dict(given)
-    if not scenes or not all(isinstance(scene, Scene) for scene in scenes.values()):
+    scenes = {"": given} if isinstance(given, Scene) else given
+    if (
+        not isinstance(scenes, Mapping)
+        or not scenes
+        or not all(isinstance(scene, Scene) for scene in scenes.values())
+    ):
         raise SceneError("scene", repr(given), "a Scene, or Scenes by name")
     documents = {str(name): scene.to_json() for name, scene in scenes.items()}
     for document in documents.values():

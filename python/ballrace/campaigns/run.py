@@ -230,16 +230,13 @@ def _guarded(
     """Run what is missing; whatever stops it says what is safe and how to go on."""
 
     def safe() -> str:
-        count = teller.now.before + teller.now.done
+        count = len(plan.ids().keys() & set(store.results()["case_id"]))
         return f"{count} of {teller.now.total} cases are safe in {store.root}; call again to go on"
 
     try:
         _work(plan, store, missing, in_flight, teller)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(f"interrupted; {safe()}") from None
-    except OSError as error:
-        place = f" ({error.filename})" if error.filename else ""
-        raise CampaignError(f"cannot write: {error.strerror or error}{place}; {safe()}") from error
     except CampaignError as error:
         raise CampaignError(f"{error}; {safe()}") from error
 

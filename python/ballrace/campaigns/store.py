@@ -224,7 +224,13 @@ def schema() -> dict[str, Any]:
 
 
 def put(root: Path, name: str, data: bytes) -> None:
-    """Write a file within ``root`` that is there whole or not at all, also after a loss of power."""
+    """Write a file within ``root`` that is there whole or not at all, also after a loss of power.
+
+    Raises
+    ------
+    CampaignError
+        It cannot be written.
+    """
     temporary = root / "tmp" / uuid.uuid4().hex
     try:
         with temporary.open("xb") as file:
@@ -232,9 +238,11 @@ def put(root: Path, name: str, data: bytes) -> None:
             file.flush()
             os.fsync(file.fileno())
         temporary.replace(root / name)
+        _sync((root / name).parent)
+    except OSError as error:
+        raise CampaignError(f"cannot write to {root}: {error.strerror or error}") from error
     finally:
         temporary.unlink(missing_ok=True)
-    _sync((root / name).parent)
 
 
 def _sync(folder: Path) -> None:
