@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ import pytest
 
 import ballrace as br
 from ballrace.campaigns import Progress
+from ballrace.campaigns.progress import Teller
 from sweeps import DURATION, SCENE, comparable, run, same, table
 
 
@@ -236,6 +238,22 @@ def test_progress_is_a_line_or_a_callback(
     with pytest.raises(TimeoutError):
         run(table(40), tmp_path / "c", progress=stop)
     assert capsys.readouterr().err == ""
+
+
+def test_a_terminal_sees_a_bar() -> None:
+    class Terminal(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    stream = Terminal()
+    teller = Teller(progress=True, total=10, before=2, stream=stream)
+    teller.tell(3, 1)
+    bar = stream.getvalue()
+    assert bar.startswith(f"\r[{15 * '#'}{15 * '.'}] 5/10, 1 failed, ")
+    assert bar.rstrip().endswith(" s left")
+    teller.end()
+    assert "campaign: 5 of 10 cases, 2 from before, 1 failed, " in stream.getvalue()
+    assert stream.getvalue().endswith("\n")
 
 
 def test_shards_make_up_the_whole(tmp_path: Path) -> None:

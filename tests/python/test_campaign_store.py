@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import importlib.metadata
 import os
 import re
@@ -224,6 +225,18 @@ def test_shards_of_one_division_go_side_by_side(tmp_path: Path) -> None:
                 pass
     with hold(tmp_path, 0, 1):
         pass
+
+
+@posix
+def test_a_file_system_without_locks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import fcntl
+
+    def refuse(file: int, operation: int) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", refuse)
+    with pytest.warns(br.CampaignWarning, match="this file system has no locks"):
+        run(table(2), tmp_path)
 
 
 @pytest.mark.parametrize("damage", ["cut", "flipped"])

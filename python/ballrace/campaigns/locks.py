@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
+import warnings
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
-from ..errors import CampaignError
+from ..errors import CampaignError, CampaignWarning
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -24,6 +26,10 @@ else:
 
     def _grab(file: int) -> None:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+_WITHOUT_LOCKS = (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP)
+"""Some parallel file systems are mounted so."""
 
 
 @contextmanager
@@ -57,6 +63,11 @@ def _try(file: int) -> bool:
         _grab(file)
     except (BlockingIOError, PermissionError):
         return False
+    except OSError as error:
+        if error.errno not in _WITHOUT_LOCKS:
+            raise
+        text = "this file system has no locks; see to it that no two campaigns run in one folder"
+        warnings.warn(text, CampaignWarning, stacklevel=7)
     return True
 
 

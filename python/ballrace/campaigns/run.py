@@ -215,9 +215,11 @@ def _run(
         _write_table(plan, store)
         total = len(plan.ids())
         teller = Teller(progress, total, total - len(missing))
-        if missing:
-            _guarded(plan, store, missing, in_flight, teller)
-        teller.end()
+        try:
+            if missing:
+                _guarded(plan, store, missing, in_flight, teller)
+        finally:
+            teller.end()
         result = Campaign(store)
         if not (result.manifest["status"] == "missing").any():
             store.write_table("manifest.parquet", result.manifest)
