@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 
 import ballrace as br
+from ballrace.campaigns.cli import read
 from ballrace.cli import main
 
 SWEEP = """
@@ -59,6 +61,16 @@ def test_from_a_file_to_a_table(sweep: Path, capsys: pytest.CaptureFixture[str])
     assert manifest["status"].to_list() == 6 * ["ok"] + 6 * ["failed"]
     assert "outer.ay.rms" in manifest.columns
     assert "outer.ax.rms" not in manifest.columns
+
+
+def test_the_sweep_of_the_readme(tmp_path: Path) -> None:
+    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+    found = re.search(r"^```toml\n(.*?)^```", readme, flags=re.DOTALL | re.MULTILINE)
+    assert found
+    (tmp_path / "sweep.toml").write_text(found[1])
+    sweep = read(tmp_path / "sweep.toml")
+    assert (sweep["cases"].height, sweep["duration"]) == (75, 0.2)
+    assert sweep["scene"] == br.presets.wheel_bearing()
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import importlib.metadata
+import json
 import os
 import re
 import shutil
@@ -21,6 +22,7 @@ import pytest
 import ballrace as br
 from ballrace.campaigns import Progress
 from ballrace.campaigns.locks import hold
+from ballrace.campaigns.work import Job, run_here
 from sweeps import SCENE, comparable, finished, run, same, table
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="signals are sent in another way there")
@@ -284,6 +286,33 @@ def test_signals_after_features(tmp_path: Path) -> None:
     both = run(table(4), tmp_path, keep="signals")
     assert same(features, both)
     assert both.scan().collect()["case_id"].n_unique() == 3
+
+
+def test_a_case_that_ran_twice_is_there_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As when Dask hands a chunk out again whose first worker had written some of it."""
+    whole = run(table(6), tmp_path, keep="signals")
+    signals = whole.scan().collect()
+    job = Job(threads=1, keep_signals=True, features=json.dumps({}), raise_errors=False)
+    # Of two rows of a case the older version's counts: here the second.
+    monkeypatch.setattr(importlib.metadata, "version", lambda name: "0.0.0")
+    for row in (3, 1):
+        case_id = whole.manifest["case_id"][row]
+        scene = whole.scene(case_id).to_json()
+        run_document = json.dumps(whole._store.identity["run"])
+        document = (case_id, scene, run_document)
+        run_here(whole._store, [document], job, lambda done, failed: None)
+    again = br.Campaign.open(tmp_path)
+    assert len(list((tmp_path / "results").iterdir())) == 3
+    assert again.manifest["signals"].n_unique() == 4, "three shards, and none of the failed case"
+    assert (
+        comparable(again.manifest)
+        .drop("version")
+        .equals(comparable(whole.manifest).drop("version"), null_equal=True)
+    )
+    assert again.scan().collect().equals(signals)
+    assert again.scan().collect()["case_id"].is_sorted()
 
 
 def test_leftovers_disturb_nothing(tmp_path: Path) -> None:
