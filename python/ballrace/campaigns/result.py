@@ -91,7 +91,9 @@ class Campaign:
         """
         import polars as pl
 
-        kept = self.manifest.filter(pl.col("signals").is_not_null()).unique("case_id")
+        kept = self.manifest.filter(pl.col("signals").is_not_null()).unique(
+            "case_id", maintain_order=True
+        )
         if kept.is_empty():
             raise FileNotFoundError(f'{self.folder}: no signals; run with keep="signals"')
         frames = []
