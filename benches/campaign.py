@@ -17,12 +17,16 @@ import statistics
 import tempfile
 import time
 from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 import ballrace as br
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 LINE = "outer.ay.row0.bpfo_envelope"
 
@@ -62,29 +66,38 @@ def threads(workers: int, repeats: int) -> None:
 
 
 def overhead(repeats: int) -> None:
-    """Compare a campaign on one thread with the same runs one after another."""
+    """Compare a campaign on one thread with the same runs one after another, by the clock and by work done."""
     scene = br.presets.wheel_bearing(3000.0)
     forces = [0.0, 1000.0, 2000.0, 3000.0]
     cases = br.grid({"loads.axial.force": forces})
     duration = 0.1
-    ratios: dict[str, list[float]] = {}
-    bare = 0.0
-    for _ in range(repeats):
-        began = time.perf_counter()
+
+    def runs() -> None:
         for force in forces:
             one = scene.replace({"loads.axial.force": force})
             br.simulate(one, duration=duration, threads=1)
-        bare = time.perf_counter() - began
-        for name, options in (
-            ("features without contact loads", {"contact_loads": False}),
-            ("and signals kept", {"contact_loads": False, "keep": "signals"}),
-            ("features with contact loads", {}),
-        ):
-            found = timed(cases, scene=scene, duration=duration, threads=1, **options)
-            ratios.setdefault(name, []).append(found / bare - 1.0)
-    print(f"a case takes {bare / len(forces):.2f} s")
-    for name, found in ratios.items():
-        print(f"{name:>31}: {100.0 * statistics.median(found):+.1f} %")
+
+    def both(work: Callable[[], object]) -> tuple[float, float]:
+        began = time.perf_counter(), time.process_time()
+        work()
+        return time.perf_counter() - began[0], time.process_time() - began[1]
+
+    kinds: dict[str, dict[str, Any]] = {
+        "features": {},
+        "and signals kept": {"keep": "signals"},
+        "and contact loads": {"contact_loads": True},
+    }
+    found: dict[str, list[tuple[float, float]]] = {name: [] for name in kinds}
+    for _ in range(repeats):
+        bare = both(runs)
+        for name, options in kinds.items():
+            work = partial(timed, cases, scene=scene, duration=duration, threads=1, **options)
+            wall, cpu = both(work)
+            found[name].append((wall / bare[0] - 1.0, cpu / bare[1] - 1.0))
+    print(f"a case takes {bare[0] / len(forces):.2f} s, {bare[1] / len(forces):.2f} s of a core")
+    for name, pairs in found.items():
+        wall, cpu = (100.0 * statistics.median(column) for column in zip(*pairs, strict=True))
+        print(f"{name:>17}: {wall:+.1f} % by the clock, {cpu:+.1f} % of work")
 
 
 def memory(count: int) -> None:

@@ -33,7 +33,10 @@ fn cases() -> Vec<Case> {
 }
 
 fn outcomes(threads: usize) -> Vec<Outcome> {
-    let options = FeatureOptions::default();
+    let options = FeatureOptions {
+        contact_loads: true,
+        ..FeatureOptions::default()
+    };
     campaign(cases(), threads, &options, &mut |_| {
         ControlFlow::Continue(())
     })
@@ -119,7 +122,10 @@ fn contact_loads_have_their_extremes() {
         duration: 0.01,
         ..Run::default()
     };
-    let options = FeatureOptions::default();
+    let options = FeatureOptions {
+        contact_loads: true,
+        ..FeatureOptions::default()
+    };
     let found = campaign([Case { scene, run }], 1, &options, &mut |_| {
         ControlFlow::Continue(())
     })
@@ -199,10 +205,7 @@ fn a_stop_is_heard() {
     });
     let mut seen = Vec::new();
     let begun = std::time::Instant::now();
-    let options = FeatureOptions {
-        contact_loads: false,
-        ..FeatureOptions::default()
-    };
+    let options = FeatureOptions::default();
     stream(endless, 2, &options, &mut |done| {
         seen.extend(done);
         if seen.is_empty() {

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use rustfft::FftPlanner;
+
 use super::Feature;
 use super::spectrum::{Spectrum, squared_envelope};
 use crate::scene::{Drive, Row, Scene};
@@ -54,6 +56,7 @@ fn orders(row: &Row) -> [f64; 4] {
 
 /// Lines of a signal and of its squared envelope at the frequencies of every row.
 pub(super) fn of(
+    planner: &mut FftPlanner<f64>,
     name: &str,
     x: &[f64],
     fs: f64,
@@ -61,8 +64,11 @@ pub(super) fn of(
     faults: &[Option<[f64; 4]>],
 ) -> Vec<Feature> {
     let bin = fs / x.len() as f64;
-    let plain = Spectrum::new(x, fs);
-    let envelope = Spectrum::new(&squared_envelope(x, fs, band), fs);
+    let plain = Spectrum::new(planner, x, fs);
+    let envelope = {
+        let envelope = squared_envelope(planner, x, fs, band);
+        Spectrum::new(planner, &envelope, fs)
+    };
     let mut found = Vec::new();
     for (row, frequencies) in faults.iter().enumerate() {
         for (i, fault) in NAMES.iter().enumerate() {
@@ -106,7 +112,7 @@ mod tests {
     fn a_short_record_has_no_lines() {
         let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
         let faults = fault_frequencies(&scene, 0.0, 1e-3);
-        let found = of("x", &[1.0; 50], 50e3, None, &faults);
+        let found = of(&mut FftPlanner::new(), "x", &[1.0; 50], 50e3, None, &faults);
         assert_eq!(found.len(), 8);
         assert!(found.iter().all(|f| f.value.is_none()));
     }

@@ -15,6 +15,7 @@ mod loads;
 mod moments;
 mod spectrum;
 
+use rustfft::FftPlanner;
 use serde::Deserialize;
 
 use crate::error::{Error, Result};
@@ -26,7 +27,7 @@ use crate::simulate::Run;
 pub(crate) use loads::{with_load_probes, without_load_probes};
 
 /// What to compute the features of.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FeatureOptions {
     /// Columns such as `outer.ay`; absent: every acceleration \[m/s²\] that the probes record.
@@ -35,19 +36,9 @@ pub struct FeatureOptions {
     pub skip: f64,
     /// Band of the envelope, lowest and highest frequency \[Hz\]; absent: all.
     pub band: Option<[f64; 2]>,
-    /// Whether every contact load is read at every sample for its extremes. On by default.
+    /// Whether every contact load is read at every sample for its extremes, which costs as much as one
+    /// evaluation of the right-hand side a sample. Default false.
     pub contact_loads: bool,
-}
-
-impl Default for FeatureOptions {
-    fn default() -> Self {
-        Self {
-            columns: None,
-            skip: 0.0,
-            band: None,
-            contact_loads: true,
-        }
-    }
 }
 
 /// A number with a name.
@@ -114,14 +105,23 @@ pub(crate) fn features(
     let first = signals.t.partition_point(|&t| t < options.skip);
     let faults =
         lines::fault_frequencies(&signals.scene, options.skip, signals.provenance.duration);
+    // Twiddle factors cost more than the transforms that use them, and are the same for all columns.
+    let mut planner = FftPlanner::new();
     let mut found = Vec::new();
     for name in columns {
         let Some(values) = signals.get(name) else {
             continue;
         };
-        found.extend(moments::of(name, &values[first..]));
-        let band = options.band;
-        found.extend(lines::of(name, &values[first..], signals.fs, band, &faults));
+        let x = &values[first..];
+        found.extend(moments::of(name, x));
+        found.extend(lines::of(
+            &mut planner,
+            name,
+            x,
+            signals.fs,
+            options.band,
+            &faults,
+        ));
     }
     found.extend(loads::extremes(signals, first));
     found

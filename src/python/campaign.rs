@@ -102,7 +102,7 @@ fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<
         fs: run.fs,
         start: start(&run.start, None).or_raise(py)?,
         rtol: run.rtol,
-        threads: 1,
+        ..Run::default()
     };
     Ok(Some(Case { scene, run }))
 }

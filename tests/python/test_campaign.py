@@ -44,6 +44,7 @@ def test_features_are_those_of_the_signals(tmp_path: Path) -> None:
     scene = br.presets.wheel_bearing(3000.0)
     cases = [{"loads.axial.force": 3000.0}]
     options: dict[str, Any] = {"skip": 5e-3, "band": (500.0, 20e3), "columns": ["outer.ay"]}
+    options["contact_loads"] = True
     done = run(cases, tmp_path, scene=scene, duration=0.035, keep="signals", **options)
     row = done.manifest.row(0, named=True)
     x = done.signals(row["case_id"])["outer.ay"].to_numpy()[250:]

@@ -78,7 +78,7 @@ def campaign(
     columns: Sequence[str] | None = None,
     skip: float = 0.0,
     band: tuple[float, float] | None = None,
-    contact_loads: bool = True,
+    contact_loads: bool = False,
     threads: int | None = None,
     executor: Any = None,
     in_flight: int | None = None,
@@ -122,7 +122,7 @@ def campaign(
         Band of the envelope [Hz]; by default all frequencies.
     contact_loads : bool
         Whether the extremes of the contact loads are among the features: ``row0.outer.load_max`` and so on [N].
-        They cost a reading of every contact a sample.
+        They cost a reading of every contact at every sample, and do not change the signals.
     threads : int, optional
         Cases at once in this process, or in each task of an executor; by default all cores, or one with an
         executor.
