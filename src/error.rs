@@ -43,6 +43,12 @@ pub enum Error {
         /// Time reached \[s\].
         time: f64,
     },
+    /// A fault of this crate, caught where one of many cases must not cost the others.
+    #[error("internal error, please report it: {message}")]
+    Internal {
+        /// What it said.
+        message: String,
+    },
 }
 
 impl Error {

@@ -35,6 +35,8 @@
 //! * `residual`, `collapse`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
 //! * `method` — the method a run asked for, and the switch between two of them.
 //! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
+//! * `features` ([`Feature`]) — the few numbers a case is known by: moments, fault lines, contact loads.
+//! * `campaign` ([`campaign()`]) — many cases on all cores; a case that fails is an outcome.
 //! * `python` (feature `python`) — the only place that knows Python.
 //!
 //! # To add
@@ -47,6 +49,7 @@
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
 //! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` | row sums, order of convergence |
 //! | a signal | a variant in `scene/probe.rs`, an arm in `signals.rs` | unit, value at a known state |
+//! | a feature | a file in `features/`, a line in its `mod.rs` | value of a synthetic signal |
 //!
 //! # Units and frames
 //!
@@ -57,11 +60,13 @@
 #[cfg(feature = "python")]
 mod python;
 
+mod campaign;
 mod collapse;
 pub mod contact;
 pub mod dynamics;
 mod equilibrium;
 mod error;
+mod features;
 pub mod integrate;
 mod method;
 mod model;
@@ -74,8 +79,10 @@ mod simulate;
 mod start;
 mod warning;
 
+pub use campaign::{Case, Finished, Outcome, campaign, stream};
 pub use equilibrium::{BallEquilibrium, ContactEquilibrium, Equilibrium, equilibrium};
 pub use error::{Error, Result};
+pub use features::{Feature, FeatureOptions, feature_columns};
 pub use model::{Body, Degree, Model, Scales};
 pub use scene::Scene;
 pub use signals::{Column, Provenance, Signals, SliceRow, Statistics};

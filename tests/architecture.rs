@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 16] = [
+const ORDER: [&str; 18] = [
     "error",
     "simd",
     "scene",
@@ -21,6 +21,8 @@ const ORDER: [&str; 16] = [
     "collapse",
     "method",
     "simulate",
+    "features",
+    "campaign",
 ];
 fn sources(folder: &Path, found: &mut Vec<(String, String)>) {
     for entry in fs::read_dir(folder).unwrap() {

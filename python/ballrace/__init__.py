@@ -7,14 +7,24 @@
 (26,)
 
 A :class:`Scene` says what there is, :func:`simulate` runs it and returns :class:`Signals`,
-:func:`equilibrium` solves it at rest, and :class:`Model` gives its equations to anyone's integrator.
+:func:`equilibrium` solves it at rest, :class:`Model` gives its equations to anyone's integrator, and
+:func:`campaign` runs thousands of them.
 All numbers are in SI units, at every face.
 """
 
 from __future__ import annotations
 
 from . import frequencies, presets, scene, spectra
-from .errors import AccuracyWarning, BallraceError, EquilibriumError, IntegrationError, SceneError
+from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
+from .errors import (
+    AccuracyWarning,
+    BallraceError,
+    CampaignError,
+    CampaignWarning,
+    EquilibriumError,
+    IntegrationError,
+    SceneError,
+)
 from .model import Model
 from .run import simulate
 from .scene import Scene
@@ -24,6 +34,9 @@ from .statics import Equilibrium, equilibrium
 __all__ = [
     "AccuracyWarning",
     "BallraceError",
+    "Campaign",
+    "CampaignError",
+    "CampaignWarning",
     "Equilibrium",
     "EquilibriumError",
     "IntegrationError",
@@ -32,10 +45,15 @@ __all__ = [
     "Scene",
     "SceneError",
     "Signals",
+    "campaign",
     "equilibrium",
     "frequencies",
+    "grid",
+    "latin_hypercube",
     "presets",
+    "scatter",
     "scene",
     "simulate",
+    "sobol",
     "spectra",
 ]

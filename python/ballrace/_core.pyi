@@ -1,4 +1,4 @@
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TypeAlias, TypedDict, final
 
 import numpy as np
@@ -6,7 +6,10 @@ from numpy.typing import NDArray
 
 __all__ = [
     "Model",
+    "available_threads",
+    "campaign",
     "equilibrium",
+    "feature_columns",
     "preset_deep_groove_6205",
     "preset_wheel_bearing",
     "scene_from_json",
@@ -52,6 +55,15 @@ def simulate(
     threads: int,
     progress: Callable[[float], object] | None,
 ) -> _Signals: ...
+def campaign(
+    cases: Iterable[tuple[str, str]],
+    threads: int,
+    options: str,
+    keep_signals: bool,
+    done: Callable[[list[tuple[int, str, _Signals | None]]], object],
+) -> None: ...
+def feature_columns(scene: str, options: str) -> list[str]: ...
+def available_threads() -> int: ...
 def equilibrium(scene: str) -> str: ...
 def scene_from_toml(text: str) -> str: ...
 def scene_from_json(text: str) -> str: ...

@@ -16,6 +16,7 @@ import numpy as np
 from . import paper, presets
 from ._files import check_writable, whole
 from ._progress import Bar
+from .campaigns.cli import add_command as add_campaign
 from .errors import BallraceError, SceneError
 from .frequencies import of_row
 from .run import simulate
@@ -47,8 +48,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         options.command(options)
         sys.stdout.flush()
-    except KeyboardInterrupt:
-        return _fail("interrupted", 130)
+    except KeyboardInterrupt as error:
+        return _fail(str(error) or "interrupted", 130)
     except BrokenPipeError:
         # The reader of our output has gone: nothing more to say, also not while Python shuts down.
         with contextlib.suppress(OSError, ValueError):
@@ -141,6 +142,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     static.add_argument("scene", type=Path, metavar="SCENE", help="scene, a .toml or .json file")
     static.set_defaults(command=_equilibrium)
+
+    add_campaign(commands)
     return parser
 
 

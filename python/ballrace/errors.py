@@ -10,6 +10,8 @@ if TYPE_CHECKING:
 __all__ = [
     "AccuracyWarning",
     "BallraceError",
+    "CampaignError",
+    "CampaignWarning",
     "EquilibriumError",
     "IntegrationError",
     "SceneError",
@@ -86,3 +88,11 @@ class AccuracyWarning(UserWarning):
     where contacts rode over a shoulder (``out.stats.truncated_contacts``). ``out.warnings`` keeps the texts.
     ``warnings.simplefilter("error", ballrace.AccuracyWarning)`` makes it an error.
     """
+
+
+class CampaignError(BallraceError, RuntimeError):
+    """A campaign could not go on; the message says why, what is safe and what to do."""
+
+
+class CampaignWarning(UserWarning):
+    """Something about a campaign that one should know, and that did not stop it."""

@@ -2,8 +2,27 @@
 
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
+use serde_json::{Value, json};
 
 use crate::Error;
+
+/// Class in `ballrace.errors` and arguments, as JSON, of the exception that says the same as `error`.
+pub(super) fn record(error: &Error) -> Value {
+    let message = error.to_string();
+    let (class, arguments) = match error {
+        Error::Scene {
+            path,
+            value,
+            allowed,
+        } => ("SceneError", json!([path, value, allowed])),
+        Error::Equilibrium { .. } => ("EquilibriumError", json!([message])),
+        Error::Integration {
+            time, step, body, ..
+        } => ("IntegrationError", json!([message, time, step, body])),
+        Error::Interrupted { .. } | Error::Internal { .. } => ("BallraceError", json!([message])),
+    };
+    json!({ "class": class, "message": message, "arguments": arguments })
+}
 
 /// The exception that says the same as `error`.
 pub(super) fn raise(py: Python<'_>, error: Error) -> PyErr {
@@ -25,6 +44,7 @@ pub(super) fn raise(py: Python<'_>, error: Error) -> PyErr {
             "IntegrationError",
             (error.to_string(), *time, *step, body, contacts.clone()),
         ),
+        Error::Internal { .. } => make(py, "BallraceError", (error.to_string(),)),
         // The observer's own exception takes precedence over this one.
         Error::Interrupted { .. } => return PyKeyboardInterrupt::new_err(error.to_string()),
     };
@@ -52,6 +72,6 @@ impl<T> OrRaise<T> for crate::Result<T> {
 }
 
 /// Writes a record as JSON, which numbers that are not finite enter as `null`.
-pub(super) fn json(record: &impl serde::Serialize) -> PyResult<String> {
+pub(super) fn to_json(record: &impl serde::Serialize) -> PyResult<String> {
     serde_json::to_string(record).map_err(|e| PyRuntimeError::new_err(e.to_string()))
 }

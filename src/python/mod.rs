@@ -3,6 +3,7 @@
 //! A scene crosses as JSON, an array as a numpy array that takes over the vector's memory, an error as
 //! an exception of `ballrace.errors`. Everything with a docstring for people lives in `python/ballrace`.
 
+mod campaign;
 mod errors;
 mod run;
 mod scene;
@@ -12,6 +13,8 @@ use pyo3::prelude::*;
 /// Compiled core of ballrace; use the package `ballrace` instead.
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use super::campaign::{available_threads, campaign, feature_columns};
     #[pymodule_export]
     use super::run::{Model, equilibrium, simulate};
     #[pymodule_export]

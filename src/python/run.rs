@@ -13,7 +13,7 @@ use serde::Deserialize;
 use serde::de::IntoDeserializer;
 use serde::de::value::Error as ValueError;
 
-use super::errors::{OrRaise, json};
+use super::errors::{OrRaise, to_json};
 use crate::scene::{Method, RingName};
 use crate::{Error, Run, Scene, Signals, SliceRow, Start};
 
@@ -169,10 +169,10 @@ pub(super) fn simulate<'py>(
 #[pyfunction]
 pub(super) fn equilibrium(py: Python<'_>, scene: &str) -> PyResult<String> {
     let scene = Scene::from_json(scene).or_raise(py)?;
-    json(&py.detach(|| crate::equilibrium(&scene)).or_raise(py)?)
+    to_json(&py.detach(|| crate::equilibrium(&scene)).or_raise(py)?)
 }
 
-fn start(kind: &str, state: Option<Vec<f64>>) -> crate::Result<Start> {
+pub(super) fn start(kind: &str, state: Option<Vec<f64>>) -> crate::Result<Start> {
     match (kind, state) {
         (_, Some(state)) => Ok(Start::State(state)),
         ("equilibrium", None) => Ok(Start::Equilibrium),
@@ -196,7 +196,7 @@ fn attend(py: Python<'_>, progress: Option<&Py<PyAny>>, share: f64) -> PyResult<
     progress.map_or(Ok(()), |callback| callback.call1(py, (share,)).map(drop))
 }
 
-fn hand_over(py: Python<'_>, signals: Signals) -> PyResult<Bound<'_, PyDict>> {
+pub(super) fn hand_over(py: Python<'_>, signals: Signals) -> PyResult<Bound<'_, PyDict>> {
     let warnings: Vec<String> = signals.warnings().iter().map(ToString::to_string).collect();
     let out = PyDict::new(py);
     out.set_item("fs", signals.fs)?;
@@ -207,9 +207,9 @@ fn hand_over(py: Python<'_>, signals: Signals) -> PyResult<Bound<'_, PyDict>> {
     }
     out.set_item("columns", columns)?;
     out.set_item("slices", slices(py, &signals.slices)?)?;
-    out.set_item("stats", json(&signals.stats)?)?;
+    out.set_item("stats", to_json(&signals.stats)?)?;
     out.set_item("warnings", warnings)?;
-    out.set_item("provenance", json(&signals.provenance)?)?;
+    out.set_item("provenance", to_json(&signals.provenance)?)?;
     out.set_item("scene", signals.scene.to_json())?;
     Ok(out)
 }

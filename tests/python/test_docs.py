@@ -14,7 +14,9 @@ import ballrace
 
 README = Path(__file__).parents[2] / "README.md"
 MODULES = [
-    m.name for m in pkgutil.iter_modules(ballrace.__path__) if m.name not in ("__main__", "_core")
+    m.name
+    for m in pkgutil.walk_packages(ballrace.__path__, "ballrace.")
+    if m.name not in ("ballrace.__main__", "ballrace._core")
 ]
 
 
@@ -32,7 +34,7 @@ def test_readme_code_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
 
 @pytest.mark.parametrize("name", MODULES)
 def test_docstrings(name: str) -> None:
-    module = importlib.import_module(f"ballrace.{name}")
+    module = importlib.import_module(name)
     assert doctest.testmod(module).failed == 0
 
 

@@ -1,0 +1,34 @@
+"""Campaigns: a table of load cases in, a table of results out.
+
+:func:`~ballrace.campaigns.run.campaign` is the one call. Everything else either builds its table
+(:func:`~ballrace.campaigns.tables.grid`, :func:`~ballrace.campaigns.tables.latin_hypercube`,
+:func:`~ballrace.campaigns.tables.sobol`, :func:`~ballrace.campaigns.bearings.scatter`) or reads what came of it
+(:class:`~ballrace.campaigns.result.Campaign`).
+
+============  =====================================================================
+``cases``     a table and its scenes: what each row means, and its case id
+``store``     the folder: shards that are there whole or not at all
+``work``      cases run in this process, results written as they come
+``spread``    the same work handed to an executor, chunk by chunk
+============  =====================================================================
+"""
+
+from __future__ import annotations
+
+from .bearings import scatter
+from .estimate import Estimate
+from .progress import Progress
+from .result import Campaign
+from .run import campaign
+from .tables import grid, latin_hypercube, sobol
+
+__all__ = [
+    "Campaign",
+    "Estimate",
+    "Progress",
+    "campaign",
+    "grid",
+    "latin_hypercube",
+    "scatter",
+    "sobol",
+]

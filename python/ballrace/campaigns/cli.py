@@ -1,0 +1,202 @@
+"""The command ``ballrace campaign``."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import tomllib
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .. import presets
+from ..errors import SceneError
+from ..scene import Scene
+from .bearings import scatter
+from .result import Campaign
+from .run import campaign
+from .tables import grid, latin_hypercube, sobol
+
+if TYPE_CHECKING:
+    import polars as pl
+
+_ARGUMENTS = ("duration", "fs", "start", "rtol", "keep", "columns", "skip", "band", "contact_loads")
+_BUILDERS = ("table", "grid", "latin_hypercube", "sobol", "scatter")
+_PLAN = (
+    "A sweep is a .toml file: scene (a file or a preset) or [scenes] by name; the arguments of ballrace.campaign "
+    f"{', '.join(_ARGUMENTS)}; and what builds the table, crossed if there are several: table = FILE (.csv or "
+    ".parquet), [grid] of lists, or of { from, to, count }, by dotted paths in quotes; [latin_hypercube] or "
+    "[sobol] of [low, high] with n and seed; [scatter] with n, seed and standard deviations."
+)
+
+
+def add_command(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command to a parser."""
+    parser = commands.add_parser(
+        "campaign", help="run a table of cases into a folder, or go on with one", description=_PLAN
+    )
+    parser.add_argument("sweep", type=Path, nargs="?", metavar="SWEEP", help="sweep, a .toml file")
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FOLDER", help="folder of the campaign"
+    )
+    parser.add_argument(
+        "--status", type=Path, metavar="FOLDER", help="say how far the campaign in a folder is"
+    )
+    parser.add_argument(
+        "--shard", type=_shard, default=(0, 1), metavar="I/N",
+        help="run every N-th case from the I-th, I from 0: one job of a batch array",
+    )  # fmt: skip
+    parser.add_argument("--threads", type=int, help="cases at once (default: all cores)")
+    parser.add_argument(
+        "--dry-run", action="store_true", help="estimate time and disk space, and write nothing"
+    )
+    parser.add_argument(
+        "--resume", choices=("auto", "strict", "no"), default="auto",
+        help="cases finished by another version: go on, refuse; no: refuse any (default: %(default)s)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--on-error", choices=("record", "raise"), default="record",
+        help="a case that fails is a row, or ends the campaign (default: %(default)s)",
+    )  # fmt: skip
+    parser.set_defaults(command=_command)
+
+
+def _command(options: argparse.Namespace) -> None:
+    if options.status is not None:
+        _show(Campaign.open(options.status))
+        return
+    if options.sweep is None or options.output is None:
+        raise SceneError("campaign", "no sweep", "SWEEP -o FOLDER, or --status FOLDER")
+    sweep = read(options.sweep)
+    # What a plan may not say, the command does.
+    found = campaign(
+        sweep.pop("cases"),
+        options.output,
+        **sweep,
+        threads=options.threads,
+        shard=options.shard,
+        resume=False if options.resume == "no" else options.resume,
+        on_error=options.on_error,
+        dry_run=options.dry_run,
+    )
+    if options.dry_run:
+        print(found)
+    else:
+        _show(found)
+
+
+def _show(found: Campaign) -> None:
+    print(found.status())
+    kinds = found.failed.group_by("error").len().sort("error")
+    for error, count in kinds.iter_rows():
+        first = found.failed.filter(error=error)["message"][0]
+        print(f"  {count} × {error}, the first: {first}")
+
+
+def _shard(text: str) -> tuple[int, int]:
+    match = re.fullmatch(r"(\d+)/(\d+)", text)
+    if match is None:
+        raise argparse.ArgumentTypeError(f"{text!r} is not I/N")
+    return int(match[1]), int(match[2])
+
+
+def read(path: Path) -> dict[str, Any]:
+    """Read a sweep: the arguments ``cases`` and ``scene`` of :func:`ballrace.campaign`, and others it gives.
+
+    Raises
+    ------
+    SceneError
+        Something in it is not usable.
+    OSError
+        A file cannot be read.
+    """
+    try:
+        sweep = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise SceneError("sweep", str(path), f"a TOML file ({error})") from error
+    known = ("scene", "scenes", *_ARGUMENTS, *_BUILDERS)
+    for name in sweep:
+        if name not in known:
+            raise SceneError(name, "an entry of the sweep", f"one of {', '.join(known)}")
+    scene = _scene(sweep, path.parent)
+    arguments = {name: sweep[name] for name in _ARGUMENTS if name in sweep}
+    if "band" in arguments:
+        arguments["band"] = tuple(arguments["band"])
+    return {"cases": _table(sweep, scene, path.parent), "scene": scene, **arguments}
+
+
+def _scene(sweep: dict[str, Any], folder: Path) -> Scene | dict[str, Scene]:
+    if ("scene" in sweep) == ("scenes" in sweep):
+        raise SceneError(
+            "scene", "absent" if "scene" not in sweep else "beside scenes", "one of both"
+        )
+    if "scene" in sweep:
+        return _load(sweep["scene"], folder)
+    return {name: _load(value, folder) for name, value in sweep["scenes"].items()}
+
+
+def _load(name: str, folder: Path) -> Scene:
+    preset = str(name).replace("-", "_")
+    if preset in presets.names():
+        made: Scene = getattr(presets, preset)()
+        return made
+    return Scene.load(folder / str(name))
+
+
+def _table(sweep: dict[str, Any], scene: Scene | dict[str, Scene], folder: Path) -> pl.DataFrame:
+    """Build the tables that a sweep asks for, and cross them."""
+    tables = [_built(name, sweep[name], scene, folder) for name in _BUILDERS if name in sweep]
+    if not tables:
+        raise SceneError("cases", "absent", f"at least one of {', '.join(_BUILDERS)}")
+    crossed = tables[0]
+    for table in tables[1:]:
+        twice = set(crossed.columns) & set(table.columns)
+        if twice:
+            raise SceneError(min(twice), "given twice", "one entry for each column")
+        crossed = crossed.join(table, how="cross")
+    return crossed
+
+
+def _built(name: str, entry: Any, scene: Scene | dict[str, Scene], folder: Path) -> pl.DataFrame:
+    if name == "table":
+        return _file(folder / str(entry))
+    entry = dict(entry)
+    try:
+        if name == "grid":
+            return grid({column: _values(column, value) for column, value in entry.items()})
+        n, seed = entry.pop("n"), entry.pop("seed")
+        if name == "scatter":
+            drawing = scene if isinstance(scene, Scene) else next(iter(scene.values()))
+            return scatter(drawing, n, seed=seed, **entry)
+        build = latin_hypercube if name == "latin_hypercube" else sobol
+        return build({column: (low, high) for column, (low, high) in entry.items()}, n, seed=seed)
+    except (KeyError, TypeError, ValueError) as error:
+        if isinstance(error, SceneError):
+            raise
+        raise SceneError(
+            name, str(entry), f"as told by ballrace campaign --help ({error})"
+        ) from error
+
+
+def _values(column: str, value: Any) -> list[Any]:
+    if isinstance(value, list):
+        return value
+    if not isinstance(value, dict) or set(value) != {"from", "to", "count"}:
+        raise SceneError(column, str(value), "a list of values, or { from = …, to = …, count = … }")
+    low, high, count = value["from"], value["to"], value["count"]
+    if not (isinstance(count, int) and count >= 2):
+        raise SceneError(f"{column}.count", str(count), "a number from 2")
+    return [low + (high - low) * i / (count - 1) for i in range(count)]
+
+
+def _file(path: Path) -> pl.DataFrame:
+    import polars as pl
+
+    try:
+        match path.suffix.lower():
+            case ".csv":
+                return pl.read_csv(path.read_bytes())
+            case ".parquet":
+                return pl.read_parquet(path.read_bytes())
+    except pl.exceptions.PolarsError as error:
+        raise SceneError("table", str(path), f"a {path.suffix} table ({error})") from error
+    raise SceneError("table", str(path), "a file that ends in .csv or .parquet")

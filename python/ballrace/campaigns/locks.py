@@ -1,0 +1,86 @@
+"""Locks that end with their process, however it ends."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+import warnings
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING
+
+from ..errors import CampaignError, CampaignWarning
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+if sys.platform == "win32":
+    import msvcrt
+
+    def _grab(file: int) -> None:
+        msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
+
+else:
+    import fcntl
+
+    def _grab(file: int) -> None:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+_WITHOUT_LOCKS = (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP)
+"""Some parallel file systems are mounted so."""
+
+
+@contextmanager
+def hold(folder: Path, part: int, parts: int) -> Iterator[None]:
+    """Hold the lock of one part of a campaign; parts of the same division go side by side.
+
+    Raises
+    ------
+    CampaignError
+        Another process runs that part, or another division of the campaign.
+    """
+    own = f"{part}-of-{parts}"
+    file = _open(folder / own)
+    try:
+        if not _try(file):
+            raise CampaignError(_busy(folder, own))
+        for other in sorted(folder.iterdir()):
+            if not other.name.endswith(f"-of-{parts}") and _is_held(other):
+                raise CampaignError(_busy(folder, other.name))
+        yield
+    finally:
+        os.close(file)
+
+
+def _open(path: Path) -> int:
+    return os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+
+
+def _try(file: int) -> bool:
+    try:
+        _grab(file)
+    except (BlockingIOError, PermissionError):
+        return False
+    except OSError as error:
+        if error.errno not in _WITHOUT_LOCKS:
+            raise
+        text = "this file system has no locks; see to it that no two campaigns run in one folder"
+        warnings.warn(text, CampaignWarning, stacklevel=7)
+    return True
+
+
+def _is_held(path: Path) -> bool:
+    with suppress(FileNotFoundError):
+        file = os.open(path, os.O_RDWR)
+        try:
+            return not _try(file)
+        finally:
+            os.close(file)
+    return False
+
+
+def _busy(folder: Path, name: str) -> str:
+    what = "another campaign" if name == "0-of-1" else f"shard {name.replace('-of-', '/')}"
+    return f"{what} is running in {folder.parent}; wait for its end, or give another folder"

@@ -1,0 +1,147 @@
+"""What came of a campaign."""
+
+from __future__ import annotations
+
+import json
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..scene import Scene
+from .cases import apply
+from .store import BASE, Store
+
+if TYPE_CHECKING:
+    import os
+
+    import polars as pl
+
+__all__ = ["Campaign"]
+
+
+class Campaign:
+    """A campaign's folder, read: the manifest, and signals case by case.
+
+    Returned by :func:`ballrace.campaign`; :meth:`open` reads a folder that one has left, finished or not.
+    """
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        self._cases = store.read_table("cases.parquet")
+
+    @classmethod
+    def open(cls, folder: str | os.PathLike[str]) -> Campaign:
+        """Read the folder of a campaign.
+
+        Raises
+        ------
+        CampaignError
+            It holds none, or a file is damaged.
+        """
+        return cls(Store(Path(folder)))
+
+    @property
+    def folder(self) -> Path:
+        """The folder."""
+        return self._store.root
+
+    @cached_property
+    def _results(self) -> pl.DataFrame:
+        return self._store.results()
+
+    @cached_property
+    def manifest(self) -> pl.DataFrame:
+        """One row a case, in the order of the table.
+
+        ``case_id``; the table's own columns; ``fault_outer_race``, ``fault_inner_race``, ``fault_ball``: whether
+        the scene has such a defect; ``status``: ``ok``, ``failed`` or ``missing``; ``error`` and ``message`` of a
+        failed case; ``version`` of the solver; ``accepted``, ``rejected``, ``nfev``: its effort; ``wall_time``
+        [s]; ``signals``: the shard that holds them; and the features (see :func:`ballrace.campaign`).
+        """
+        import polars as pl
+
+        results = self._results
+        features = sorted(name for name in results.columns if name not in BASE)
+        return (
+            self._cases.drop("changes")
+            .join(
+                results.select(*BASE, *features),
+                on="case_id",
+                how="left",
+                maintain_order="left",
+            )
+            .with_columns(pl.col("status").fill_null("missing"))
+        )
+
+    @property
+    def failed(self) -> pl.DataFrame:
+        """The rows of the manifest that failed."""
+        return self.manifest.filter(status="failed")
+
+    def scan(self) -> pl.LazyFrame:
+        """Return the kept signals of all cases, lazily: ``case_id``, ``t`` [s] and the probes' columns.
+
+        Sorted by case and time. Only what a query needs is read: filter by ``case_id`` and select columns before
+        collecting.
+
+        Raises
+        ------
+        FileNotFoundError
+            No signals were kept, or a shard of them has gone.
+        """
+        import polars as pl
+
+        kept = self.manifest.filter(pl.col("signals").is_not_null()).unique(
+            "case_id", maintain_order=True
+        )
+        if kept.is_empty():
+            raise FileNotFoundError(f'{self.folder}: no signals; run with keep="signals"')
+        frames = []
+        for (name,), rows in kept.group_by("signals", maintain_order=True):
+            shard = pl.scan_parquet(self.folder / "signals" / str(name), glob=False)
+            # Not those of a case that another shard has as well.
+            frames.append(shard.filter(pl.col("case_id").is_in(rows["case_id"].to_list())))
+        return pl.concat(frames, how="diagonal").sort("case_id", "t")
+
+    def signals(self, case_id: str) -> pl.DataFrame:
+        """Return the signals of a case: ``t`` [s] and the probes' columns.
+
+        Raises
+        ------
+        KeyError
+            There is no such case with signals.
+        """
+        import polars as pl
+
+        row = self.manifest.filter(pl.col("case_id") == case_id, pl.col("signals").is_not_null())
+        if row.is_empty():
+            raise KeyError(f"no case {case_id!r} with signals")
+        shard = pl.scan_parquet(self.folder / "signals" / row["signals"][0], glob=False)
+        return shard.filter(pl.col("case_id") == case_id).drop("case_id").sort("t").collect()
+
+    def scene(self, case_id: str) -> Scene:
+        """Return the scene of a case.
+
+        Raises
+        ------
+        KeyError
+            There is no such case.
+        SceneError
+            The case failed because it has none that is usable.
+        """
+        rows = self._cases.filter(case_id=case_id)
+        if rows.is_empty():
+            raise KeyError(f"no case {case_id!r}")
+        changes: dict[str, Any] = json.loads(rows["changes"][0])
+        identity = self._store.identity
+        scene, _ = apply(changes, identity["scenes"], identity["run"])
+        return Scene.from_json(scene)
+
+    def status(self) -> str:
+        """Return how many cases have finished, failed and are missing, in one line."""
+        counts = dict(self.manifest["status"].value_counts().iter_rows())
+        parts = [f"{counts.get(kind, 0)} {kind}" for kind in ("ok", "failed", "missing")]
+        return f"{self.folder}: {self.manifest.height} cases: {', '.join(parts)}"
+
+    def __repr__(self) -> str:
+        return f"<Campaign {self.status()}>"

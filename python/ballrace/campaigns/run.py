@@ -1,0 +1,282 @@
+"""The one call."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
+
+from ..errors import CampaignError
+from .cases import Cases, run_document
+from .estimate import Estimate, estimate
+from .locks import hold
+from .plan import Plan, check_choices, scenes_of, shard_of, threads_of
+from .progress import Progress, Teller
+from .result import Campaign
+from .spread import executor_of, run_spread
+from .store import Store, schema
+from .work import Job, check_process, record_of, row, run_here
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from ..scene import Scene
+
+__all__ = ["campaign"]
+
+
+class _Options(TypedDict, total=False):
+    """The arguments of :func:`campaign` that do not decide what it returns."""
+
+    duration: float
+    fs: float
+    start: Literal["equilibrium", "rolling"]
+    rtol: float | None
+    keep: Literal["features", "signals"]
+    columns: Sequence[str] | None
+    skip: float
+    band: tuple[float, float] | None
+    contact_loads: bool
+    threads: int | None
+    executor: Any
+    in_flight: int | None
+    shard: tuple[int, int]
+    resume: Literal["auto", "strict", False]
+    on_error: Literal["record", "raise"]
+    progress: bool | Callable[[Progress], object]
+
+
+@overload
+def campaign(
+    cases: object,
+    out: str | os.PathLike[str],
+    *,
+    scene: Scene | Mapping[str, Scene],
+    dry_run: Literal[False] = ...,
+    **options: Unpack[_Options],
+) -> Campaign: ...
+@overload
+def campaign(
+    cases: object,
+    out: str | os.PathLike[str],
+    *,
+    scene: Scene | Mapping[str, Scene],
+    dry_run: Literal[True],
+    **options: Unpack[_Options],
+) -> Estimate: ...
+def campaign(
+    cases: object,
+    out: str | os.PathLike[str],
+    *,
+    scene: Scene | Mapping[str, Scene],
+    duration: float = 0.1,
+    fs: float = 50_000.0,
+    start: Literal["equilibrium", "rolling"] = "equilibrium",
+    rtol: float | None = None,
+    keep: Literal["features", "signals"] = "features",
+    columns: Sequence[str] | None = None,
+    skip: float = 0.0,
+    band: tuple[float, float] | None = None,
+    contact_loads: bool = False,
+    threads: int | None = None,
+    executor: Any = None,
+    in_flight: int | None = None,
+    shard: tuple[int, int] = (0, 1),
+    resume: Literal["auto", "strict", False] = "auto",
+    on_error: Literal["record", "raise"] = "record",
+    progress: bool | Callable[[Progress], object] = True,
+    dry_run: bool = False,
+) -> Campaign | Estimate:
+    """Run a table of cases into a folder, and return the table of results.
+
+    Finished cases are written as they come. Called again, after a kill, Ctrl-C or with more rows, it runs only
+    those that are missing: a case is known by the hash of its scene and of the arguments of its run.
+
+    Parameters
+    ----------
+    cases : table
+        One row a case: polars, pandas, Arrow, a list of dicts or a dict of columns. Columns with a dot or an
+        index are fields of the scene (``loads.axial.force``, ``rows[0].clearance``), as are its own fields;
+        ``duration``, ``fs``, ``start`` and ``rtol`` replace the arguments of that name; ``scene`` says which
+        one if there are several. Every other column is a label, and only carried along. An empty cell changes
+        nothing.
+    out : path
+        Folder of the campaign, made if it does not exist. With an executor all workers must see it under this
+        name.
+    scene : Scene, or mapping of str to Scene
+        What the rows change, or several of them by name.
+    duration, fs, start, rtol
+        As for :func:`ballrace.simulate`.
+    keep : {"features", "signals"}
+        Whether the signals of every case are kept beside its features.
+    columns : sequence of str, optional
+        Signals whose features are computed; by default all accelerations that the probes record. For
+        ``outer.ay``: ``outer.ay.rms``, ``.peak``, ``.crest_factor``, ``.kurtosis``, and for every row of balls
+        the lines of the signal at its fault frequencies ``outer.ay.row0.ftf``, ``.bpfo``, ``.bpfi``, ``.bsf``,
+        and those of the squared envelope, ``outer.ay.row0.bpfo_envelope`` and so on. A line that the record
+        is too short for is empty.
+    skip : float
+        Beginning of each run that features leave out [s].
+    band : tuple of two floats, optional
+        Band of the envelope [Hz]; by default all frequencies.
+    contact_loads : bool
+        Whether the extremes of the contact loads are among the features: ``row0.outer.load_max`` and so on [N].
+        They cost a reading of every contact at every sample, and do not change the signals.
+    threads : int, optional
+        Cases at once in this process, or in each task of an executor; by default all cores, or one with an
+        executor.
+    executor : optional
+        Where tasks run: a :class:`concurrent.futures.Executor` whose workers were not forked, or anything with
+        ``get_executor()``, such as a Dask ``Client``.
+    in_flight : int, optional
+        Tasks handed to the executor at most; by default two for each of its workers.
+    shard : tuple of int, int
+        ``(i, n)`` runs every n-th case from the i-th, i from 0: n such calls, in any places at any times,
+        make up the whole.
+    resume : {"auto", "strict", False}
+        A folder with cases finished by another version of the solver: ``"auto"`` warns and goes on, ``"strict"``
+        refuses. False refuses every folder with finished cases.
+    on_error : {"record", "raise"}
+        Whether a case that fails is a row of the manifest, or raises its error (and runs again when called
+        again).
+    progress : bool or callable
+        True shows a bar in a terminal or notebook, else one line at the end. A callable is given
+        :class:`~ballrace.campaigns.Progress` as cases finish; what it raises stops the campaign.
+    dry_run : bool
+        Run the first missing case, write nothing, and return an :class:`~ballrace.campaigns.Estimate`.
+
+    Returns
+    -------
+    Campaign
+        Its ``manifest`` is the table of results.
+
+    Raises
+    ------
+    SceneError
+        An argument or a column is not usable; nothing was written.
+    CampaignError
+        The folder is not usable, or a worker failed. What has finished is safe.
+    OSError
+        The folder cannot be made or read.
+    KeyboardInterrupt
+        Ctrl-C; the message says what is safe and how to go on.
+
+    Examples
+    --------
+    >>> import ballrace as br, tempfile
+    >>> scene = br.presets.deep_groove_6205()
+    >>> table = br.grid({"loads.radial.force": [200.0, 400.0, 800.0]})
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     done = br.campaign(table, folder, scene=scene, duration=1e-3, progress=False)
+    >>> done.manifest.select("loads.radial.force", "status").rows()
+    [(200.0, 'ok'), (400.0, 'ok'), (800.0, 'ok')]
+    """
+    check_process()
+    check_choices(keep=keep, resume=resume, on_error=on_error)
+    run = run_document({"duration": duration, "fs": fs, "start": start, "rtol": rtol})
+    features = {
+        "columns": None if columns is None else list(columns),
+        "skip": float(skip),
+        "band": None if band is None else [float(edge) for edge in band],
+        "contact_loads": contact_loads,
+    }
+    scenes = scenes_of(scene, features)
+    schema_version = json.loads(next(iter(scenes.values())))["schema"]
+    engine, workers = (None, None) if executor is None else executor_of(executor)
+    plan = Plan(
+        cases=Cases(cases, scenes, run),
+        identity={"schema": schema_version, "scenes": scenes, "run": run, "features": features},
+        job=Job(
+            threads=threads_of(threads, executor),
+            keep_signals=keep == "signals",
+            features=json.dumps(features),
+            raise_errors=on_error == "raise",
+        ),
+        executor=engine,
+        workers=workers,
+        shard=shard_of(shard),
+        resume=resume,
+    )
+    if dry_run:
+        return estimate(plan, Path(out))
+    failed = [case.error for case in plan.cases.cases if case.error is not None]
+    if failed and on_error == "raise":
+        raise failed[0]
+    return _run(plan, Path(out), in_flight, progress)
+
+
+def _run(
+    plan: Plan, out: Path, in_flight: int | None, progress: bool | Callable[[Progress], object]
+) -> Campaign:
+    store = Store.prepare(out, plan.identity)
+    with hold(store.root / "locks", *plan.shard):
+        missing = plan.missing(store)
+        _write_table(plan, store)
+        total = len(plan.ids())
+        teller = Teller(progress, total, total - len(missing))
+        try:
+            if missing:
+                _guarded(plan, store, missing, in_flight, teller)
+        finally:
+            teller.end()
+        result = Campaign(store)
+        if not (result.manifest["status"] == "missing").any():
+            store.write_table("manifest.parquet", result.manifest)
+    return result
+
+
+def _guarded(
+    plan: Plan, store: Store, missing: list[int], in_flight: int | None, teller: Teller
+) -> None:
+    """Run what is missing; whatever stops it says what is safe and how to go on."""
+
+    def safe() -> str:
+        count = len(plan.ids().keys() & set(store.results()["case_id"]))
+        return f"{count} of {teller.now.total} cases are safe in {store.root}; call again to go on"
+
+    try:
+        _work(plan, store, missing, in_flight, teller)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(f"interrupted; {safe()}") from None
+    except CampaignError as error:
+        raise CampaignError(f"{error}; {safe()}") from error
+
+
+def _work(
+    plan: Plan, store: Store, missing: list[int], in_flight: int | None, teller: Teller
+) -> None:
+    unusable = [i for i in missing if plan.cases.cases[i].error is not None]
+    todo = [i for i in missing if plan.cases.cases[i].error is None]
+    if unusable:
+        _record_unusable(plan, store, unusable)
+        teller.tell(len(unusable), len(unusable))
+
+    def told(done: int, failed: int) -> None:
+        teller.tell(done + len(unusable), failed + len(unusable))
+
+    documents = plan.documents(todo)
+    if plan.executor is None:
+        run_here(store, documents, plan.job, told)
+    else:
+        most = in_flight or 2 * (plan.workers or os.cpu_count() or 1)
+        run_spread(
+            store, documents, len(todo), plan.job,
+            executor=plan.executor, in_flight=most, told=told,
+        )  # fmt: skip
+
+
+def _record_unusable(plan: Plan, store: Store, indices: list[int]) -> None:
+    import polars as pl
+
+    cases = [plan.cases.cases[i] for i in indices]
+    rows = [row(case.id, record_of(case.error)) for case in cases if case.error is not None]
+    store.write("results", pl.DataFrame(rows, schema=schema()).sort("case_id"))
+
+
+def _write_table(plan: Plan, store: Store) -> None:
+    """Write the table of cases, once for all shards."""
+    frame = plan.cases.frame()
+    if (store.root / "cases.parquet").exists() and store.read_table("cases.parquet").equals(frame):
+        return
+    store.write_table("cases.parquet", frame)

@@ -1,0 +1,152 @@
+"""Cases handed to an executor, chunk by chunk, with a bounded number on the way."""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from dataclasses import asdict
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+from .._core import available_threads
+from ..errors import BallraceError, CampaignError
+from .store import Store
+from .work import Job, check_process, exception, run_here, version
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from .work import Document
+
+_CHUNK = 20.0
+"""Time a chunk should take [s]."""
+
+_MOST = 1000
+"""Cases of a chunk at most: some megabytes of JSON."""
+
+
+class Executor(Protocol):
+    """What :mod:`concurrent.futures` calls an executor."""
+
+    def submit(self, fn: Callable[[str], str], /, text: str) -> Future[str]:
+        """Have ``fn(text)`` called somewhere."""
+
+
+def executor_of(given: Any) -> tuple[Executor, int | None]:
+    """Return an executor, and how many tasks it runs at once, if it says so.
+
+    Raises
+    ------
+    TypeError
+        It is none, and gives none.
+    """
+    workers = None
+    if hasattr(given, "get_executor"):
+        # Dask: a task handed out again must run again.
+        if hasattr(given, "nthreads"):
+            workers = sum(given.nthreads().values())
+        return given.get_executor(pure=False), workers
+    if not hasattr(given, "submit"):
+        raise TypeError(
+            f"executor: {type(given).__name__} has neither submit nor get_executor; give a "
+            "concurrent.futures.Executor or a Dask Client"
+        )
+    for name in ("num_workers", "_max_workers"):
+        workers = workers or getattr(given, name, None)
+    return given, workers
+
+
+def run_spread(
+    store: Store,
+    cases: Iterator[Document],
+    count: int,
+    job: Job,
+    *,
+    executor: Executor,
+    in_flight: int,
+    told: Callable[[int, int], object],
+) -> None:
+    """Run ``count`` cases on an executor; workers write into the store and return counts.
+
+    The first tasks have one case each; later ones as many as fit into twenty seconds, and fewer towards the end,
+    so that all workers end together.
+    """
+    common = {
+        "root": str(store.root), "key": store.key, "version": version(), "job": asdict(job),
+    }  # fmt: skip
+    pending: set[Future[str]] = set()
+    done = failed = handed = 0
+    seconds = 0.0
+    try:
+        while True:
+            while len(pending) < in_flight and handed < count:
+                size = _size(
+                    seconds / done if done else None, job.threads, count - handed, in_flight
+                )
+                chunk = list(islice(cases, size))
+                handed += len(chunk)
+                pending.add(executor.submit(run_task, json.dumps({**common, "cases": chunk})))
+            if not pending:
+                return
+            ended, pending = wait(pending, timeout=0.1, return_when=FIRST_COMPLETED)
+            for future in ended:
+                result = _result(future)
+                done += result["done"]
+                failed += result["failed"]
+                seconds += result["wall_time"]
+                told(done, failed)
+                if result["error"]:
+                    raise exception(result["error"])
+            told(done, failed)
+    finally:
+        for future in pending:
+            future.cancel()
+
+
+def _size(mean: float | None, threads: int, left: int, in_flight: int) -> int:
+    """Return the number of cases of the next chunk, from the mean time of a case so far [s]."""
+    if mean is None:
+        return 1
+    fitting = int(_CHUNK * threads / max(mean, 1e-6))
+    return max(1, min(fitting, _MOST, math.ceil(left / in_flight)))
+
+
+def _result(future: Future[str]) -> dict[str, Any]:
+    try:
+        result: dict[str, Any] = json.loads(future.result())
+    except BallraceError:
+        raise
+    except Exception as error:
+        # Broken pools, killed workers, full disks: every engine has its own.
+        raise CampaignError(f"a worker failed: {type(error).__name__}: {error}") from error
+    return result
+
+
+def run_task(text: str) -> str:
+    """Run a chunk of cases where the executor has put it; JSON in, JSON out."""
+    check_process()
+    task = json.loads(text)
+    if task["version"] != version():
+        raise CampaignError(
+            f"this worker has ballrace {version()}, the campaign {task['version']}; install the same"
+        )
+    store = Store(Path(task["root"]))
+    if store.key != task["key"]:
+        raise CampaignError(f"{task['root']} is not the same folder for this worker; share it")
+    job = Job(**task["job"])
+    counts = {"done": 0, "failed": 0, "error": None}
+
+    def told(done: int, failed: int) -> None:
+        counts.update(done=done, failed=failed)
+
+    began = time.monotonic()
+    try:
+        run_here(store, task["cases"], job, told)
+    except BallraceError as error:
+        arguments = {"class": type(error).__name__, "arguments": list(error.args)}
+        return json.dumps({**counts, "error": arguments, "wall_time": 0.0})
+    seconds = (time.monotonic() - began) * (job.threads or available_threads())
+    return json.dumps({**counts, "wall_time": seconds})

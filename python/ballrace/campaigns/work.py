@@ -1,0 +1,202 @@
+"""Cases run in this process, their results written as they come."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import json
+import os
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from .. import _core, errors
+from ..errors import BallraceError, CampaignError
+from .store import schema
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    from .._core import _Signals
+    from .store import Store
+
+Document: TypeAlias = tuple[str, str, str]
+"""Case id, scene as JSON, run as JSON."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Job:
+    """How cases are worked on, wherever that is.
+
+    Attributes
+    ----------
+    threads : int
+        Cases at once in a process; 0: as many as it has cores.
+    keep_signals : bool
+        Whether signals are written beside features.
+    features : str
+        Options of the features, as JSON.
+    raise_errors : bool
+        Whether the error of the first case that fails is raised instead of recorded.
+    """
+
+    threads: int
+    keep_signals: bool
+    features: str
+    raise_errors: bool
+
+
+_PROCESS = os.getpid()
+
+_OFTEN, _SELDOM = 1.0, 30.0
+"""Results wait for their shard no longer than this at first, and after an hour [s]."""
+
+_LARGE = 64 << 20
+"""Signals that wait for their shard at most [bytes]."""
+
+
+def check_process() -> None:
+    """Refuse to work in a forked child, where locks of threads that are not there hang for ever.
+
+    Raises
+    ------
+    CampaignError
+        The process was forked after ballrace had been imported.
+    """
+    if os.getpid() != _PROCESS:
+        raise CampaignError(
+            "this process was forked from one that had imported ballrace, and would hang; start workers "
+            'afresh, as by ProcessPoolExecutor(mp_context=multiprocessing.get_context("spawn"))'
+        )
+
+
+def version() -> str:
+    """Return the version of the solver."""
+    return importlib.metadata.version("ballrace")
+
+
+class Writer:
+    """Collects finished cases and writes them, the signals first.
+
+    A shard is written as soon as the last one is a second old, later on a hundredth of the time at work: few
+    files after hours, and little lost to a kill beside the cases that ran.
+    """
+
+    def __init__(self, store: Store, *, keep_signals: bool) -> None:
+        self._store = store
+        self._keep = keep_signals
+        self._rows: list[dict[str, Any]] = []
+        self._signals: list[tuple[str, _Signals]] = []
+        self._size = 0
+        self._began = self._written = time.monotonic()
+        self.bytes = 0
+
+    def add(self, case_id: str, record: dict[str, Any], signals: _Signals | None) -> None:
+        """Take a finished case."""
+        self._rows.append(row(case_id, record))
+        if signals is not None:
+            self._signals.append((case_id, signals))
+            self._size += signals["t"].nbytes * (1 + len(signals["columns"]))
+
+    def flush_when_due(self) -> None:
+        """Write what there is if it is time."""
+        now = time.monotonic()
+        wait = min(max(_OFTEN, 0.01 * (now - self._began)), _SELDOM)
+        if self._size >= _LARGE or now - self._written >= wait:
+            self.flush()
+
+    def flush(self) -> None:
+        """Write what there is."""
+        self._written = time.monotonic()
+        if not self._rows:
+            return
+        name = self._write_signals() if self._signals else None
+        kept = {case_id for case_id, _ in self._signals}
+        for entry in self._rows:
+            entry["signals"] = name if entry["case_id"] in kept else None
+        self._store.write("results", _results(self._rows))
+        self._rows, self._signals, self._size = [], [], 0
+
+    def _write_signals(self) -> str:
+        import polars as pl
+
+        frames = []
+        for case_id, raw in sorted(self._signals, key=lambda pair: pair[0]):
+            columns = {name: values for name, _, values in raw["columns"]}
+            frames.append(
+                pl.DataFrame({"t": raw["t"], **columns}).select(
+                    pl.lit(case_id).alias("case_id"), pl.all()
+                )
+            )
+        return self._store.write("signals", pl.concat(frames, how="diagonal"))
+
+
+def run_here(
+    store: Store, cases: Iterable[Document], job: Job, told: Callable[[int, int], object]
+) -> None:
+    """Run cases on threads of this process and write what they give.
+
+    Cases are drawn as threads become free; ``told`` is given the numbers of cases done and failed so far, some
+    twenty times a second.
+    """
+    ids: list[str] = []
+    writer = Writer(store, keep_signals=job.keep_signals)
+    counts = [0, 0]
+
+    def documents() -> Iterator[tuple[str, str]]:
+        for case_id, scene, run in cases:
+            ids.append(case_id)
+            yield scene, run
+
+    def done(outcomes: list[tuple[int, str, _Signals | None]]) -> None:
+        for index, text, signals in outcomes:
+            record = json.loads(text)
+            if "error" in record and job.raise_errors:
+                raise exception(record["error"])
+            counts[0] += 1
+            counts[1] += "error" in record
+            writer.add(ids[index], record, signals)
+        writer.flush_when_due()
+        told(*counts)
+
+    try:
+        _core.campaign(documents(), job.threads, job.features, job.keep_signals, done)
+    finally:
+        writer.flush()
+
+
+def row(case_id: str, record: dict[str, Any]) -> dict[str, Any]:
+    """Return what the manifest says of a finished case."""
+    error = record.get("error")
+    return {
+        "case_id": case_id,
+        "status": "failed" if error else "ok",
+        "error": error and error["class"],
+        "message": error and error["message"],
+        "version": version(),
+        **{name: record.get(name) for name in ("accepted", "rejected", "nfev", "wall_time")},
+        "signals": None,
+        **dict(record.get("features", ())),
+    }
+
+
+def exception(error: dict[str, Any]) -> BallraceError:
+    """Return the exception that a record tells of."""
+    made = getattr(errors, error["class"])(*error["arguments"])
+    assert isinstance(made, BallraceError)
+    return made
+
+
+def record_of(error: BallraceError) -> dict[str, Any]:
+    """Return the record of a case that failed before it ran."""
+    told = {"class": type(error).__name__, "message": str(error), "arguments": list(error.args)}
+    return {"error": told, "wall_time": 0.0}
+
+
+def _results(rows: list[dict[str, Any]]) -> Any:
+    import polars as pl
+
+    base = schema()
+    names = list(dict.fromkeys(name for entry in rows for name in entry))
+    types = {name: base.get(name, pl.Float64) for name in names}
+    ordered = sorted(rows, key=lambda entry: entry["case_id"])
+    return pl.DataFrame(ordered, schema=types)

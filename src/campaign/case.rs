@@ -1,0 +1,110 @@
+//! One case: a run and its features, with everything that may go wrong caught.
+
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use crate::error::{Error, Result};
+use crate::features::{
+    Feature, FeatureOptions, check, feature_columns, features, with_load_probes,
+    without_load_probes,
+};
+use crate::scene::Scene;
+use crate::signals::Signals;
+use crate::simulate::{Run, simulate};
+
+/// What to run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case {
+    /// The scene.
+    pub scene: Scene,
+    /// How long, how sampled, from what start; its number of threads does not count, it is one.
+    pub run: Run,
+}
+
+/// What became of a case.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// Place of the case among all, from 0.
+    pub index: usize,
+    /// What it gave, or why it failed.
+    pub result: Result<Finished>,
+    /// Wall time, features included \[s\].
+    pub wall_time: f64,
+}
+
+/// What a case gives.
+#[derive(Debug, Clone)]
+pub struct Finished {
+    /// Its features.
+    pub features: Vec<Feature>,
+    /// Its signals.
+    pub signals: Signals,
+}
+
+impl Case {
+    pub(super) fn outcome(
+        &self,
+        index: usize,
+        options: &FeatureOptions,
+        stop: &AtomicBool,
+    ) -> Outcome {
+        let begun = Instant::now();
+        let result = guarded(|| self.finish(options, stop));
+        let wall_time = begun.elapsed().as_secs_f64();
+        Outcome {
+            index,
+            result,
+            wall_time,
+        }
+    }
+
+    fn finish(&self, options: &FeatureOptions, stop: &AtomicBool) -> Result<Finished> {
+        let run = Run {
+            threads: 1,
+            ..self.run.clone()
+        };
+        check(options, &run)?;
+        let columns = feature_columns(&self.scene, options)?;
+        let mut progress = |_| {
+            if stop.load(Ordering::Relaxed) {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        if !options.contact_loads {
+            let signals = simulate(&self.scene, &run, &mut progress)?;
+            let features = features(&signals, &columns, options);
+            return Ok(Finished { features, signals });
+        }
+        let signals = simulate(&with_load_probes(&self.scene), &run, &mut progress)?;
+        let features = features(&signals, &columns, options);
+        let signals = without_load_probes(signals, &self.scene);
+        Ok(Finished { features, signals })
+    }
+}
+
+/// A panic is a fault of this crate; of thousands of cases it may cost one.
+fn guarded<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
+        let text = panic.downcast_ref::<String>().cloned();
+        let message = text
+            .or_else(|| panic.downcast_ref::<&str>().map(ToString::to_string))
+            .unwrap_or_else(|| "without a message".to_owned());
+        Err(Error::Internal { message })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_an_error_of_its_case() {
+        let found = guarded::<()>(|| panic!("ball {} is lost", 3));
+        let message = "ball 3 is lost".to_owned();
+        assert_eq!(found, Err(Error::Internal { message }));
+    }
+}

@@ -1,0 +1,147 @@
+//! Campaigns: cases are pulled from a Python iterator and outcomes handed to a Python callable, both on the
+//! calling thread; everything between runs without the GIL.
+
+use std::ops::ControlFlow;
+
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+use serde::Deserialize;
+use serde_json::json;
+
+use super::errors::{OrRaise, record};
+use super::run::{hand_over, start};
+use crate::{Case, Error, FeatureOptions, Finished, Outcome, Run, Scene};
+
+/// How a case is run.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RunDocument {
+    duration: f64,
+    fs: f64,
+    start: String,
+    rtol: Option<f64>,
+}
+
+/// Run cases on threads of their own, each a pair of scene and run as JSON.
+///
+/// `done` is given a list of (index, record as JSON, signals or None), in any order and possibly empty, at
+/// least about every 50 ms. What `cases` or `done` raise, or Ctrl-C, stops everything.
+#[pyfunction]
+pub(super) fn campaign(
+    py: Python<'_>,
+    cases: &Bound<'_, PyAny>,
+    threads: usize,
+    options: &str,
+    keep_signals: bool,
+    done: &Bound<'_, PyAny>,
+) -> PyResult<()> {
+    let options = options_from(options).or_raise(py)?;
+    let cases = cases.try_iter()?.unbind();
+    let done = done.clone().unbind();
+    let mut failed_pull = None;
+    let mut raised = None;
+    let result = py.detach(|| {
+        let pull = std::iter::from_fn(|| {
+            Python::attach(|py| match pull(py, &cases) {
+                Ok(case) => case,
+                Err(exception) => {
+                    failed_pull = Some(exception);
+                    None
+                }
+            })
+        });
+        let mut watch = |outcomes: Vec<Outcome>| {
+            let told = Python::attach(|py| tell(py, &done, outcomes, keep_signals));
+            // A second exception, of the last call, says nothing new.
+            match told {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(exception) => {
+                    raised.get_or_insert(exception);
+                    ControlFlow::Break(())
+                }
+            }
+        };
+        crate::stream(pull, threads, &options, &mut watch)
+    });
+    if let Some(exception) = raised.or(failed_pull) {
+        return Err(exception);
+    }
+    result.or_raise(py)
+}
+
+/// Columns whose features a scene gives, for options as JSON.
+#[pyfunction]
+pub(super) fn feature_columns(py: Python<'_>, scene: &str, options: &str) -> PyResult<Vec<String>> {
+    let scene = Scene::from_json(scene).or_raise(py)?;
+    let options = options_from(options).or_raise(py)?;
+    crate::feature_columns(&scene, &options).or_raise(py)
+}
+
+/// Number of threads that the process may use at once.
+#[pyfunction]
+pub(super) fn available_threads() -> usize {
+    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
+}
+
+fn options_from(text: &str) -> crate::Result<FeatureOptions> {
+    serde_json::from_str(text).map_err(|e| Error::scene("features", text, e.to_string()))
+}
+
+/// The next case, if there is one.
+fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<Case>> {
+    let Some(next) = cases.bind(py).clone().next() else {
+        return Ok(None);
+    };
+    let (scene, run): (String, String) = next?.extract()?;
+    let scene = Scene::from_json(&scene).or_raise(py)?;
+    let run: RunDocument = serde_json::from_str(&run)
+        .map_err(|e| Error::scene("run", run, e.to_string()))
+        .or_raise(py)?;
+    let run = Run {
+        duration: run.duration,
+        fs: run.fs,
+        start: start(&run.start, None).or_raise(py)?,
+        rtol: run.rtol,
+        ..Run::default()
+    };
+    Ok(Some(Case { scene, run }))
+}
+
+/// Lets Ctrl-C speak, and hands the outcomes over.
+fn tell(
+    py: Python<'_>,
+    done: &Py<PyAny>,
+    outcomes: Vec<Outcome>,
+    keep_signals: bool,
+) -> PyResult<()> {
+    let list = PyList::empty(py);
+    for outcome in outcomes {
+        let text = describe(&outcome).to_string();
+        let signals = match outcome.result {
+            Ok(finished) if keep_signals => Some(hand_over(py, finished.signals)?),
+            _ => None,
+        };
+        list.append((outcome.index, text, signals))?;
+    }
+    // Outcomes first: what has finished is not lost to Ctrl-C.
+    done.call1(py, (list,))?;
+    py.check_signals()
+}
+
+/// An outcome without its signals.
+fn describe(outcome: &Outcome) -> serde_json::Value {
+    let wall_time = outcome.wall_time;
+    match &outcome.result {
+        Ok(Finished { features, signals }) => {
+            let features: Vec<_> = features.iter().map(|f| (&f.name, f.value)).collect();
+            json!({
+                "wall_time": wall_time,
+                "accepted": signals.stats.accepted,
+                "rejected": signals.stats.rejected,
+                "nfev": signals.stats.nfev,
+                "features": features,
+            })
+        }
+        Err(error) => json!({ "wall_time": wall_time, "error": record(error) }),
+    }
+}

@@ -1,0 +1,110 @@
+"""The command `ballrace campaign`."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+import ballrace as br
+from ballrace.campaigns.cli import read
+from ballrace.cli import main
+
+SWEEP = """
+scene = "deep-groove-6205"
+duration = 1e-3
+columns = ["outer.ay"]
+table = "labels.csv"
+
+[grid]
+"loads.radial.force" = { from = 200.0, to = 400.0, count = 3 }
+
+[scatter]
+n = 2
+seed = 1
+clearance = 2e-6
+"""
+
+
+@pytest.fixture
+def sweep(tmp_path: Path) -> Path:
+    (tmp_path / "labels.csv").write_text("label,rtol\na,1e-6\nb,1.0\n")
+    (tmp_path / "sweep.toml").write_text(SWEEP)
+    return tmp_path / "sweep.toml"
+
+
+def test_from_a_file_to_a_table(sweep: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = sweep.parent / "runs"
+    assert main(["campaign", str(sweep), "-o", str(out), "--dry-run"]) == 0
+    assert capsys.readouterr().out.startswith("12 of 12 cases to run: about ")
+    assert not out.exists()
+
+    assert main(["campaign", str(sweep), "-o", str(out), "--shard", "0/2", "--threads", "1"]) == 0
+    assert "12 cases: 3 ok, 3 failed, 6 missing" in capsys.readouterr().out
+    assert main(["campaign", "--status", str(out)]) == 0
+    told = capsys.readouterr().out
+    assert "12 cases: 3 ok, 3 failed, 6 missing" in told
+    assert "3 × SceneError, the first: rtol = 1.0: above 1e-12 and at most 0.1" in told
+
+    assert main(["campaign", str(sweep), "-o", str(out), "--shard", "1/2"]) == 0
+    manifest = br.Campaign.open(out).manifest
+    assert manifest.columns[1:5] == ["label", "rtol", "loads.radial.force", "bearing_id"]
+    assert manifest["loads.radial.force"].to_list()[:6] == [
+        200.0,
+        200.0,
+        300.0,
+        300.0,
+        400.0,
+        400.0,
+    ]
+    assert manifest["status"].to_list() == 6 * ["ok"] + 6 * ["failed"]
+    assert "outer.ay.rms" in manifest.columns
+    assert "outer.ax.rms" not in manifest.columns
+
+
+def test_the_sweep_of_the_readme(tmp_path: Path) -> None:
+    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+    found = re.search(r"^```toml\n(.*?)^```", readme, flags=re.DOTALL | re.MULTILINE)
+    assert found
+    (tmp_path / "sweep.toml").write_text(found[1])
+    sweep = read(tmp_path / "sweep.toml")
+    assert (sweep["cases"].height, sweep["duration"]) == (75, 0.2)
+    assert sweep["scene"] == br.presets.wheel_bearing()
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("scene = 3 =", "sweep = "),
+        ('scene = "deep-groove-6205"', "cases = absent: at least one of table, grid"),
+        ("[grid]\na = [1]", "scene = absent: one of both"),
+        ('scene = "x.txt"\n[grid]\na = [1]', "a file that ends in .toml or .json"),
+        ('scenes = { a = "wheel-bearing" }\nscene = "a"', "scene = beside scenes: one of both"),
+        ('colums = ["outer.ay"]', "colums = an entry of the sweep: one of scene"),
+        ('scene = "wheel-bearing"\ntable = "a.xlsx"', "a file that ends in .csv or .parquet"),
+        ('scene = "wheel-bearing"\n[grid]\n"a.b" = 3', "a.b = 3: a list of values, or { from"),
+        ('scene = "wheel-bearing"\n[grid]\nx = [1]\n[sobol]\nx = [0, 1]\nn = 2\nseed = 1', "x = given twice"),
+        ('scene = "wheel-bearing"\n[scatter]\nn = 2', "scatter = "),
+        ('scene = "wheel-bearing"\n[scatter]\nn = 2\nseed = 1\nsize = 1.0', "as told by ballrace campaign"),
+    ],
+)  # fmt: skip
+def test_bad_sweeps(
+    text: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "sweep.toml").write_text(text)
+    assert main(["campaign", str(tmp_path / "sweep.toml"), "-o", str(tmp_path / "runs")]) == 2
+    assert message in capsys.readouterr().err
+    assert not (tmp_path / "runs").exists()
+
+
+def test_bad_options(tmp_path: Path, sweep: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["campaign", str(sweep)]) == 2
+    assert "SWEEP -o FOLDER" in capsys.readouterr().err
+    assert main(["campaign", str(sweep), "-o", str(tmp_path)]) == 1
+    assert "not a campaign's folder" in capsys.readouterr().err
+    assert main(["campaign", "--status", str(tmp_path / "nowhere")]) == 1
+    assert "holds no campaign" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        main(["campaign", str(sweep), "-o", str(tmp_path / "runs"), "--shard", "half"])
+    assert "'half' is not I/N" in capsys.readouterr().err

@@ -1,0 +1,189 @@
+"""The same campaign on threads, spawned processes and a Dask cluster whose worker is killed: the same bits."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import ballrace as br
+from ballrace.campaigns import Progress, spread
+from sweeps import SCENE, run, same, table
+
+COUNT = 60
+LONGER = 3e-3
+"""Some 30 ms of work a case [s]."""
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> br.Campaign:
+    """The campaign in this process, undisturbed."""
+    out = tmp_path_factory.mktemp("whole") / "runs"
+    return run(table(COUNT), out, duration=LONGER, keep="signals")
+
+
+def spawning(workers: int) -> ProcessPoolExecutor:
+    return ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
+
+
+def test_spawned_processes(whole: br.Campaign, tmp_path: Path) -> None:
+    seen: list[Progress] = []
+    with spawning(2) as pool:
+        done = run(
+            table(COUNT), tmp_path, duration=LONGER, keep="signals", executor=pool,
+            threads=2, progress=seen.append,
+        )  # fmt: skip
+    assert same(done, whole)
+    assert done.scan().collect().equals(whole.scan().collect())
+    assert (seen[-1].done, seen[-1].failed) == (COUNT, 1)
+
+
+def test_threads_of_another_executor(whole: br.Campaign, tmp_path: Path) -> None:
+    with ThreadPoolExecutor(3) as pool:
+        assert same(run(table(COUNT), tmp_path, duration=LONGER, executor=pool), whole)
+
+
+@pytest.mark.filterwarnings("default")  # Dask's own, as it loses a worker
+def test_a_dask_worker_is_killed(whole: br.Campaign, tmp_path: Path) -> None:
+    distributed: Any = importlib.import_module("distributed")
+
+    killed: list[int] = []
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        workers = list(client.run(os.getpid).values())
+
+        def kill(progress: Progress) -> None:
+            if not killed and progress.done >= 10:
+                os.kill(workers[0], signal.SIGKILL)
+                killed.append(workers[0])
+
+        done = run(
+            table(COUNT), tmp_path, duration=LONGER, keep="signals", executor=client, progress=kill
+        )
+        assert killed
+        assert workers[0] not in client.run(os.getpid).values()
+    assert same(done, whole)
+    assert done.scan().collect().equals(whole.scan().collect())
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals are sent in another way there")
+def test_a_killed_process_breaks_the_pool_and_loses_nothing(
+    whole: br.Campaign, tmp_path: Path
+) -> None:
+    with spawning(2) as pool:
+
+        def kill(progress: Progress) -> None:
+            if progress.done >= 10:
+                for pid in list(pool._processes):
+                    os.kill(pid, signal.SIGKILL)
+
+        with pytest.raises(
+            br.CampaignError, match=r"BrokenProcessPool.*cases are safe in"
+        ) as caught:
+            run(table(COUNT), tmp_path, duration=LONGER, executor=pool, progress=kill)
+    safe = br.Campaign.open(tmp_path).manifest["status"].ne("missing").sum()
+    assert f"; {safe} of {COUNT} cases are safe" in str(caught.value)
+    assert 10 <= safe < COUNT
+    assert same(run(table(COUNT), tmp_path, duration=LONGER), whole)
+
+
+FORKED = """
+import multiprocessing, sys
+from concurrent.futures import ProcessPoolExecutor
+sys.path.insert(0, {here!r})
+import ballrace as br, sweeps
+
+sweeps.run(sweeps.table(4), {out!r}, keep="signals", threads=2)  # threads of Rust and polars are up
+with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("fork")) as pool:
+    try:
+        sweeps.run(sweeps.table(9), {out!r}, keep="signals", executor=pool)
+    except br.CampaignError as error:
+        print(error)
+    scene = sweeps.SCENE.to_json()
+    # A single run is not in danger: it has no threads but those of a pool of its process.
+    print(pool.submit(br._core.simulate, scene, 1e-3, 5e4, "rolling", None, None, 2, None).result()["fs"])
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork")
+def test_a_forked_child_is_told_not_to(tmp_path: Path) -> None:
+    program = FORKED.format(here=str(Path(__file__).parent), out=str(tmp_path / "runs"))
+    command = [sys.executable, "-W", "ignore", "-c", program]
+    told = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True).stdout
+    assert "this process was forked" in told
+    assert 'get_context("spawn")' in told
+    assert "4 of 9 cases are safe" in told
+    assert told.endswith("\n50000.0\n")
+
+
+def test_errors_of_workers_are_typed(tmp_path: Path) -> None:
+    with ThreadPoolExecutor(1) as pool:
+        options: dict[str, Any] = {"executor": pool, "on_error": "raise"}
+        with pytest.raises(br.EquilibriumError, match="no equilibrium"):
+            run(table(3), tmp_path, **options)
+    with pytest.raises(TypeError, match="neither submit nor get_executor"):
+        run(table(3), tmp_path, executor="cluster")
+
+
+def test_workers_must_match(tmp_path: Path) -> None:
+    store = run(table(3), tmp_path)._store
+    job = {"threads": 1, "keep_signals": False, "features": "{}", "raise_errors": False}
+    task = {"root": str(tmp_path), "key": store.key, "version": "0.0.9", "job": job, "cases": []}
+    with pytest.raises(br.CampaignError, match=r"the campaign 0\.0\.9; install the same"):
+        spread.run_task(json.dumps(task))
+    task |= {"version": br.campaigns.work.version(), "key": "another"}
+    with pytest.raises(br.CampaignError, match="not the same folder for this worker"):
+        spread.run_task(json.dumps(task))
+    task |= {"root": str(tmp_path / "nowhere")}
+    with pytest.raises(br.CampaignError, match="holds no campaign"):
+        spread.run_task(json.dumps(task))
+
+
+class Recorder:
+    """An executor that runs a task when it is waited for, and remembers how large it was."""
+
+    _max_workers = 2
+
+    def __init__(self) -> None:
+        self.sizes: list[int] = []
+
+    def submit(self, fn: Any, /, text: str) -> Future[str]:
+        self.sizes.append(len(json.loads(text)["cases"]))
+        future: Future[str] = Future()
+        future.set_result(fn(text))
+        return future
+
+
+def test_chunks_grow_with_what_is_known_and_shrink_at_the_end(tmp_path: Path) -> None:
+    recorder = Recorder()
+    run(table(100), tmp_path, duration=2e-4, start="rolling", executor=recorder, in_flight=4)
+    assert sum(recorder.sizes) == 100
+    assert recorder.sizes[:4] == [1, 1, 1, 1]
+    assert recorder.sizes[4] == 24
+    assert recorder.sizes[-1] == 1
+
+
+def test_a_chunk_takes_some_twenty_seconds() -> None:
+    assert spread._size(None, 1, 10**6, 4) == 1
+    assert spread._size(1.0, 1, 10**6, 4) == 20
+    assert spread._size(1.0, 4, 10**6, 4) == 80
+    assert spread._size(90.0, 1, 10**6, 4) == 1
+    assert spread._size(1e-4, 1, 10**6, 4) == 1000
+    assert spread._size(1.0, 1, 10, 4) == 3
+
+
+def test_scene_is_only_json(whole: br.Campaign) -> None:
+    assert whole.scene(whole.manifest["case_id"][5]) == SCENE.replace({"loads.radial.force": 500.0})
