@@ -1,50 +1,179 @@
-//! One benchmark a layer: a contact, a right-hand side, a run. `cargo bench`.
+//! One benchmark a layer: the power, a contact, a right-hand side by nodes, slices, balls, threads and level of
+//! instructions, the integrator alone, a run. `cargo bench --bench layers`.
 
 use std::hint::black_box;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use ballrace::dynamics::Dynamics;
-use ballrace::integrate::System;
-use ballrace::scene::{NormalLaw, Slices, presets};
+use ballrace::integrate::{DORMAND_PRINCE, Options, System, Tolerance, integrate};
+use ballrace::scene::{NormalLaw, Scene, Slices, TimeFunction, presets};
+use ballrace::simd::Level;
 use ballrace::{Model, Run, Start, simulate, start};
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use rayon::ThreadPoolBuilder;
 
-fn layers(c: &mut Criterion) {
-    let cases = [
-        ("iso 50 slices", NormalLaw::default(), Slices::Fixed(50)),
-        ("iso 6 nodes", NormalLaw::default(), Slices::Fitted(6)),
-        ("iso 400 slices", NormalLaw::default(), Slices::Fixed(400)),
-        ("hertz 6 nodes", NormalLaw::Hertz, Slices::Fitted(6)),
-    ];
-    for (name, law, slices) in cases {
-        let mut scene = presets::wheel_bearing(3000.0);
-        scene.contact.law = law;
-        scene.contact.slices = slices;
-        let model = Model::new(&scene).unwrap();
-        let y = start(&model, &Start::Equilibrium).unwrap();
+fn wheel(law: NormalLaw, slices: Slices) -> Scene {
+    let mut scene = presets::wheel_bearing(3000.0);
+    (scene.contact.law, scene.contact.slices) = (law, slices);
+    scene
+}
+
+/// Two rows of so many balls of the wheel bearing, on a pitch circle as long and under a load as large as they need.
+fn ring_of(balls: usize, slices: Slices) -> Scene {
+    let mut scene = wheel(NormalLaw::default(), slices);
+    let share = balls as f64 / 13.0;
+    for row in &mut scene.rows {
+        (row.ball_count, row.pitch_diameter) = (balls, row.pitch_diameter * share);
+    }
+    for load in scene.loads.values_mut() {
+        if let TimeFunction::Constant(force) = &mut load.force {
+            *force *= share;
+        }
+    }
+    scene
+}
+
+/// Model and state of a bearing in equilibrium.
+fn loaded(scene: &Scene) -> (Model, Vec<f64>) {
+    let model = Model::new(scene).unwrap();
+    let y = start(&model, &Start::Equilibrium).unwrap();
+    (model, y)
+}
+
+fn contact(c: &mut Criterion) {
+    let mut group = c.benchmark_group("contact with its sums, one by one");
+    for slices in [Slices::Fitted(6), Slices::Fixed(50), Slices::Fixed(400)] {
+        let (model, y) = loaded(&wheel(NormalLaw::default(), slices));
         // Ball 1 of row 0 carries most.
-        c.bench_function(&format!("contact, {name}"), |b| {
+        group.bench_function(format!("{slices:?}"), |b| {
             b.iter(|| model.contact(black_box(&y), 1, 0));
         });
-        let mut dynamics = Dynamics::new(&model);
-        let mut dy = vec![0.0; model.dim()];
-        c.bench_function(&format!("rhs wheel bearing, {name}"), |b| {
-            b.iter(|| dynamics.rhs(0.0, black_box(&y), &mut dy));
-        });
     }
-    let scene = presets::wheel_bearing(3000.0);
-    let run = Run {
-        duration: 2e-3,
-        threads: 1,
-        ..Run::default()
-    };
-    let mut group = c.benchmark_group("run");
-    group.sample_size(10);
-    group.bench_function("2 ms of the wheel bearing", |b| {
-        b.iter(|| simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap());
-    });
     group.finish();
 }
 
-criterion_group!(benches, layers);
-criterion_main!(benches);
+fn right_hand_side(c: &mut Criterion) {
+    let iso = NormalLaw::default;
+    let mut group = c.benchmark_group("rhs");
+    let mut add = |id: BenchmarkId, model: &Model, y: &[f64]| {
+        let mut dynamics = Dynamics::new(model);
+        let mut dy = vec![0.0; model.dim()];
+        group.bench_function(id, |b| b.iter(|| dynamics.rhs(0.0, black_box(y), &mut dy)));
+    };
+    for level in Level::available() {
+        let (model, y) = loaded(&wheel(iso(), Slices::Fitted(6)));
+        add(
+            BenchmarkId::new("level", level),
+            &model.with_level(level),
+            &y,
+        );
+    }
+    for m in [4, 6, 8, 12, 16, 24] {
+        let (model, y) = loaded(&wheel(iso(), Slices::Fitted(m)));
+        add(BenchmarkId::new("nodes", m), &model, &y);
+    }
+    for n in [50, 100, 200, 400] {
+        let (model, y) = loaded(&wheel(iso(), Slices::Fixed(n)));
+        add(BenchmarkId::new("slices", n), &model, &y);
+    }
+    for balls in [13, 26, 60, 120] {
+        let (model, y) = loaded(&ring_of(balls, Slices::Fitted(6)));
+        add(BenchmarkId::new("balls a row", balls), &model, &y);
+    }
+    let (model, y) = loaded(&wheel(NormalLaw::Hertz, Slices::Fitted(6)));
+    add(BenchmarkId::new("law", "hertz"), &model, &y);
+    let (model, y) = loaded(&presets::deep_groove_6205(500.0, 0.0, 1800.0));
+    add(BenchmarkId::new("bearing", "6205"), &model, &y);
+    group.finish();
+}
+
+/// Serial against two threads, called from inside the pool as a run does: the break-even.
+fn threads(c: &mut Criterion) {
+    let pool = Arc::new(ThreadPoolBuilder::new().num_threads(2).build().unwrap());
+    let mut group = c.benchmark_group("threads");
+    for (balls, slices) in [
+        (13, Slices::Fitted(6)),
+        (13, Slices::Fixed(100)),
+        (13, Slices::Fixed(400)),
+        (60, Slices::Fitted(6)),
+        (60, Slices::Fixed(400)),
+    ] {
+        let (model, y) = loaded(&ring_of(balls, slices));
+        let mut dy = vec![0.0; model.dim()];
+        let name = format!("2 x {balls} balls, {slices:?}");
+        let mut serial = Dynamics::new(&model);
+        group.bench_function(format!("{name}, 1"), |b| {
+            b.iter(|| serial.rhs(0.0, black_box(&y), &mut dy));
+        });
+        let mut shared = Dynamics::parallel(&model, Arc::clone(&pool));
+        pool.install(|| {
+            group.bench_function(format!("{name}, 2"), |b| {
+                b.iter(|| shared.rhs(0.0, black_box(&y), &mut dy));
+            });
+        });
+    }
+    group.finish();
+}
+
+/// As many states as the wheel bearing has, and next to nothing to evaluate.
+struct Springs;
+
+impl System for Springs {
+    fn dim(&self) -> usize {
+        224
+    }
+
+    fn rhs(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        let (q, v) = y.split_at(112);
+        dy[..112].copy_from_slice(v);
+        for (acceleration, q) in dy[112..].iter_mut().zip(q) {
+            *acceleration = -1e9 * q;
+        }
+    }
+}
+
+fn integrator(c: &mut Criterion) {
+    let group: Vec<usize> = (0..224).map(|i| i % 112 / 4).collect();
+    let tolerance = Tolerance::new(0.0, vec![1e-12; 224], &[false; 224], group).unwrap();
+    let options = Options {
+        max_step: 6.8e-6,
+        ..Options::default()
+    };
+    c.bench_function("integrator alone, 1000 steps", |b| {
+        b.iter(|| {
+            let span = (0.0, 6.8e-3);
+            integrate(
+                &mut Springs,
+                &DORMAND_PRINCE,
+                span,
+                &[1e-6; 224],
+                &tolerance,
+                &options,
+                &mut (),
+            )
+        });
+    });
+}
+
+fn run(c: &mut Criterion) {
+    let mut group = c.benchmark_group("run");
+    group.sample_size(10);
+    let scene = presets::wheel_bearing(3000.0);
+    for (name, rtol, accuracy) in [("default", None, None), ("accuracy 1 %", None, Some(1e-2))] {
+        let run = Run {
+            duration: 10e-3,
+            threads: 1,
+            rtol,
+            accuracy,
+            ..Run::default()
+        };
+        group.bench_function(format!("10 ms of the wheel bearing, {name}"), |b| {
+            b.iter(|| simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap());
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(layers, contact, right_hand_side, threads, integrator, run);
+criterion_main!(layers);

@@ -33,6 +33,7 @@
 //! * `equilibrium` ([`equilibrium()`]) — the static solve; `start` ([`start()`]) — how a run begins.
 //! * `signals` ([`Signals`]) — probes read on a uniform grid from the dense output.
 //! * `residual`, `collapse`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
+//! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
 //! * `method` — the method a run asked for, and the switch between two of them.
 //! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
 //! * `features` ([`Feature`]) — the few numbers a case is known by: moments, fault lines, contact loads.
@@ -60,6 +61,7 @@
 #[cfg(feature = "python")]
 mod python;
 
+mod accuracy;
 mod campaign;
 mod collapse;
 pub mod contact;
@@ -79,6 +81,7 @@ mod simulate;
 mod start;
 mod warning;
 
+pub use accuracy::Accuracy;
 pub use campaign::{Case, Finished, Outcome, campaign, stream};
 pub use equilibrium::{BallEquilibrium, ContactEquilibrium, Equilibrium, equilibrium};
 pub use error::{Error, Result};

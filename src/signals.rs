@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::accuracy::Accuracy;
 use crate::dynamics::{CONTRIBUTIONS, Dynamics, Energy};
 use crate::integrate::{DenseStep, System};
 use crate::model::Model;
@@ -86,6 +87,8 @@ pub struct Provenance {
     pub stiffness: Option<f64>,
     /// Relative tolerance.
     pub rtol: f64,
+    /// What a requested accuracy chose, where one was.
+    pub accuracy: Option<Accuracy>,
     /// Step cap \[s\]; absent: none.
     pub max_step: Option<f64>,
     /// How it began.

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use rayon::ThreadPool;
 
+use crate::accuracy::{self, Accuracy};
 use crate::collapse::{Crawl, culprits};
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
@@ -29,6 +30,9 @@ pub struct Run {
     pub start: Start,
     /// Relative tolerance; absent: the scene's.
     pub rtol: Option<f64>,
+    /// Relative error of accelerations to stay below, 1e-4 to 1e-1: chooses nodes, tolerance and step cap in
+    /// place of the scene's; absent: the scene's. See [`Accuracy`].
+    pub accuracy: Option<f64>,
     /// Method; absent: the scene's.
     pub method: Option<Method>,
     /// Threads that share the balls of one evaluation; 0: as many as pay. The bits are the same for any.
@@ -43,6 +47,7 @@ impl Default for Run {
             fs: 50e3,
             start: Start::Equilibrium,
             rtol: None,
+            accuracy: None,
             method: None,
             threads: 0,
         }
@@ -82,6 +87,17 @@ pub fn simulate(
     let mut scene = scene.clone();
     scene.solver.rtol = run.rtol.unwrap_or(scene.solver.rtol);
     scene.solver.method = run.method.unwrap_or(scene.solver.method);
+    let step_share = match (run.accuracy, run.rtol) {
+        (Some(_), Some(rtol)) => {
+            return Err(Error::scene(
+                "rtol",
+                rtol,
+                "absent where `accuracy` is given, which chooses it",
+            ));
+        }
+        (Some(requested), None) => accuracy::apply(requested, &mut scene)?,
+        (None, _) => STEP_SHARE,
+    };
     let model = Model::new(&scene)?;
     let count = samples(run)?;
     let mut recorder = Recorder::new(&model, run.fs, count);
@@ -89,7 +105,7 @@ pub fn simulate(
     let y0 = start(&model, &run.start)?;
     recorder.reserve();
     let threads = threads(&model, run.threads)?;
-    let options = options(&model)?;
+    let options = options(&model, step_share)?;
     let (recorder, stats, choice) = if threads > 1 {
         let pool = pool(threads)?;
         let dynamics = Dynamics::parallel(&model, Arc::clone(&pool));
@@ -117,6 +133,9 @@ pub fn simulate(
             method: choice.to_string(),
             stiffness: choice.stiffness,
             rtol: scene.solver.rtol,
+            accuracy: run
+                .accuracy
+                .map(|requested| Accuracy::of(requested, &model, step_share)),
             max_step: Some(options.max_step).filter(|h| h.is_finite()),
             start,
             duration: run.duration,
@@ -294,11 +313,11 @@ fn threads(model: &Model, asked: usize) -> Result<usize> {
 }
 
 /// Step cap, first step, breakpoints of loads and drive.
-fn options(model: &Model) -> Result<Options> {
+fn options(model: &Model, step_share: f64) -> Result<Options> {
     let scene = &model.scene;
     let solver = &scene.solver;
     let cap = if solver.frequency_cap {
-        STEP_SHARE / model.scales.frequency
+        step_share / model.scales.frequency
     } else {
         f64::INFINITY
     };

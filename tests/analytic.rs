@@ -150,6 +150,7 @@ fn energy_is_kept_without_damping_and_friction() {
                 fs: 100e3,
                 start: Start::Rolling,
                 rtol: Some(1e-9),
+                accuracy: None,
                 method: None,
                 threads: 1,
             },

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 18] = [
+const ORDER: [&str; 19] = [
     "error",
     "simd",
     "scene",
@@ -15,6 +15,7 @@ const ORDER: [&str; 18] = [
     "pool",
     "equilibrium",
     "start",
+    "accuracy",
     "residual",
     "signals",
     "warning",

@@ -220,6 +220,7 @@ fn thrown(law: &NormalLaw, outer: bool, damping: f64, speed: f64, fs: f64) -> (V
             fs,
             start: Start::State(y),
             rtol,
+            accuracy: None,
             method: None,
             threads: 1,
         },

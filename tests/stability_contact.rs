@@ -252,6 +252,7 @@ fn restitution_stays_positive_and_free_impacts_never_pull() {
                 fs: 1e6,
                 start: Start::State(y0),
                 method: None,
+                accuracy: None,
                 rtol: Some(1e-9),
                 threads: 1,
             },

@@ -51,6 +51,7 @@ def simulate(
     kind: str,
     state: _Array | None,
     rtol: float | None,
+    accuracy: float | None,
     method: str | None,
     threads: int,
     progress: Callable[[float], object] | None,

@@ -123,6 +123,9 @@ def _parser() -> argparse.ArgumentParser:
     )  # fmt: skip
     run.add_argument("--rtol", type=float, help="relative tolerance (default: the scene's)")
     run.add_argument(
+        "--accuracy", type=float, help="error of accelerations to stay below, in place of --rtol"
+    )
+    run.add_argument(
         "--threads",
         type=int,
         default=0,
@@ -266,6 +269,7 @@ def _run(options: argparse.Namespace) -> None:
         fs=options.fs,
         start=options.start,
         rtol=options.rtol,
+        accuracy=options.accuracy,
         threads=options.threads,
         progress=True,
     )

@@ -29,6 +29,7 @@ def simulate(
     fs: float = 50_000.0,
     start: Literal["equilibrium", "rolling"] | NDArray[np.float64] = "equilibrium",
     rtol: float | None = None,
+    accuracy: float | None = None,
     method: Method | None = None,
     threads: int = 0,
     progress: bool | Callable[[float], object] | None = None,
@@ -50,6 +51,10 @@ def simulate(
         order of ``Model(scene).names``.
     rtol : float, optional
         Relative tolerance; by default ``scene.solver.rtol``.
+    accuracy : float, optional
+        Relative error of the accelerations to stay below, 1e-4 to 0.1, over the first milliseconds from a
+        given state; chooses nodes, tolerance and step cap, and goes without `rtol`. ``out.accuracy`` tells
+        what was chosen and estimated. Fixed slices are kept as they are.
     method : str, optional
         Method of integration; by default ``scene.solver.method``.
     threads : int
@@ -92,11 +97,13 @@ def simulate(
     if progress is True:
         with Bar(scene.name or "simulating") as bar:
             raw = _core.simulate(
-                document, duration, fs, kind, state, rtol, method, threads, bar.show
+                document, duration, fs, kind, state, rtol, accuracy, method, threads, bar.show
             )
     else:
         callback = progress or None
-        raw = _core.simulate(document, duration, fs, kind, state, rtol, method, threads, callback)
+        raw = _core.simulate(
+            document, duration, fs, kind, state, rtol, accuracy, method, threads, callback
+        )
     out = Signals._from_core(raw)
     for text in out.warnings:
         warnings.warn(text, AccuracyWarning, stacklevel=2)

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     import os
 
 __all__ = [
+    "AccurateSlices",
     "Cage",
     "CageProbe",
     "Component",
@@ -380,7 +381,20 @@ class FittedSlices(Variant, tag="fitted", wraps=True):
     count: int
 
 
-Slices = FixedSlices | FittedSlices
+@dataclass(frozen=True)
+class AccurateSlices(Variant, tag="accuracy", wraps=True):
+    """As many fitted nodes as give normal and friction force of rolling balls to an accuracy.
+
+    Attributes
+    ----------
+    accuracy : float
+        Error of the force over the normal force, 1e-9 to 0.1; each race has its own number of nodes.
+    """
+
+    accuracy: float
+
+
+Slices = FixedSlices | FittedSlices | AccurateSlices
 """Where a ball is cut."""
 
 

@@ -192,6 +192,17 @@ class Signals(Mapping[str, NDArray[np.float64]]):
         return self._provenance
 
     @property
+    def accuracy(self) -> Record | None:
+        """What a requested accuracy chose and what error it expects of that; None where none was asked for.
+
+        ``requested``, ``rtol``, ``step_share`` (largest step over 1/ω of the highest contact frequency),
+        ``nodes`` and measured ``force_error`` (over the normal force) on outer and inner race, and
+        ``integration_error`` (of the accelerations, as calibrated on the wheel bearing).
+        """
+        chosen = self._provenance.to_dict()["accuracy"]
+        return None if chosen is None else Record(chosen)
+
+    @property
     def warnings(self) -> tuple[str, ...]:
         """Reasons to look twice, as :class:`ballrace.AccuracyWarning` told them; usually none."""
         return self._warnings

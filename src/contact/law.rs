@@ -12,6 +12,14 @@ pub enum Law {
 }
 
 impl Law {
+    /// Power of the penetration that the force goes with.
+    pub fn exponent(&self) -> f64 {
+        match self {
+            Self::Iso16281(_) => iso16281::EXPONENT,
+            Self::Hertz(_) => hertz::EXPONENT,
+        }
+    }
+
     /// Force of a slice \[N\] at a penetration \[m\], 0 where it is not positive.
     #[inline]
     pub fn force(&self, depth: f64, width: f64) -> f64 {

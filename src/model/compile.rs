@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use super::body::{Body, Degree, ball_mass, groove_radius, ring_mass};
-use super::{Ball, LoadModel, Model, RowModel, Scales, Spring, UnbalanceModel};
-use crate::contact::hertz::{self, Hertz};
-use crate::contact::iso16281::{self, Iso16281};
+use super::{Ball, LoadModel, Model, RowModel, Scales, Spring, UnbalanceModel, nodes};
+use crate::contact::hertz::Hertz;
+use crate::contact::iso16281::Iso16281;
 use crate::contact::{BallSide, Fault, Friction, Law, Pair, Rules, Slices, Torus, Waves};
 use crate::error::{Error, Result};
 use crate::scene::{self, Drive, Mount, NormalLaw, RingName, Row, Scene, Surface};
@@ -72,13 +72,29 @@ pub(super) fn compile(scene: &Scene) -> Result<Model> {
         mobility: bodies.iter().map(Body::mobility).collect(),
         bodies,
         scales: Scales::default(),
+        force_error: None,
         level: Level::chosen().map_err(|unknown| {
             let allowed = format!("one of {}, or unset", unknown.available.join(", "));
             Error::scene("BALLRACE_SIMD", unknown.value, allowed)
         })?,
     };
     model.scales = Scales::of(&model);
+    if let scene::Slices::Accuracy(accuracy) = scene.contact.slices {
+        fit_nodes(&mut model, accuracy);
+    }
     Ok(model)
+}
+
+/// Gives each race the fewest nodes that reach an accuracy.
+fn fit_nodes(model: &mut Model, accuracy: f64) {
+    let exponent = model.rows[0].pairs[0].law.exponent();
+    let fewest = [0, 1].map(|side| nodes::fewest(model, side, exponent, accuracy));
+    for row in &mut model.rows {
+        for (pair, (count, _)) in row.pairs.iter_mut().zip(fewest) {
+            pair.slices = Slices::Fitted(Rules::new(count, exponent));
+        }
+    }
+    model.force_error = Some(fewest.map(|(_, error)| error));
 }
 
 /// Body of a ring.
@@ -173,13 +189,12 @@ fn pair(scene: &Scene, index: usize, row: &Row, sigma: f64) -> Pair {
             &scene.materials.rings,
         )),
     };
-    let exponent = match law {
-        Law::Iso16281(_) => iso16281::EXPONENT,
-        Law::Hertz(_) => hertz::EXPONENT,
-    };
+    let exponent = law.exponent();
     let slices = match contact.slices {
         scene::Slices::Fixed(n) => Slices::Fixed(n),
         scene::Slices::Fitted(m) => Slices::Fitted(Rules::new(m, exponent)),
+        // Until the fewest are found.
+        scene::Slices::Accuracy(_) => Slices::Fitted(Rules::new(nodes::MANY, exponent)),
     };
     Pair {
         race,

@@ -5,9 +5,10 @@
 
 mod body;
 mod compile;
+mod nodes;
 mod scales;
 
-use crate::contact::{BallSide, Pair};
+use crate::contact::{BallSide, Pair, Slices};
 use crate::error::Result;
 use crate::scene::{Component, Scene, TimeFunction};
 use crate::simd::Level;
@@ -35,6 +36,8 @@ pub struct Model {
     /// One over the mass of every body's free directions, 0 for the others.
     pub(crate) mobility: Vec<[f64; 4]>,
     pub(crate) scales: Scales,
+    /// Measured error of the forces on outer and inner race, where nodes were chosen by it.
+    pub(crate) force_error: Option<[f64; 2]>,
     pub(crate) level: Level,
 }
 
@@ -140,6 +143,17 @@ impl Model {
         };
         let (positions, velocities) = (&Component::ALL[..4], &Component::ALL[4..8]);
         [of(positions), of(velocities)].concat()
+    }
+
+    /// Slices or nodes of a contact with the outer and with the inner race.
+    pub fn slices(&self) -> [usize; 2] {
+        self.rows[0]
+            .pairs
+            .each_ref()
+            .map(|pair| match &pair.slices {
+                Slices::Fixed(count) => *count,
+                Slices::Fitted(rules) => rules.count(),
+            })
     }
 
     /// Level of vector instructions that evaluations use.

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::errors::{OrRaise, record};
-use super::run::{hand_over, start};
+use super::run::{hand_over, method, start};
 use crate::{Case, Error, FeatureOptions, Finished, Outcome, Run, Scene};
 
 /// How a case is run.
@@ -20,6 +20,8 @@ struct RunDocument {
     fs: f64,
     start: String,
     rtol: Option<f64>,
+    accuracy: Option<f64>,
+    method: Option<String>,
 }
 
 /// Run cases on threads of their own, each a pair of scene and run as JSON.
@@ -102,6 +104,8 @@ fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<
         fs: run.fs,
         start: start(&run.start, None).or_raise(py)?,
         rtol: run.rtol,
+        accuracy: run.accuracy,
+        method: run.method.as_deref().map(method).transpose().or_raise(py)?,
         ..Run::default()
     };
     Ok(Some(Case { scene, run }))

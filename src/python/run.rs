@@ -124,6 +124,7 @@ pub(super) fn simulate<'py>(
     kind: &str,
     state: Option<PyReadonlyArray1<'py, f64>>,
     rtol: Option<f64>,
+    accuracy: Option<f64>,
     method: Option<&str>,
     threads: usize,
     progress: Option<Py<PyAny>>,
@@ -135,6 +136,7 @@ pub(super) fn simulate<'py>(
         fs,
         start: start(kind, state).or_raise(py)?,
         rtol,
+        accuracy,
         method: method.map(self::method).transpose().or_raise(py)?,
         threads,
     };
@@ -185,7 +187,7 @@ pub(super) fn start(kind: &str, state: Option<Vec<f64>>) -> crate::Result<Start>
     }
 }
 
-fn method(name: &str) -> crate::Result<Method> {
+pub(super) fn method(name: &str) -> crate::Result<Method> {
     Method::deserialize(name.into_deserializer())
         .map_err(|e: ValueError| Error::scene("method", format!("{name:?}"), e.to_string()))
 }

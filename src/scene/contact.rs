@@ -62,14 +62,18 @@ impl Default for NormalLaw {
 }
 
 /// Where a ball is cut.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Slices {
     /// Slices of equal width over the whole ball, fixed in it: the paper's method. 10 to 100 000.
     Fixed(usize),
-    /// Quadrature nodes on every smooth piece of the zone that touches. 2 to 64; 6 give the force of a healthy
-    /// contact to 2e-5 and across defects to 1e-4 (root mean square).
+    /// Quadrature nodes on every smooth piece of the zone that touches. 2 to 64; 6 give the normal force to 2e-5
+    /// (root mean square over loads, angles and defects), friction to some percent where slip changes sign within
+    /// the zone.
     Fitted(usize),
+    /// As many fitted nodes as give normal and friction force of rolling balls to this share of the normal force;
+    /// found for each race when the scene is compiled. 1e-9 to 1e-1.
+    Accuracy(f64),
 }
 
 /// Friction of a slice: force μ(u) F u⃗ / √(u² + v_s²) against the slip velocity u⃗.

@@ -61,9 +61,10 @@ def test_methods_agree() -> None:
 def test_auto_says_what_it_did() -> None:
     soft, stiff = run("auto"), run("auto", slip_speed=1e-3)
     assert soft.provenance.method == "auto: Dormand-Prince 5(4)"
-    assert stiff.provenance.method == "auto: Kennedy-Carpenter ARK4(3)6L[2]SA"
+    # At the first look no node may lie where the balls stick; at the next one some do.
+    assert stiff.provenance.method.endswith("Kennedy-Carpenter ARK4(3)6L[2]SA")
     assert soft.provenance.stiffness < 1.0 < stiff.provenance.stiffness
-    assert (soft.stats.implicit_share, stiff.stats.implicit_share) == (0.0, 1.0)
+    assert soft.stats.implicit_share == 0.0 < 0.5 < stiff.stats.implicit_share
     assert soft.stats.iterations == 0 < stiff.stats.iterations
     assert stiff.stats.nfev < run("dormand-prince", slip_speed=1e-3).stats.nfev / 5
 

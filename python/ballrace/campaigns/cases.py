@@ -17,7 +17,7 @@ from ..scene import Scene
 if TYPE_CHECKING:
     import polars as pl
 
-RUN = ("duration", "fs", "start", "rtol")
+RUN = ("duration", "fs", "start", "rtol", "accuracy", "method")
 """Columns that say how a case is run, instead of the campaign's own arguments."""
 
 FAULTS = ("outer_race", "inner_race", "ball")
@@ -146,10 +146,16 @@ def run_document(run: Mapping[str, Any]) -> dict[str, Any]:
     document: dict[str, Any] = {"start": run["start"]}
     if document["start"] not in ("equilibrium", "rolling"):
         raise SceneError("start", repr(document["start"]), "'equilibrium' or 'rolling'")
-    limits = {"duration": (0.0, 1e6), "fs": (0.0, 1e9), "rtol": (1e-12, 1e-1)}
+    document["method"] = run.get("method")
+    limits = {
+        "duration": (0.0, 1e6),
+        "fs": (0.0, 1e9),
+        "rtol": (1e-12, 1e-1),
+        "accuracy": (1e-4, 1e-1),
+    }
     for name, (low, high) in limits.items():
-        value = run[name]
-        if value is None and name == "rtol":
+        value = run.get(name)
+        if value is None and name in ("rtol", "accuracy"):
             document[name] = None
             continue
         try:

@@ -19,7 +19,10 @@ from .tables import grid, latin_hypercube, sobol
 if TYPE_CHECKING:
     import polars as pl
 
-_ARGUMENTS = ("duration", "fs", "start", "rtol", "keep", "columns", "skip", "band", "contact_loads")
+_ARGUMENTS = (
+    "duration", "fs", "start", "rtol", "accuracy", "method", "keep", "columns", "skip", "band",
+    "contact_loads",
+)  # fmt: skip
 _BUILDERS = ("table", "grid", "latin_hypercube", "sobol", "scatter")
 _PLAN = (
     "A sweep is a .toml file: scene (a file or a preset) or [scenes] by name; the arguments of ballrace.campaign "

@@ -21,7 +21,7 @@ from .work import Job, check_process, record_of, row, run_here
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from ..scene import Scene
+    from ..scene import Method, Scene
 
 __all__ = ["campaign"]
 
@@ -33,6 +33,8 @@ class _Options(TypedDict, total=False):
     fs: float
     start: Literal["equilibrium", "rolling"]
     rtol: float | None
+    accuracy: float | None
+    method: Method | None
     keep: Literal["features", "signals"]
     columns: Sequence[str] | None
     skip: float
@@ -74,6 +76,8 @@ def campaign(
     fs: float = 50_000.0,
     start: Literal["equilibrium", "rolling"] = "equilibrium",
     rtol: float | None = None,
+    accuracy: float | None = None,
+    method: Method | None = None,
     keep: Literal["features", "signals"] = "features",
     columns: Sequence[str] | None = None,
     skip: float = 0.0,
@@ -98,15 +102,15 @@ def campaign(
     cases : table
         One row a case: polars, pandas, Arrow, a list of dicts or a dict of columns. Columns with a dot or an
         index are fields of the scene (``loads.axial.force``, ``rows[0].clearance``), as are its own fields;
-        ``duration``, ``fs``, ``start`` and ``rtol`` replace the arguments of that name; ``scene`` says which
-        one if there are several. Every other column is a label, and only carried along. An empty cell changes
+        ``duration``, ``fs``, ``start``, ``rtol``, ``accuracy`` and ``method`` replace the arguments of that
+        name; ``scene`` says which one if there are several. Every other column is a label, and only carried along. An empty cell changes
         nothing.
     out : path
         Folder of the campaign, made if it does not exist. With an executor all workers must see it under this
         name.
     scene : Scene, or mapping of str to Scene
         What the rows change, or several of them by name.
-    duration, fs, start, rtol
+    duration, fs, start, rtol, accuracy, method
         As for :func:`ballrace.simulate`.
     keep : {"features", "signals"}
         Whether the signals of every case are kept beside its features.
@@ -174,7 +178,16 @@ def campaign(
     """
     check_process()
     check_choices(keep=keep, resume=resume, on_error=on_error)
-    run = run_document({"duration": duration, "fs": fs, "start": start, "rtol": rtol})
+    run = run_document(
+        {
+            "duration": duration,
+            "fs": fs,
+            "start": start,
+            "rtol": rtol,
+            "accuracy": accuracy,
+            "method": method,
+        }
+    )
     features = {
         "columns": None if columns is None else list(columns),
         "skip": float(skip),

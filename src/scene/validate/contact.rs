@@ -34,6 +34,9 @@ pub(super) fn contact(contact: &Contact) -> Result<()> {
         Slices::Fitted(n) if !(2..=64).contains(&n) => {
             Err(Error::scene("contact.slices.fitted", n, "2 to 64"))
         }
+        Slices::Accuracy(a) if !(1e-9..=1e-1).contains(&a) => {
+            Err(Error::scene("contact.slices.accuracy", a, "1e-9 to 1e-1"))
+        }
         _ => within("contact.damping", contact.damping, 0.0..=1e3),
     }
 }
