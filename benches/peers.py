@@ -5,16 +5,17 @@
 
 The scene is the preset ``wheel_bearing`` under 3 kN of thrust: two rows, an outer-race defect, friction.
 
-1. *Right-hand side*: numba (`numba_bearing.py`) on 200 fixed slices, first held to ``Model.rhs``, then timed over
+1. *Slices*: what a number of slices or nodes costs and what it errs in the outer ring's acceleration, all three
+   components, relative L2 over 6 ms from equilibrium with one impact, against 64 fitted nodes, integrated tightly.
+2. *Right-hand side*: numba (`numba_bearing.py`) on 200 fixed slices, first held to ``Model.rhs``, then timed over
    states along the run. Ours is timed as a run over its evaluations, the integrator's own work included.
-2. *A run* of 6 ms from equilibrium with one impact: SciPy's ``RK45`` and ``LSODA`` with the numba right-hand side,
-   Octave's ``ode45`` with a vectorised one (`octave_bearing.m`), ours on the same 200 slices and on its default of
-   fitted nodes. Tolerances are swept with the step free, capped as we cap it, and (ours) at twice the cap. The
-   error is that of the outer ring's acceleration, all three components, relative L2 over the run, against our
-   integrator at rtol 1e-10 with a tenth of the cap; DOP853 confirms it. Fitted nodes are a model of their
-   own, with a reference of their own.
-3. *Exudyn* (extra ``validation``) on the healthy 6205 of ``tests/python/test_exudyn.py``, steps swept; each program
-   against its own converged solution over 3 ms, and timed over 20 ms.
+3. *A run* of the same 6 ms: SciPy's ``RK45`` and ``LSODA`` with the numba right-hand side, Octave's ``ode45``
+   with a vectorised one (`octave_bearing.m`), ours on the same 200 slices, on its default of six fitted nodes, and
+   on the fewest nodes that err no more than 200 slices do. Tolerances are swept with the step free, capped as we
+   cap it, and (ours) at twice the cap. The error is that of the integration alone: against our integrator on the
+   same slices at rtol 1e-10 with a tenth of the cap, which DOP853 confirms for 200 slices.
+4. *Exudyn* (extra ``validation``) on the healthy 6205 of ``tests/python/test_exudyn.py``, steps swept; each
+   program against its own converged solution over 3 ms, and timed over 20 ms.
 
 Tolerances are one number times a scale for each kind of state, the same for all: the approach of a loaded contact
 for lengths, times the highest contact frequency for speeds. SciPy's and Octave's relative part is off, since 36 mm
@@ -42,7 +43,9 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -54,7 +57,7 @@ from scipy.integrate import solve_ivp
 import ballrace as br
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Iterable
 
     from numpy.typing import NDArray
 
@@ -67,7 +70,10 @@ DURATION, FS = 6e-3, 50_000.0
 TARGET = 1e-2
 ABSOLUTE = 2.3e-14
 """SciPy's least relative tolerance."""
-SLICES, NODES = "ballrace, 200 slices", "ballrace, 6 nodes"
+COUNTS = [{"fitted": n} for n in (4, 6, 8, 12, 16, 24, 32)] + [
+    {"fixed": n} for n in (50, 100, 200, 400)
+]
+CONVERGED = {"fitted": 64}
 
 
 @dataclass
@@ -99,6 +105,7 @@ class Row:
 def row(
     what: str, setting: str, unit: str, values: Iterable[float], error: float = math.nan
 ) -> Row:
+    """Median and range of some values."""
     found = list(values)
     return Row(what, setting, unit, statistics.median(found), min(found), max(found), error)
 
@@ -120,8 +127,10 @@ def relative(signal: Array, truth: Array) -> float:
 # ------------------------------------------------------------------------------------ machine
 
 
-def machine(simd: str) -> str:
+def machine() -> str:
     """Processor, cores, versions."""
+    bearing = br.presets.deep_groove_6205()
+    simd = br.simulate(bearing, duration=1e-5, fs=1e6).provenance["simd"]
     names = ["ballrace", "numpy", "numba", "scipy", "exudyn"]
     found = [f"{n} {importlib.metadata.version(n)}" for n in names if importlib.util.find_spec(n)]
     if shutil.which("octave-cli"):
@@ -146,12 +155,22 @@ class Wheel:
     """The scene on one kind of slices, its start and its reference."""
 
     def __init__(self, slices: dict[str, int]) -> None:
+        (kind, count), *_ = slices.items()
+        self.name = f"ballrace, {count} {'nodes' if kind == 'fitted' else 'slices'}"
         self.scene = br.presets.wheel_bearing(3000.0).replace({"contact.slices": slices})
         self.model = br.Model(self.scene)
         self.start = self.model.start("equilibrium")
         self.cap = self.signals(1e-6).provenance["max_step"]
-        self.truth = acceleration(self.signals(1e-10, self.cap / 10))
-        self.doubt = relative(acceleration(self.signals(1e-9, self.cap / 5)), self.truth)
+
+    @cached_property
+    def truth(self) -> Array:
+        """The acceleration, integrated tightly."""
+        return acceleration(self.signals(1e-10, self.cap / 10))
+
+    @property
+    def doubt(self) -> float:
+        """How far a less tight integration is from it."""
+        return relative(acceleration(self.signals(1e-9, self.cap / 5)), self.truth)
 
     def signals(
         self,
@@ -177,7 +196,7 @@ class Wheel:
         return np.stack([out[f"b{bodies.index(b)}.{q}"][::every] for b, _, q in parts], axis=1)
 
     def scale(self) -> Array:
-        """What the tolerance is a share of, for every state."""
+        """Return what the tolerance is a share of, for every state."""
         approach = float(br.equilibrium(self.scene).outer_deflection.max())
         row = self.scene.rows[0]
         radius = np.full(len(self.model.bodies), row.ball_diameter / 2)
@@ -194,6 +213,7 @@ class Wheel:
 
 
 def acceleration(out: br.Signals) -> Array:
+    """Stack the outer ring's acceleration."""
     return np.stack([out[f"outer.{a}"] for a in ("ax", "ay", "az")])
 
 
@@ -209,13 +229,15 @@ def settings(
     ]
 
 
-def our_cases(peer: str, wheel: Wheel, tolerances: list[float]) -> list[Case]:
+def our_cases(wheel: Wheel, tolerances: list[float]) -> list[Case]:
+    """Ours at all settings."""
+
     def run(rtol: float, step: float) -> tuple[float, Array]:
         seconds, out = timed(lambda: wheel.signals(rtol, min(step, 1.0)))
         return seconds, acceleration(out)
 
     return [
-        Case(peer, name, lambda r=rtol, h=step: run(r, h), wheel.truth)
+        Case(wheel.name, name, lambda r=rtol, h=step: run(r, h), wheel.truth)
         for name, rtol, step in settings(wheel, tolerances, 1.0, 2.0, math.inf)
     ]
 
@@ -228,6 +250,7 @@ class Scipy:
         self.times = np.arange(round(DURATION * FS)) / FS
 
     def run(self, method: str, tolerance: float, step: float) -> tuple[float, Array]:
+        """Seconds and the outer ring's acceleration."""
         seconds, found = timed(
             lambda: solve_ivp(
                 self.bearing,
@@ -245,6 +268,7 @@ class Scipy:
         return seconds, np.stack(derivatives)[:, half : half + 3].T
 
     def cases(self, tolerances: list[float]) -> list[Case]:
+        """All settings."""
         return [
             Case(
                 f"scipy {method}, numba, 200 slices",
@@ -273,17 +297,19 @@ class Judge:
             # Next to a switching threshold two roundings are two answers.
             if slow.threshold_distance(y) < 1e-12:
                 continue
-            _, size = slow.evaluate(0.0, y)
+            # Round-off of 1e-16 m in a lightly loaded contact is 1e-8 N.
+            size = np.maximum(slow.magnitudes, [10.0, 10.0, 10.0, 0.1])
             self.in_defect += slow.active["edge"] > 0
             self.states.append(y)
             self.sizes.append(np.where(slow.fixed(), np.inf, size / np.maximum(slow.mass, 1e-300)))
 
     def worst(self, derivatives: Iterable[Array]) -> float:
+        """Largest difference of the given derivatives from those of the model."""
         worst = 0.0
         for y, dy, size in zip(self.states, derivatives, self.sizes, strict=True):
             half = y.size // 2
             off = np.abs(dy - self.model.rhs(0.0, y))[half:].reshape(-1, 4)
-            worst = max(worst, float(np.max(off[size > 0] / size[size > 0])))
+            worst = max(worst, float(np.max(off / size)))
         return worst
 
 
@@ -298,20 +324,35 @@ def hold(what: str, judge: Judge, derivatives: Iterable[Array]) -> None:
         sys.exit(f"{what} is another model")
 
 
-def right_hand_sides(slices: Wheel, nodes: Wheel, bearing: Bearing, rounds: int) -> list[Row]:
-    """Time an evaluation of each, in rounds."""
-    states = slices.states(10)
-    many = np.concatenate([states] * 10)
-    seconds: dict[str, list[float]] = {"numba, 200 slices": [], SLICES: [], NODES: []}
+def slice_errors(rounds: int) -> tuple[list[Row], dict[str, int]]:
+    """Cost and error of each number of slices; the fewest nodes that err no more than 200 slices."""
+    truth = Wheel(CONVERGED).truth
+    rows, matched = [], CONVERGED
+    wheels = [Wheel(slices) for slices in COUNTS]
+    seconds = [[wheel.evaluation() for wheel in wheels] for _ in range(rounds)]
+    errors = [relative(acceleration(wheel.signals(1e-8)), truth) for wheel in wheels]
+    for wheel, error, costs in zip(wheels, errors, zip(*seconds, strict=True), strict=True):
+        rows.append(row(wheel.name, "an evaluation", "µs", [1e6 * x for x in costs], error))
+    bound = errors[COUNTS.index({"fixed": 200})]
+    for slices, error in zip(COUNTS, errors, strict=True):
+        if "fitted" in slices and error <= bound:
+            matched = slices
+            break
+    return rows, matched
+
+
+def right_hand_sides(wheels: list[Wheel], bearing: Bearing, rounds: int) -> list[Row]:
+    """Time an evaluation of numba and of ours, in rounds."""
+    numba, states = "numba, 200 slices", np.concatenate([wheels[0].states(10)] * 10)
+    seconds: dict[str, list[float]] = {name: [] for name in (numba, *(w.name for w in wheels))}
     for _ in range(rounds):
-        seconds["numba, 200 slices"].append(timed(lambda: bearing.repeat(many))[0] / len(many))
-        seconds[SLICES].append(slices.evaluation())
-        seconds[NODES].append(nodes.evaluation())
+        seconds[numba].append(timed(lambda: bearing.repeat(states))[0] / len(states))
+        for wheel in wheels:
+            seconds[wheel.name].append(wheel.evaluation())
     rows = [row(name, "an evaluation", "µs", [1e6 * x for x in s]) for name, s in seconds.items()]
-    theirs = seconds["numba, 200 slices"]
-    for ours in (NODES, SLICES):
-        ratios = [a / b for a, b in zip(theirs, seconds[ours], strict=True)]
-        rows.append(row(f"numba, 200 slices ÷ {ours}", "an evaluation", "×", ratios))
+    for wheel in wheels:
+        ratios = [a / b for a, b in zip(seconds[numba], seconds[wheel.name], strict=True)]
+        rows.append(row(f"{numba} ÷ {wheel.name}", "an evaluation", "×", ratios))
     return rows
 
 
@@ -331,6 +372,7 @@ class Octave:
         }
 
     def call(self, states: Array, tolerances: list[float], steps: list[float]) -> dict[str, Any]:
+        """Return derivatives of states, and a run of every setting."""
         with tempfile.TemporaryDirectory() as folder:
             given, found = Path(folder, "in.mat"), Path(folder, "out.mat")
             more = {"states": states, "tolerance": tolerances, "max_step": steps}
@@ -348,10 +390,12 @@ class Octave:
         return result
 
     def run(self, tolerance: float, step: float) -> tuple[float, Array]:
+        """Seconds and the outer ring's acceleration."""
         found = self.call(self.peer.wheel.start[None], [tolerance], [min(step, 1.0)])
         return float(found["seconds"][0, 0]), found["accelerations"].reshape(3, -1)
 
     def cases(self, tolerances: list[float]) -> list[Case]:
+        """All settings."""
         wheel = self.peer.wheel
         return [
             Case(
@@ -398,9 +442,9 @@ def octave_tables(bearing: Bearing) -> dict[str, Any]:
 
 
 def exudyn_cases(quick: bool) -> list[Case]:
-    """The healthy 6205, each program against its own converged solution."""
+    """Run the healthy 6205, each program against its own converged solution."""
     import exudyn
-    import exudyn.itemInterface as items
+    import exudyn.itemInterface
 
     import test_exudyn as shared
 
@@ -413,7 +457,9 @@ def exudyn_cases(quick: bool) -> list[Case]:
         built = shared.build(scene, rate, *constants)
         output = exudyn.OutputVariableType.Acceleration
         sensor = built.system.AddSensor(
-            items.SensorBody(bodyNumber=built.inner, storeInternal=True, outputVariableType=output)
+            exudyn.itemInterface.SensorBody(
+                bodyNumber=built.inner, storeInternal=True, outputVariableType=output
+            )
         )
         built.system.Assemble()
         chosen = shared.implicit(exudyn, duration, step, FS)
@@ -509,6 +555,7 @@ def compare(cases: list[Case], pairs: list[tuple[str, str]]) -> list[Row]:
 
 
 def show(title: str, rows: list[Row]) -> None:
+    """Print a table."""
     print(f"\n## {title}\n\n| what | setting | error | median | range |\n|---|---|---|---|---|")
     for r in rows:
         error = "" if math.isnan(r.error) else f"{r.error:.1e}"
@@ -518,6 +565,7 @@ def show(title: str, rows: list[Row]) -> None:
 
 
 def write(folder: Path, sections: dict[str, list[Row]], about: str) -> None:
+    """Write all tables to one file."""
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / "peers.csv").open("w", newline="", encoding="utf-8") as file:
         file.write(f"# {about}\n")
@@ -534,6 +582,46 @@ def write(folder: Path, sections: dict[str, list[Row]], about: str) -> None:
 # ------------------------------------------------------------------------------------ main
 
 
+def wheel_bearing(quick: bool, rounds: int) -> dict[str, list[Row]]:
+    """Run everything on the wheel bearing."""
+    tolerances = [10.0**-k for k in (range(3, 7) if quick else range(3, 10))]
+    sections: dict[str, list[Row]] = {}
+    slices, nodes = Wheel({"fixed": 200}), Wheel({"fitted": 6})
+    sections["slices"], fewest = slice_errors(rounds)
+    show("Slices", sections["slices"])
+    matched = Wheel(fewest)
+    wheels = [slices, nodes, matched]
+
+    print("\nfewest nodes that err no more than 200 slices:", matched.name)
+    bearing = Bearing(slices.scene)
+    along = slices.states(4)
+    judge = Judge(slices, np.concatenate([along[::10], along[60:70]]))
+    hold("numba", judge, [bearing(0.0, y) for y in judge.states])
+    bearing.repeat(judge.states[0][None])  # compiles
+    scipy_peer = Scipy(slices, bearing)
+    _, confirmed = scipy_peer.run("DOP853", 1e-10, slices.cap / 3)
+    print(f"reference of 200 slices from DOP853 at 1e-10: {relative(confirmed, slices.truth):.1e}")
+    for wheel in wheels:
+        print(f"reference of {wheel.name} from rtol 1e-9 at a fifth of the cap: {wheel.doubt:.1e}")
+    sections["right-hand side"] = right_hand_sides(wheels, bearing, 5 * rounds)
+    show("A right-hand side", sections["right-hand side"])
+
+    cases = [case for wheel in wheels for case in our_cases(wheel, tolerances)]
+    cases += scipy_peer.cases(tolerances)
+    if shutil.which("octave-cli"):
+        octave = Octave(scipy_peer)
+        hold("octave", judge, octave.call(np.stack(judge.states), [], [])["derivatives"])
+        cases += octave.cases([1e-4, 1e-5] if quick else [1e-3, 1e-4, 1e-5, 1e-6])
+    else:
+        print("octave: skipped, octave-cli is not installed")
+    alternate(cases, rounds)
+    ours = [wheel.name for wheel in wheels]
+    peers = dict.fromkeys(case.peer for case in cases if case.peer not in ours)
+    sections["run"] = compare(cases, [(peer, own) for own in ours for peer in peers])
+    show("A run of 6 ms with an impact", sections["run"])
+    return sections
+
+
 def main() -> None:
     """Run all peers."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -541,40 +629,10 @@ def main() -> None:
     parser.add_argument("-o", "--output", type=Path, help="folder for peers.csv")
     given = parser.parse_args()
     quick = given.quick
-    rounds = 3 if quick else 7
-    tolerances = [10.0**-k for k in (range(3, 7) if quick else range(3, 10))]
-
-    slices, nodes = Wheel({"fixed": 200}), Wheel({"fitted": 6})
-    about = machine(nodes.signals(1e-6, duration=1e-4).provenance["simd"])
-    print(about + "\n")
-    bearing = Bearing(slices.scene)
-    judge = Judge(slices, slices.states(25))
-    hold("numba", judge, [bearing(0.0, y) for y in judge.states])
-
-    scipy_peer = Scipy(slices, bearing)
-    _, confirmed = scipy_peer.run("DOP853", 1e-10, slices.cap / 3)
-    print(
-        f"references: 200 slices {slices.doubt:.1e} from rtol 1e-9 at a fifth of the cap, "
-        f"{relative(confirmed, slices.truth):.1e} from DOP853 at 1e-10; 6 nodes {nodes.doubt:.1e} from rtol 1e-9; "
-        f"6 nodes from 200 slices {relative(nodes.truth, slices.truth):.1e} (two models)"
-    )
-    sections = {"right-hand side": right_hand_sides(slices, nodes, bearing, 5 * rounds)}
-    show("A right-hand side", sections["right-hand side"])
-
-    cases = our_cases(SLICES, slices, tolerances) + our_cases(NODES, nodes, tolerances)
-    cases += scipy_peer.cases(tolerances)
-    if shutil.which("octave-cli"):
-        octave = Octave(scipy_peer)
-        found = octave.call(np.stack(judge.states), [], [])
-        hold("octave", judge, found["derivatives"])
-        cases += octave.cases([1e-4, 1e-5] if quick else [1e-3, 1e-4, 1e-5, 1e-6])
-    else:
-        print("octave: skipped, octave-cli is not installed")
-    alternate(cases, rounds)
-    peers = dict.fromkeys(c.peer for c in cases if c.peer not in {SLICES, NODES})
-    sections["run"] = compare(cases, [(peer, ours) for ours in (NODES, SLICES) for peer in peers])
-    show("A run of 6 ms with an impact", sections["run"])
-
+    rounds = 3 if quick else 5
+    about = machine()
+    print(about)
+    sections = wheel_bearing(quick, rounds)
     if importlib.util.find_spec("exudyn"):
         healthy = exudyn_cases(quick)
         alternate(healthy, rounds)
