@@ -83,13 +83,13 @@ def ours(bearing: br.Scene, rate: float) -> Found:
     return judge(phases, loads, out["inner.y"], rate, wall)
 
 
-def implicit(exudyn: Any) -> Any:
-    """Return the settings of the generalized-α method with steps of 10 µs on one thread."""
+def implicit(exudyn: Any, duration: float = DURATION, step: float = 1e-5, fs: float = FS) -> Any:
+    """Return the settings of the generalized-α method with fixed steps on one thread."""
     settings = exudyn.SimulationSettings()
     settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = 1.0 / FS
-    settings.timeIntegration.numberOfSteps = round(DURATION / 1e-5)
-    settings.timeIntegration.endTime = DURATION
+    settings.solution.sensors.writePeriod = 1.0 / fs
+    settings.timeIntegration.numberOfSteps = round(duration / step)
+    settings.timeIntegration.endTime = duration
     settings.timeIntegration.newton.useModifiedNewton = True
     settings.timeIntegration.generalizedAlpha.spectralRadius = 0.8
     settings.timeIntegration.verboseMode = 0
@@ -102,7 +102,28 @@ def implicit(exudyn: Any) -> Any:
     return settings
 
 
-def theirs(bearing: br.Scene, rate: float, outer_constant: float, inner_constant: float) -> Found:
+@dataclass(frozen=True)
+class Built:
+    """The bearing in Exudyn, before it is assembled."""
+
+    system: Any
+    inner: Any
+    balls: list[Any]
+    gaps: list[Any]
+    """Nodes of the outer contacts."""
+
+
+def constants(load: float = 500.0) -> tuple[float, float]:
+    """Return the constants of both contacts, from a bearing at rest whose equilibrium is known."""
+    rest = br.equilibrium(br.presets.deep_groove_6205(load))
+    at = int(np.argmax(rest.outer_load))
+    return (
+        float(rest.outer_load[at] / rest.outer_deflection[at] ** 1.5),
+        float(rest.inner_load[at] / rest.inner_deflection[at] ** 1.5),
+    )
+
+
+def build(bearing: br.Scene, rate: float, outer_constant: float, inner_constant: float) -> Built:
     exudyn: Any = pytest.importorskip("exudyn", reason="the extra `validation` is not installed")
     items: Any = pytest.importorskip("exudyn.itemInterface")
     rigid: Any = pytest.importorskip("exudyn.rigidBodyUtilities")
@@ -196,12 +217,20 @@ def theirs(bearing: br.Scene, rate: float, outer_constant: float, inner_constant
             stiffness=cage.stiffness,
             damping=cage.damping,
         )
+    return Built(system, inner, balls, gaps)
+
+
+def theirs(bearing: br.Scene, rate: float, outer_constant: float, inner_constant: float) -> Found:
+    exudyn: Any = pytest.importorskip("exudyn", reason="the extra `validation` is not installed")
+    items: Any = pytest.importorskip("exudyn.itemInterface")
+    built = build(bearing, rate, outer_constant, inner_constant)
+    system = built.system
     position = exudyn.OutputVariableType.Position
     places = [
         system.AddSensor(
             items.SensorBody(bodyNumber=body, storeInternal=True, outputVariableType=position)
         )
-        for body in [inner, *balls]
+        for body in [built.inner, *built.balls]
     ]
     states = [
         system.AddSensor(
@@ -211,7 +240,7 @@ def theirs(bearing: br.Scene, rate: float, outer_constant: float, inner_constant
                 outputVariableType=exudyn.OutputVariableType.Coordinates,
             )
         )
-        for node in gaps
+        for node in built.gaps
     ]
     system.Assemble()
 
@@ -236,12 +265,7 @@ def test_the_healthy_6205_agrees(record_property: Callable[[str, object], None])
     assert isinstance(drive, SpeedDrive)
     assert isinstance(drive.speed, float)
     rate = drive.speed / math.tau
-    # The constants of both contacts, from a bearing at rest whose equilibrium is known.
-    rest = br.equilibrium(br.presets.deep_groove_6205(500.0))
-    at = int(np.argmax(rest.outer_load))
-    outer_constant = float(rest.outer_load[at] / rest.outer_deflection[at] ** 1.5)
-    inner_constant = float(rest.inner_load[at] / rest.inner_deflection[at] ** 1.5)
-
+    outer_constant, inner_constant = constants()
     they = theirs(bearing, rate, outer_constant, inner_constant)
     we = ours(bearing, rate)
     for name, found in (("exudyn", they), ("ballrace", we)):
