@@ -13,9 +13,9 @@ use std::sync::Arc;
 
 use rayon::ThreadPool;
 
-use crate::contact::{Motion, Slices};
+use crate::contact::{Motion, Pair, Slices};
 use crate::integrate::System;
-use crate::model::Model;
+use crate::model::{Model, RowModel};
 use crate::scene::Drive;
 
 pub use contacts::{ContactSummary, SliceForce};
@@ -222,16 +222,20 @@ impl Model {
         }
     }
 
-    /// Whether sharing one evaluation among threads pays: handing the balls out costs some 10 µs.
+    /// Whether sharing one evaluation among threads pays: below some 7 µs the wait for the last thread costs more
+    /// (`cargo bench --bench layers -- threads`).
     pub(crate) fn is_large(&self) -> bool {
-        let slices = self
-            .balls
-            .iter()
-            .map(|ball| match &self.rows[ball.row].pairs[0].slices {
-                Slices::Fixed(count) => *count / 4,
+        /// Nodes of all contacts from which two threads were faster.
+        const BREAK_EVEN: usize = 1500;
+        let nodes = |row: &RowModel| -> usize {
+            let of = |pair: &Pair| match &pair.slices {
+                // About a third of the ball touches.
+                Slices::Fixed(count) => count / 3,
                 Slices::Fitted(rules) => rules.count(),
-            });
-        2 * slices.sum::<usize>() > 4000
+            };
+            row.count * row.pairs.iter().map(of).sum::<usize>()
+        };
+        self.rows.iter().map(nodes).sum::<usize>() > BREAK_EVEN
     }
 }
 

@@ -1,0 +1,22 @@
+//! An evaluation allocates nothing.
+
+use ballrace::dynamics::Dynamics;
+use ballrace::integrate::System;
+use ballrace::scene::{Slices, presets};
+use ballrace::{Model, Start, start};
+
+/// Analytic: counted by the allocator, on a state with a ball in the spall.
+#[test]
+fn a_right_hand_side_allocates_nothing() {
+    for slices in [Slices::Fitted(6), Slices::Fixed(50)] {
+        let mut scene = presets::wheel_bearing(3000.0);
+        scene.contact.slices = slices;
+        let model = Model::new(&scene).unwrap();
+        let y = start(&model, &Start::Equilibrium).unwrap();
+        let mut dynamics = Dynamics::new(&model);
+        let mut dy = vec![0.0; model.dim()];
+        dynamics.rhs(0.0, &y, &mut dy);
+        let counted = allocation_counter::measure(|| dynamics.rhs(0.0, &y, &mut dy));
+        assert_eq!(counted.count_total, 0, "{slices:?}: {counted:?}");
+    }
+}
