@@ -21,6 +21,7 @@ CUTS = (
     *(f"fitted {n}" for n in (4, 6, 8, 12, 16, 24, 32)),
     *(f"fixed {n}" for n in (50, 100, 200, 400)),
 )
+DRAWN = (*(f"fitted {n}" for n in (6, 12, 16, 24, 32)), *(f"fixed {n}" for n in (50, 100, 400)))
 FINE = Effort(cap=0.5, rtol=1e-6)
 EFFORTS = (
     Effort(cap=2.0, rtol=1e-3),
@@ -78,12 +79,13 @@ def draw_chart(rows: list[dict[str, Any]], path: Path) -> None:
         x, y = [r["evaluations"] for r in mine], [r["error"] for r in mine]
         draw.line(left, x, y, label, colour)
     total = [r for r in rows if r["error_of"] == "total"]
-    for cut in dict.fromkeys(r["slices"] for r in total):
+    for cut in DRAWN:
         mine = [r for r in total if r["slices"] == cut]
         colour = draw.BLUE if cut.startswith("fitted") else draw.ORANGE
         front = sorted(mine, key=lambda r: r["wall_ms"])
         x, y = [r["wall_ms"] for r in front], [r["error"] for r in front]
-        draw.line(right, x, y, cut, colour)
+        kind, count = cut.split()
+        draw.line(right, x, y, f"{count} {'nodes' if kind == 'fitted' else 'fixed slices'}", colour)
     for cut in ("fitted 6", "fitted 16", "fitted 24"):
         floor = best([r for r in total if r["slices"] == cut], "wall_ms")[-1]["error"]
         draw.level(left, floor, f"model error, {cut.split()[1]} nodes")
