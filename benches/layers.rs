@@ -142,7 +142,7 @@ impl System for Springs {
 
 fn integrator(c: &mut Criterion) {
     let group: Vec<usize> = (0..224).map(|i| i % 112 / 4).collect();
-    let tolerance = Tolerance::new(0.0, vec![1e-12; 224], &[false; 224], group).unwrap();
+    let tolerance = Tolerance::new(0.0, vec![1e-3; 224], &[false; 224], group).unwrap();
     let options = Options {
         max_step: 6.8e-6,
         ..Options::default()

@@ -1,0 +1,1 @@
+"""The charts of speed against accuracy: a module a chart, each with ``measure`` and ``draw``."""
