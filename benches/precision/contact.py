@@ -14,6 +14,7 @@ from . import draw
 from .setting import DURATION, FS, Effort, bearing, integrated, settled, states
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -43,10 +44,7 @@ def measure(*, quick: bool) -> list[dict[str, Any]]:
     true = forces(TRUE, visited)
     loaded = loaded_contacts()
     cuts = [f"fitted {n}" for n in FITTED] + [f"fixed {n}" for n in FIXED]
-    walls: dict[str, list[float]] = {cut: [] for cut in cuts}
-    for _ in range(3 if quick else 7):
-        for cut in cuts:
-            walls[cut].append(time_of_evaluation(cut))
+    times = times_of_evaluation(cuts, 3 if quick else 7)
     rows = []
     for cut in cuts:
         found = forces(cut, visited)
@@ -55,7 +53,7 @@ def measure(*, quick: bool) -> list[dict[str, Any]]:
             for name in QUANTITIES
         }
         kind, count = cut.split()
-        time = 1e9 * statistics.median(walls[cut]) / loaded
+        time = 1e9 * times[cut] / loaded
         rows.append({"slices": kind, "count": int(count), "time_ns": time, **errors})
     return rows
 
@@ -91,11 +89,15 @@ def forces(cut: str, visited: NDArray[np.float64]) -> dict[str, NDArray[np.float
     }
 
 
-def time_of_evaluation(cut: str) -> float:
-    """Return the wall time of a run over its evaluations [s]."""
-    scene = integrated(bearing(cut=cut), Effort())
-    out = br.simulate(scene, duration=5e-4, fs=2e3, start=settled(0.1, TRUE), threads=1)
-    return float(out.stats.wall_time) / float(out.stats.nfev)
+def times_of_evaluation(cuts: Iterable[str], rounds: int) -> dict[str, float]:
+    """Return the wall time of a run over its evaluations [s], the cuts in turn, medians over the rounds."""
+    walls: dict[str, list[float]] = {cut: [] for cut in cuts}
+    for _ in range(rounds):
+        for cut, mine in walls.items():
+            scene = integrated(bearing(cut=cut), Effort())
+            out = br.simulate(scene, duration=5e-4, fs=2e3, start=settled(0.1, TRUE), threads=1)
+            mine.append(float(out.stats.wall_time) / float(out.stats.nfev))
+    return {cut: statistics.median(mine) for cut, mine in walls.items()}
 
 
 def draw_chart(rows: list[dict[str, Any]], path: Path) -> None:
