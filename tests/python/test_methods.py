@@ -64,7 +64,8 @@ def test_auto_says_what_it_did() -> None:
     # At the first look no node may lie where the balls stick; at the next one some do.
     assert stiff.provenance.method.endswith("Kennedy-Carpenter ARK4(3)6L[2]SA")
     assert soft.provenance.stiffness < 1.0 < stiff.provenance.stiffness
-    assert soft.stats.implicit_share == 0.0 < 0.5 < stiff.stats.implicit_share
+    assert soft.stats.implicit_share == 0.0
+    assert stiff.stats.implicit_share > 0.5
     assert soft.stats.iterations == 0 < stiff.stats.iterations
     assert stiff.stats.nfev < run("dormand-prince", slip_speed=1e-3).stats.nfev / 5
 

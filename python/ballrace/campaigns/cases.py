@@ -154,7 +154,7 @@ def run_document(run: Mapping[str, Any]) -> dict[str, Any]:
         "accuracy": (1e-4, 1e-1),
     }
     for name, (low, high) in limits.items():
-        value = run.get(name)
+        value: Any = run.get(name)
         if value is None and name in ("rtol", "accuracy"):
             document[name] = None
             continue
