@@ -59,15 +59,22 @@ def test_methods_agree() -> None:
 
 
 def test_auto_says_what_it_did() -> None:
-    soft, stiff = run("auto"), run("auto", slip_speed=1e-3)
+    # So many nodes that some lie where the balls stick at the first look.
+    nodes = {"contact.slices": br.scene.FittedSlices(24)}
+    scene = br.presets.wheel_bearing().replace(nodes)
+    rough = scene.replace({"friction.coulomb.slip_speed": 1e-3})
+
+    def started(scene: br.Scene, method: Method) -> br.Signals:
+        return br.simulate(scene, duration=5e-4, fs=100_000, threads=1, method=method)
+
+    soft, stiff = started(scene, "auto"), started(rough, "auto")
+    explicit = started(rough, "dormand-prince")
     assert soft.provenance.method == "auto: Dormand-Prince 5(4)"
-    # At the first look no node may lie where the balls stick; at the next one some do.
-    assert stiff.provenance.method.endswith("Kennedy-Carpenter ARK4(3)6L[2]SA")
+    assert stiff.provenance.method == "auto: Kennedy-Carpenter ARK4(3)6L[2]SA"
     assert soft.provenance.stiffness < 1.0 < stiff.provenance.stiffness
-    assert soft.stats.implicit_share == 0.0
-    assert stiff.stats.implicit_share > 0.5
+    assert (soft.stats.implicit_share, stiff.stats.implicit_share) == (0.0, 1.0)
     assert soft.stats.iterations == 0 < stiff.stats.iterations
-    assert stiff.stats.nfev < run("dormand-prince", slip_speed=1e-3).stats.nfev / 5
+    assert stiff.stats.nfev < explicit.stats.nfev / 2
 
 
 def test_fixed_steps_are_the_largest_allowed() -> None:

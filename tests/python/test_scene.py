@@ -149,7 +149,7 @@ def scenes() -> list[s.Scene]:
         full.replace(
             {"drive": s.SpeedDrive(s.Sine(mean=9.0, amplitude=1.0, frequency=2.0, phase=0.0))}
         ),
-        full.replace({"drive": s.SpeedDrive(100.0)}),
+        full.replace({"drive": s.SpeedDrive(100.0), "contact.slices": s.AccurateSlices(1e-5)}),
     ]
 
 
@@ -258,7 +258,7 @@ def test_fields_and_variants_have_the_same_names_in_the_core() -> None:
                 assert expected_by_core(scene, f"{inner}.stranger", 1) == names, inner
                 compared.add(type(value).__name__)
     assert {part.__name__ for part in parts()}.difference(compared) == {
-        "FittedSlices", "FixedSlices", "SpeedDrive"
+        "AccurateSlices", "FittedSlices", "FixedSlices", "SpeedDrive"
     }  # fmt: skip
 
 
