@@ -1,7 +1,7 @@
 //! Eight numbers at once, and the widest instructions that the processor has for them.
 //!
-//! [`Lanes`] are plain arrays with arithmetic; the compiler turns them into vector instructions of whatever
-//! level the code around them is compiled for. [`Level`] compiles a [`Task`] for three levels into one program
+//! `Lanes` are plain arrays with arithmetic; the compiler turns them into vector instructions of whatever
+//! level the code around them is compiled for. [`Level`] compiles a task for three levels into one program
 //! and picks one at run time.
 
 mod lanes;
