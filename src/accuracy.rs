@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::error::{Error, Result};
 use crate::model::Model;
-use crate::scene::{Scene, Slices};
+use crate::scene::{Method, Scene, Slices};
 
 /// What a run with a requested accuracy chose, and what it expects of that.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -46,6 +46,15 @@ const FORCE: (f64, f64) = (1e-6, 1e-9);
 pub(crate) fn apply(requested: f64, scene: &mut Scene) -> Result<f64> {
     if !(1e-4..=1e-1).contains(&requested) {
         return Err(Error::scene("accuracy", requested, "1e-4 to 1e-1"));
+    }
+    if scene.solver.method != Method::DormandPrince {
+        let allowed =
+            "dormand-prince where `accuracy` is given: its choice is measured on that method";
+        return Err(Error::scene(
+            "method",
+            format!("{:?}", scene.solver.method),
+            allowed,
+        ));
     }
     scene.solver.rtol = (TOLERANCE.0 * requested).max(TOLERANCE.1);
     if !matches!(scene.contact.slices, Slices::Fixed(_)) {

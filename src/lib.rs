@@ -28,7 +28,8 @@
 //! * [`contact`] — laws of one ball on one race: races, slices, ISO and Hertz laws, damping, friction, fault
 //!   circles. Numbers in, numbers out; no indices, no state.
 //! * `model` ([`Model`]) — the scene compiled: bodies, arrays, scales. Never changed by a run.
-//! * [`dynamics`] — the right-hand side: contacts into slots, summed in one order; forces by name, energies.
+//! * [`dynamics`] — the right-hand side: touching contacts by eights, summed in one order; forces by
+//!   name, energies.
 //! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
 //! * `equilibrium` ([`equilibrium()`]) — the static solve; `start` ([`start()`]) — how a run begins.
 //! * `signals` ([`Signals`]) — probes read on a uniform grid from the dense output.
@@ -44,9 +45,9 @@
 //!
 //! | what | touch | prove |
 //! |---|---|---|
-//! | a normal law | a file in `contact/`, a variant in `scene/contact.rs` and in `contact/law.rs` | doctest values, limits |
+//! | a normal law | a file in `contact/`, a variant in `scene/contact.rs` and in `contact/law.rs`, a node in `contact/press.rs` | doctest values, limits |
 //! | a friction law | `contact/friction.rs`, a variant in `scene/contact.rs` | dissipation ≥ 0 |
-//! | a race profile | `contact/race.rs` | gap against a closed form |
+//! | a race profile | `contact/race.rs`, `contact/press.rs` | gap against a closed form |
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
 //! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` | row sums, order of convergence |
 //! | a signal | a variant in `scene/probe.rs`, an arm in `signals.rs` | unit, value at a known state |

@@ -4,7 +4,7 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use ballrace::scene::{Defect, Friction, Scene, Slices, Surface, presets};
+use ballrace::scene::{Defect, Friction, Method, Scene, Slices, Surface, presets};
 use ballrace::{Error, Model, Run, Start, simulate, start};
 use common::run;
 
@@ -192,4 +192,10 @@ fn what_cannot_be_asked_is_refused() {
         ..Run::default()
     };
     assert_eq!(refused(&both), "rtol");
+    let elsewhere = Run {
+        accuracy: Some(1e-2),
+        method: Some(Method::VelocityVerlet),
+        ..Run::default()
+    };
+    assert_eq!(refused(&elsewhere), "method");
 }

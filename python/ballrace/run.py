@@ -54,7 +54,8 @@ def simulate(
     accuracy : float, optional
         Relative error of the accelerations to stay below, 1e-4 to 0.1, over the first milliseconds from a
         given state; chooses nodes, tolerance and step cap, and goes without `rtol`. ``out.accuracy`` tells
-        what was chosen and estimated. Fixed slices are kept as they are.
+        what was chosen and estimated. Fixed slices are kept as they are;
+        the method must be Dormand–Prince, on which the choice is measured.
     method : str, optional
         Method of integration; by default ``scene.solver.method``.
     threads : int

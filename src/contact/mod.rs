@@ -4,7 +4,8 @@
 //! [`race`] (model section 3), an elastic force by a [`law`] (section 4), Hunt–Crossley damping and
 //! [`friction`] (section 5). Where a [`fault`] removes the surface, fault circles take the slice's
 //! place (section 7). [`pair`] puts these together and hands every single force to a [`Sink`]:
-//! `walk` visits the slices, `feature` decides what each one meets.
+//! `walk` visits the slices, `feature` decides what each one meets. `press` does the same for eight contacts at once
+//! where all surfaces are whole; `octet` says which those are.
 
 pub mod elliptic;
 pub mod fault;
