@@ -107,7 +107,7 @@ fn threads(c: &mut Criterion) {
         group.bench_function(format!("{name}, 1"), |b| {
             b.iter(|| serial.rhs(0.0, black_box(&y), &mut dy));
         });
-        let mut shared = Dynamics::parallel(&model, Arc::clone(&pool));
+        let mut shared = Dynamics::new(&model).shared(Arc::clone(&pool));
         group.bench_function(format!("{name}, 2"), |b| {
             b.iter_custom(|count| {
                 pool.install(|| {

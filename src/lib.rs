@@ -27,7 +27,8 @@
 //! * [`scene`] — what a user says: names, numbers, defaults; a serde document that is only validated.
 //! * [`contact`] — laws of one ball on one race: races, slices, ISO and Hertz laws, damping, friction, fault
 //!   circles. Numbers in, numbers out; no indices, no state.
-//! * `model` ([`Model`]) — the scene compiled: bodies, arrays, scales. Never changed by a run.
+//! * `model` ([`Model`]) — the scene compiled: bodies, arrays, scales; and what a run leaves out ([`Reduction`]).
+//!   Never changed by a run.
 //! * [`dynamics`] — the right-hand side: touching contacts by eights, summed in one order; forces by
 //!   name, energies.
 //! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
@@ -37,6 +38,7 @@
 //! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
 //! * `method` — the method a run asked for, and the switch between two of them.
 //! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
+//! * `explain` ([`explain()`]) — what a scene is compiled to, what it costs, what would make it cheaper.
 //! * `features` ([`Feature`]) — the few numbers a case is known by: moments, fault lines, contact loads.
 //! * `campaign` ([`campaign()`]) — many cases on all cores; a case that fails is an outcome.
 //! * `python` (feature `python`) — the only place that knows Python.
@@ -69,6 +71,7 @@ pub mod contact;
 pub mod dynamics;
 mod equilibrium;
 mod error;
+mod explain;
 mod features;
 pub mod integrate;
 mod method;
@@ -86,8 +89,9 @@ pub use accuracy::Accuracy;
 pub use campaign::{Case, Finished, Outcome, campaign, stream};
 pub use equilibrium::{BallEquilibrium, ContactEquilibrium, Equilibrium, equilibrium};
 pub use error::{Error, Result};
+pub use explain::{ContactKind, Cost, Explanation, Variant, explain};
 pub use features::{Feature, FeatureOptions, feature_columns};
-pub use model::{Body, Degree, Model, Scales};
+pub use model::{Body, Degree, Model, Obstacle, Omission, Reduction, Scales};
 pub use scene::Scene;
 pub use signals::{Column, Provenance, Signals, SliceRow, Statistics};
 pub use simulate::{Run, simulate};

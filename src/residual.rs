@@ -13,10 +13,9 @@
 //!
 //! It judges steps, not runs: an error that builds up over undamped oscillations does not show.
 
-use std::ops::Range;
-
+use crate::dynamics::Dynamics;
 use crate::integrate::DenseStep;
-use crate::model::{Degree, Model};
+use crate::model::Degree;
 
 /// a₀ \[m/s²\].
 const QUIET: f64 = 0.2;
@@ -24,8 +23,10 @@ const QUIET: f64 = 0.2;
 const REACH: f64 = 0.01;
 
 /// The sums over a run, for the outer ring or, where that is held, for the inner one.
+#[derive(Default)]
 pub(crate) struct Residual {
-    velocities: Range<usize>,
+    /// Places of its velocities among the run's states.
+    velocities: Vec<usize>,
     before: Vec<f64>,
     after: Vec<f64>,
     apart: f64,
@@ -33,17 +34,20 @@ pub(crate) struct Residual {
 }
 
 impl Residual {
-    pub fn new(model: &Model) -> Self {
+    pub fn new(dynamics: &Dynamics<'_>) -> Self {
+        let model = dynamics.model();
         let free = |degree: &Degree| matches!(degree, Degree::Free { .. });
         let moves = |ring: &usize| model.bodies[*ring].degrees[..3].iter().any(free);
-        let first = |ring: usize| model.dim() / 2 + 4 * ring;
-        let velocities = [0, 1]
-            .into_iter()
-            .find(moves)
-            .map_or(0..0, |ring| first(ring)..first(ring) + 3);
+        let ring = [0, 1].into_iter().find(moves);
+        let degrees = dynamics.degrees();
+        let velocities: Vec<usize> = (0..degrees.len())
+            .filter(|i| Some(degrees[*i].0) == ring && degrees[*i].1 < 3)
+            .map(|i| degrees.len() + i)
+            .collect();
+        let length = velocities.last().map_or(0, |last| last + 1);
         Self {
-            before: vec![0.0; velocities.end],
-            after: vec![0.0; velocities.end],
+            before: vec![0.0; length],
+            after: vec![0.0; length],
             velocities,
             apart: 0.0,
             size: 0.0,
@@ -57,7 +61,7 @@ impl Residual {
         step.interpolate(from, &mut self.before);
         step.interpolate(to, &mut self.after);
         let mut size: f64 = 0.0;
-        for i in self.velocities.clone() {
+        for i in self.velocities.iter().copied() {
             let rate = (self.after[i] - self.before[i]) / (to - from);
             self.apart += (dy[i] - rate).powi(2);
             size += dy[i].powi(2);

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::accuracy::Accuracy;
 use crate::dynamics::{CONTRIBUTIONS, Dynamics, Energy};
 use crate::integrate::{DenseStep, System};
-use crate::model::Model;
+use crate::model::{Model, Omission};
 use crate::residual::Residual;
 use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene};
 
@@ -97,6 +97,10 @@ pub struct Provenance {
     pub duration: f64,
     /// Threads used.
     pub threads: usize,
+    /// States that were integrated.
+    pub states: usize,
+    /// What was left out since it does not change the motion.
+    pub left_out: Vec<Omission>,
     /// Level of vector instructions.
     pub simd: &'static str,
     /// Processor architecture.
@@ -173,6 +177,9 @@ pub(crate) struct Recorder {
     readers: Vec<Reader>,
     listings: Vec<Listing>,
     needs_rhs: bool,
+    /// The run's own states at a sample, and their rates.
+    own: (Vec<f64>, Vec<f64>),
+    /// Those of all bodies.
     y: Vec<f64>,
     dy: Vec<f64>,
     values: Vec<f64>,
@@ -191,10 +198,11 @@ impl Recorder {
             readers: Vec::new(),
             listings: Vec::new(),
             needs_rhs: false,
-            y: vec![0.0; model.dim()],
-            dy: vec![0.0; model.dim()],
+            own: (Vec::new(), Vec::new()),
+            y: Vec::new(),
+            dy: Vec::new(),
             values: Vec::new(),
-            residual: Residual::new(model),
+            residual: Residual::default(),
             t: Vec::new(),
             columns: Vec::new(),
             slices: Vec::new(),
@@ -218,8 +226,12 @@ impl Recorder {
         self.columns.len()
     }
 
-    /// Sets memory aside for all samples.
-    pub fn reserve(&mut self) {
+    /// Sets memory aside for all samples of a run from a state of all bodies.
+    pub fn prepare(&mut self, dynamics: &Dynamics<'_>, start: &[f64]) {
+        let zeros = vec![0.0; dynamics.dim()];
+        self.own = (zeros.clone(), zeros);
+        (self.y, self.dy) = (start.to_vec(), vec![0.0; start.len()]);
+        self.residual = Residual::new(dynamics);
         self.t.reserve_exact(self.count);
         for column in &mut self.columns {
             column.values.reserve_exact(self.count);
@@ -325,11 +337,11 @@ impl Recorder {
         });
     }
 
-    /// The state at t = 0.
+    /// The run's states at t = 0.
     pub fn first(&mut self, dynamics: &mut Dynamics<'_>, y: &[f64]) {
-        self.y.copy_from_slice(y);
+        self.own.0.copy_from_slice(y);
         self.sample(dynamics, 0.0);
-        self.list(dynamics.model(), 0.0, |_, _| {});
+        self.list(dynamics, 0.0, |_, _| {});
     }
 
     /// All samples within an accepted step.
@@ -339,19 +351,22 @@ impl Recorder {
             if t > step.t1() {
                 break;
             }
-            step.interpolate(t, &mut self.y);
+            step.interpolate(t, &mut self.own.0);
             self.sample(dynamics, t);
             if self.needs_rhs {
-                self.residual.add(step, t, &self.dy);
+                self.residual.add(step, t, &self.own.1);
             }
         }
-        self.list(dynamics.model(), step.t1(), |t, y| step.interpolate(t, y));
+        self.list(dynamics, step.t1(), |t, y| step.interpolate(t, y));
     }
 
     /// The accelerations are the model's at the interpolated state.
     fn sample(&mut self, dynamics: &mut Dynamics<'_>, t: f64) {
+        let (y, dy) = &mut self.own;
+        dynamics.expand(t, y, &mut self.y);
         if self.needs_rhs {
-            dynamics.rhs(t, &self.y, &mut self.dy);
+            dynamics.rhs(t, y, dy);
+            dynamics.expand_rates(t, dy, &mut self.dy);
         }
         self.values.clear();
         for reader in &self.readers {
@@ -363,9 +378,11 @@ impl Recorder {
         }
     }
 
-    fn list(&mut self, model: &Model, until: f64, interpolate: impl Fn(f64, &mut [f64])) {
+    fn list(&mut self, dynamics: &Dynamics<'_>, until: f64, interpolate: impl Fn(f64, &mut [f64])) {
+        let model = dynamics.model();
         while let Some(listing) = self.listings.pop_if(|listing| listing.time <= until) {
-            interpolate(listing.time, &mut self.y);
+            interpolate(listing.time, &mut self.own.0);
+            dynamics.expand(listing.time, &self.own.0, &mut self.y);
             for (j, race) in listing.contacts {
                 let ball = &model.balls[j];
                 for slice in model.slice_forces(&self.y, j, race) {
@@ -427,7 +444,7 @@ impl Reader {
             Self::Energy => values.extend(model.energy(y).entries().map(|(_, _, value)| value)),
             Self::Torque => values.extend(dynamics.ring_torques()),
             Self::Forces { body } => {
-                for (_, forces) in dynamics.contributions(t, y) {
+                for (_, forces) in Dynamics::contributions(model, t, y) {
                     values.extend(&forces[4 * body..4 * body + 4]);
                 }
             }

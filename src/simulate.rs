@@ -13,7 +13,7 @@ use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
 use crate::integrate::{self, DenseStep, Failure, FailureKind, Options, Tolerance};
 use crate::method::{self, Choice, Task};
-use crate::model::Model;
+use crate::model::{Model, Reduction};
 use crate::pool::pool;
 use crate::scene::{Drive, Method, SCHEMA, Scene};
 use crate::signals::{Provenance, Recorder, Signals, Statistics};
@@ -61,7 +61,7 @@ const MEMORY_LIMIT: f64 = 8.0 * (1u64 << 30) as f64;
 /// axis and further when damped. Measured on the faulted wheel bearing, 6 ms with an impact, against a tenth
 /// of the step at rtol 1e-9: at 1 the relative error of the outer ring's acceleration is 0.06–0.3 % for any
 /// rtol from 1e-3 to 1e-6; without the cap it is 6 % at rtol 1e-3.
-const STEP_SHARE: f64 = 1.0;
+pub(crate) const STEP_SHARE: f64 = 1.0;
 
 /// How often progress is told.
 const TELL_EVERY: Duration = Duration::from_millis(20);
@@ -102,18 +102,19 @@ pub fn simulate(
     let count = samples(run)?;
     let mut recorder = Recorder::new(&model, run.fs, count);
     check_memory(run, count, recorder.width())?;
-    let y0 = start(&model, &run.start)?;
-    recorder.reserve();
     let threads = threads(&model, run.threads)?;
     let options = options(&model, step_share)?;
+    let y0 = start(&model, &run.start)?;
+    let reduction = model.reduction(&y0);
+    let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);
+    recorder.prepare(&dynamics, &y0);
     let (recorder, stats, choice) = if threads > 1 {
         let pool = pool(threads)?;
-        let dynamics = Dynamics::parallel(&model, Arc::clone(&pool));
+        let dynamics = dynamics.shared(Arc::clone(&pool));
         inside(&pool, progress, |progress| {
             follow(dynamics, recorder, &y0, run.duration, &options, progress)
         })?
     } else {
-        let dynamics = Dynamics::new(&model);
         follow(dynamics, recorder, &y0, run.duration, &options, progress)?
     };
     let start = match run.start {
@@ -140,6 +141,8 @@ pub fn simulate(
             start,
             duration: run.duration,
             threads,
+            states: reduction.as_ref().map_or(model.dim(), Reduction::dim),
+            left_out: reduction.map_or_else(Vec::new, |r| r.omissions().to_vec()),
             simd: model.level().name(),
             architecture: std::env::consts::ARCH,
         },
@@ -193,17 +196,21 @@ fn follow(
     let mut told = begun;
     let (mut pulls, mut truncated, mut halt) = (0, 0, None);
     let mut crawl = Crawl::new(model, options.max_step);
-    let mut last = y0.to_vec();
-    recorder.first(&mut dynamics, y0);
+    let tolerance = tolerance(&dynamics)?;
+    let own = dynamics.compress(y0);
+    let (mut last, mut last_time) = (own.clone(), 0.0);
+    recorder.first(&mut dynamics, &own);
     let mut observe =
         |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &integrate::Statistics| {
             // The last evaluation was at the accepted state.
             pulls += dynamics.pulls();
             truncated += dynamics.truncated();
+            let lost = dynamics.lost();
             recorder.step(dynamics, step);
             last.copy_from_slice(step.y1());
+            last_time = step.t1();
             let crawls = crawl.after(step.h());
-            if let Some(body) = model.escaped(&last) {
+            if let Some(body) = lost {
                 halt = Some((step.t1(), step.h(), Some(body), ESCAPED));
             } else if crawls {
                 halt = Some((step.t1(), step.h(), None, CRAWLING));
@@ -221,15 +228,17 @@ fn follow(
         &mut dynamics,
         Task {
             span: (0.0, duration),
-            y0,
-            tolerance: &tolerance(model)?,
+            y0: &own,
+            tolerance: &tolerance,
             options,
         },
         &mut observe,
     );
-    let (solution, choice) = solved.map_err(|failure| broken(model, &last, &failure))?;
+    let mut full = y0.to_vec();
+    dynamics.expand(last_time, &last, &mut full);
+    let (solution, choice) = solved.map_err(|failure| broken(model, &full, &failure))?;
     if let Some((time, step, body, reason)) = halt {
-        return Err(stopped(model, &last, (time, step), body, reason));
+        return Err(stopped(model, &full, (time, step), body, reason));
     }
     if solution.interrupted {
         return Err(Error::Interrupted { time: solution.t });
@@ -313,7 +322,7 @@ fn threads(model: &Model, asked: usize) -> Result<usize> {
 }
 
 /// Step cap, first step, breakpoints of loads and drive.
-fn options(model: &Model, step_share: f64) -> Result<Options> {
+pub(crate) fn options(model: &Model, step_share: f64) -> Result<Options> {
     let scene = &model.scene;
     let solver = &scene.solver;
     let cap = if solver.frequency_cap {
@@ -350,22 +359,35 @@ fn options(model: &Model, step_share: f64) -> Result<Options> {
 /// Every body is a group; lengths are measured by the contact's approach δ, speeds by δ ω of the highest
 /// contact frequency, angles by the arc on a ball. A position itself (36 mm) says nothing about what error
 /// of it matters.
-fn tolerance(model: &Model) -> Result<Tolerance> {
-    let scales = &model.scales;
-    let rtol = model.scene.solver.rtol;
-    let bodies = model.body_count();
-    let length = rtol * scales.approach;
-    let half = |scale: f64| {
-        (0..bodies).flat_map(move |b| {
-            let radius = model.radius(b);
-            [scale, scale, scale, scale / radius]
+pub(crate) fn tolerance(dynamics: &Dynamics<'_>) -> Result<Tolerance> {
+    let model = dynamics.model();
+    let (scales, rtol) = (&model.scales, model.scene.solver.rtol);
+    let degrees = dynamics.degrees();
+    let mut kept = vec![0; model.body_count()];
+    for (body, _) in &degrees {
+        kept[*body] += 1;
+    }
+    let half = |length: f64| {
+        degrees.iter().map(move |&(body, direction)| {
+            (
+                body,
+                if direction == 3 {
+                    length / model.radius(body)
+                } else {
+                    length
+                },
+            )
         })
     };
+    let length = rtol * scales.approach;
     let atol = half(length)
         .chain(half(length * scales.frequency))
+        // What is left out has no error: it counts in a body's mean as if it were there.
+        .map(|(body, atol)| atol * (4.0 / f64::from(kept[body])).sqrt())
         .collect();
-    let group = (0..8 * bodies).map(|i| i % (4 * bodies) / 4).collect();
-    Tolerance::new(0.0, atol, &vec![false; 8 * bodies], group)
+    let bodies = degrees.iter().map(|(body, _)| *body);
+    let group = bodies.clone().chain(bodies).collect();
+    Tolerance::new(0.0, atol, &vec![false; 2 * degrees.len()], group)
         .map_err(|invalid| Error::scene("solver.rtol", rtol, invalid.to_string()))
 }
 

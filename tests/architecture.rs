@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 19] = [
+const ORDER: [&str; 20] = [
     "error",
     "simd",
     "scene",
@@ -22,6 +22,7 @@ const ORDER: [&str; 19] = [
     "collapse",
     "method",
     "simulate",
+    "explain",
     "features",
     "campaign",
 ];

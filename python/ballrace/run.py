@@ -31,6 +31,7 @@ def simulate(
     rtol: float | None = None,
     accuracy: float | None = None,
     method: Method | None = None,
+    reduce: bool | None = None,
     threads: int = 0,
     progress: bool | Callable[[float], object] | None = None,
 ) -> Signals:
@@ -58,6 +59,9 @@ def simulate(
         the method must be Dormand–Prince, on which the choice is measured.
     method : str, optional
         Method of integration; by default ``scene.solver.method``.
+    reduce : bool, optional
+        Whether to leave out what does not change the motion (:meth:`Model.summary` tells what); by default
+        ``scene.solver.reduce``, which is true.
     threads : int
         Threads of the run; 0 chooses. The result is the same, bit by bit, for any number.
     progress : bool or callable, optional
@@ -94,6 +98,8 @@ def simulate(
     kind, state = (start, None) if isinstance(start, str) else ("state", _state(start))
     if threads < 0:
         raise SceneError("threads", str(threads), "0 to choose, or a number of threads")
+    if reduce is not None:
+        scene = scene.replace({"solver.reduce": reduce})
     document = scene.to_json()
     if progress is True:
         with Bar(scene.name or "simulating") as bar:

@@ -793,6 +793,9 @@ class Solver(Part):
     frequency_cap : bool
         Whether the step is also kept below a share of the period of the highest contact frequency.
         Without it, loose tolerances report success with accelerations wrong by 30 % and more.
+    reduce : bool
+        Whether a run leaves out what does not change the motion: directions without forces, mirror images, slices
+        where a closed form says the same.
     """
 
     method: Method = "dormand-prince"
@@ -800,6 +803,7 @@ class Solver(Part):
     first_step: float | None = None
     max_step: float | None = None
     frequency_cap: bool = True
+    reduce: bool = True
 
 
 def _empty() -> MappingProxyType[str, Any]:

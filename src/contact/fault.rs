@@ -38,6 +38,21 @@ impl Fault {
         }
     }
 
+    /// Whether another fault is this one's mirror image about the plane at half of `sum` along z, to a rounding
+    /// \[m\].
+    pub(crate) fn is_image(&self, other: &Self, sum: f64, rounding: f64) -> bool {
+        let image = Self {
+            middle: self.middle,
+            reach: self.reach,
+            width: other.width.reversed(),
+            ..other.clone()
+        };
+        (self.middle + other.middle - sum).abs() <= rounding
+            // Each found it on its own race.
+            && (self.reach - other.reach).abs() <= 1e-12 * self.reach
+            && *self == image
+    }
+
     /// Whether a contact in this direction of the body's frame may see the fault.
     pub fn in_reach(&self, direction: f64) -> bool {
         wrapped(self.angle - direction).abs() <= self.reach

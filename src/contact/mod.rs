@@ -5,8 +5,9 @@
 //! [`friction`] (section 5). Where a [`fault`] removes the surface, fault circles take the slice's
 //! place (section 7). [`pair`] puts these together and hands every single force to a [`Sink`]:
 //! `walk` visits the slices, `feature` decides what each one meets. `press` does the same for eight contacts at once
-//! where all surfaces are whole; `octet` says which those are.
+//! where all surfaces are whole; `octet` says which those are, and `closed` has whole contacts in one formula.
 
+mod closed;
 pub mod elliptic;
 pub mod fault;
 mod feature;
@@ -24,10 +25,11 @@ mod walk;
 
 use nalgebra::Vector2;
 
+pub(crate) use closed::Closed;
 pub use fault::Fault;
 pub use friction::Friction;
 pub use law::Law;
-pub(crate) use octet::{Constants, Octet, Places};
+pub(crate) use octet::{Constants, Near, Octet, Places};
 pub use pair::{BallSide, Pair};
 pub(crate) use press::Press;
 pub use race::{Torus, Waves};

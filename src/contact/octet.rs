@@ -17,13 +17,19 @@ pub(crate) struct Places {
     pub q: [Lanes; 3],
 }
 
-/// Which of eight balls of a row touch a race, which of these may see a defect of it, and how the race is raised
-/// there.
+/// Which of eight balls of a row touch a race, which of these may see a defect of it, how the race is raised
+/// there, and which balls have left the groove.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Near {
     pub touching: Mask,
     pub faulted: Mask,
     pub wave: Lanes,
+    pub lost: Mask,
+    /// From the ring's centre to the ball's.
+    pub apart: [Lanes; 2],
+    pub distance: Lanes,
+    pub e: Lanes,
+    pub approach: Lanes,
 }
 
 /// Eight touching contacts, not necessarily of one row, all with the outer or all with the inner ring.
@@ -107,7 +113,7 @@ impl Pair {
         let clear = e.above(Lanes::ZERO).and((-approach).above(Lanes::ZERO));
         let touching = clear.not();
         let mut faulted = Mask::default();
-        if touching.any() {
+        if !self.faults.is_empty() && touching.any() {
             for fault in &self.faults {
                 let (sin, cos) = (fault.angle + ring.theta).sin_cos();
                 let along = x * cos + y * sin;
@@ -116,10 +122,19 @@ impl Pair {
                 faulted = faulted.or(along.above(bound));
             }
         }
+        // Pressed deeper than half the radius, or beside the groove; what is not a number counts as lost.
+        let inside = (balls.radius * 0.5)
+            .above(approach)
+            .and(Lanes::all(race.r).above(c.abs()));
         Near {
             touching,
             faulted: faulted.and(touching),
             wave,
+            lost: inside.not(),
+            apart: [x, y],
+            distance: d,
+            e,
+            approach,
         }
     }
 }

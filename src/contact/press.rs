@@ -2,6 +2,8 @@
 //!
 //! The same contacts as `pair` and `walk` evaluate one by one, wherever ball and race are whole and the zone ends
 //! in the groove: then a node is the same few lines for all, and the contacts lie side by side in [`Lanes`].
+//! In the `PLANE` (every ball level with its groove, nothing moves along z) the zone is symmetric, and half of it stands
+//! for the whole.
 //! Whatever is not so simple (a shoulder, a ball that is not in front of its groove) is told, and left to
 //! [`Pair::evaluate`].
 
@@ -11,7 +13,7 @@
 use super::octet::Octet;
 use super::power::ten_ninths;
 use super::race::SHALLOW;
-use super::{Law, Motion, Pair, Slices};
+use super::{Closed, Law, Motion, Pair, Slices};
 use crate::simd::{Counters, Lanes, Mask};
 
 /// What eight contacts put on balls and ring: force \[N\] and moment about z \[N m\].
@@ -88,33 +90,40 @@ struct Sums {
 
 impl Pair {
     /// Forces of eight contacts of this or another row: what their constants do not say (the kind of law, where
-    /// the ball is cut, damping, friction) is the same for all rows.
+    /// the ball is cut, damping, friction) is the same for all rows. Contacts in `skip` are left out, and told.
     #[inline(always)]
-    pub(crate) fn press<const FMA: bool>(&self, octet: &Octet, ring: &Motion) -> Press {
+    pub(crate) fn press<const FMA: bool, const PLANE: bool>(
+        &self,
+        octet: &Octet,
+        ring: &Motion,
+        skip: Mask,
+        closed: Option<&Closed>,
+    ) -> Press {
         let of = &octet.constants;
         let sigma = self.race.sigma;
+        let (zero, one) = (Lanes::ZERO, Lanes::all(1.0));
         let (dx, dy) = (octet.q[0] - ring.centre.x, octet.q[1] - ring.centre.y);
         let d = dx.mul_add::<FMA>(dx, dy * dy).sqrt();
-        let over = Lanes::all(1.0) / d;
+        let over = one / d;
         let n = (dx * over, dy * over);
         let raised = of.a + octet.wave;
         let e = (d - raised) * sigma;
-        let c = of.centre + ring.z - octet.q[2];
-        let l = e.mul_add::<FMA>(e, c * c).sqrt();
-        let over = Lanes::all(1.0) / l;
-        let normal = (e * over, -(c * over));
+        let (c, l, normal) = if PLANE {
+            (zero, e, (one, zero))
+        } else {
+            let c = of.centre + ring.z - octet.q[2];
+            let l = e.mul_add::<FMA>(e, c * c).sqrt();
+            let over = one / l;
+            (c, l, (e * over, -(c * over)))
+        };
         let approach = l + of.radius - of.r;
-        let zone = self.zone(octet, normal, l, approach);
-        let simple = is_simple(octet, e, c, &zone);
+        let zone = self.zone::<PLANE>(octet, normal, l, approach);
+        let simple = is_simple::<PLANE>(octet, e, c, &zone).and(skip.not());
         // Contacts that are not evaluated here get a place just clear of the groove.
         let clear = (of.r - of.radius) * 0.5;
-        let (zero, one) = (Lanes::ZERO, Lanes::all(1.0));
-        let v = [
-            octet.v[0] - ring.velocity.x,
-            octet.v[1] - ring.velocity.y,
-            octet.v[2] - ring.vz,
-        ];
-        let sums = self.sum::<FMA>(&Circles {
+        let v_z = if PLANE { zero } else { octet.v[2] - ring.vz };
+        let v = [octet.v[0] - ring.velocity.x, octet.v[1] - ring.velocity.y];
+        let circles = Circles {
             radius: of.radius,
             inverse: one / of.radius,
             r_square: of.r * of.r,
@@ -129,10 +138,14 @@ impl Pair {
             half_curvature: of.half_curvature,
             arm: raised - d,
             v_e: (v[0] * n.0 + v[1] * n.1) * sigma,
-            v_z: v[2],
+            v_z,
             slide: (v[1] * n.0 - v[0] * n.1 - d * ring.omega) * sigma,
             spin: (octet.v[3] - ring.omega) * sigma,
-        });
+        };
+        let sums = match closed {
+            Some(closed) => self.whole::<FMA>(&circles, closed),
+            None => self.sum::<FMA, PLANE>(&circles),
+        };
         let (along, across) = (sums.normal * sigma, sums.tangential * sigma);
         let plane = (n.0 * along - n.1 * across, n.1 * along + n.0 * across);
         let moment = sums.moment * sigma;
@@ -147,7 +160,13 @@ impl Pair {
 
     /// The zones in closed form, as in `Meridian::zone` and `Line::along_tangent`.
     #[inline(always)]
-    fn zone(&self, octet: &Octet, normal: (Lanes, Lanes), l: Lanes, approach: Lanes) -> Zone {
+    fn zone<const PLANE: bool>(
+        &self,
+        octet: &Octet,
+        normal: (Lanes, Lanes),
+        l: Lanes,
+        approach: Lanes,
+    ) -> Zone {
         let (radius, r) = (octet.constants.radius, octet.constants.r);
         let (half, height) = match &self.law {
             Law::Iso16281(_) => {
@@ -160,6 +179,15 @@ impl Pair {
                 (square.or_zero().sqrt(), radius)
             }
         };
+        if PLANE {
+            return Zone {
+                half,
+                height,
+                low: -half,
+                high: half,
+                lowest: height,
+            };
+        }
         let (middle, reach) = (height * normal.1, half * normal.0);
         Zone {
             half,
@@ -172,88 +200,142 @@ impl Pair {
 
     /// The law, cut as the scene says.
     #[inline(always)]
-    fn sum<const FMA: bool>(&self, circles: &Circles) -> Sums {
+    fn sum<const FMA: bool, const PLANE: bool>(&self, circles: &Circles) -> Sums {
         let mut sums = Sums::default();
         let half = circles.half;
         match (&self.slices, &self.law) {
             (Slices::Fitted(rules), Law::Iso16281(_)) => {
                 let reach = half * circles.inverse;
-                for &(x, weight) in rules.on([true; 2]) {
-                    let node = circles.iso_node::<FMA>(reach * x, half * weight);
-                    self.add::<FMA>(circles, &node, &mut sums);
+                for (x, weight, times) in nodes::<PLANE>(rules.on([true; 2])) {
+                    let node = circles.iso_node::<FMA, PLANE>(reach * x, half * weight);
+                    self.add::<FMA, PLANE>(circles, &node, times, &mut sums);
                 }
             }
             (Slices::Fitted(rules), Law::Hertz(_)) => {
-                for &(x, weight) in rules.on([true; 2]) {
+                for (x, weight, times) in nodes::<PLANE>(rules.on([true; 2])) {
                     let node = circles.hertz::<FMA>(half * x, half * weight);
-                    self.add::<FMA>(circles, &node, &mut sums);
+                    self.add::<FMA, PLANE>(circles, &node, times, &mut sums);
                 }
             }
             (Slices::Fixed(count), Law::Iso16281(_)) => {
                 let width = circles.radius * (2.0 / *count as f64);
-                for sin in circles.fixed_sines(*count) {
-                    let node = circles.iso_slice::<FMA>(sin, width);
-                    self.add::<FMA>(circles, &node, &mut sums);
+                for (sin, times) in circles.fixed_sines::<PLANE>(*count) {
+                    let node = circles.iso_slice::<FMA>(sin, width * f64::from(times));
+                    self.add::<FMA, PLANE>(circles, &node, times, &mut sums);
                 }
             }
             (Slices::Fixed(count), Law::Hertz(_)) => {
                 let over = Lanes::all(1.0) / circles.normal.0;
                 let length = circles.radius * (2.0 / *count as f64) * over;
                 let middle = circles.radius * circles.normal.1;
-                for sin in circles.fixed_sines(*count) {
+                for (sin, times) in circles.fixed_sines::<PLANE>(*count) {
                     let u = (circles.radius * sin - middle) * over;
-                    let node = circles.hertz::<FMA>(u, length);
-                    self.add::<FMA>(circles, &node, &mut sums);
+                    let node = circles.hertz::<FMA>(u, length * f64::from(times));
+                    self.add::<FMA, PLANE>(circles, &node, times, &mut sums);
                 }
             }
         }
         sums
     }
 
-    /// Damping and friction of a node (model section 5), and its part in the sums.
+    /// Contacts without friction in closed form: every slice approaches alike.
     #[inline(always)]
-    fn add<const FMA: bool>(&self, circles: &Circles, node: &Node, sums: &mut Sums) {
+    fn whole<const FMA: bool>(&self, circles: &Circles, closed: &Closed) -> Sums {
+        let mut sums = Sums::default();
+        let node = Node {
+            sin: Lanes::ZERO,
+            cos: Lanes::ZERO,
+            groove: Lanes::ZERO,
+            elastic: closed.force::<FMA>(circles.approach.or_zero()),
+            share: circles.normal,
+        };
+        self.add::<FMA, false>(circles, &node, self.slices.count(), &mut sums);
+        sums
+    }
+
+    /// Damping and friction of a node (model section 5), and its part in the sums; it stands for so many slices.
+    #[inline(always)]
+    fn add<const FMA: bool, const PLANE: bool>(
+        &self,
+        circles: &Circles,
+        node: &Node,
+        times: u32,
+        sums: &mut Sums,
+    ) {
         let (in_plane, axial) = node.share;
         let (v_e, v_z) = (circles.v_e, circles.v_z);
-        let approach = v_e.mul_add::<FMA>(in_plane, v_z * axial);
+        let approach = if PLANE {
+            v_e
+        } else {
+            v_e.mul_add::<FMA>(in_plane, v_z * axial)
+        };
         let damped = node.elastic * (approach * (1.5 * self.damping) + 1.0);
-        sums.pulls.add(Lanes::ZERO.above(damped));
+        sums.pulls.add(Lanes::ZERO.above(damped), times);
         let pressed = damped.or_zero();
         let normal = if self.clamp_pull { pressed } else { damped };
-        let (mut along, mut out) = (normal * in_plane, normal * axial);
+        let (mut along, mut out) = if PLANE {
+            (normal, Lanes::ZERO)
+        } else {
+            (normal * in_plane, normal * axial)
+        };
         if let Some(friction) = &self.friction {
             let arm = node
                 .groove
                 .mul_add::<FMA>(Lanes::all(self.race.sigma), circles.arm);
             let v_t = circles.spin.mul_add::<FMA>(arm, circles.slide);
-            let u_m = v_z * node.cos - v_e * node.sin;
+            let u_m = if PLANE {
+                -(v_e * node.sin)
+            } else {
+                v_z * node.cos - v_e * node.sin
+            };
             let factor = friction.factors(v_t.mul_add::<FMA>(v_t, u_m * u_m)) * pressed;
             let (tangential, meridional) = (factor * v_t, factor * u_m);
             along = along - meridional * node.sin;
-            out = meridional.mul_add::<FMA>(node.cos, out);
+            if !PLANE {
+                out = meridional.mul_add::<FMA>(node.cos, out);
+            }
             sums.tangential = sums.tangential - tangential;
             sums.moment = sums.moment - tangential * arm;
         }
         sums.normal = sums.normal - along;
-        sums.axial = sums.axial - out;
+        if !PLANE {
+            sums.axial = sums.axial - out;
+        }
     }
+}
+
+/// The nodes of a rule with what they weigh and how many they stand for: in the plane those of one half, twice.
+#[inline(always)]
+fn nodes<const PLANE: bool>(rule: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64, u32)> + '_ {
+    let first = if PLANE { rule.len() / 2 } else { 0 };
+    let alone = if PLANE { rule.len() % 2 } else { rule.len() };
+    rule[first..].iter().enumerate().map(move |(k, (x, w))| {
+        let times = if k < alone { 1 } else { 2 };
+        (*x, w * f64::from(times), times)
+    })
 }
 
 /// Whether the zone's ends lie on ball and race.
 #[inline(always)]
-fn is_simple(octet: &Octet, e: Lanes, c: Lanes, zone: &Zone) -> Mask {
+fn is_simple<const PLANE: bool>(octet: &Octet, e: Lanes, c: Lanes, zone: &Zone) -> Mask {
     /// Of the ball's or the groove's radius: nothing is singular yet.
     const EDGE: f64 = 1.0 - 1e-9;
     let of = &octet.constants;
-    let (left, right) = (zone.low - c, zone.high - c);
+    // What is not a number is evaluated here, so that it shows.
+    let unknown = (e + c).is_nan();
     let (ball, groove) = (of.radius * EDGE, of.r * EDGE);
+    let in_front = e.above(Lanes::ZERO).and(zone.lowest.above(Lanes::ZERO));
+    let on_top = zone.height.above(of.radius * SHALLOW);
+    if PLANE {
+        // The groove is wider than the ball, and its shoulders are alike.
+        let on_ball = ball.above(zone.high);
+        let on_race = of.highest.above(zone.high);
+        return on_ball.and(on_race).and(in_front).and(on_top).or(unknown);
+    }
+    let (left, right) = (zone.low - c, zone.high - c);
     let on_ball = zone.low.above(-ball).and(ball.above(zone.high));
     let on_groove = left.above(-groove).and(groove.above(right));
     let on_race = left.above(of.lowest).and(of.highest.above(right));
-    let in_front = e.above(Lanes::ZERO).and(zone.lowest.above(Lanes::ZERO));
-    let on_top = zone.height.above(of.radius * SHALLOW);
-    // What is not a number is evaluated here, so that it shows.
-    let unknown = (e + c).is_nan();
     on_ball
         .and(on_groove)
         .and(on_race)
@@ -265,9 +347,13 @@ fn is_simple(octet: &Octet, e: Lanes, c: Lanes, zone: &Zone) -> Mask {
 impl Circles {
     /// A node of the ISO law at u/R along the common chord, as in `Chord::zeta`.
     #[inline(always)]
-    fn iso_node<const FMA: bool>(&self, u: Lanes, stretch: Lanes) -> Node {
+    fn iso_node<const FMA: bool, const PLANE: bool>(&self, u: Lanes, stretch: Lanes) -> Node {
         let (normal_cos, normal_sin) = self.normal;
         let height = (-u).mul_add::<FMA>(u, Lanes::all(1.0)).sqrt();
+        if PLANE {
+            // tan α has no part in what the two halves add up to.
+            return self.iso::<FMA>(u, height, Lanes::ZERO, stretch);
+        }
         let sin = u.mul_add::<FMA>(normal_cos, height * normal_sin);
         let cos = height * normal_cos - u * normal_sin;
         // One division for 1/height and 1/cos.
@@ -321,16 +407,26 @@ impl Circles {
         (-x).mul_add::<FMA>(x, self.r_square).sqrt()
     }
 
-    /// ζ/R in the middle of all fixed slices that may lie in any of the zones.
+    /// ζ/R in the middle of all fixed slices that may lie in any of the zones, and how many each stands for.
     #[inline(always)]
-    fn fixed_sines(&self, count: usize) -> impl Iterator<Item = f64> + use<> {
+    fn fixed_sines<const PLANE: bool>(
+        &self,
+        count: usize,
+    ) -> impl Iterator<Item = (f64, u32)> + use<PLANE> {
         let (low, high) = (self.low * self.inverse, self.high * self.inverse);
         let slices = count as f64;
         // A float becomes the nearest index that exists; one slice more on either side decides for itself.
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let index = |sin: f64| (0.5 * (sin + 1.0) * slices) as usize;
         let (first, last) = (index(low.least()), index(high.greatest()));
-        (first.saturating_sub(1)..(last + 2).min(count))
-            .map(move |k| (2 * k + 1) as f64 / slices - 1.0)
+        let first = if PLANE {
+            count / 2
+        } else {
+            first.saturating_sub(1)
+        };
+        (first..(last + 2).min(count)).map(move |k| {
+            let times = if PLANE && 2 * k + 1 != count { 2 } else { 1 };
+            ((2 * k + 1) as f64 / slices - 1.0, times)
+        })
     }
 }

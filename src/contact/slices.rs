@@ -11,6 +11,18 @@ pub enum Slices {
     Fitted(Rules),
 }
 
+impl Slices {
+    /// Slices of a ball, or nodes of a whole zone.
+    // At most thousands.
+    #[allow(clippy::cast_possible_truncation)]
+    pub fn count(&self) -> u32 {
+        match self {
+            Self::Fixed(count) => *count as u32,
+            Self::Fitted(rules) => rules.count() as u32,
+        }
+    }
+}
+
 /// Quadrature rules on −1 … 1 for forces that vanish at some ends like a power of the penetration.
 ///
 /// Nodes and weights (x, w) are such that ∫ f dx ≈ Σ w f(x) where f is smooth times (1 ± x)^β at the ends

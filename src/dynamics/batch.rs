@@ -1,5 +1,7 @@
 //! All contacts of an evaluation: those that touch are found, gathered by eights and evaluated together.
 //!
+//! Where a contact has a closed form all neighbours are evaluated as they stand: to gather would cost more.
+//!
 //! Eights may be evaluated by several threads; since their members depend on the state alone and they are added
 //! up in one order afterwards, the bits do not depend on the number of threads.
 
@@ -8,17 +10,31 @@ use std::array::from_fn;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
+use super::state::{State, Table};
 use super::sums::Sum;
-use super::{add, motion};
-use crate::contact::{Constants, Motion, Octet, Places, Press};
+use crate::contact::{Closed, Constants, Motion, Octet, Places, Press};
 use crate::model::{Ball, Model};
 use crate::simd::{LANES, Lanes, Mask, Task};
+
+/// What a batch may take for granted.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Kind {
+    /// All bodies stay in the planes of their rows.
+    pub plane: bool,
+    /// The second row is an image of the first, and not evaluated.
+    pub mirrored: bool,
+    /// Closed forms are used where there are any.
+    pub closed: bool,
+}
 
 /// The memory for all contacts of a model, and their sums after an evaluation.
 #[derive(Debug, Clone)]
 pub(super) struct Batch {
+    kind: Kind,
     /// The balls of every row by eights, for the search.
     stretches: Vec<Stretch>,
+    /// Closed forms by row, with the outer and the inner race.
+    closed: Vec<[Option<Closed>; 2]>,
     /// Constants of the contacts with the outer and with the inner race.
     constants: [SideConstants; 2],
     /// Contacts of whole surfaces with the outer and with the inner ring, in the order of the balls.
@@ -28,17 +44,25 @@ pub(super) struct Batch {
     active: usize,
     /// Contacts that are evaluated one by one.
     singles: Vec<Single>,
+    /// The first ball that has left its groove.
+    lost: Option<usize>,
+    /// Forces on the two rings by closed forms, and slices there whose damping wanted to pull.
+    rings: [[f64; 4]; 2],
+    pulls: u32,
 }
 
 /// Up to eight neighbours of a row.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 struct Stretch {
     row: usize,
     first: usize,
-    count: usize,
     radius: Lanes,
+    /// Which lanes are balls.
+    filled: Mask,
     /// Which of them have defects of their own.
     faulted: Mask,
+    /// Constants of their contacts with the outer and with the inner race.
+    constants: [Constants<Lanes>; 2],
 }
 
 /// Constants of all contacts with one ring.
@@ -76,55 +100,75 @@ struct Single {
 }
 
 impl Batch {
-    pub fn new(model: &Model) -> Self {
+    pub fn new(model: &Model, kind: Kind) -> Self {
+        let constants: [SideConstants; 2] = from_fn(|side| SideConstants::new(model, side));
+        let rows = if kind.mirrored { 1 } else { model.rows.len() };
         let mut stretches = Vec::new();
-        for (row, compiled) in model.rows.iter().enumerate() {
+        for (row, compiled) in model.rows.iter().enumerate().take(rows) {
             for start in (0..compiled.count).step_by(LANES) {
                 let (first, count) = (compiled.first + start, LANES.min(compiled.count - start));
-                let ball = |lane: usize| &model.balls[first + lane.min(count - 1)].side;
-                stretches.push(Stretch {
-                    row,
-                    first,
-                    count,
-                    radius: Lanes::from_fn(|lane| ball(lane).radius),
-                    faulted: Mask::from_fn(|lane| !ball(lane).faults.is_empty()),
-                });
+                stretches.push(Stretch::new(model, &constants, row, first, count));
             }
         }
         let balls = model.balls.len();
         Self {
+            kind,
+            closed: (0..rows).map(|row| closed(model, row, kind)).collect(),
             stretches,
-            constants: from_fn(|side| SideConstants::new(model, side)),
+            constants,
             touching: from_fn(|_| Vec::with_capacity(balls)),
             groups: vec![Group::default(); 2 * balls.div_ceil(LANES)],
             active: 0,
             singles: Vec::with_capacity(2 * balls),
+            lost: None,
+            rings: [[0.0; 4]; 2],
+            pulls: 0,
         }
     }
 
-    /// Evaluates all contacts at a state, by the threads of a pool if there is one.
-    pub fn fill(&mut self, model: &Model, y: &[f64], pool: Option<&ThreadPool>) {
-        let rings = [motion(y, 0), motion(y, 1)];
+    /// Evaluates all contacts at a state, by the threads of a pool if there is one, and adds their sums to the forces
+    /// on all bodies; returns the moments about z on the two rings.
+    pub fn add_to(
+        &mut self,
+        forces: &mut Table,
+        model: &Model,
+        state: &State,
+        pool: Option<&ThreadPool>,
+    ) -> [f64; 2] {
+        self.fill(forces, model, state, pool);
+        self.sum(forces)
+    }
+
+    fn fill(
+        &mut self,
+        forces: &mut Table,
+        model: &Model,
+        state: &State,
+        pool: Option<&ThreadPool>,
+    ) {
+        let rings = [state.motion(0), state.motion(1)];
         model.level.run(Find {
             batch: self,
+            forces,
             model,
-            y,
+            state,
             rings: &rings,
         });
         self.gather();
-        let constants = &self.constants;
+        let (constants, plane) = (&self.constants, self.kind.plane);
         let eight = |group: &mut Group| {
             model.level.run(Eight {
                 group,
                 constants,
+                plane,
                 model,
-                y,
+                state,
                 rings: &rings,
             });
         };
         let one = |single: &mut Single| {
             let ball = &model.balls[single.ball];
-            let motion = motion(y, 2 + single.ball);
+            let motion = state.motion(2 + single.ball);
             model.rows[ball.row].pairs[single.side].evaluate(
                 &ball.side,
                 &motion,
@@ -161,19 +205,48 @@ impl Batch {
         }
     }
 
-    /// Adds the sums to the forces on all bodies.
-    pub fn add_to(&self, forces: &mut [[f64; 4]]) {
+    fn sum(&self, forces: &mut Table) -> [f64; 2] {
+        let mut rings = self.rings;
         for group in &self.groups[..self.active] {
             for (lane, contact) in group.contacts.iter().enumerate().take(group.count) {
-                let of = |sums: [Lanes; 4]| sums.map(|sum| sum[lane]);
-                add(&mut forces[2 + contact.ball], &of(group.press.ball));
-                add(&mut forces[group.side], &of(group.press.ring));
+                let Press { ball, ring, .. } = &group.press;
+                let of = |[x, y, z, theta]: &[Lanes; 4]| [x[lane], y[lane], z[lane], theta[lane]];
+                forces.add(2 + contact.ball, &of(ball));
+                super::add(&mut rings[group.side], &of(ring));
             }
         }
         for single in &self.singles {
-            add(&mut forces[2 + single.ball], &single.sum.ball);
-            add(&mut forces[single.side], &single.sum.ring);
+            forces.add(2 + single.ball, &single.sum.ball);
+            super::add(&mut rings[single.side], &single.sum.ring);
         }
+        for (ring, mut sum) in rings.into_iter().enumerate() {
+            if self.kind.mirrored {
+                // What the image adds; along z it takes all.
+                sum = [2.0 * sum[0], 2.0 * sum[1], 0.0, 2.0 * sum[3]];
+            }
+            forces.add(ring, &sum);
+        }
+        rings.map(|sum| sum[3] * self.times())
+    }
+
+    /// Rows that are evaluated.
+    pub fn rows(&self) -> usize {
+        self.closed.len()
+    }
+
+    /// Whether the contacts of a row with a race are evaluated in closed form.
+    pub fn is_closed(&self, row: usize, side: usize) -> bool {
+        self.closed[row][side].is_some()
+    }
+
+    /// Whether all bodies stay in the planes of their rows.
+    pub fn is_plane(&self) -> bool {
+        self.kind.plane
+    }
+
+    /// How many contacts one stands for.
+    fn times(&self) -> f64 {
+        if self.kind.mirrored { 2.0 } else { 1.0 }
     }
 
     /// Slices whose damping wanted to pull.
@@ -183,15 +256,63 @@ impl Batch {
             .map(|group| group.press.pulls)
             .sum();
         let single: u32 = self.singles.iter().map(|single| single.sum.pulls).sum();
-        (grouped + single) as usize
+        (self.pulls + grouped + single) as usize * (1 + usize::from(self.kind.mirrored))
     }
 
     /// Contacts cut off by a shoulder.
     pub fn truncated(&self) -> usize {
-        self.singles
-            .iter()
-            .filter(|single| single.sum.truncated)
-            .count()
+        let cut = self.singles.iter().filter(|single| single.sum.truncated);
+        cut.count() * (1 + usize::from(self.kind.mirrored))
+    }
+
+    /// The first ball that has left its groove: pressed deeper than half its radius, or beside the groove.
+    pub fn lost(&self) -> Option<usize> {
+        self.lost
+    }
+}
+
+/// Closed forms of a row's contacts.
+fn closed(model: &Model, row: usize, kind: Kind) -> [Option<Closed>; 2] {
+    let compiled = &model.rows[row];
+    let mut radii = model.balls[compiled.first..][..compiled.count]
+        .iter()
+        .map(|ball| ball.side.radius);
+    let radius = radii.next().filter(|first| radii.all(|r| r == *first));
+    from_fn(|side| {
+        let radius = radius.filter(|_| kind.closed)?;
+        Closed::new(&compiled.pairs[side], radius, kind.plane)
+    })
+}
+
+impl Stretch {
+    fn new(
+        model: &Model,
+        constants: &[SideConstants; 2],
+        row: usize,
+        first: usize,
+        count: usize,
+    ) -> Self {
+        let lane = |lane: usize| first + lane.min(count - 1);
+        Self {
+            row,
+            first,
+            radius: Lanes::from_fn(|i| model.balls[lane(i)].side.radius),
+            filled: Mask::from_fn(|i| i < count),
+            faulted: Mask::from_fn(|i| !model.balls[lane(i)].side.faults.is_empty()),
+            constants: from_fn(|side| {
+                let mut all = Constants::default();
+                (0..LANES).for_each(|i| all.set(i, &constants[side].balls[lane(i)]));
+                all
+            }),
+        }
+    }
+
+    /// Numbers of its balls along one direction; in lanes that are left, of whatever comes next.
+    // Into what is compiled for the level that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn lanes(&self, of: &Table, direction: usize) -> Lanes {
+        of.eight(2 + self.first, direction)
     }
 }
 
@@ -235,11 +356,12 @@ fn leave(groups: &[Group], singles: &mut Vec<Single>) {
     }
 }
 
-/// Finds what touches.
+/// Finds what touches, and evaluates what has a closed form.
 struct Find<'a> {
     batch: &'a mut Batch,
+    forces: &'a mut Table,
     model: &'a Model,
-    y: &'a [f64],
+    state: &'a State,
     rings: &'a [Motion; 2],
 }
 
@@ -252,26 +374,67 @@ impl Task for Find<'_> {
     fn run<const FMA: bool>(self) {
         let Self {
             batch,
+            forces,
             model,
-            y,
+            state,
             rings,
         } = self;
         batch.touching.iter_mut().for_each(Vec::clear);
         batch.singles.clear();
+        (batch.lost, batch.pulls) = (None, 0);
+        let mut on_rings = [[Lanes::ZERO; 3]; 2];
         for stretch in &batch.stretches {
-            let last = stretch.count - 1;
-            let bodies = &y[4 * (2 + stretch.first)..][..4 * stretch.count];
+            let q = [
+                stretch.lanes(&state.q, 0),
+                stretch.lanes(&state.q, 1),
+                stretch.lanes(&state.q, 2),
+            ];
             let places = Places {
                 radius: stretch.radius,
-                q: from_fn(|k| Lanes::from_fn(|lane| bodies[4 * lane.min(last) + k])),
+                q,
             };
+            let mut lost = Mask::default();
             for (side, pair) in model.rows[stretch.row].pairs.iter().enumerate() {
                 let near = pair.near::<FMA>(&places, &rings[side]);
-                if !near.touching.any() {
+                lost = lost.or(near.lost);
+                let touching = near.touching.and(stretch.filled);
+                if !touching.any() {
                     continue;
                 }
-                let faulted = near.faulted.or(stretch.faulted);
-                for lane in near.touching.lanes().filter(|lane| *lane <= last) {
+                let faulted = near.faulted.or(stretch.faulted).and(touching);
+                if let Some(closed) = &batch.closed[stretch.row][side] {
+                    let skip = faulted.or(touching.not());
+                    let (vx, vy) = (stretch.lanes(&state.v, 0), stretch.lanes(&state.v, 1));
+                    let ring = &rings[side];
+                    let (ball, pulls, careful) = if batch.kind.plane {
+                        let level = pair.press_level::<FMA>(closed, &near, [vx, vy], ring, skip);
+                        let [x, y] = level.ball;
+                        ([x, y, Lanes::ZERO], level.pulls, level.careful)
+                    } else {
+                        let octet = Octet {
+                            constants: stretch.constants[side],
+                            wave: near.wave,
+                            q,
+                            v: [vx, vy, stretch.lanes(&state.v, 2), Lanes::ZERO],
+                        };
+                        let press = pair.press::<FMA, false>(&octet, ring, skip, Some(closed));
+                        let [x, y, z, _] = press.ball;
+                        ([x, y, z], press.pulls, press.careful)
+                    };
+                    for (i, force) in ball.into_iter().enumerate() {
+                        forces.add_eight(2 + stretch.first, i, force);
+                        on_rings[side][i] += force;
+                    }
+                    batch.pulls += pulls;
+                    let careful = careful.or(faulted).and(touching);
+                    if careful.any() {
+                        for lane in careful.lanes() {
+                            batch.singles.push(Single::new(side, stretch.first + lane));
+                        }
+                    }
+                    continue;
+                }
+                for lane in touching.lanes() {
                     let ball = stretch.first + lane;
                     if faulted.lane(lane) {
                         batch.singles.push(Single::new(side, ball));
@@ -281,6 +444,13 @@ impl Task for Find<'_> {
                     }
                 }
             }
+            let lost = lost.and(stretch.filled);
+            if lost.any() && batch.lost.is_none() {
+                batch.lost = lost.lanes().map(|lane| stretch.first + lane).next();
+            }
+        }
+        for (ring, [x, y, z]) in batch.rings.iter_mut().zip(on_rings) {
+            *ring = [-x.sum(), -y.sum(), -z.sum(), 0.0];
         }
     }
 }
@@ -289,8 +459,9 @@ impl Task for Find<'_> {
 struct Eight<'a> {
     group: &'a mut Group,
     constants: &'a [SideConstants; 2],
+    plane: bool,
     model: &'a Model,
-    y: &'a [f64],
+    state: &'a State,
     rings: &'a [Motion; 2],
 }
 
@@ -303,7 +474,11 @@ impl Task for Eight<'_> {
     fn run<const FMA: bool>(self) {
         let group = self.group;
         let side = group.side;
-        let (q, v) = self.y.split_at(self.y.len() / 2);
+        let State { q, v } = self.state;
+        let (q, v) = (
+            [0, 1, 2].map(|k| q.along(k)),
+            [0, 1, 2, 3].map(|k| v.along(k)),
+        );
         let constants = &self.constants[side];
         let mut octet = Octet {
             constants: constants.first,
@@ -317,12 +492,12 @@ impl Task for Eight<'_> {
                 octet.constants.set(lane, of);
             }
             octet.wave[lane] = contact.wave;
-            let body = 4 * (2 + contact.ball);
-            for k in 0..3 {
-                octet.q[k][lane] = q[body + k];
+            let body = 2 + contact.ball;
+            for (to, from) in octet.q.iter_mut().zip(q) {
+                to[lane] = from[body];
             }
-            for k in 0..4 {
-                octet.v[k][lane] = v[body + k];
+            for (to, from) in octet.v.iter_mut().zip(v) {
+                to[lane] = from[body];
             }
         }
         // Lanes left over must not count as pulling.
@@ -330,6 +505,11 @@ impl Task for Eight<'_> {
             octet.constants.radius[lane] *= 0.5;
         }
         let pair = &self.model.rows[0].pairs[side];
-        group.press = pair.press::<FMA>(&octet, &self.rings[side]);
+        let (ring, skip) = (&self.rings[side], Mask::default());
+        group.press = if self.plane {
+            pair.press::<FMA, true>(&octet, ring, skip, None)
+        } else {
+            pair.press::<FMA, false>(&octet, ring, skip, None)
+        };
     }
 }

@@ -99,7 +99,12 @@ impl Model {
         if let Some(cage) = &self.scene.cage {
             for row in &self.rows {
                 for (i, j) in row.links() {
-                    let link = others::link(cage, row.cage_distance, y, i, j);
+                    let link = others::link(
+                        cage,
+                        row.cage_distance,
+                        &motion(y, 2 + i),
+                        &motion(y, 2 + j),
+                    );
                     energy.cage += link.energy;
                     energy.support_power += link.power;
                 }
@@ -113,7 +118,15 @@ impl Model {
         let (row, cage) = (&self.rows[row], self.scene.cage.as_ref());
         cage.map_or_else(Vec::new, |cage| {
             row.links()
-                .map(|(i, j)| others::link(cage, row.cage_distance, y, i, j).force)
+                .map(|(i, j)| {
+                    others::link(
+                        cage,
+                        row.cage_distance,
+                        &motion(y, 2 + i),
+                        &motion(y, 2 + j),
+                    )
+                    .force
+                })
                 .collect()
         })
     }

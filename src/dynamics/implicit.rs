@@ -11,7 +11,8 @@ use rayon::prelude::*;
 
 use super::arrow::Arrow;
 use super::grip::{Grip, carried};
-use super::{Dynamics, add, motion};
+use super::state::Table;
+use super::{Dynamics, motion};
 use crate::contact::Law;
 use crate::integrate::{ImplicitVelocity, Stuck};
 use crate::model::{Degree, Model};
@@ -72,7 +73,7 @@ impl Implicit {
     }
 
     /// Contact forces on all bodies at the velocities of `y`, with their slopes by the twists.
-    fn contacts(&mut self, model: &Model, y: &[f64], forces: &mut [[f64; 4]]) {
+    fn contacts(&mut self, model: &Model, y: &[f64], forces: &mut Table) {
         for (j, ball) in model.balls.iter().enumerate() {
             for (s, pair) in model.rows[ball.row].pairs.iter().enumerate() {
                 let grip = &self.grips[j][s];
@@ -82,8 +83,8 @@ impl Implicit {
                 let carried = carried(grip.apart);
                 let twist = velocity(y, 2 + j) - carried * velocity(y, s);
                 let (wrench, slope) = grip.wrench_and_slope(pair, &twist, self.secant);
-                add(&mut forces[2 + j], &wrench.into());
-                add(&mut forces[s], &(-carried.tr_mul(&wrench)).into());
+                forces.add(2 + j, &wrench.into());
+                forces.add(s, &(-carried.tr_mul(&wrench)).into());
                 self.slopes[j][s] = slope;
             }
         }
@@ -148,9 +149,10 @@ impl Dynamics<'_> {
     /// The residual base + γh a − v into `implicit`.
     fn residual(&mut self, t: f64, y: &[f64], base: &[f64], gamma_h: f64, work: &mut Implicit) {
         let model = self.model;
-        self.forces.fill([0.0; 4]);
+        self.read(t, y);
+        self.forces.copy_from(&self.constant);
         work.contacts(model, y, &mut self.forces);
-        self.others(t, y);
+        self.others(t);
         for (b, residual) in work.residual.iter_mut().enumerate() {
             let base = Vector4::from_column_slice(&base[4 * b..4 * b + 4]);
             let acceleration = Vector4::from(self.acceleration(t, b));

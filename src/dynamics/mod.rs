@@ -7,7 +7,9 @@ mod energy;
 mod grip;
 mod implicit;
 mod others;
+mod state;
 mod sums;
+mod uses;
 
 use std::sync::Arc;
 
@@ -15,26 +17,43 @@ use rayon::ThreadPool;
 
 use crate::contact::{Motion, Pair, Slices};
 use crate::integrate::System;
-use crate::model::{Model, RowModel};
+use crate::model::{Degree, Model, Reduction, RowModel};
 use crate::scene::Drive;
 
 pub use contacts::{ContactSummary, SliceForce};
 pub use energy::Energy;
+pub(crate) use uses::Use;
 
-use batch::Batch;
+use batch::{Batch, Kind};
 use implicit::Implicit;
+use state::{State, Table};
 use sums::Named;
 
 /// A model with the memory that evaluating it needs. One a thread of control.
 #[derive(Debug)]
 pub struct Dynamics<'m> {
     model: &'m Model,
+    order: Order,
+    state: State,
     contacts: Batch,
     contact_torques: [f64; 2],
-    forces: Vec<[f64; 4]>,
+    forces: Table,
+    /// Gravity and loads that stay the same.
+    constant: Table,
+    /// One over the mass where a direction is free, 0 where it is not.
+    mobility: Table,
     pool: Option<Arc<ThreadPool>>,
     /// Memory of implicit stages, once there was one.
     implicit: Option<Box<Implicit>>,
+}
+
+/// What a state vector holds.
+#[derive(Debug)]
+enum Order {
+    /// Everything, body by body, as [`Model::names`] says.
+    Bodies,
+    /// What a reduction keeps, direction by direction; and the place of the driven rotation, if it is kept.
+    Kept(Reduction, Option<usize>),
 }
 
 /// Names of the contributions of [`Dynamics::contributions`], in their order.
@@ -46,23 +65,65 @@ pub const CONTRIBUTIONS: [&str; 8] = [
 const INNER: usize = 1;
 
 impl<'m> Dynamics<'m> {
-    /// For evaluations on one thread.
+    /// For evaluations on one thread, of states as [`Model::names`] orders them.
     pub fn new(model: &'m Model) -> Self {
+        Self::with(model, Order::Bodies, Kind::default())
+    }
+
+    /// For the states that a reduction keeps. `start` is a state of all bodies.
+    pub fn reduced(model: &'m Model, reduction: Reduction, start: &[f64]) -> Self {
+        let kind = Kind {
+            plane: reduction.plane,
+            mirrored: reduction.mirrored,
+            closed: reduction.closed,
+        };
+        let driven = reduction
+            .degrees()
+            .position(|(body, i)| model.bodies[body].degrees[i] == Degree::Driven);
+        let mut dynamics = Self::with(model, Order::Kept(reduction, driven), kind);
+        let mut places = start.to_vec();
+        let kept = dynamics.compress(start);
+        dynamics.expand(0.0, &kept, &mut places);
+        dynamics.state.read(&places);
+        dynamics
+    }
+
+    /// For a run from a state of all bodies, with what it leaves out.
+    pub(crate) fn begin(model: &'m Model, reduction: Option<&Reduction>, start: &[f64]) -> Self {
+        match reduction {
+            Some(reduction) => Self::reduced(model, reduction.clone(), start),
+            None => Self::new(model),
+        }
+    }
+
+    fn with(model: &'m Model, order: Order, kind: Kind) -> Self {
+        let bodies = model.bodies.len();
+        let (mut constant, mut mobility) = (Table::zeros(bodies), Table::zeros(bodies));
+        others::gravity(model, &mut constant);
+        others::loads(model, true, 0.0, &mut constant);
+        for (body, of) in model.mobility.iter().enumerate() {
+            mobility.add(body, of);
+        }
         Self {
             model,
-            contacts: Batch::new(model),
+            order,
+            state: State::new(bodies),
+            contacts: Batch::new(model, kind),
             contact_torques: [0.0; 2],
-            forces: vec![[0.0; 4]; model.bodies.len()],
+            forces: Table::zeros(bodies),
+            constant,
+            mobility,
             pool: None,
             implicit: None,
         }
     }
 
     /// Shares the balls of an evaluation among the threads of a pool.
-    pub fn parallel(model: &'m Model, pool: Arc<ThreadPool>) -> Self {
+    #[must_use]
+    pub fn shared(self, pool: Arc<ThreadPool>) -> Self {
         Self {
             pool: Some(pool),
-            ..Self::new(model)
+            ..self
         }
     }
 
@@ -81,10 +142,18 @@ impl<'m> Dynamics<'m> {
         self.contacts.truncated()
     }
 
+    /// The first body among the balls that had left its groove in the last evaluation, if any: pressed deeper than
+    /// half its radius, or beside the groove.
+    pub fn lost(&self) -> Option<usize> {
+        self.contacts.lost().map(|ball| 2 + ball)
+    }
+
     /// The forces of the last evaluation on every body: x, y, z \[N\] and about z \[N m\]. For a direction
-    /// that is fixed or driven their negative is what holds it.
-    pub fn last_forces(&self) -> &[[f64; 4]] {
-        &self.forces
+    /// that is fixed or driven their negative is what holds it. Bodies that a reduction leaves out have none.
+    pub fn last_forces(&self) -> Vec<[f64; 4]> {
+        (0..self.model.bodies.len())
+            .map(|body| self.forces.of(body))
+            .collect()
     }
 
     /// Moment about z that the balls put on outer and inner ring in the last evaluation \[N m\].
@@ -92,27 +161,89 @@ impl<'m> Dynamics<'m> {
         self.contact_torques
     }
 
-    fn sum(&mut self, t: f64, y: &[f64]) {
-        self.contacts.fill(self.model, y, self.pool.as_deref());
-        self.forces.fill([0.0; 4]);
-        self.contacts.add_to(&mut self.forces);
-        self.contact_torques = [0, 1].map(|ring| self.forces[ring][3]);
-        self.others(t, y);
+    /// What each state belongs to, as (body, direction): those of the first half of a state vector, in their order.
+    pub(crate) fn degrees(&self) -> Vec<(usize, usize)> {
+        match &self.order {
+            Order::Bodies => (0..4 * self.model.bodies.len())
+                .map(|i| (i / 4, i % 4))
+                .collect(),
+            Order::Kept(reduction, _) => reduction.degrees().collect(),
+        }
     }
 
-    /// Adds the forces that are not contacts.
-    fn others(&mut self, t: f64, y: &[f64]) {
-        others::cage(self.model, y, &mut self.forces);
-        others::supports(self.model, y, &mut self.forces);
-        others::gravity(self.model, &mut self.forces);
-        others::loads(self.model, t, y, &mut self.forces);
-        others::drive(self.model, t, &mut self.forces);
+    /// The states of a run out of those of all bodies.
+    pub fn compress(&self, full: &[f64]) -> Vec<f64> {
+        match &self.order {
+            Order::Bodies => full.to_vec(),
+            Order::Kept(reduction, _) => reduction.compress(full),
+        }
+    }
+
+    /// The states of all bodies at a time \[s\] from those of a run; `full` holds them from another time.
+    pub fn expand(&self, t: f64, y: &[f64], full: &mut [f64]) {
+        match &self.order {
+            Order::Bodies => full.copy_from_slice(y),
+            Order::Kept(reduction, _) => reduction.expand(self.model, t, y, full),
+        }
+    }
+
+    /// The same for their rates.
+    pub fn expand_rates(&self, t: f64, dy: &[f64], full: &mut [f64]) {
+        match &self.order {
+            Order::Bodies => full.copy_from_slice(dy),
+            Order::Kept(reduction, _) => reduction.expand_rates(self.model, t, dy, full),
+        }
+    }
+
+    /// Takes over a state vector.
+    fn read(&mut self, t: f64, y: &[f64]) {
+        match &self.order {
+            Order::Bodies => self.state.read(y),
+            Order::Kept(reduction, _) => {
+                let (q, v) = y.split_at(y.len() / 2);
+                for s in reduction.stretches() {
+                    let (to, from) = (s.first..s.first + s.count, s.at..s.at + s.count);
+                    let State {
+                        q: places,
+                        v: speeds,
+                    } = &mut self.state;
+                    places.along_mut(s.direction)[to.clone()].copy_from_slice(&q[from.clone()]);
+                    speeds.along_mut(s.direction)[to].copy_from_slice(&v[from]);
+                }
+                for coast in reduction.felt() {
+                    let (place, speed) = coast.at(t);
+                    *self.state.q.get_mut(coast.body, coast.direction) = place;
+                    *self.state.v.get_mut(coast.body, coast.direction) = speed;
+                }
+            }
+        }
+    }
+
+    fn sum(&mut self, t: f64) {
+        self.forces.copy_from(&self.constant);
+        self.contact_torques = self.contacts.add_to(
+            &mut self.forces,
+            self.model,
+            &self.state,
+            self.pool.as_deref(),
+        );
+        self.others(t);
+    }
+
+    /// Adds the forces that are neither contacts nor constant.
+    fn others(&mut self, t: f64) {
+        let (state, forces) = (&self.state, &mut self.forces);
+        others::cage(self.model, self.contacts.rows(), state, forces);
+        others::supports(self.model, state, forces);
+        others::loads(self.model, false, t, forces);
+        others::unbalances(self.model, t, state, forces);
+        others::drive(self.model, t, forces);
     }
 
     /// M⁻¹ F of a body. Directions that are fixed do not accelerate; the driven ring's rotation accelerates as
     /// prescribed.
     fn acceleration(&self, t: f64, body: usize) -> [f64; 4] {
-        let (force, mobility) = (&self.forces[body], &self.model.mobility[body]);
+        let (force, mobility) = (self.forces.of(body), &self.model.mobility[body]);
         let mut acceleration = std::array::from_fn(|i| force[i] * mobility[i]);
         if let (INNER, Drive::Speed(speed)) = (body, &self.model.scene.drive) {
             acceleration[3] = speed.rate(t);
@@ -120,47 +251,75 @@ impl<'m> Dynamics<'m> {
         acceleration
     }
 
-    /// The same forces apart by origin, as in [`CONTRIBUTIONS`]: for each, four numbers a body.
-    pub fn contributions(&self, t: f64, y: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
-        let model = self.model;
+    /// The same forces apart by origin, as in [`CONTRIBUTIONS`]: for each, four numbers a body. `y` holds the states
+    /// of all bodies.
+    pub(crate) fn contributions(model: &Model, t: f64, y: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
         let bodies = model.bodies.len();
-        let mut parts = vec![vec![[0.0; 4]; bodies]; CONTRIBUTIONS.len()];
-        let rings = [motion(y, 0), motion(y, 1)];
+        let mut state = State::new(bodies);
+        state.read(y);
+        let mut parts = vec![Table::zeros(bodies); CONTRIBUTIONS.len()];
+        let rings = [state.motion(0), state.motion(1)];
         for (j, ball) in model.balls.iter().enumerate() {
             for (side, pair) in model.rows[ball.row].pairs.iter().enumerate() {
                 let mut named = Named::default();
-                pair.evaluate(&ball.side, &motion(y, 2 + j), &rings[side], &mut named);
+                pair.evaluate(&ball.side, &state.motion(2 + j), &rings[side], &mut named);
                 for (part, (on_ball, on_ring)) in parts.iter_mut().zip(named.wrenches()) {
-                    add(&mut part[2 + j], &on_ball);
-                    add(&mut part[side], &on_ring);
+                    part.add(2 + j, &on_ball);
+                    part.add(side, &on_ring);
                 }
             }
         }
-        others::cage(model, y, &mut parts[3]);
-        others::supports(model, y, &mut parts[4]);
+        others::cage(model, model.rows.len(), &state, &mut parts[3]);
+        others::supports(model, &state, &mut parts[4]);
         others::gravity(model, &mut parts[5]);
-        others::loads(model, t, y, &mut parts[6]);
+        for constant in [true, false] {
+            others::loads(model, constant, t, &mut parts[6]);
+        }
+        others::unbalances(model, t, &state, &mut parts[6]);
         others::drive(model, t, &mut parts[7]);
+        let listed = |part: Table| (0..bodies).flat_map(|body| part.of(body)).collect();
         CONTRIBUTIONS
             .into_iter()
-            .zip(parts.into_iter().map(|part| part.concat()))
+            .zip(parts.into_iter().map(listed))
             .collect()
     }
 }
 
 impl System for Dynamics<'_> {
     fn dim(&self) -> usize {
-        self.model.dim()
+        match &self.order {
+            Order::Bodies => self.model.dim(),
+            Order::Kept(reduction, _) => reduction.dim(),
+        }
     }
 
     /// M q̈ = F(t, q, q̇) in state space (model section 1).
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
-        self.sum(t, y);
+        self.read(t, y);
+        self.sum(t);
         let half = y.len() / 2;
         let (rates, accelerations) = dy.split_at_mut(half);
         rates.copy_from_slice(&y[half..]);
-        for (b, acceleration) in accelerations.as_chunks_mut().0.iter_mut().enumerate() {
-            *acceleration = self.acceleration(t, b);
+        match &self.order {
+            Order::Bodies => {
+                for (b, acceleration) in accelerations.as_chunks_mut().0.iter_mut().enumerate() {
+                    *acceleration = self.acceleration(t, b);
+                }
+            }
+            Order::Kept(reduction, driven) => {
+                for s in reduction.stretches() {
+                    let bodies = s.first..s.first + s.count;
+                    let force = &self.forces.along(s.direction)[bodies.clone()];
+                    let mobility = &self.mobility.along(s.direction)[bodies];
+                    let to = &mut accelerations[s.at..s.at + s.count];
+                    for ((a, f), m) in to.iter_mut().zip(force).zip(mobility) {
+                        *a = f * m;
+                    }
+                }
+                if let (Some(i), Drive::Speed(speed)) = (driven, &self.model.scene.drive) {
+                    accelerations[*i] = speed.rate(t);
+                }
+            }
         }
     }
 }
@@ -187,32 +346,11 @@ impl Model {
     /// If the length of `y` is wrong.
     pub fn forces(&self, t: f64, y: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
         assert_eq!(y.len(), self.dim(), "length of the state");
-        Dynamics::new(self).contributions(t, y)
+        Dynamics::contributions(self, t, y)
     }
 }
 
 impl Model {
-    /// The first body among the balls that has left its groove, if any: pressed deeper than half its radius,
-    /// or beside the groove.
-    pub(crate) fn escaped(&self, y: &[f64]) -> Option<usize> {
-        let rings = [motion(y, 0), motion(y, 1)];
-        (0..self.balls.len()).map(|j| 2 + j).find(|&body| {
-            let ball = &self.balls[body - 2];
-            let place = motion(y, body);
-            self.rows[ball.row]
-                .pairs
-                .iter()
-                .zip(&rings)
-                .any(|(pair, ring)| {
-                    let distance = (place.centre - ring.centre).norm();
-                    let meridian = pair.race.meridian(distance, place.z - ring.z, 0.0);
-                    // Negated, so that a position that is not a number counts as lost.
-                    !(meridian.c.abs() < meridian.r
-                        && meridian.approach(ball.side.radius) < 0.5 * ball.side.radius)
-                })
-        })
-    }
-
     /// The radius that makes a length of a body's rotation \[m\]: a ball's own, half the pitch diameter of the
     /// first row for a ring.
     pub(crate) fn radius(&self, body: usize) -> f64 {

@@ -6,14 +6,16 @@
 mod body;
 mod compile;
 mod nodes;
+mod reduction;
 mod scales;
 
-use crate::contact::{BallSide, Pair, Slices};
+use crate::contact::{BallSide, Pair};
 use crate::error::Result;
-use crate::scene::{Component, Scene, TimeFunction};
+use crate::scene::{Component, Method, Scene, TimeFunction};
 use crate::simd::Level;
 
 pub use body::{Body, Degree};
+pub use reduction::{Obstacle, Omission, Reduction};
 pub use scales::Scales;
 
 /// A compiled scene. Immutable and shared by threads.
@@ -150,10 +152,7 @@ impl Model {
         self.rows[0]
             .pairs
             .each_ref()
-            .map(|pair| match &pair.slices {
-                Slices::Fixed(count) => *count,
-                Slices::Fitted(rules) => rules.count(),
-            })
+            .map(|pair| pair.slices.count() as usize)
     }
 
     /// Level of vector instructions that evaluations use.
@@ -171,6 +170,21 @@ impl Model {
     /// Scales of the scene, which the tolerances and the step cap follow.
     pub fn scales(&self) -> &Scales {
         &self.scales
+    }
+
+    /// What a run from a state of all bodies leaves out; absent where it integrates all states in the order of
+    /// [`Model::names`], since implicit steps solve for a block a body.
+    ///
+    /// # Panics
+    /// If the length of `start` is wrong.
+    pub fn reduction(&self, start: &[f64]) -> Option<Reduction> {
+        assert_eq!(start.len(), self.dim(), "length of the state");
+        let solver = &self.scene.solver;
+        match solver.method {
+            Method::ImplicitFriction | Method::Auto => None,
+            _ if solver.reduce => Some(Reduction::of(self, start)),
+            _ => Some(Reduction::none(self)),
+        }
     }
 
     /// Orbit rate of a row's balls and their rotation about z \[rad/s\] for pure rolling at the nominal contact

@@ -110,6 +110,17 @@ impl Width {
         }
     }
 
+    /// The same in a mirror, z → −z.
+    pub(crate) fn reversed(&self) -> Self {
+        match self {
+            Self::Constant(width) => Self::Constant(*width),
+            Self::Profile(WidthProfile { positions, widths }) => Self::Profile(WidthProfile {
+                positions: positions.iter().rev().map(|z| -z).collect(),
+                widths: widths.iter().rev().copied().collect(),
+            }),
+        }
+    }
+
     /// The largest width \[m\].
     pub fn largest(&self) -> f64 {
         match self {

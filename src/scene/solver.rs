@@ -43,6 +43,9 @@ pub struct Solver {
     /// Whether the step is also kept below a share of the period of the highest contact frequency. On by
     /// default: at loose tolerances a run otherwise reports success with accelerations wrong by 30 % and more.
     pub frequency_cap: bool,
+    /// Whether a run leaves out what does not change the motion: directions without forces, mirror images, slices
+    /// where a closed form says the same. Default true.
+    pub reduce: bool,
 }
 
 impl Default for Solver {
@@ -53,6 +56,7 @@ impl Default for Solver {
             first_step: None,
             max_step: None,
             frequency_cap: true,
+            reduce: true,
         }
     }
 }

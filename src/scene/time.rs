@@ -140,6 +140,44 @@ impl TimeFunction {
         }
     }
 
+    /// Integral from 0 to `t` ≥ 0.
+    ///
+    /// ```
+    /// use ballrace::scene::{Profile, TimeFunction};
+    /// let ramp = TimeFunction::Profile(Profile::Ramp { from: 0.0, to: 8.0, start: 1.0, end: 3.0 });
+    /// assert_eq!([0.5, 2.0, 3.0, 4.0].map(|t| ramp.integral(t)), [0.0, 2.0, 8.0, 16.0]);
+    /// ```
+    pub fn integral(&self, t: f64) -> f64 {
+        match self {
+            Self::Constant(value) => value * t,
+            Self::Profile(Profile::Sine {
+                mean,
+                amplitude,
+                frequency,
+                phase,
+            }) => {
+                let w = std::f64::consts::TAU * frequency;
+                if w == 0.0 {
+                    return self.at(0.0) * t;
+                }
+                mean * t + amplitude / w * (phase.cos() - (w * t + phase).cos())
+            }
+            // Trapezia between corners; a jump is two of them at one time.
+            Self::Profile(Profile::Ramp {
+                from,
+                to,
+                start,
+                end,
+            }) => {
+                trapezia(&[*start, *end], &[*from, *to], t)
+                    - trapezia(&[*start, *end], &[*from, *to], 0.0)
+            }
+            Self::Profile(Profile::Table { times, values }) => {
+                trapezia(times, values, t) - trapezia(times, values, 0.0)
+            }
+        }
+    }
+
     /// Times at which the value jumps or has a corner \[s\].
     pub fn breakpoints(&self) -> Vec<f64> {
         match self {
@@ -162,6 +200,19 @@ impl TimeFunction {
             }
         }
     }
+}
+
+/// Integral from the first corner to `t`, before it too, of what is linear between corners and constant beyond.
+fn trapezia(times: &[f64], values: &[f64], t: f64) -> f64 {
+    let (first, last) = (times[0], times[times.len() - 1]);
+    let mut sum = values[0] * (t - first).min(0.0) + values[values.len() - 1] * (t - last).max(0.0);
+    for (span, value) in times.windows(2).zip(values.windows(2)) {
+        let (length, within) = (span[1] - span[0], t.clamp(span[0], span[1]) - span[0]);
+        if length > 0.0 {
+            sum += within * (value[0] + 0.5 * (value[1] - value[0]) * within / length);
+        }
+    }
+    sum
 }
 
 impl Serialize for TimeFunction {

@@ -32,6 +32,26 @@ impl Lanes {
         Self(lanes)
     }
 
+    /// The first eight numbers of a slice.
+    ///
+    /// # Panics
+    /// If there are fewer.
+    #[inline(always)]
+    pub(crate) fn from_slice(slice: &[f64]) -> Self {
+        let mut lanes = [0.0; LANES];
+        lanes.copy_from_slice(&slice[..LANES]);
+        Self(lanes)
+    }
+
+    /// Into the first eight numbers of a slice.
+    ///
+    /// # Panics
+    /// If there are fewer.
+    #[inline(always)]
+    pub(crate) fn to_slice(self, slice: &mut [f64]) {
+        slice[..LANES].copy_from_slice(&self.0);
+    }
+
     #[inline(always)]
     pub(crate) fn map(self, mut f: impl FnMut(f64) -> f64) -> Self {
         Self::from_fn(|i| f(self.0[i]))
@@ -73,6 +93,13 @@ impl Lanes {
     #[inline(always)]
     pub(crate) fn is_nan(self) -> Mask {
         Mask(self.map(|x| if x.is_nan() { 1.0 } else { 0.0 }))
+    }
+
+    /// Their sum, by halves.
+    #[inline(always)]
+    pub(crate) fn sum(self) -> f64 {
+        let [a, b, c, d, e, f, g, h] = self.0;
+        ((a + e) + (c + g)) + ((b + f) + (d + h))
     }
 
     #[inline(always)]
@@ -158,7 +185,7 @@ impl Mask {
 
     #[inline(always)]
     pub(crate) fn any(self) -> bool {
-        self.0.greatest() > 0.0
+        self.0.sum() > 0.0
     }
 
     #[inline(always)]
@@ -200,8 +227,8 @@ pub(crate) struct Counters(Lanes);
 
 impl Counters {
     #[inline(always)]
-    pub(crate) fn add(&mut self, mask: Mask) {
-        self.0 += mask.0;
+    pub(crate) fn add(&mut self, mask: Mask, times: u32) {
+        self.0 += mask.0 * f64::from(times);
     }
 
     /// All of them together.

@@ -1,0 +1,176 @@
+//! What a scene is compiled to: what a run integrates and leaves out, what that costs, and what would make it cheaper.
+
+mod cost;
+mod variants;
+
+use std::fmt;
+
+use serde::Serialize;
+
+use crate::dynamics::Dynamics;
+use crate::error::Result;
+use crate::model::{Model, Obstacle, Omission, Reduction};
+use crate::scene::Scene;
+use crate::start::{Start, start};
+
+pub use cost::Cost;
+pub use variants::Variant;
+
+/// What a run of a scene does.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Explanation {
+    /// Name of the scene.
+    pub name: String,
+    /// Two rings and all balls.
+    pub bodies: usize,
+    /// States of all bodies: a place and a speed for each of four directions.
+    pub states: usize,
+    /// States that a run integrates.
+    pub kept: usize,
+    /// What is left out, and why that changes nothing.
+    pub omissions: Vec<Omission>,
+    /// What cannot be left out, and why.
+    pub obstacles: Vec<Obstacle>,
+    /// The contacts of every race.
+    pub contacts: Vec<ContactKind>,
+    /// Forces that the scene has, and that are evaluated in a run.
+    pub evaluated: Vec<&'static str>,
+    /// Forces that are set once, before the run.
+    pub constant: Vec<&'static str>,
+    /// Forces that the scene does not have: no code runs for them.
+    pub absent: Vec<&'static str>,
+    /// What a run costs, measured here and now.
+    pub cost: Cost,
+    /// What it would cost otherwise, the cheapest first.
+    pub variants: Vec<Variant>,
+}
+
+/// How the contacts of a race are evaluated.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct ContactKind {
+    /// Such as `row 0, outer race`.
+    pub race: String,
+    /// Number of balls.
+    pub contacts: usize,
+    /// What a contact is: `closed form`, `6 nodes`, `3 of 6 nodes (mirror symmetry)`, `50 slices`, `image of row 0`.
+    pub evaluation: String,
+}
+
+/// Explains a scene: compiles it, starts it and times some steps, of which it keeps nothing.
+///
+/// ```
+/// use ballrace::scene::{Friction, presets};
+/// let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+/// scene.friction = Friction::None;
+/// let told = ballrace::explain(&scene).unwrap();
+/// assert_eq!((told.states, told.kept), (88, 44));
+/// assert_eq!(told.contacts[0].evaluation, "closed form");
+/// ```
+///
+/// # Errors
+/// As [`crate::simulate()`].
+pub fn explain(scene: &Scene) -> Result<Explanation> {
+    let model = Model::new(scene)?;
+    let y0 = start(&model, &Start::Equilibrium)?;
+    let reduction = model.reduction(&y0);
+    let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);
+    let forces = dynamics.uses();
+    let of = |wanted: crate::dynamics::Use| {
+        let named = forces.iter().filter(|(_, kind)| *kind == wanted);
+        named.map(|(name, _)| *name).collect()
+    };
+    let cost = cost::of(&model, &y0)?;
+    Ok(Explanation {
+        name: scene.name.clone(),
+        bodies: model.body_count(),
+        states: model.dim(),
+        kept: reduction.as_ref().map_or(model.dim(), Reduction::dim),
+        omissions: listed(reduction.as_ref(), Reduction::omissions),
+        obstacles: listed(reduction.as_ref(), Reduction::obstacles),
+        contacts: contacts(&model, &dynamics),
+        evaluated: of(crate::dynamics::Use::Evaluated),
+        constant: of(crate::dynamics::Use::Constant),
+        absent: of(crate::dynamics::Use::Absent),
+        variants: variants::of(&model, &y0, &cost)?,
+        cost,
+    })
+}
+
+fn listed<T: Clone>(reduction: Option<&Reduction>, list: fn(&Reduction) -> &[T]) -> Vec<T> {
+    reduction.map_or_else(Vec::new, |reduction| list(reduction).to_vec())
+}
+
+fn contacts(model: &Model, dynamics: &Dynamics<'_>) -> Vec<ContactKind> {
+    let rows = model.scene().rows.iter().enumerate();
+    rows.flat_map(|(row, of)| {
+        [0, 1].map(|side| ContactKind {
+            race: format!("row {row}, {} race", ["outer", "inner"][side]),
+            contacts: of.ball_count,
+            evaluation: dynamics.evaluation(row, side),
+        })
+    })
+    .collect()
+}
+
+impl fmt::Display for Explanation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}: {} bodies", self.name, self.bodies)?;
+        writeln!(
+            f,
+            "states     {} of {} are integrated",
+            self.kept, self.states
+        )?;
+        for Omission {
+            what,
+            degrees,
+            reason,
+        } in &self.omissions
+        {
+            writeln!(f, "  without  {what} ({} states): {reason}", 2 * degrees)?;
+        }
+        for Obstacle { what, reason } in &self.obstacles {
+            writeln!(f, "  no       {what}: {reason}")?;
+        }
+        writeln!(f, "contacts")?;
+        for kind in &self.contacts {
+            writeln!(
+                f,
+                "  {}: {} × {}",
+                kind.race, kind.contacts, kind.evaluation
+            )?;
+        }
+        for (name, forces) in [
+            ("evaluated", &self.evaluated),
+            ("set once", &self.constant),
+            ("absent", &self.absent),
+        ] {
+            if !forces.is_empty() {
+                writeln!(f, "{name:<11}{}", forces.join(", "))?;
+            }
+        }
+        let cost = &self.cost;
+        writeln!(
+            f,
+            "cost       {:.2} s for a simulated second on one thread: {:.0} evaluations of {:.2} µs, of which \
+             contacts and all other forces {:.2} µs",
+            cost.seconds,
+            cost.evaluations,
+            1e6 * cost.evaluation,
+            1e6 * cost.right_hand_side
+        )?;
+        for variant in &self.variants {
+            writeln!(
+                f,
+                "  {:>5.2} ×  {}{}",
+                variant.seconds / cost.seconds,
+                variant.change,
+                if variant.note.is_empty() {
+                    String::new()
+                } else {
+                    format!(" ({})", variant.note)
+                }
+            )?;
+        }
+        Ok(())
+    }
+}

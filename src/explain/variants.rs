@@ -1,0 +1,113 @@
+//! What a scene would cost with something taken away or simplified.
+
+use serde::Serialize;
+
+use super::cost::{self, Cost};
+use crate::error::Result;
+use crate::model::Model;
+use crate::scene::{Friction, Scene, Slices};
+
+/// The same scene with one change.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Variant {
+    /// What is changed.
+    pub change: String,
+    /// What that does to the answer, where it is known.
+    pub note: String,
+    /// States that a run would integrate.
+    pub kept: usize,
+    /// Estimated time for a simulated second \[s\].
+    pub seconds: f64,
+}
+
+/// A change that may make a scene cheaper; nothing where it does not apply.
+type Change = fn(&Scene) -> Option<Scene>;
+
+/// Changes by name, and what they do to the answer.
+const CHANGES: [(&str, &str, Change); 8] = [
+    ("without friction", "another answer", |scene| {
+        (scene.friction != Friction::None).then(|| Scene {
+            friction: Friction::None,
+            ..scene.clone()
+        })
+    }),
+    ("without the cage", "another answer", |scene| {
+        scene.cage.as_ref().map(|_| Scene {
+            cage: None,
+            ..scene.clone()
+        })
+    }),
+    ("without damping in contacts", "another answer", |scene| {
+        let mut changed = scene.clone();
+        changed.contact.damping = 0.0;
+        (scene.contact.damping > 0.0).then_some(changed)
+    }),
+    ("without defects", "another answer", |scene| {
+        let mut changed = scene.clone();
+        changed.defects.clear();
+        (!scene.defects.is_empty()).then_some(changed)
+    }),
+    ("without thrust", "another answer", |scene| {
+        let mut changed = scene.clone();
+        changed
+            .loads
+            .retain(|_, load| load.direction[2] == 0.0 || load.force.peak() == 0.0);
+        (changed.loads.len() < scene.loads.len()).then_some(changed)
+    }),
+    ("without waviness", "another answer", |scene| {
+        let mut changed = scene.clone();
+        for row in &mut changed.rows {
+            row.outer_waviness.clear();
+            row.inner_waviness.clear();
+        }
+        (changed != *scene).then_some(changed)
+    }),
+    (
+        "on 4 nodes",
+        "normal force to 4e-4, friction to some 10 %",
+        |scene| {
+            let mut changed = scene.clone();
+            changed.contact.slices = Slices::Fitted(4);
+            (scene.contact.slices != changed.contact.slices).then_some(changed)
+        },
+    ),
+    (
+        "on 6 fitted nodes instead of slices",
+        "closer to the converged force",
+        |scene| {
+            let mut changed = scene.clone();
+            changed.contact.slices = Slices::Fitted(6);
+            matches!(scene.contact.slices, Slices::Fixed(_)).then_some(changed)
+        },
+    ),
+];
+
+/// All that apply, the cheapest first. They are timed at the scene's own start, and take its steps.
+pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Result<Vec<Variant>> {
+    let mut variants = Vec::new();
+    let own = model.reduction(y0).map_or(model.dim(), |r| r.dim());
+    for (change, note, apply) in CHANGES {
+        let Some(scene) = apply(model.scene()) else {
+            continue;
+        };
+        let changed = Model::new(&scene)?;
+        let kept = changed.reduction(y0).map_or(changed.dim(), |r| r.dim());
+        // The integrator's share goes with the states.
+        let share = (cost.evaluation - cost.right_hand_side).max(0.0) * kept as f64 / own as f64;
+        let evaluation = cost::right_hand_side(&changed, y0) + share;
+        variants.push(Variant {
+            change: change.to_owned(),
+            note: note.to_owned(),
+            kept,
+            seconds: cost.evaluations * evaluation,
+        });
+    }
+    variants.push(Variant {
+        change: "with twice the largest step at rtol 1e-3".to_owned(),
+        note: "accelerations to 0.3 %; solver.frequency_cap = false, solver.max_step".to_owned(),
+        kept: own,
+        seconds: 0.5 * cost.seconds,
+    });
+    variants.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
+    Ok(variants)
+}

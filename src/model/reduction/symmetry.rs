@@ -1,0 +1,156 @@
+//! Mirror symmetries of a scene: of every row about its own plane, and of two rows about the plane between them.
+//!
+//! They are looked for in the compiled model, so that whatever breaks one is seen wherever it was said.
+
+use crate::contact::{Fault, Pair, Torus};
+use crate::model::{Ball, Model, RowModel};
+
+/// How far places may be apart that are the same but for rounding \[m\].
+const ROUNDING: f64 = 1e-15;
+/// Share of the contacts' approach by which a start may miss a symmetry: what its own solution leaves.
+const START: f64 = 1e-6;
+
+type Symmetry = Result<(), String>;
+
+fn require(holds: bool, otherwise: impl FnOnce() -> String) -> Symmetry {
+    if holds { Ok(()) } else { Err(otherwise()) }
+}
+
+/// Whether every row is symmetric about the plane of its ball centres, and stays so.
+pub(super) fn about_rows(model: &Model, start: &[f64]) -> Symmetry {
+    forces(model)?;
+    for (i, row) in model.rows.iter().enumerate() {
+        let plane = model.scene.rows[i].axial_position;
+        for (pair, race) in row.pairs.iter().zip(["outer", "inner"]) {
+            let torus = &pair.race;
+            require((torus.centre - plane).abs() <= ROUNDING, || {
+                format!("the {race} groove of row {i} is not level with its balls")
+            })?;
+            require(torus.lowest == -torus.highest, || {
+                format!("the {race} shoulders of row {i} are unequal")
+            })?;
+            let level = |fault: &Fault| fault.is_image(fault, 2.0 * plane, ROUNDING);
+            require(pair.faults.iter().all(level), || {
+                format!("a defect of the {race} race of row {i} is off the middle")
+            })?;
+        }
+    }
+    let level = |ball: &Ball| {
+        let faults = &ball.side.faults;
+        faults.iter().all(|f| f.is_image(f, 0.0, ROUNDING))
+    };
+    require(model.balls.iter().all(level), || {
+        "a ball's defect is off the middle".to_owned()
+    })?;
+    let levels: Vec<f64> = model.bodies.iter().map(|body| body.nominal[2]).collect();
+    at_rest(model, start, &levels)
+}
+
+/// Whether two rows are images of each other and stay so; none for a single row.
+pub(super) fn of_rows(model: &Model, start: &[f64]) -> Option<Symmetry> {
+    match &model.rows[..] {
+        [first, second] => Some(images(model, first, second, start)),
+        _ => None,
+    }
+}
+
+fn images(model: &Model, first: &RowModel, second: &RowModel, start: &[f64]) -> Symmetry {
+    forces(model)?;
+    let rows = &model.scene.rows;
+    let sum = rows[0].axial_position + rows[1].axial_position;
+    require(
+        first.count == second.count && first.cage_distance == second.cage_distance,
+        || "the rows have different balls".to_owned(),
+    )?;
+    for (side, race) in ["outer", "inner"].into_iter().enumerate() {
+        require(
+            pair_is_image(&first.pairs[side], &second.pairs[side], sum),
+            || format!("the {race} races of the rows are no images of each other"),
+        )?;
+    }
+    for k in 0..first.count {
+        let [a, b] = [first.first + k, second.first + k];
+        let (one, other) = (&model.bodies[2 + a], &model.bodies[2 + b]);
+        let in_phase = [0, 1].map(|i| (one.nominal[i] - other.nominal[i]).abs() <= ROUNDING);
+        require(in_phase == [true; 2], || {
+            "the rows are out of phase".to_owned()
+        })?;
+        let [a, b] = [a, b].map(|j| &model.balls[j].side);
+        require(
+            one.mass == other.mass
+                && one.degrees == other.degrees
+                && a.radius == b.radius
+                && faults_are_images(&a.faults, &b.faults, 0.0),
+            || format!("balls {k} of the rows differ"),
+        )?;
+    }
+    let half = start.len() / 2;
+    at_rest(model, start, &[0.0, 0.0])?;
+    let speed = START * model.scales.approach * model.scales.frequency;
+    let apart = |offset: usize, sum: f64, limit: f64| {
+        (0..first.count).all(|k| {
+            let of = |row: &RowModel| &start[offset + 4 * (2 + row.first + k)..][..4];
+            let (a, b) = (of(first), of(second));
+            (0..2).all(|i| (a[i] - b[i]).abs() <= limit)
+                && (a[2] + b[2] - sum).abs() <= limit
+                && (a[3] - b[3]).abs() <= 1e-9 * (1.0 + a[3].abs())
+        })
+    };
+    require(
+        apart(0, sum, START * model.scales.approach) && apart(half, 0.0, speed),
+        || "the start is not symmetric".to_owned(),
+    )
+}
+
+/// Nothing may act along z.
+fn forces(model: &Model) -> Symmetry {
+    require(model.scene.gravity[2] == 0.0, || {
+        "gravity acts along z".to_owned()
+    })?;
+    for ((name, _), load) in model.scene.loads.iter().zip(&model.loads) {
+        require(load.direction[2] == 0.0 || load.force.peak() == 0.0, || {
+            format!("load {name:?} acts along z")
+        })?;
+    }
+    Ok(())
+}
+
+/// The first bodies must start at these levels and not leave them.
+fn at_rest(model: &Model, start: &[f64], levels: &[f64]) -> Symmetry {
+    let limit = START * model.scales.approach;
+    let half = start.len() / 2;
+    let rests = |(body, level): (usize, &f64)| {
+        let (z, vz) = (start[4 * body + 2], start[half + 4 * body + 2]);
+        (z - level).abs() <= limit && vz.abs() <= limit * model.scales.frequency
+    };
+    require(levels.iter().enumerate().all(rests), || {
+        "the start is not symmetric".to_owned()
+    })
+}
+
+fn pair_is_image(a: &Pair, b: &Pair, sum: f64) -> bool {
+    let faults = faults_are_images(&a.faults, &b.faults, sum);
+    let image = Pair {
+        race: Torus {
+            centre: a.race.centre,
+            lowest: -b.race.highest,
+            highest: -b.race.lowest,
+            ..b.race
+        },
+        faults: a.faults.clone(),
+        ..b.clone()
+    };
+    faults && (a.race.centre + b.race.centre - sum).abs() <= ROUNDING && *a == image
+}
+
+/// Whether two sets of defects are images: every one has its own.
+fn faults_are_images(a: &[Fault], b: &[Fault], sum: f64) -> bool {
+    let mut left: Vec<&Fault> = b.iter().collect();
+    a.len() == b.len()
+        && a.iter().all(|fault| {
+            let found = left
+                .iter()
+                .position(|other| fault.is_image(other, sum, ROUNDING));
+            found.map(|i| left.swap_remove(i)).is_some()
+        })
+}
