@@ -14,9 +14,10 @@ How each number is taken:
   The contact zone's place is the middle of its slices' forces, in the outer ring's frame; its length that of the
   slices that bear. 200 slices of equal width. Static: the healthy bearing with a ball at -90°. With the ball on
   the defect the place depends on where in the defect it is: a tenth of a degree moves the shift by 0.06 mm.
-- *Transient*, of the rolling start: the last time at which the healthy bearing's acceleration differs from its
-  mean by more than a twentieth of the mean impact under purely radial load. Of the equilibrium start: the healthy
-  bearing's rms over the first passage of a ball against that of the rolling start.
+- *Transient*, of the rolling start: the last time at which the healthy bearing's rms over 2 ms, about its mean, is
+  above that of a vibration with a twentieth of the mean impact under purely radial load as its amplitude; the
+  latest of the three loads. Of the equilibrium start: the healthy bearing's rms over the first passage of a ball
+  against that of the rolling start.
 """
 
 from .case import Balls, Case, Dynamic, Snapshot, Static
