@@ -1,49 +1,97 @@
-//! One knob: nodes, tolerance and step cap for a requested accuracy of the accelerations.
+//! One knob: tolerance and nodes for a requested accuracy of the accelerations, chosen by pilot runs.
+//!
+//! What a scene needs cannot be told from its numbers: at 1 % a quiet signal under heavy loads wants a tolerance of
+//! 1e-6 and twenty nodes, a light bearing whose balls rattle 1e-9 and six. So the first milliseconds are run with one
+//! setting and with the next finer one, until the two agree to a third of the request: first for the tolerance, then
+//! for the nodes. The difference of neighbours is the error of the coarser, for the finer is several times better.
 
 use serde::Serialize;
 
 use crate::error::{Error, Result};
-use crate::model::Model;
-use crate::scene::{Method, Scene, Slices};
+use crate::model::{Degree, Model};
+use crate::scene::{Component, Method, Probe, Scene, Slices};
+use crate::start::{Start, start};
 
 /// What a run with a requested accuracy chose, and what it expects of that.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Accuracy {
-    /// Relative error of the outer ring's acceleration that was asked for, root mean square over the predictable
-    /// horizon of some milliseconds from a given state.
+    /// Relative error of the outer ring's vertical acceleration that was asked for, root mean square over the
+    /// predictable horizon of some milliseconds from a given state.
     pub requested: f64,
     /// Relative tolerance chosen.
     pub rtol: f64,
-    /// Largest step over 1/ω of the highest contact frequency.
-    pub step_share: f64,
     /// Nodes or slices of a contact with the outer and with the inner race.
     pub nodes: [usize; 2],
-    /// Error of contact and friction force on either race over the normal force, measured when the scene was
-    /// compiled; absent with fixed slices, which are kept as they are.
-    pub force_error: Option<[f64; 2]>,
-    /// Error of the integration that steps of this size leave.
+    /// Difference to a pilot run of a tenth of the tolerance; of the tightest, to ten times its own.
     pub integration_error: f64,
+    /// Difference to a pilot run on the next more nodes; absent with fixed slices, which are kept as they are.
+    pub node_error: Option<f64>,
+    /// Evaluations that the pilot runs took.
+    pub pilot_evaluations: usize,
 }
 
-/// Error of the acceleration after 6 ms with an impact for steps of 1/ω, and the power of the step that it goes
-/// with: measured on the faulted wheel bearing with Dormand–Prince, 2e-5 at half of it, 3e-3 at twice.
-const ERROR: f64 = 3e-4;
-const ORDER: f64 = 3.5;
-/// Largest step over 1/ω: beyond it the method is not stable.
+/// Length of a pilot run \[s\]: the horizon.
+pub(crate) const HORIZON: f64 = 3e-3;
+/// Sampling rate at which pilot runs are compared \[Hz\].
+pub(crate) const FS: f64 = 100e3;
+/// Share of the request that tolerance and nodes may each use.
+const SHARE: f64 = 1.0 / 3.0;
+/// First tolerance tried over the request: for 1 % the default, so that an impact after the pilot is met well.
+const FIRST: f64 = 1e-4;
+/// The tightest.
+const TIGHTEST: f64 = 1e-10;
+/// Numbers of nodes tried: the default, and from twelve on each about half as many again as the one before.
+const NODES: [usize; 6] = [6, 12, 18, 26, 38, 64];
+/// Largest step over 1/ω of the highest contact frequency: beyond it the method is not stable.
 const LARGEST: f64 = 2.0;
 
-// On 24 random bearings asked for 1 % (`tests/accuracy.rs`) these shares met it in 24, ten times the force and a
-// hundred times the tolerance in 20. The worst of a hundred scenes is far from the usual one: quiet signals are small
-// differences of large forces, and edges met at speed want short steps.
-/// Share of the request that is left to the step cap.
-const MARGIN: f64 = 0.05;
-/// Tolerance over the request, and the tightest.
-const TOLERANCE: (f64, f64) = (1e-6, 1e-10);
-/// Error of a force over the request, and the least that is asked for.
-const FORCE: (f64, f64) = (1e-6, 1e-9);
+/// Runs a scene from a state for the horizon, or less if the run is shorter: samples of its only probe's only column,
+/// and the evaluations that it took.
+pub(crate) type Pilot<'a> = dyn FnMut(&Scene, &Start) -> Result<(Vec<f64>, usize)> + 'a;
 
-/// Checks a request and puts nodes, tolerance and step share into a scene; returns the share.
-pub(crate) fn apply(requested: f64, scene: &mut Scene) -> Result<f64> {
+/// Checks a request, and puts tolerance, nodes and step cap into a scene that starts as told.
+pub(crate) fn choose(
+    requested: f64,
+    scene: &mut Scene,
+    from: &Start,
+    pilot: &mut Pilot<'_>,
+) -> Result<Accuracy> {
+    check(requested, scene)?;
+    let own = scene.contact.slices;
+    let fitted = !matches!(own, Slices::Fixed(_));
+    let nodes = |count: usize| {
+        if fitted { Slices::Fitted(count) } else { own }
+    };
+    let mut finest = scene.clone();
+    finest.contact.slices = nodes(NODES[NODES.len() - 1]);
+    let model = Model::new(&finest)?;
+    cap(scene, &model);
+    let mut pilots = Pilots::new(scene, &model, from, pilot)?;
+    let share = SHARE * requested;
+    let tolerances = tolerances(requested);
+    let first = pilots.run(tolerances[0], nodes(NODES[0]))?;
+    let (rtol, integration_error, first) = climb(&tolerances, first, share, |rtol| {
+        pilots.run(rtol, nodes(NODES[0]))
+    })?;
+    let (mut slices, mut node_error) = (nodes(NODES[0]), None);
+    if fitted {
+        let (count, error, _) =
+            climb(&NODES, first, share, |count| pilots.run(rtol, nodes(count)))?;
+        (slices, node_error) = (nodes(count), Some(error));
+    }
+    scene.solver.rtol = rtol;
+    scene.contact.slices = slices;
+    Ok(Accuracy {
+        requested,
+        rtol,
+        nodes: Model::new(scene)?.slices(),
+        integration_error,
+        node_error,
+        pilot_evaluations: pilots.evaluations,
+    })
+}
+
+fn check(requested: f64, scene: &Scene) -> Result<()> {
     if !(1e-4..=1e-1).contains(&requested) {
         return Err(Error::scene("accuracy", requested, "1e-4 to 1e-1"));
     }
@@ -56,23 +104,93 @@ pub(crate) fn apply(requested: f64, scene: &mut Scene) -> Result<f64> {
             allowed,
         ));
     }
-    scene.solver.rtol = (TOLERANCE.0 * requested).max(TOLERANCE.1);
-    if !matches!(scene.contact.slices, Slices::Fixed(_)) {
-        scene.contact.slices = Slices::Accuracy((FORCE.0 * requested).max(FORCE.1));
-    }
-    Ok((MARGIN * requested / ERROR).powf(1.0 / ORDER).min(LARGEST))
+    Ok(())
 }
 
-impl Accuracy {
-    /// What a model and a step share give.
-    pub(crate) fn of(requested: f64, model: &Model, step_share: f64) -> Self {
-        Self {
-            requested,
-            rtol: model.scene.solver.rtol,
-            step_share,
-            nodes: model.slices(),
-            force_error: model.force_error,
-            integration_error: ERROR * step_share.powf(ORDER),
+/// Puts the step cap into the scene, so that it gives the same run again.
+fn cap(scene: &mut Scene, model: &Model) {
+    let solver = &mut scene.solver;
+    if solver.frequency_cap {
+        let cap = LARGEST / model.scales().frequency;
+        solver.max_step = Some(solver.max_step.map_or(cap, |step| step.min(cap)));
+        solver.frequency_cap = false;
+    }
+}
+
+/// From the first one down to the tightest, by tens.
+fn tolerances(requested: f64) -> Vec<f64> {
+    let mut all = vec![FIRST * requested];
+    while let Some(&last) = all.last()
+        && last > 1.001 * TIGHTEST
+    {
+        all.push((0.1 * last).max(TIGHTEST));
+    }
+    all
+}
+
+/// The first level that differs from the next by no more than a share, or the last one; that difference; and what its
+/// pilot gave. `now` is what the first level gave.
+fn climb<T: Copy>(
+    levels: &[T],
+    mut now: Vec<f64>,
+    share: f64,
+    mut pilot: impl FnMut(T) -> Result<Vec<f64>>,
+) -> Result<(T, f64, Vec<f64>)> {
+    let mut error = f64::INFINITY;
+    for pair in levels.windows(2) {
+        let next = pilot(pair[1])?;
+        error = apart(&now, &next);
+        if error <= share {
+            return Ok((pair[0], error, now));
         }
+        now = next;
+    }
+    Ok((levels[levels.len() - 1], error, now))
+}
+
+/// Relative difference in the L2 norm.
+fn apart(x: &[f64], truth: &[f64]) -> f64 {
+    let square = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>();
+    let difference = square(&mut x.iter().zip(truth).map(|(a, b)| a - b));
+    if difference == 0.0 {
+        return 0.0;
+    }
+    (difference / square(&mut truth.iter().copied())).sqrt()
+}
+
+/// Runs of the first milliseconds from one state.
+struct Pilots<'a, 'b> {
+    scene: Scene,
+    from: Start,
+    pilot: &'a mut Pilot<'b>,
+    evaluations: usize,
+}
+
+impl<'a, 'b> Pilots<'a, 'b> {
+    /// `model` gives the state from which they start, where none is given.
+    fn new(scene: &Scene, model: &Model, from: &Start, pilot: &'a mut Pilot<'b>) -> Result<Self> {
+        let mut scene = scene.clone();
+        let moves = |degree: &Degree| matches!(degree, Degree::Free { .. });
+        let body = model.bodies.iter().find(|body| moves(&body.degrees[1]));
+        let probe = Probe::Motion {
+            body: body.unwrap_or(&model.bodies[0]).name.clone(),
+            components: Some(vec![Component::Ay]),
+        };
+        scene.probes = [("pilot".to_owned(), probe)].into();
+        Ok(Self {
+            scene,
+            from: Start::State(start(model, from)?),
+            pilot,
+            evaluations: 0,
+        })
+    }
+
+    /// The acceleration with a tolerance and nodes.
+    fn run(&mut self, rtol: f64, slices: Slices) -> Result<Vec<f64>> {
+        self.scene.solver.rtol = rtol;
+        self.scene.contact.slices = slices;
+        let (values, evaluations) = (self.pilot)(&self.scene, &self.from)?;
+        self.evaluations += evaluations;
+        Ok(values)
     }
 }

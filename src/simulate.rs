@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use rayon::ThreadPool;
 
-use crate::accuracy::{self, Accuracy};
+use crate::accuracy;
 use crate::collapse::{Crawl, culprits};
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
@@ -31,7 +31,7 @@ pub struct Run {
     /// Relative tolerance; absent: the scene's.
     pub rtol: Option<f64>,
     /// Relative error of accelerations to stay below, 1e-4 to 1e-1: chooses nodes, tolerance and step cap in
-    /// place of the scene's; absent: the scene's. See [`Accuracy`].
+    /// place of the scene's, by pilot runs of the first 3 ms; absent: the scene's. See [`crate::Accuracy`].
     pub accuracy: Option<f64>,
     /// Method; absent: the scene's.
     pub method: Option<Method>,
@@ -61,7 +61,7 @@ const MEMORY_LIMIT: f64 = 8.0 * (1u64 << 30) as f64;
 /// axis and further when damped. Measured on the faulted wheel bearing, 6 ms with an impact, against a tenth
 /// of the step at rtol 1e-9: at 1 the relative error of the outer ring's acceleration is 0.06–0.3 % for any
 /// rtol from 1e-3 to 1e-6; without the cap it is 6 % at rtol 1e-3.
-pub(crate) const STEP_SHARE: f64 = 1.0;
+const STEP_SHARE: f64 = 1.0;
 
 /// How often progress is told.
 const TELL_EVERY: Duration = Duration::from_millis(20);
@@ -87,7 +87,7 @@ pub fn simulate(
     let mut scene = scene.clone();
     scene.solver.rtol = run.rtol.unwrap_or(scene.solver.rtol);
     scene.solver.method = run.method.unwrap_or(scene.solver.method);
-    let step_share = match (run.accuracy, run.rtol) {
+    let accuracy = match (run.accuracy, run.rtol) {
         (Some(_), Some(rtol)) => {
             return Err(Error::scene(
                 "rtol",
@@ -95,15 +95,20 @@ pub fn simulate(
                 "absent where `accuracy` is given, which chooses it",
             ));
         }
-        (Some(requested), None) => accuracy::apply(requested, &mut scene)?,
-        (None, _) => STEP_SHARE,
+        (Some(requested), None) => Some(accuracy::choose(
+            requested,
+            &mut scene,
+            &run.start,
+            &mut |scene, from| pilot(scene, from, run, progress),
+        )?),
+        (None, _) => None,
     };
     let model = Model::new(&scene)?;
     let count = samples(run)?;
     let mut recorder = Recorder::new(&model, run.fs, count);
     check_memory(run, count, recorder.width())?;
     let threads = threads(&model, run.threads)?;
-    let options = options(&model, step_share)?;
+    let options = options(&model)?;
     let y0 = start(&model, &run.start)?;
     let reduction = model.reduction(&y0);
     let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);
@@ -134,9 +139,7 @@ pub fn simulate(
             method: choice.to_string(),
             stiffness: choice.stiffness,
             rtol: scene.solver.rtol,
-            accuracy: run
-                .accuracy
-                .map(|requested| Accuracy::of(requested, &model, step_share)),
+            accuracy,
             max_step: Some(options.max_step).filter(|h| h.is_finite()),
             start,
             duration: run.duration,
@@ -148,6 +151,24 @@ pub fn simulate(
         },
         scene,
     })
+}
+
+/// The first milliseconds of a run: samples of its first column, and the evaluations.
+fn pilot(
+    scene: &Scene,
+    from: &Start,
+    run: &Run,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<(Vec<f64>, usize)> {
+    let first = Run {
+        duration: run.duration.min(accuracy::HORIZON),
+        fs: accuracy::FS,
+        start: from.clone(),
+        accuracy: None,
+        ..run.clone()
+    };
+    let mut out = simulate(scene, &first, &mut |_| progress(0.0))?;
+    Ok((out.columns.remove(0).values, out.stats.nfev))
 }
 
 /// Works inside a pool: to enter one takes some 10 µs, to hand out work from inside next to nothing. `progress`
@@ -322,11 +343,11 @@ fn threads(model: &Model, asked: usize) -> Result<usize> {
 }
 
 /// Step cap, first step, breakpoints of loads and drive.
-pub(crate) fn options(model: &Model, step_share: f64) -> Result<Options> {
+pub(crate) fn options(model: &Model) -> Result<Options> {
     let scene = &model.scene;
     let solver = &scene.solver;
     let cap = if solver.frequency_cap {
-        step_share / model.scales.frequency
+        STEP_SHARE / model.scales.frequency
     } else {
         f64::INFINITY
     };

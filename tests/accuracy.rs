@@ -70,15 +70,16 @@ fn random(noise: &mut Noise) -> Scene {
     scene
 }
 
-/// Relative error of the outer ring's vertical acceleration from one state, against 64 nodes, a quarter of the step
-/// cap and rtol 1e-9, up to the horizon: the last moment of 3 ms at which that solution and one that began with its balls
-/// 1e-12 m aside are the same to a tenth of the request. Beyond it nobody can tell. Both \[s\].
+/// Relative error of the outer ring's vertical acceleration from one state, against 64 nodes, a fifth of the step cap and
+/// a tolerance of 1e-7 of the request (which Verner's method confirms to a hundredth of it), up to the horizon: the last
+/// moment of 3 ms at which that solution and one that began with its balls 1e-12 m aside are the same to a tenth of the
+/// request. Beyond it nobody can tell. Both \[s\].
 fn error_and_horizon(scene: &Scene, accuracy: f64) -> (f64, f64) {
     let mut fine = scene.clone();
     fine.contact.slices = Slices::Fitted(64);
-    fine.solver.rtol = 1e-9;
+    fine.solver.rtol = 1e-7 * accuracy;
     let model = Model::new(&fine).unwrap();
-    fine.solver.max_step = Some(0.25 / model.scales().frequency);
+    fine.solver.max_step = Some(0.2 / model.scales().frequency);
     let y0 = start(&model, &Start::Equilibrium).unwrap();
     let mut beside = y0.clone();
     for ball in beside[8..4 * model.body_count()].chunks_mut(4) {
@@ -113,62 +114,77 @@ fn error_and_horizon(scene: &Scene, accuracy: f64) -> (f64, f64) {
     last
 }
 
-fn within(accuracy: f64, scenes: usize, percent: usize) {
-    let mut noise = Noise(7);
+/// In 95 of 100 scenes that can be told the asked accuracy is met.
+fn within(accuracy: f64, scenes: usize, seed: u64) {
+    let mut noise = Noise(seed);
     let mut found: Vec<(f64, f64)> = Vec::new();
+    let mut dark = 0;
     while found.len() < scenes {
         let scene = random(&mut noise);
         // A random bearing may not carry its random load.
-        if ballrace::equilibrium(&scene).is_ok() {
-            found.push(error_and_horizon(&scene, accuracy));
+        if ballrace::equilibrium(&scene).is_err() {
+            continue;
+        }
+        let pair = error_and_horizon(&scene, accuracy);
+        // Of a bearing that cannot be foretold for half a millisecond nothing is learnt.
+        if pair.1 < 0.5e-3 {
+            dark += 1;
+        } else {
+            found.push(pair);
         }
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     let inside = found.iter().filter(|(error, _)| *error <= accuracy).count();
     let horizon = found.iter().map(|(_, horizon)| horizon).sum::<f64>() / scenes as f64;
     println!(
-        "asked {accuracy:e}: {inside} of {scenes} within, median {:.1e}, worst {:.1e}; mean horizon {:.2} ms",
+        "asked {accuracy:e}: {inside} of {scenes} within, median {:.1e}, worst {:.1e}; mean horizon {:.2} ms, {dark} passed over",
         found[scenes / 2].0,
         found[scenes - 1].0,
         1e3 * horizon
     );
-    assert!(100 * inside >= percent * scenes, "{found:?}");
+    assert!(100 * inside >= 95 * scenes, "{found:?}");
     assert!(horizon > 1.5e-3, "{horizon}");
 }
 
-/// Golden truth is a better solution of the same scene: in 95 of 100 the asked accuracy is met.
+/// Golden truth is a better solution of the same scene.
 #[test]
 fn a_percent_is_met() {
-    within(1e-2, 24, 95);
+    within(1e-2, 20, 7);
 }
 
+/// On scenes that nothing was tuned on.
 #[test]
 #[ignore = "takes minutes"]
 fn finer_requests_are_met() {
-    within(1e-3, 40, 95);
-    // Short of 95: some want a tolerance below the tightest one.
-    within(1e-4, 40, 85);
+    for accuracy in [1e-2, 1e-3, 1e-4] {
+        within(accuracy, 40, 2026);
+    }
 }
 
-/// Fixed slices are the user's model and stay; a finer request costs more.
+/// Fixed slices are the user's model and stay; a finer request costs more; the scene that comes back holds the choice.
 #[test]
 fn the_choice_is_told() {
     let scene = presets::wheel_bearing(3000.0);
-    let chosen = |scene: &Scene, accuracy: f64| {
-        let asked = Run {
-            duration: 1e-3,
-            accuracy: Some(accuracy),
-            ..Run::default()
-        };
-        run(scene, &asked).provenance.accuracy.unwrap()
+    let asked = |accuracy: Option<f64>| Run {
+        duration: 1e-3,
+        threads: 1,
+        accuracy,
+        ..Run::default()
     };
-    let (loose, tight) = (chosen(&scene, 1e-2), chosen(&scene, 1e-4));
-    assert!(loose.nodes[1] < tight.nodes[1] && loose.step_share > tight.step_share);
-    assert!(tight.force_error.unwrap().iter().all(|e| *e <= 1e-9));
+    let (loose, tight) = (
+        run(&scene, &asked(Some(1e-2))),
+        run(&scene, &asked(Some(1e-4))),
+    );
+    let again = run(&loose.scene, &asked(None));
+    assert_eq!(again.columns, loose.columns);
+    let [loose, tight] = [loose, tight].map(|out| out.provenance.accuracy.unwrap());
+    assert!(loose.nodes[1] < tight.nodes[1] && loose.rtol > tight.rtol);
+    assert!(tight.integration_error.max(tight.node_error.unwrap()) <= 1e-4 / 3.0);
+    assert!(tight.pilot_evaluations > loose.pilot_evaluations);
     let mut fixed = scene.clone();
     fixed.contact.slices = Slices::Fixed(80);
-    let kept = chosen(&fixed, 1e-2);
-    assert_eq!((kept.nodes, kept.force_error), ([80, 80], None));
+    let kept = run(&fixed, &asked(Some(1e-2))).provenance.accuracy.unwrap();
+    assert_eq!((kept.nodes, kept.node_error), ([80, 80], None));
 }
 
 #[test]

@@ -393,7 +393,7 @@ fn a_hair_is_enough() {
                 .insert("spall".to_owned(), spall(Surface::OuterRace, 0.0));
         }),
         ("a ball", |s| {
-            s.rows[0].diameter_errors = (0..13).map(|j| 1e-10 * f64::from(j)).collect()
+            s.rows[0].diameter_errors = (0..13).map(|j| 1e-10 * f64::from(j)).collect();
         }),
     ];
     for (name, change) in hairs {

@@ -195,9 +195,9 @@ class Signals(Mapping[str, NDArray[np.float64]]):
     def accuracy(self) -> Record | None:
         """What a requested accuracy chose and what error it expects of that; None where none was asked for.
 
-        ``requested``, ``rtol``, ``step_share`` (largest step over 1/ω of the highest contact frequency),
-        ``nodes`` and measured ``force_error`` (over the normal force) on outer and inner race, and
-        ``integration_error`` (of the accelerations, as calibrated on the wheel bearing).
+        ``requested``, ``rtol``, ``nodes`` on outer and inner race; the errors of the accelerations that pilot
+        runs of the first 3 ms showed, ``integration_error`` and ``node_error`` (None with fixed slices); and
+        the ``pilot_evaluations`` that this took, which ``stats`` does not count.
         """
         chosen = self._provenance.to_dict()["accuracy"]
         return None if chosen is None else Record(chosen)

@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::integrate::{DenseStep, Statistics, System};
 use crate::method::{self, Task};
 use crate::model::Model;
-use crate::simulate::{STEP_SHARE, options, tolerance};
+use crate::simulate::{options, tolerance};
 
 /// Steps that are timed.
 const STEPS: usize = 300;
@@ -34,7 +34,7 @@ pub struct Cost {
 
 /// Times the first steps from a state.
 pub(super) fn of(model: &Model, y0: &[f64]) -> Result<Cost> {
-    let options = options(model, STEP_SHARE)?;
+    let options = options(model)?;
     let reduction = model.reduction(y0);
     let (mut best, mut evaluations) = (f64::INFINITY, 0.0);
     for _ in 0..TIMES {

@@ -72,7 +72,6 @@ pub(super) fn compile(scene: &Scene) -> Result<Model> {
         mobility: bodies.iter().map(Body::mobility).collect(),
         bodies,
         scales: Scales::default(),
-        force_error: None,
         level: Level::chosen().map_err(|unknown| {
             let allowed = format!("one of {}, or unset", unknown.available.join(", "));
             Error::scene("BALLRACE_SIMD", unknown.value, allowed)
@@ -90,11 +89,10 @@ fn fit_nodes(model: &mut Model, accuracy: f64) {
     let exponent = model.rows[0].pairs[0].law.exponent();
     let fewest = [0, 1].map(|side| nodes::fewest(model, side, exponent, accuracy));
     for row in &mut model.rows {
-        for (pair, (count, _)) in row.pairs.iter_mut().zip(fewest) {
+        for (pair, count) in row.pairs.iter_mut().zip(fewest) {
             pair.slices = Slices::Fitted(Rules::new(count, exponent));
         }
     }
-    model.force_error = Some(fewest.map(|(_, error)| error));
 }
 
 /// Body of a ring.

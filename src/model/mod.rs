@@ -38,8 +38,6 @@ pub struct Model {
     /// One over the mass of every body's free directions, 0 for the others.
     pub(crate) mobility: Vec<[f64; 4]>,
     pub(crate) scales: Scales,
-    /// Measured error of the forces on outer and inner race, where nodes were chosen by it.
-    pub(crate) force_error: Option<[f64; 2]>,
     pub(crate) level: Level,
 }
 

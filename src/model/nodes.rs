@@ -14,8 +14,8 @@ const APPROACHES: [f64; 2] = [0.3, 1.0];
 const TURNS: [f64; 2] = [0.0, 0.2];
 
 /// The fewest nodes that give normal and friction force of every row's rolling balls on one race to an accuracy,
-/// relative to the normal force; and the accuracy that they reach.
-pub(super) fn fewest(model: &Model, side: usize, exponent: f64, accuracy: f64) -> (usize, f64) {
+/// relative to the normal force.
+pub(super) fn fewest(model: &Model, side: usize, exponent: f64, accuracy: f64) -> usize {
     let error = |m: usize| {
         let rules = Slices::Fitted(Rules::new(m, exponent));
         (0..model.rows.len())
@@ -27,11 +27,11 @@ pub(super) fn fewest(model: &Model, side: usize, exponent: f64, accuracy: f64) -
         // The error swings from one number to the next: both must do.
         let next = error(m + 1);
         if before.max(next) <= accuracy {
-            return (m, before);
+            return m;
         }
         before = next;
     }
-    (MOST, before)
+    MOST
 }
 
 /// Largest error over approaches and angles.

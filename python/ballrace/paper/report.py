@@ -1,0 +1,158 @@
+"""Files of the paper's cases: numbers, tables, signals and a page with the figures."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import math
+from typing import TYPE_CHECKING, Any
+
+from .._files import check_writable, whole
+from .table import AXIAL_LOADS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    import polars as pl
+
+    from .case import Case
+    from .study import Paper
+
+
+def write(paper: Paper, folder: Path, *, numbers_only: bool = False) -> list[Path]:
+    """Write ``paper.json`` and, unless it is to be alone, tables, signals and the page with the figures.
+
+    The page, ``paper.html``, needs plotly and is left out without it.
+
+    Returns
+    -------
+    list of Path
+        The files written.
+    """
+    check_writable(folder / "paper.json" if folder.exists() else folder)
+    folder.mkdir(exist_ok=True)
+    written = [folder / "paper.json"]
+    with whole(written[-1]) as temporary:
+        temporary.write_text(dumps(paper), encoding="utf-8")
+    if numbers_only:
+        return written
+    for name, table in _tables(paper).items():
+        written.append(folder / name)
+        with whole(written[-1]) as temporary:
+            table.write_csv(temporary)
+    for name, case in paper.cases.items():
+        written.append(folder / f"axial_{AXIAL_LOADS[name]:.0f}N.parquet")
+        case.signals.write_parquet(written[-1])
+    if importlib.util.find_spec("plotly") is not None:
+        written.append(folder / "paper.html")
+        with whole(written[-1]) as temporary:
+            temporary.write_text(_page(paper), encoding="utf-8")
+    return written
+
+
+def dumps(paper: Paper) -> str:
+    """Return every number as JSON; what is not a number becomes null."""
+    return json.dumps(_finite(paper.to_dict()), indent=2, ensure_ascii=False) + "\n"
+
+
+def _finite(value: Any) -> Any:
+    match value:
+        case dict():
+            return {key: _finite(entry) for key, entry in value.items()}
+        case list():
+            return [_finite(entry) for entry in value]
+        case float() if not math.isfinite(value):
+            return None
+    return value
+
+
+def _tables(paper: Paper) -> dict[str, pl.DataFrame]:
+    import polars as pl
+
+    def stacked(of: Callable[[Case], pl.DataFrame]) -> pl.DataFrame:
+        return pl.concat(
+            of(case).select(pl.lit(AXIAL_LOADS[name]).alias("axial_load"), pl.all())
+            for name, case in paper.cases.items()
+        )
+
+    return {
+        "comparison.csv": pl.DataFrame([line.to_dict() for line in paper.table]),
+        "balls.csv": stacked(lambda case: case.snapshot.balls.to_polars()),
+        "slices.csv": stacked(lambda case: pl.DataFrame(dict(case.snapshot.slices))),
+    }
+
+
+def rows(paper: Paper) -> list[list[str]]:
+    """Return the lines of the table as text: figure, quantity, published, wanted, ours, deviation, verdict."""
+    lines = []
+    for line in paper.table:
+        deviation = "" if line.deviation is None else f"{100.0 * line.deviation:+.1f} %"
+        verdict = "met" if line.met else "MISSED"
+        target = line.target
+        cells = [target.published, line.wanted, f"{line.ours:.4g}", deviation, verdict]
+        lines.append([target.what, target.figure, *cells])
+    return lines
+
+
+HEADER = ["quantity", "figure", "published", "wanted", "ours", "deviation", "verdict"]
+"""Titles of :func:`rows`."""
+
+
+def _page(paper: Paper) -> str:
+    from .. import plot
+
+    names = list(AXIAL_LOADS)
+    cases = paper.cases
+    scene = cases[names[0]].signals.scene
+    bpfo = cases[names[0]].dynamic.bpfo
+    spans = [
+        (defect.axial_offset + scene.rows[0].axial_position, defect.length)
+        for defect in scene.defects.values()
+        if defect.row == 0
+    ]
+    bands = [(z - length / 2.0, z + length / 2.0) for z, length in spans]
+
+    def force(name: str) -> Any:
+        largest = max(float(case.snapshot.balls.outer_load.max()) for case in cases.values())
+        return plot.force_distribution(cases[name].snapshot.balls, largest=largest, height=420)
+
+    def acceleration(*shown: str) -> Any:
+        fig = plot.load_cases({f"axial {name}": cases[name].signals for name in shown}, bpfo=bpfo)
+        # At least the scale of figure 11; the first milliseconds of a rolling start go far beyond.
+        rim = max(90.0, *(1.4 * cases[name].dynamic.largest for name in shown))
+        return fig.update_yaxes(range=[-rim, rim])
+
+    slices = {f"axial {name}": cases[name].snapshot.slices for name in names[:2]}
+    figures = {
+        "Figure 6: vertical acceleration of the outer ring, 0 and +3 kN": acceleration(*names[:2]),
+        "Figure 7: normal forces, 0 kN": force(names[0]),
+        "Figure 8: normal forces, +3 kN": force(names[1]),
+        "Figure 9: slices of the ball in the middle of the load zone": plot.slice_forces(
+            slices, bands=bands
+        ),
+        "Figure 10: normal forces, -3 kN": force(names[2]),
+        "Figure 11: vertical acceleration of the outer ring, -3 kN": acceleration(names[2]),
+    }
+    parts = [
+        '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>ballrace paper</title>',
+        "<style>body{font-family:sans-serif;max-width:1200px;margin:1rem auto}",
+        "td,th{padding:2px 10px;text-align:right}td:first-child,th:first-child{text-align:left}</style>",
+        "</head><body><h1>A 3D-ball bearing model for simulation of axial load variations</h1>",
+        "<p>The published case, run again: 7 kN radial load, defect on the outer ring, 30 turns a second.",
+        "Accelerations are cut off in the first milliseconds; forces are those at 0.017992 s.</p>",
+        _html_table(rows(paper)),
+    ]
+    for number, (title, fig) in enumerate(figures.items()):
+        parts.append(f"<h2>{title}</h2>")
+        parts.append(fig.to_html(full_html=False, include_plotlyjs=number == 0))
+    return "\n".join([*parts, "</body></html>"])
+
+
+def _html_table(lines: list[list[str]]) -> str:
+    def row(tag: str, cells: list[str]) -> str:
+        marked = (cell.replace("<", "&lt;") for cell in cells)
+        return "<tr>" + "".join(f"<{tag}>{cell}</{tag}>" for cell in marked) + "</tr>"
+
+    body = [row("th", HEADER), *(row("td", line) for line in lines)]
+    return "<table>" + "".join(body) + "</table>"

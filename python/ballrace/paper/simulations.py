@@ -1,0 +1,188 @@
+"""One load case of the paper at rest, at an instant and over time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import SceneError
+from ..model import Model
+from ..run import simulate
+from ..scene import ContactsProbe, FixedSlices, MotionProbe, SlicesProbe
+from ..statics import equilibrium
+from .case import Balls, Case, Dynamic, Snapshot, Static
+from .measures import Array, envelope_line, impacts, orbit, passages, settling_time, zone
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from ..scene import Component, ContactQuantity, Probe, Scene
+    from ..signals import Signals
+
+
+INSTANT = 0.017992
+"""Time of the paper's figures of forces [s]."""
+
+SETTLED = 0.02
+"""Time up to which the paper calls its signals a transient [s]."""
+
+FS = 200_000.0
+"""Sampling rate of the signals [Hz]."""
+
+# Of the mean impact: less than this of the start cannot be seen in the figures.
+VISIBLE = 0.05
+_SLICES = 200
+# The sampling rate of a snapshot puts this sample on the instant.
+_SNAPSHOT_SAMPLES = 180
+
+
+def static(scene: Scene) -> Static:
+    """Return where the loaded ball of the healthy bearing rests; see :class:`Static`."""
+    turned = {f"rows[{r}].start_angle": row.start_angle for r, row in enumerate(scene.rows)}
+    by = -np.pi / 2.0 - scene.rows[0].start_angle
+    at_rest = scene.replace({"defects": {}, **{k: v + by for k, v in turned.items()}})
+    eq = equilibrium(at_rest)
+    k = _middle(eq.row, eq.angle)
+    return Static(
+        ball_z=float(eq.z[k]),
+        outer_z=float(eq.outer[2]),
+        zone_middle=float(eq.outer_zone_centre[k]),
+        load=float(eq.outer_load[k]),
+    )
+
+
+def dynamic(out: Signals, after: float = SETTLED) -> Dynamic:
+    """Return the features of a run with the columns ``outer.ay``, ``ball.x`` and ``ball.y`` (of row 0).
+
+    Raises
+    ------
+    SceneError
+        No whole passage of a ball fits between ``after`` and the end.
+    """
+    t, signal = out.t, out["outer.ay"]
+    count = out.scene.rows[0].ball_count
+    late = t >= after
+    edges = np.empty(0, dtype=np.intp)
+    if np.count_nonzero(late) > 1:
+        rate, angle = orbit(t[late], out["ball.x"][late], out["ball.y"][late])
+        edges = passages(t, rate, angle, count=count, place=-np.pi / 2.0, after=after)
+    if edges.size < 2:
+        wanted = f"at least two passages of balls after {after} s"
+        raise SceneError("duration", f"{t.size / out.fs:g} s", wanted)
+    found = impacts(signal, edges)
+    part = signal[edges[0] : edges[-1]]
+    bpfo = count * rate / (2.0 * np.pi)
+    return Dynamic(
+        impact=float(found.mean()),
+        impact_spread=float(found.std()),
+        impact_count=found.size,
+        largest=float(found.max()),
+        line=envelope_line(part, out.fs, bpfo),
+        rms=float(part.std()),
+        bpfo=bpfo,
+    )
+
+
+def snapshot(scene: Scene, instant: float = INSTANT, threads: int = 0) -> Snapshot:
+    """Run a scene from the paper's start and return what its balls and slices bear at an instant [s]."""
+    model = Model(scene)
+    probes: dict[str, Probe] = {
+        f"body{i}": MotionProbe(body=body) for i, body in enumerate(model.bodies)
+    }
+    load: tuple[ContactQuantity, ...] = ("load",)
+    for r in range(len(scene.rows)):
+        probes[f"row{r}"] = ContactsProbe(row=r, quantities=load)
+    fs = _SNAPSHOT_SAMPLES / instant
+    out = simulate(
+        scene.replace({"probes": probes}),
+        duration=(_SNAPSHOT_SAMPLES + 2) / fs,
+        fs=fs,
+        start="rolling",
+        threads=threads,
+    )
+    now = {name: float(values[_SNAPSHOT_SAMPLES]) for name, values in out.items()}
+    number = {body: i for i, body in enumerate(model.bodies)}
+    state = []
+    for name in model.names:
+        body, _, component = name.rpartition(".")
+        state.append(now[f"body{number[body]}.{component}"])
+
+    places = [(r, b) for r, row in enumerate(scene.rows) for b in range(row.ball_count)]
+
+    def of_balls(component: str) -> Array:
+        return np.array([now[f"body{number[f'row{r}.ball{b}']}.{component}"] for r, b in places])
+
+    def loads(race: str) -> Array:
+        return np.array([now[f"row{r}.ball{b}.{race}.load"] for r, b in places])
+
+    balls = Balls(
+        row=np.array([r for r, _ in places]),
+        ball=np.array([b for _, b in places]),
+        angle=np.arctan2(of_balls("y"), of_balls("x")),
+        z=of_balls("z"),
+        outer_load=loads("outer"),
+        inner_load=loads("inner"),
+    )
+    k = _middle(balls.row, balls.angle)
+    slices = _slices(scene, np.array(state), int(balls.ball[k]))
+    bearing = zone(slices["z"], slices["width"], slices["force"])
+    return Snapshot(balls, k, now[f"body{number['outer']}.z"], bearing, slices)
+
+
+def _slices(scene: Scene, state: Array, ball: int) -> dict[str, Array]:
+    """Return the slices of equal width of a ball of row 0 on the outer race in a state."""
+    probe = SlicesProbe(row=0, balls=(ball,), races=("outer",), times=(0.0,))
+    cut = scene.replace({"probes": {"slices": probe}, "contact.slices": FixedSlices(count=_SLICES)})
+    table = simulate(cut, duration=1e-6, fs=1e6, start=state, threads=1).slices
+    assert table is not None
+    names = ("zeta", "z", "width", "penetration", "force")
+    return {name: table[name].to_numpy() for name in names}
+
+
+def _middle(row: NDArray[np.int64], angle: Array) -> int:
+    """Return the index of the ball of row 0 nearest to -90°."""
+    away = np.abs(np.angle(np.exp(1j * (angle + np.pi / 2.0))))
+    return int(np.argmin(np.where(row == 0, away, np.inf)))
+
+
+def load_case(
+    scene: Scene,
+    duration: float,
+    threads: int,
+    show: Callable[[float], object],
+    level: float | None,
+) -> Case:
+    """Run one load case; ``level`` is what a transient must fall below [m/s²], by default its own impact's."""
+    place: tuple[Component, ...] = ("x", "y")
+    probes = {
+        "outer": MotionProbe(body="outer"),
+        "ball": MotionProbe(body="row0.ball0", components=place),
+    }
+    out = simulate(
+        scene.replace({"probes": probes}),
+        duration=duration,
+        fs=FS,
+        start="rolling",
+        threads=threads,
+        progress=lambda share: show(0.6 * share),
+    )
+    features = dynamic(out)
+    level = VISIBLE * features.impact if level is None else level
+    healthy = scene.replace({"probes": {"outer": probes["outer"]}, "defects": {}})
+    rolling = simulate(healthy, duration=2.0 * SETTLED, fs=FS, start="rolling", threads=threads)
+    show(0.75)
+    still = simulate(healthy, duration=1.0 / features.bpfo, fs=FS, threads=threads)["outer.ay"]
+    show(0.85)
+    at_instant = snapshot(scene, threads=threads)
+    show(1.0)
+    return Case(
+        signals=out,
+        dynamic=features,
+        snapshot=at_instant,
+        static=static(scene),
+        transient=settling_time(rolling.t, rolling["outer.ay"], level),
+        start_at_rest=float(still.std() / rolling["outer.ay"][: still.size].std()),
+    )
