@@ -294,3 +294,81 @@ impl Sink for Elastic {
         self.0 -= Vector3::new(plane.x, plane.y, touch.elastic * touch.share.1);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Torus, Waves};
+    use super::*;
+    use crate::scene::{Material, Waviness};
+
+    fn pair(sigma: f64, hertz: bool, slices: Slices, waves: Waves) -> Pair {
+        let steel = Material::default();
+        let law = if hertz {
+            Law::Hertz(hertz::Hertz::new(
+                sigma, 12e-3, 60e-3, 0.52, 0.3, &steel, &steel,
+            ))
+        } else {
+            Law::Iso16281(iso16281::Iso16281::new(3.5948e10, 0.5, 12e-3))
+        };
+        Pair {
+            race: Torus {
+                sigma,
+                a: 30e-3,
+                centre: 0.1e-3,
+                r: 6.24e-3,
+                lowest: -6.24e-3,
+                highest: 6.24e-3,
+            },
+            waves,
+            law,
+            slices,
+            damping: 0.2,
+            clamp_pull: true,
+            friction: None,
+            faults: Vec::new(),
+        }
+    }
+
+    /// Truth: the walk along the contact. The same force, and the stiffness as its central differences.
+    #[test]
+    fn agrees_with_the_walk() {
+        let ball = BallSide {
+            radius: 6e-3,
+            faults: Vec::new(),
+        };
+        let wavy = || {
+            Waves(vec![Waviness {
+                order: 9,
+                amplitude: 1e-6,
+                phase: 0.4,
+            }])
+        };
+        let mut worst = [0.0_f64; 2];
+        for sigma in [1.0, -1.0] {
+            for (hertz, slices) in [
+                (false, Slices::Fitted(Rules::new(6, iso16281::EXPONENT))),
+                (false, Slices::Fixed(200)),
+                (true, Slices::Fitted(Rules::new(6, hertz::EXPONENT))),
+            ] {
+                for waves in [Waves::default(), wavy()] {
+                    let pair = pair(sigma, hertz, slices.clone(), waves);
+                    for (tilt, direction) in [(0.0, 0.3), (0.4, -2.0), (-0.7, 1.1)] {
+                        let l = 6.24e-3 - ball.radius + 15e-6;
+                        let d = pair.race.a + sigma * l * f64::cos(tilt);
+                        let (sin, cos) = f64::sin_cos(direction);
+                        let place =
+                            Vector3::new(d * cos, d * sin, pair.race.centre + l * tilt.sin());
+                        let found = pair.tangent(&ball, &place);
+                        let force = pair.elastic(&ball, &place);
+                        let stiffness = pair.stiffness_by_differences(&ball, &place, 1e-8);
+                        let analytic = found.stiffness.unwrap();
+                        worst[0] = worst[0].max((found.force - force).norm() / force.norm());
+                        worst[1] = worst[1].max((analytic - stiffness).norm() / stiffness.norm());
+                    }
+                }
+            }
+        }
+        println!("force to {:.1e}, stiffness to {:.1e}", worst[0], worst[1]);
+        assert!(worst[0] < 1e-11 && worst[1] < 1e-6, "{worst:?}");
+    }
+}

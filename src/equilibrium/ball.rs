@@ -10,6 +10,9 @@ use crate::error::{Error, Result};
 
 /// Newton iterations of a ball before giving up.
 const BALL_ITERATIONS: usize = 100;
+/// Residual of a ball, over its share of the load, and step, over the approach, from which one more step of Newton's
+/// method needs no look at the force: what it leaves is of the order of both together.
+const LAST: (f64, f64) = (1e-9, 1e-6);
 /// Residual of a ball, over its share of the load, that is accepted where a slice that enters a defect makes
 /// the force jump.
 const BALL_STALLED: f64 = 1e-2;
@@ -63,7 +66,7 @@ impl Problem<'_> {
             let place = Vector2::new(body.nominal[0].hypot(body.nominal[1]), body.nominal[2]);
             return Ok(self.ball_at(j, rings, place));
         }
-        let scale = self.magnitude / self.model.balls.len() as f64;
+        let scale = self.share();
         let accepted =
             |state: &BallState| state.force.norm() <= BALL_STALLED * scale.max(state.pressed());
         let found = self.relax(j, rings, start, scale);
@@ -82,6 +85,27 @@ impl Problem<'_> {
                 found.force.norm()
             ),
         })
+    }
+
+    /// A ball's share of the load.
+    fn share(&self) -> f64 {
+        self.magnitude / self.model.balls.len() as f64
+    }
+
+    /// Whether a step is so small that it leaves nothing.
+    fn is_last(&self, left: f64, step: &Vector2<f64>) -> bool {
+        let (residual, share) = LAST;
+        left <= residual * self.share() && step.norm() <= share * self.model.scales.approach
+    }
+
+    /// The step that a settled ball still has to go, by the inverse of its stiffness.
+    pub(super) fn last_step(&self, state: &BallState, inverse: &Matrix2<f64>) -> Vector2<f64> {
+        let step = inverse * state.force;
+        if self.is_last(state.force.norm(), &step) {
+            step
+        } else {
+            Vector2::zeros()
+        }
     }
 
     /// Newton's method from a place: where it ends.
@@ -114,8 +138,8 @@ impl Problem<'_> {
                 break;
             };
             let mut step = inverse * state.force;
-            // Places have no more digits.
-            if step.norm() <= 4.0 * f64::EPSILON * state.place.norm() {
+            // Or places have no more digits.
+            if self.is_last(left, &step) || step.norm() <= 4.0 * f64::EPSILON * state.place.norm() {
                 break;
             }
             step *= (longest / step.norm()).min(1.0);

@@ -162,23 +162,21 @@ fn solve(model: &Model) -> Result<Solved> {
         .map(|j| problem.seed(j, &rings))
         .collect();
     let (mut state, mut iterations) = problem.balance(&mut rings, &seeds)?;
-    let mut balls = state.places();
     if let Some(cage) = &model.scene.cage {
         for _ in 0..CAGE_ROUNDS {
-            let before = balls;
-            problem.engage(cage, &before);
-            let (found, more) = problem.balance(&mut rings, &before)?;
+            problem.engage(cage, &state.balls);
+            let (found, more) = problem.balance(&mut rings, &state.balls)?;
             iterations += more;
-            balls = found.places();
+            let moved = state.balls.iter().zip(&found.balls);
+            let most = moved.map(|(a, b)| (a.x - b.x).abs()).fold(0.0, f64::max);
             state = found;
-            let moved = before.iter().zip(&balls).map(|(a, b)| (a.x - b.x).abs());
-            if moved.fold(0.0, f64::max) < CAGE_TOLERANCE * model.scales.approach {
+            if most < CAGE_TOLERANCE * model.scales.approach {
                 break;
             }
         }
     }
     Ok(Solved {
-        y: problem.state(&rings, &balls),
+        y: problem.state(&rings, &state.balls),
         iterations,
         bearing: state.bearing,
     })

@@ -1,6 +1,6 @@
 //! What acts: loads of rings and balls, and the forces of a ball's contacts.
 
-use nalgebra::{DVector, Matrix2, Matrix2x3, Matrix3, SVector, Vector2, Vector3};
+use nalgebra::{DVector, Matrix2, Matrix3, SMatrix, SVector, Vector2, Vector3};
 
 use super::cage::CageSpring;
 use crate::contact::{Tangent, V2};
@@ -164,10 +164,23 @@ impl<'m> Problem<'m> {
         )
     }
 
-    /// Radius and z from x, y, z.
-    pub(super) fn across(&self, j: usize) -> Matrix2x3<f64> {
-        let direction = self.directions[j];
-        Matrix2x3::new(direction.x, direction.y, 0.0, 0.0, 0.0, 1.0)
+    /// Stiffness of a ball (radius, z) against the six places of the rings, and of these against the ball.
+    pub(super) fn coupling(
+        &self,
+        j: usize,
+        contacts: &[Matrix3<f64>; 2],
+    ) -> (SMatrix<f64, 2, 6>, SMatrix<f64, 6, 2>) {
+        let (x, y) = (self.directions[j].x, self.directions[j].y);
+        let at = |a: usize| (&contacts[a / 3], a % 3);
+        let pulled = SMatrix::from_fn(|a, b| match at(b) {
+            (k, i) if a == 0 => x * k[(0, i)] + y * k[(1, i)],
+            (k, i) => k[(2, i)],
+        });
+        let pulling = SMatrix::from_fn(|a, b| match at(a) {
+            (k, i) if b == 0 => x * k[(i, 0)] + y * k[(i, 1)],
+            (k, i) => k[(i, 2)],
+        });
+        (pulled, pulling)
     }
 
     /// Whether a support holds a ball at its nominal place.

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector2};
 
 use super::ball::least;
-use super::problem::{BallState, Problem};
+use super::problem::Problem;
 use super::search::search;
 use super::{STALLED, TOLERANCE};
 use crate::contact::V2;
@@ -18,7 +18,8 @@ const GIVE_UP: usize = 40;
 
 /// The rings at some place, every ball in its own equilibrium.
 pub(super) struct RingState {
-    pub(super) balls: Vec<BallState>,
+    /// Where the balls stand.
+    pub(super) balls: Vec<Vector2<f64>>,
     /// Forces on the rings along their free directions, and the stiffness against them.
     residual: DVector<f64>,
     stiffness: DMatrix<f64>,
@@ -29,16 +30,11 @@ pub(super) struct RingState {
 }
 
 impl RingState {
-    /// Where the balls stand.
-    pub(super) fn places(&self) -> Vec<Vector2<f64>> {
-        self.balls.iter().map(|ball| ball.place).collect()
-    }
-
     /// Where the balls would stand after a step of the rings, to first order.
     fn followed(&self, step: &SVector<f64, 6>) -> Vec<Vector2<f64>> {
         let places = self.balls.iter().zip(&self.follow);
         places
-            .map(|(ball, follow)| ball.place + follow * step)
+            .map(|(place, follow)| place + follow * step)
             .collect()
     }
 }
@@ -122,32 +118,30 @@ impl Problem<'_> {
         for (j, &start) in starts.iter().enumerate() {
             let mut ball = self.settle(j, rings, self.refreshed(j, rings, start, moved))?;
             let contacts = self.contact_stiffness(j, &mut ball);
-            let across = self.across(j);
-            // Stiffness of the ball against the rings and of the rings against the ball.
-            let mut pulled = SMatrix::<f64, 2, 6>::zeros();
-            let mut pulling = SMatrix::<f64, 6, 2>::zeros();
             for (race, stiffness) in contacts.iter().enumerate() {
                 let k = 3 * race;
                 let mut on_ring = forces.fixed_rows_mut::<3>(k);
                 on_ring -= ball.contacts[race].force;
                 let mut own = bearing.fixed_view_mut::<3, 3>(k, k);
                 own += stiffness;
-                pulled
-                    .fixed_columns_mut::<3>(k)
-                    .copy_from(&(across * stiffness));
-                pulling
-                    .fixed_rows_mut::<3>(k)
-                    .copy_from(&(stiffness * across.transpose()));
             }
+            let (pulled, pulling) = self.coupling(j, &contacts);
             let own = self.ball_stiffness(j, &mut ball);
             // A loose ball carries nothing and has no stiffness to condense.
             let stiff = !self.is_held(j) && least(&own) > 1e-9 * self.stiffness();
-            let followed = own
-                .try_inverse()
-                .filter(|_| stiff)
-                .map_or_else(SMatrix::zeros, |inverse| inverse * pulled);
-            bearing -= pulling * followed;
-            balls.push(ball);
+            let mut followed = SMatrix::zeros();
+            if let Some(inverse) = own.try_inverse().filter(|_| stiff) {
+                followed = SMatrix::<f64, 2, 6>::from_fn(|a, b| {
+                    inverse[(a, 0)] * pulled[(0, b)] + inverse[(a, 1)] * pulled[(1, b)]
+                });
+                let last = self.last_step(&ball, &inverse);
+                forces += pulling * last;
+                ball.place += last;
+            }
+            bearing -= SMatrix::<f64, 6, 6>::from_fn(|a, b| {
+                pulling[(a, 0)] * followed[(0, b)] + pulling[(a, 1)] * followed[(1, b)]
+            });
+            balls.push(ball.place);
             follow.push(followed);
         }
         bearing = (bearing + bearing.transpose()) / 2.0;
@@ -229,7 +223,7 @@ impl Problem<'_> {
                 ),
             });
         }
-        for (j, ball) in state.balls.iter().map(|ball| ball.place).enumerate() {
+        for (j, ball) in state.balls.iter().enumerate() {
             let compiled = &self.model.balls[j];
             for (race, pair) in self.model.rows[compiled.row].pairs.iter().enumerate() {
                 let ring = SVector::<f64, 3>::new(
