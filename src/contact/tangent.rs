@@ -121,10 +121,10 @@ impl Pair {
         match (&self.law, &self.slices) {
             (Law::Hertz(law), Slices::Fitted(_)) => self.hertz(law, radius, meridian),
             (Law::Iso16281(law), Slices::Fitted(rules)) => {
-                self.fitted(law, rules, radius, meridian)
+                self.fitted(*law, rules, radius, meridian)
             }
             (Law::Iso16281(law), Slices::Fixed(count)) => {
-                Some(self.fixed(law, *count, radius, meridian))
+                Some(self.fixed(*law, *count, radius, meridian))
             }
             (Law::Hertz(_), Slices::Fixed(_)) => None,
         }
@@ -163,7 +163,7 @@ impl Pair {
     /// The nodes on the common chord: u = x · half, over which the ball's surface stands at h = √(R² − u²).
     fn fitted(
         &self,
-        law: &iso16281::Iso16281,
+        law: iso16281::Iso16281,
         rules: &Rules,
         radius: f64,
         meridian: &Meridian,
@@ -225,7 +225,7 @@ impl Pair {
     /// Slices at fixed places of the ball.
     fn fixed(
         &self,
-        law: &iso16281::Iso16281,
+        law: iso16281::Iso16281,
         count: usize,
         radius: f64,
         meridian: &Meridian,
