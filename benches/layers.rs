@@ -1,5 +1,5 @@
 //! One benchmark a layer: the power, a contact, a right-hand side by nodes, slices, balls, threads and level of
-//! instructions, the integrator alone, a run. `cargo bench --bench layers`.
+//! instructions, the integrator alone, a run, the static solve. `cargo bench --bench layers`.
 
 use std::hint::black_box;
 use std::ops::ControlFlow;
@@ -10,7 +10,7 @@ use ballrace::dynamics::Dynamics;
 use ballrace::integrate::{DORMAND_PRINCE, Options, System, Tolerance, integrate};
 use ballrace::scene::{NormalLaw, Scene, Slices, TimeFunction, presets};
 use ballrace::simd::Level;
-use ballrace::{Model, Run, Start, simulate, start};
+use ballrace::{Model, Run, Start, equilibrium, load_distribution, simulate, start};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use rayon::ThreadPoolBuilder;
 
@@ -182,5 +182,33 @@ fn run(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(layers, contact, right_hand_side, threads, integrator, run);
+/// Scene compiled and solved at rest.
+fn statics(c: &mut Criterion) {
+    let mut group = c.benchmark_group("statics");
+    for (name, scene) in [
+        ("6205", presets::deep_groove_6205(500.0, 0.0, 1800.0)),
+        ("wheel bearing", presets::wheel_bearing(3000.0)),
+    ] {
+        group.bench_function(format!("model, {name}"), |b| {
+            b.iter(|| Model::new(black_box(&scene)).unwrap());
+        });
+        group.bench_function(format!("equilibrium, {name}"), |b| {
+            b.iter(|| equilibrium(black_box(&scene)).unwrap());
+        });
+        group.bench_function(format!("load distribution of 16 positions, {name}"), |b| {
+            b.iter(|| load_distribution(black_box(&scene), 16).unwrap());
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(
+    layers,
+    contact,
+    right_hand_side,
+    threads,
+    integrator,
+    run,
+    statics
+);
 criterion_main!(layers);

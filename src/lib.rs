@@ -32,7 +32,8 @@
 //! * [`dynamics`] — the right-hand side: touching contacts by eights, summed in one order; forces by
 //!   name, energies.
 //! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
-//! * `equilibrium` ([`equilibrium()`]) — the static solve; `start` ([`start()`]) — how a run begins.
+//! * `equilibrium` ([`equilibrium()`], [`stiffness()`], [`load_distribution()`]) — the static solve and what follows
+//!   from it; `start` ([`start()`]) — how a run begins.
 //! * `signals` ([`Signals`]) — probes read on a uniform grid from the dense output.
 //! * `residual`, `collapse`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
 //! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
@@ -87,7 +88,10 @@ mod warning;
 
 pub use accuracy::Accuracy;
 pub use campaign::{Case, Finished, Outcome, campaign, stream};
-pub use equilibrium::{BallEquilibrium, ContactEquilibrium, Equilibrium, equilibrium};
+pub use equilibrium::{
+    BallEquilibrium, ContactEquilibrium, Equilibrium, EquivalentLoads, LoadDistribution, Stiffness,
+    equilibrium, load_distribution, stiffness,
+};
 pub use error::{Error, Result};
 pub use explain::{ContactKind, Cost, Explanation, Variant, explain};
 pub use features::{Feature, FeatureOptions, feature_columns};

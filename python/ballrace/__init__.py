@@ -7,8 +7,8 @@
 (26,)
 
 A :class:`Scene` says what there is, :func:`simulate` runs it and returns :class:`Signals`,
-:func:`equilibrium` solves it at rest, :class:`Model` gives its equations to anyone's integrator, and
-:func:`campaign` runs thousands of them.
+:func:`equilibrium` solves it at rest, :func:`stiffness` and :func:`load_distribution` tell what follows from
+that, :class:`Model` gives its equations to anyone's integrator, and :func:`campaign` runs thousands of them.
 All numbers are in SI units, at every face.
 """
 
@@ -29,7 +29,14 @@ from .model import Model
 from .run import simulate
 from .scene import Scene
 from .signals import Record, Signals
-from .statics import Equilibrium, equilibrium
+from .statics import (
+    Equilibrium,
+    LoadDistribution,
+    Stiffness,
+    equilibrium,
+    load_distribution,
+    stiffness,
+)
 
 __all__ = [
     "AccuracyWarning",
@@ -40,20 +47,24 @@ __all__ = [
     "Equilibrium",
     "EquilibriumError",
     "IntegrationError",
+    "LoadDistribution",
     "Model",
     "Record",
     "Scene",
     "SceneError",
     "Signals",
+    "Stiffness",
     "campaign",
     "equilibrium",
     "frequencies",
     "grid",
     "latin_hypercube",
+    "load_distribution",
     "presets",
     "scatter",
     "scene",
     "simulate",
     "sobol",
     "spectra",
+    "stiffness",
 ]

@@ -21,7 +21,7 @@ from .errors import BallraceError, SceneError
 from .frequencies import of_row
 from .run import simulate
 from .scene import Scene, SpeedDrive
-from .statics import Equilibrium, equilibrium
+from .statics import Equilibrium, equilibrium, load_distribution, stiffness
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -144,6 +144,13 @@ def _parser() -> argparse.ArgumentParser:
         "equilibrium", help="solve a scene at rest and print the balls' loads"
     )
     static.add_argument("scene", type=Path, metavar="SCENE", help="scene, a .toml or .json file")
+    static.add_argument(
+        "--stiffness", action="store_true", help="print the tangent stiffness of the bearing, too"
+    )
+    static.add_argument(
+        "--life", action="store_true",
+        help="print the races' equivalent loads over a turn of the cage, too",
+    )  # fmt: skip
     static.set_defaults(command=_equilibrium)
 
     add_campaign(commands)
@@ -286,7 +293,8 @@ def _scene(options: argparse.Namespace) -> None:
 
 
 def _equilibrium(options: argparse.Namespace) -> None:
-    eq = equilibrium(Scene.load(options.scene))
+    scene = Scene.load(options.scene)
+    eq = equilibrium(scene)
     for ring in ("outer", "inner"):
         x, y, z = 1e6 * getattr(eq, ring)
         print(f"{ring} ring: x {x:.3f} µm, y {y:.3f} µm, z {z:.3f} µm")
@@ -304,6 +312,19 @@ def _equilibrium(options: argparse.Namespace) -> None:
     contact = ["load N", "angle °", "defl. µm"]
     header = ["ball", "at °", *(f"{race} {q}" for race in ("outer", "inner") for q in contact)]
     _print_table(header, [list(line) for line in zip(*columns, strict=True)])
+    if options.stiffness:
+        print()
+        rows = zip("xyz", 1e-6 * stiffness(scene).inner, strict=True)
+        lines = [[axis, *_numbers(row, 3)] for axis, row in rows]
+        _print_table(["stiffness N/µm", "x", "y", "z"], lines)
+    if options.life:
+        print()
+        loads = load_distribution(scene)
+        races = zip(loads.outer_equivalent, loads.inner_equivalent, strict=True)
+        lines = [
+            [f"row{i}", f"{outer:.1f}", f"{inner:.1f}"] for i, (outer, inner) in enumerate(races)
+        ]
+        _print_table(["equivalent load", "outer N", "inner N"], lines)
 
 
 def _numbers(values: NDArray[np.float64], digits: int) -> list[str]:

@@ -1,22 +1,30 @@
-"""The static solution of a scene."""
+"""The static solution of a scene: loads, stiffness, and loads over a turn of the cage."""
 
 from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
+from .errors import SceneError
 
 if TYPE_CHECKING:
     import polars as pl
 
     from .scene import Scene
 
-__all__ = ["Equilibrium", "equilibrium"]
+__all__ = [
+    "Equilibrium",
+    "LoadDistribution",
+    "Stiffness",
+    "equilibrium",
+    "load_distribution",
+    "stiffness",
+]
 
 _BALL = ("angle", "radius", "z")
 _CONTACT = ("load", "angle", "deflection", "zone_centre")
@@ -99,7 +107,10 @@ def equilibrium(scene: Scene) -> Equilibrium:
     EquilibriumError
         There is no stable equilibrium: the load cannot be carried.
     """
-    solution = json.loads(_core.equilibrium(scene.to_json()))
+    return _equilibrium(json.loads(_core.equilibrium(scene.to_json())))
+
+
+def _equilibrium(solution: dict[str, Any]) -> Equilibrium:
     balls = solution["balls"]
     columns = {name: np.array([ball[name] for ball in balls], dtype=np.float64) for name in _BALL}
     for race in ("outer", "inner"):
@@ -113,5 +124,189 @@ def equilibrium(scene: Scene) -> Equilibrium:
         row=np.array([ball["row"] for ball in balls], dtype=np.int64),
         ball=np.array([ball["ball"] for ball in balls], dtype=np.int64),
         iterations=solution["iterations"],
+        **columns,
+    )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Stiffness:
+    """Tangent stiffness at the static equilibrium, in the scene's frame: x right, y up, z along the axis.
+
+    Entry ``[i, j]`` is the force [N] to be added along ``i`` per metre along ``j``, for small moves: positive on
+    the diagonal. The balls follow the rings, each free along its radius and along z at the angle where the cage
+    holds it. Supports of rings, gravity, damping and friction are no part of it. Symmetric.
+
+    Attributes
+    ----------
+    inner : ndarray, shape (3, 3)
+        Inner ring against a held outer ring: forces and moves of the inner ring along x, y, z [N/m].
+    rings : ndarray, shape (6, 6)
+        Both rings: x, y, z of the outer, then x, y, z of the inner ring [N/m].
+    equilibrium : Equilibrium
+        Where the bearing stands.
+    """
+
+    inner: NDArray[np.float64]
+    rings: NDArray[np.float64]
+    equilibrium: Equilibrium
+
+    @property
+    def axial(self) -> float:
+        """Stiffness along z with x and y held [N/m]."""
+        return float(self.inner[2, 2])
+
+    @property
+    def radial(self) -> NDArray[np.float64]:
+        """Softest and stiffest radial direction with z held, shape (2,) [N/m]."""
+        principal: NDArray[np.float64] = np.linalg.eigvalsh(self.inner[:2, :2])
+        return principal
+
+    def __repr__(self) -> str:
+        low, high = 1e-6 * self.radial
+        return (
+            f"<Stiffness: radial {low:.1f} to {high:.1f} N/µm, axial {1e-6 * self.axial:.1f} N/µm>"
+        )
+
+
+def stiffness(scene: Scene) -> Stiffness:
+    """Return the tangent stiffness of a bearing at its static equilibrium.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+
+    Returns
+    -------
+    Stiffness
+        Matrices of the inner ring and of both rings, and the equilibrium.
+
+    Raises
+    ------
+    SceneError
+        A field of the scene is not usable.
+    EquilibriumError
+        There is no stable equilibrium: the load cannot be carried.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> loaded = br.stiffness(br.presets.deep_groove_6205(500.0, 200.0))
+    >>> loaded.inner.shape, bool(loaded.radial[1] > loaded.axial)
+    ((3, 3), True)
+    """
+    found = json.loads(_core.stiffness(scene.to_json()))
+    return Stiffness(
+        inner=np.array(found["inner"], dtype=np.float64),
+        rings=np.array(found["rings"], dtype=np.float64),
+        equilibrium=_equilibrium(found["equilibrium"]),
+    )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class LoadDistribution:
+    """Static loads while the cage turns past rings that stand at angle 0.
+
+    Attributes
+    ----------
+    turn : ndarray, shape (n_positions,)
+        How far the cage has turned from the scene's start angles [rad].
+    row, ball : ndarray of int, shape (n_balls,)
+        Row, and place of the ball in it, both from 0.
+    angle : ndarray, shape (n_positions, n_balls)
+        Where each ball stands [rad].
+    outer_load, inner_load : ndarray, shape (n_positions, n_balls)
+        Normal forces on the races [N].
+    outer_angle, inner_angle : ndarray, shape (n_positions, n_balls)
+        Operating contact angles [rad]; not a number without load.
+    outer_equivalent, inner_equivalent : ndarray, shape (n_rows,)
+        Equivalent loads of the races [N]: the load that, on every ball all the time, tires the race as much. The
+        inner ring turns, (mean of Q³)^(1/3); the outer ring stands, (mean of Q^(10/3))^(3/10), after ISO/TS 16281.
+    """
+
+    turn: NDArray[np.float64]
+    row: NDArray[np.int64]
+    ball: NDArray[np.int64]
+    angle: NDArray[np.float64]
+    outer_load: NDArray[np.float64]
+    inner_load: NDArray[np.float64]
+    outer_angle: NDArray[np.float64]
+    inner_angle: NDArray[np.float64]
+    outer_equivalent: NDArray[np.float64]
+    inner_equivalent: NDArray[np.float64]
+
+    def __repr__(self) -> str:
+        equivalents = zip(self.outer_equivalent, self.inner_equivalent, strict=True)
+        rows = "; ".join(
+            f"outer {outer:.1f} N, inner {inner:.1f} N" for outer, inner in equivalents
+        )
+        return f"<LoadDistribution: {self.turn.size} positions, equivalent loads {rows}>"
+
+    def around(
+        self, row: int = 0, race: Literal["outer", "inner"] = "inner"
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return angles in (-π, π], in order [rad], and the loads of a row's balls on a race there [N].
+
+        Both have shape (n_positions * balls of the row,).
+        """
+        if race not in ("outer", "inner"):
+            raise ValueError(f'race is {race!r}; it has to be "outer" or "inner"')
+        chosen = self.row == row
+        if not chosen.any():
+            raise ValueError(f"row is {row}; it has to be 0 to {int(self.row.max())}")
+        angle = self.angle[:, chosen].ravel()
+        order = np.argsort(angle, kind="stable")
+        load: NDArray[np.float64] = getattr(self, f"{race}_load")[:, chosen].ravel()
+        return angle[order], load[order]
+
+
+def load_distribution(scene: Scene, *, positions: int = 16) -> LoadDistribution:
+    """Solve a scene at rest at many positions of its cage; return ball loads and equivalent loads for life.
+
+    Where all balls are alike, the cage turns by one ball pitch, which shows every ball at every angle. Where they
+    differ (diameters, ball defects, rows of different numbers of balls) it makes a whole turn.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    positions : int
+        Positions of the cage per ball pitch.
+
+    Returns
+    -------
+    LoadDistribution
+        Loads of all balls at all positions, and equivalent loads of the races.
+
+    Raises
+    ------
+    SceneError
+        A field of the scene or ``positions`` is not usable.
+    EquilibriumError
+        There is no stable equilibrium at some position.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> loads = br.load_distribution(br.presets.deep_groove_6205(500.0), positions=4)
+    >>> loads.inner_load.shape
+    (4, 9)
+    >>> psi, load = loads.around(race="outer")
+    """
+    if isinstance(positions, bool) or not isinstance(positions, int) or positions < 1:
+        raise SceneError("positions", repr(positions), "a whole number, at least 1 per ball pitch")
+    found = json.loads(_core.load_distribution(scene.to_json(), positions))
+    solved = [_equilibrium(solution) for solution in found["equilibria"]]
+    columns = {
+        name: np.stack([getattr(eq, name) for eq in solved])
+        for name in ("angle", "outer_load", "inner_load", "outer_angle", "inner_angle")
+    }
+    for race in ("outer", "inner"):
+        values = [row[race] for row in found["equivalent"]]
+        columns[f"{race}_equivalent"] = np.array(values, dtype=np.float64)
+    return LoadDistribution(
+        turn=np.array(found["turn"], dtype=np.float64),
+        row=solved[0].row,
+        ball=solved[0].ball,
         **columns,
     )

@@ -6,6 +6,7 @@
 //! place (section 7). [`pair`] puts these together and hands every single force to a [`Sink`]:
 //! `walk` visits the slices, `feature` decides what each one meets. `press` does the same for eight contacts at once
 //! where all surfaces are whole; `octet` says which those are, and `closed` has whole contacts in one formula.
+//! `tangent` gives force and stiffness at rest.
 
 mod closed;
 pub mod elliptic;
@@ -21,6 +22,7 @@ mod power;
 mod press;
 pub mod race;
 pub mod slices;
+mod tangent;
 mod walk;
 
 use nalgebra::Vector2;
@@ -34,6 +36,7 @@ pub use pair::{BallSide, Pair};
 pub(crate) use press::Press;
 pub use race::{Torus, Waves};
 pub use slices::{Rules, Slices};
+pub(crate) use tangent::Tangent;
 
 /// A vector in the x-y plane.
 pub type V2 = Vector2<f64>;

@@ -186,4 +186,15 @@ impl Waves {
             .map(|w| w.amplitude * (f64::from(w.order) * angle + w.phase).cos())
             .sum()
     }
+
+    /// Its derivative by the angle \[m\].
+    pub fn slope(&self, angle: f64) -> f64 {
+        self.0
+            .iter()
+            .map(|w| {
+                let order = f64::from(w.order);
+                -w.amplitude * order * (order * angle + w.phase).sin()
+            })
+            .sum()
+    }
 }

@@ -1,5 +1,8 @@
 //! Where a ball is cut: fixed slices of equal width, or quadrature nodes fitted to the zone that touches.
 
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
 use nalgebra::{DMatrix, SymmetricEigen};
 
 /// Fixed slices or fitted nodes.
@@ -22,6 +25,10 @@ impl Slices {
         }
     }
 }
+
+/// Rules that have been asked for, by nodes and exponent: every race of every scene needs the same few, and their
+/// eigenvalues would be most of what it costs to compile a scene.
+static KNOWN: Mutex<BTreeMap<(usize, u64), Rules>> = Mutex::new(BTreeMap::new());
 
 /// Quadrature rules on −1 … 1 for forces that vanish at some ends like a power of the penetration.
 ///
@@ -47,6 +54,14 @@ impl Rules {
     /// assert!((sum - 1.293_623_271_07).abs() < 1e-11, "{sum}");
     /// ```
     pub fn new(m: usize, exponent: f64) -> Self {
+        let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        known
+            .entry((m, exponent.to_bits()))
+            .or_insert_with(|| Self::compute(m, exponent))
+            .clone()
+    }
+
+    fn compute(m: usize, exponent: f64) -> Self {
         let one_sided = jacobi(
             m,
             0.0,

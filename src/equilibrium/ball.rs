@@ -3,14 +3,16 @@
 use nalgebra::{Matrix2, SVector, Vector2};
 
 use super::TOLERANCE;
-use super::problem::{Eight, Problem};
+use super::problem::{BallState, Problem};
 use super::search::search;
 use crate::contact::V2;
 use crate::error::{Error, Result};
-use crate::model::Degree;
 
 /// Newton iterations of a ball before giving up.
 const BALL_ITERATIONS: usize = 100;
+/// Residual of a ball, over its share of the load, and step, over the approach, from which one more step of Newton's
+/// method needs no look at the force: what it leaves is of the order of both together.
+const LAST: (f64, f64) = (1e-9, 1e-6);
 /// Residual of a ball, over its share of the load, that is accepted where a slice that enters a defect makes
 /// the force jump.
 const BALL_STALLED: f64 = 1e-2;
@@ -52,92 +54,109 @@ impl Problem<'_> {
         ([centre(0), centre(1)], reach)
     }
 
-    /// A ball between rings that stand still.
+    /// A ball between rings that stand still, sought from a place.
     pub(super) fn settle(
         &self,
         j: usize,
         rings: &SVector<f64, 6>,
-        ball: &mut Vector2<f64>,
-    ) -> Result<()> {
+        start: Vector2<f64>,
+    ) -> Result<BallState> {
         let body = &self.model.bodies[2 + j];
-        let holds = |i: usize| !matches!(body.degrees[i], Degree::Free { .. });
-        if holds(0) || holds(1) || holds(2) {
-            *ball = Vector2::new(body.nominal[0].hypot(body.nominal[1]), body.nominal[2]);
-            return Ok(());
+        if self.is_held(j) {
+            let place = Vector2::new(body.nominal[0].hypot(body.nominal[1]), body.nominal[2]);
+            return Ok(self.ball_at(j, rings, place));
         }
-        let scale = self.magnitude / self.model.balls.len() as f64;
-        let mut left = 0.0;
+        let scale = self.share();
+        let accepted =
+            |state: &BallState| state.force.norm() <= BALL_STALLED * scale.max(state.pressed());
+        let found = self.relax(j, rings, start, scale);
+        if accepted(&found) {
+            return Ok(found);
+        }
         // Over a defect a ball may have lost one race, and lie far along the other.
-        for start in [*ball, self.seat(j, rings)] {
-            let (place, residual, contact) = self.relax(j, rings, start, scale);
-            *ball = place;
-            left = residual;
-            if residual <= BALL_STALLED * scale.max(contact) {
-                return Ok(());
-            }
+        let found = self.relax(j, rings, self.seat(j, rings), scale);
+        if accepted(&found) {
+            return Ok(found);
         }
         Err(Error::Equilibrium {
             reason: format!(
-                "{} finds no place between the rings: {left:.3e} N are not balanced",
-                body.name
+                "{} finds no place between the rings: {:.3e} N are not balanced",
+                body.name,
+                found.force.norm()
             ),
         })
     }
 
-    /// Newton's method from a place: where it ends, what is not balanced there, and the size of the contact forces.
+    /// A ball's share of the load.
+    fn share(&self) -> f64 {
+        self.magnitude / self.model.balls.len() as f64
+    }
+
+    /// Whether a step is so small that it leaves nothing.
+    fn is_last(&self, left: f64, step: &Vector2<f64>) -> bool {
+        let (residual, share) = LAST;
+        left <= residual * self.share() && step.norm() <= share * self.model.scales.approach
+    }
+
+    /// The step that a settled ball still has to go, by the inverse of its stiffness.
+    pub(super) fn last_step(&self, state: &BallState, inverse: &Matrix2<f64>) -> Vector2<f64> {
+        let step = inverse * state.force;
+        if self.is_last(state.force.norm(), &step) {
+            step
+        } else {
+            Vector2::zeros()
+        }
+    }
+
+    /// Newton's method from a place: where it ends.
     fn relax(
         &self,
         j: usize,
         rings: &SVector<f64, 6>,
         start: Vector2<f64>,
         scale: f64,
-    ) -> (Vector2<f64>, f64, f64) {
-        let mut ball = start;
-        let with = |ball: &Vector2<f64>| {
-            let mut u = Eight::zeros();
-            u.fixed_rows_mut::<2>(0).copy_from(ball);
-            u.fixed_rows_mut::<6>(2).copy_from(rings);
-            u
-        };
-        let residual = |ball: &Vector2<f64>| {
-            let forces = self.ball_forces(j, &with(ball));
-            forces.fixed_rows::<2>(0).into_owned()
-        };
+    ) -> BallState {
         let tolerance = TOLERANCE * 1e-2 * scale;
         let longest = 0.02 * self.model.balls[j].side.radius;
-        let mut r = residual(&ball);
-        let mut best = (r.norm(), 0);
+        let mut state = self.ball_at(j, rings, start);
+        let mut best = (state.force.norm(), 0);
         for iteration in 0..BALL_ITERATIONS {
-            if r.norm() < 0.5 * best.0 {
-                best = (r.norm(), iteration);
+            let left = state.force.norm();
+            if left < 0.5 * best.0 {
+                best = (left, iteration);
             }
-            if r.norm() <= tolerance || iteration > best.1 + 20 {
+            if left <= tolerance || iteration > best.1 + 20 {
                 break;
             }
-            let jacobian = self.ball_jacobian(j, &with(&ball), 2);
-            let stiffness = -jacobian.fixed_view::<2, 2>(0, 0).into_owned();
+            // Not quite symmetric: the law's sums derive from a potential only as far as their nodes are exact, and
+            // a loose ball is as soft as the rest.
+            let stiffness = self.ball_stiffness(j, &mut state);
             // Where the ball is loose or would tip over, follow the force.
-            let symmetric = (stiffness + stiffness.transpose()) / 2.0;
-            let least = symmetric.symmetric_eigenvalues().min();
-            let shift = (1e-6 * self.stiffness() - least).max(0.0);
-            let shifted = symmetric + Matrix2::identity() * shift;
-            let Some(mut step) = shifted.lu().solve(&r) else {
+            let shift = (1e-6 * self.stiffness() - least(&stiffness)).max(0.0);
+            let shifted = stiffness + Matrix2::identity() * shift;
+            let Some(inverse) = shifted.try_inverse() else {
                 break;
             };
+            let mut step = inverse * state.force;
+            // Or places have no more digits.
+            if self.is_last(left, &step) || step.norm() <= 4.0 * f64::EPSILON * state.place.norm() {
+                break;
+            }
             step *= (longest / step.norm()).min(1.0);
-            let from = ball;
-            (ball, r) = search(r.dot(&step), |t| {
-                let trial = from + step * t;
-                let residual = residual(&trial);
-                Some((residual.dot(&step), (trial, residual)))
-            })
-            .unwrap_or((from, r));
+            let found = search(state.force.dot(&step), |t| {
+                let trial = self.ball_at(j, rings, state.place + step * t);
+                Some((trial.force.dot(&step), trial))
+            });
+            let Some(found) = found else { break };
+            state = found;
         }
-        (ball, r.norm(), self.contact_size(j, &with(&ball)))
+        state
     }
+}
 
-    /// Size of the contact forces at a ball.
-    fn contact_size(&self, j: usize, u: &Eight) -> f64 {
-        self.ball_forces(j, u).fixed_rows::<6>(2).norm()
-    }
+/// Least eigenvalue of a matrix's symmetric part.
+pub(super) fn least(matrix: &Matrix2<f64>) -> f64 {
+    let half = (matrix[(0, 0)] - matrix[(1, 1)]) / 2.0;
+    let mixed = f64::midpoint(matrix[(0, 1)], matrix[(1, 0)]);
+    f64::midpoint(matrix[(0, 0)], matrix[(1, 1)]) - (half * half + mixed * mixed).sqrt()
 }

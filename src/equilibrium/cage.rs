@@ -8,6 +8,9 @@ use super::problem::Problem;
 use crate::contact::V2;
 use crate::scene::Cage;
 
+/// Newton iterations for the length of the links, at most; three do.
+const LENGTH_ITERATIONS: usize = 10;
+
 /// The cage's hold on a ball along its radius: its pull where the ball stood, and a stiffness that keeps a
 /// loose ball from jumping between the races from one round to the next.
 #[derive(Debug, Clone, Copy, Default)]
@@ -20,6 +23,10 @@ pub(super) struct CageSpring {
 impl CageSpring {
     pub(super) fn pull(&self, radius: f64) -> f64 {
         self.force - self.stiffness * (radius - self.radius)
+    }
+
+    pub(super) fn stiffness(&self) -> f64 {
+        self.stiffness
     }
 }
 
@@ -39,18 +46,22 @@ impl Problem<'_> {
                     .clamp(-1.0, 1.0)
                     .acos()
             };
-            // All spans together make the circle; they grow with the length.
-            let (mut low, mut high) = (0.5 * row.cage_distance, 1.5 * row.cage_distance);
-            for _ in 0..60 {
-                let middle = f64::midpoint(low, high);
-                let sum: f64 = (0..row.count).map(|k| span(k, middle)).sum();
-                if sum < TAU {
-                    low = middle;
-                } else {
-                    high = middle;
+            // All spans together make the circle, and each grows with the length ℓ by ℓ/(a b sin span).
+            let mut length = row.cage_distance;
+            for _ in 0..LENGTH_ITERATIONS {
+                let (mut sum, mut slope) = (0.0, 0.0);
+                for k in 0..row.count {
+                    let span = span(k, length);
+                    sum += span;
+                    slope += length / (radii[k] * radii[next(k)] * span.sin());
+                }
+                let step = (TAU - sum) / slope;
+                length += step;
+                if step.abs() <= f64::EPSILON * length {
+                    break;
                 }
             }
-            let extension = high - row.cage_distance;
+            let extension = length - row.cage_distance;
             let beyond = (extension.abs() - cage.play / 2.0)
                 .max(0.0)
                 .copysign(extension);
@@ -59,7 +70,7 @@ impl Problem<'_> {
             let pitch = TAU / row.count as f64;
             let mut shift = vec![0.0; row.count];
             for k in 1..row.count {
-                shift[k] = shift[k - 1] + span(k - 1, high) - pitch;
+                shift[k] = shift[k - 1] + span(k - 1, length) - pitch;
             }
             let mean = shift.iter().sum::<f64>() / row.count as f64;
             for (k, shift) in shift.into_iter().enumerate() {

@@ -4,20 +4,27 @@
 //! rings; the rings then see every ball as a nonlinear spring, the Schur complement of its stiffness. The
 //! balls are seeded on the line of the groove centres, and only a positive definite tangent stiffness is
 //! accepted: Newton's method alone also finds balls that balance on a shoulder.
+//!
+//! What follows from it: [`stiffness()`], which the rings' Newton solve forms anyway, and [`load_distribution`] over
+//! a turn of the cage.
 
 mod ball;
 mod cage;
+mod distribution;
 mod problem;
 mod rings;
 mod search;
+mod stiffness;
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 use serde::Serialize;
 
 use crate::error::Result;
 use crate::model::Model;
 use crate::scene::Scene;
+pub use distribution::{EquivalentLoads, LoadDistribution, load_distribution};
 use problem::Problem;
+pub use stiffness::{Stiffness, stiffness};
 
 /// Residual over the sum of the acting forces that counts as zero.
 const TOLERANCE: f64 = 1e-10;
@@ -86,13 +93,27 @@ pub struct ContactEquilibrium {
 /// [`crate::Error::Scene`] for a scene that is not usable, [`crate::Error::Equilibrium`] when the load cannot be carried.
 pub fn equilibrium(scene: &Scene) -> Result<Equilibrium> {
     let model = Model::new(scene)?;
-    let (y, iterations) = solve(&model)?;
-    Ok(describe(&model, &y, iterations))
+    Ok(solve(&model)?.describe(&model))
 }
 
 /// Positions of the equilibrium in a state vector with zero velocities.
 pub(crate) fn positions(model: &Model) -> Result<Vec<f64>> {
-    solve(model).map(|(y, _)| y)
+    solve(model).map(|solved| solved.y)
+}
+
+/// What the solver found.
+struct Solved {
+    /// State vector with zero velocities.
+    y: Vec<f64>,
+    iterations: usize,
+    /// Stiffness of the bearing between its rings: x, y, z of outer and inner ring.
+    bearing: SMatrix<f64, 6, 6>,
+}
+
+impl Solved {
+    fn describe(&self, model: &Model) -> Equilibrium {
+        describe(model, &self.y, self.iterations)
+    }
 }
 
 fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibrium {
@@ -134,23 +155,29 @@ fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibrium {
 }
 
 /// Solves with the balls at their nominal angles; then lets the cage shift them and pull, and solves again.
-fn solve(model: &Model) -> Result<(Vec<f64>, usize)> {
+fn solve(model: &Model) -> Result<Solved> {
     let mut problem = Problem::new(model);
     let mut rings = SVector::<f64, 6>::zeros();
-    let mut balls: Vec<_> = (0..model.balls.len())
+    let seeds: Vec<_> = (0..model.balls.len())
         .map(|j| problem.seed(j, &rings))
         .collect();
-    let mut iterations = problem.balance(&mut rings, &mut balls)?;
+    let (mut state, mut iterations) = problem.balance(&mut rings, &seeds)?;
     if let Some(cage) = &model.scene.cage {
         for _ in 0..CAGE_ROUNDS {
-            let before = balls.clone();
-            problem.engage(cage, &balls);
-            iterations += problem.balance(&mut rings, &mut balls)?;
-            let moved = before.iter().zip(&balls).map(|(a, b)| (a.x - b.x).abs());
-            if moved.fold(0.0, f64::max) < CAGE_TOLERANCE * model.scales.approach {
+            problem.engage(cage, &state.balls);
+            let (found, more) = problem.balance(&mut rings, &state.balls)?;
+            iterations += more;
+            let moved = state.balls.iter().zip(&found.balls);
+            let most = moved.map(|(a, b)| (a.x - b.x).abs()).fold(0.0, f64::max);
+            state = found;
+            if most < CAGE_TOLERANCE * model.scales.approach {
                 break;
             }
         }
     }
-    Ok((problem.state(&rings, &balls), iterations))
+    Ok(Solved {
+        y: problem.state(&rings, &state.balls),
+        iterations,
+        bearing: state.bearing,
+    })
 }

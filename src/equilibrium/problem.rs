@@ -1,14 +1,10 @@
 //! What acts: loads of rings and balls, and the forces of a ball's contacts.
 
-use nalgebra::{DVector, SMatrix, SVector, Vector2};
+use nalgebra::{DVector, Matrix2, Matrix3, SMatrix, SVector, Vector2, Vector3};
 
 use super::cage::CageSpring;
-use crate::contact::{Motion, Sink, Touch, V2};
+use crate::contact::{Tangent, V2};
 use crate::model::{Degree, Model};
-
-/// The two displacements of a ball and the six of the rings: radius and place z of the ball, then
-/// x, y, z of outer and inner ring; and the forces along them.
-pub(super) type Eight = SVector<f64, 8>;
 
 pub(super) struct Problem<'m> {
     pub(super) model: &'m Model,
@@ -97,65 +93,100 @@ impl<'m> Problem<'m> {
         self.ball_loads[j]
     }
 
-    /// Forces on a ball (radial, axial) and on the rings from its contacts and its own load and support.
-    pub(super) fn ball_forces(&self, j: usize, u: &Eight) -> Eight {
+    /// A ball at a radius and an axial place between the rings: what acts on it there.
+    pub(super) fn ball_at(
+        &self,
+        j: usize,
+        rings: &SVector<f64, 6>,
+        place: Vector2<f64>,
+    ) -> BallState {
         let ball = &self.model.balls[j];
-        let body = &self.model.bodies[2 + j];
         let direction = self.directions[j];
-        let at = |centre: V2, z: f64| Motion {
-            centre,
-            z,
-            theta: 0.0,
-            velocity: V2::zeros(),
-            vz: 0.0,
-            omega: 0.0,
-        };
-        let place = at(direction * u[0], u[1]);
-        let mut forces = Eight::zeros();
-        for (race, pair) in self.model.rows[ball.row].pairs.iter().enumerate() {
-            let k = 2 + 3 * race;
-            let mut sum = Static::default();
-            pair.evaluate(
-                &ball.side,
-                &place,
-                &at(V2::new(u[k], u[k + 1]), u[k + 2]),
-                &mut sum,
-            );
-            forces[0] += sum.plane.dot(&direction);
-            forces[1] += sum.axial;
-            forces[k] -= sum.plane.x;
-            forces[k + 1] -= sum.plane.y;
-            forces[k + 2] -= sum.axial;
-        }
-        let place = [place.centre.x, place.centre.y, place.z];
+        let centre = Vector3::new(direction.x * place.x, direction.y * place.x, place.y);
+        let from_rings = [0, 3].map(|k| centre - rings.fixed_rows::<3>(k));
+        let contacts = [0, 1].map(|race| {
+            self.model.rows[ball.row].pairs[race].tangent(&ball.side, &from_rings[race])
+        });
+        let pressed = contacts[0].force + contacts[1].force;
+        let own = self.own_load(j);
+        let mut force = Vector2::new(
+            pressed.xy().dot(&direction) + own.x + self.cage_spring[j].pull(place.x),
+            pressed.z + own.y,
+        );
+        let body = &self.model.bodies[2 + j];
         for i in 0..3 {
-            if let Degree::Free { stiffness, .. } = body.degrees[i] {
-                let pull = -stiffness * (place[i] - body.nominal[i]);
-                if i < 2 {
-                    forces[0] += pull * direction[i];
-                } else {
-                    forces[1] += pull;
-                }
+            let pull = body.degrees[i].stiffness() * (body.nominal[i] - centre[i]);
+            if i < 2 {
+                force.x += pull * direction[i];
+            } else {
+                force.y += pull;
             }
         }
-        forces[0] += self.own_load(j).x + self.cage_spring[j].pull(u[0]);
-        forces[1] += self.ball_loads[j].y;
-        forces
+        BallState {
+            place,
+            force,
+            from_rings,
+            contacts,
+        }
     }
 
-    /// Derivative of [`Self::ball_forces`] by central differences in the chosen columns.
-    pub(super) fn ball_jacobian(&self, j: usize, u: &Eight, columns: usize) -> SMatrix<f64, 8, 8> {
+    /// Stiffness of each of a ball's contacts; differences are taken once.
+    pub(super) fn contact_stiffness(&self, j: usize, state: &mut BallState) -> [Matrix3<f64>; 2] {
+        let ball = &self.model.balls[j];
         // A thousandth of the approach: truncation 1e-6, noise 1e-9 of the stiffness.
         let step = 1e-3 * self.model.scales.approach;
-        let mut jacobian = SMatrix::<f64, 8, 8>::zeros();
-        for i in 0..columns {
-            let (mut up, mut down) = (*u, *u);
-            up[i] += step;
-            down[i] -= step;
-            let slope = (self.ball_forces(j, &up) - self.ball_forces(j, &down)) / (2.0 * step);
-            jacobian.set_column(i, &slope);
+        [0, 1].map(|race| {
+            *state.contacts[race].stiffness.get_or_insert_with(|| {
+                let pair = &self.model.rows[ball.row].pairs[race];
+                pair.stiffness_by_differences(&ball.side, &state.from_rings[race], step)
+            })
+        })
+    }
+
+    /// Stiffness of a ball along its radius and z between rings that stand still.
+    pub(super) fn ball_stiffness(&self, j: usize, state: &mut BallState) -> Matrix2<f64> {
+        let [outer, inner] = self.contact_stiffness(j, state);
+        let k = outer + inner;
+        let (x, y) = (self.directions[j].x, self.directions[j].y);
+        let mut radial = x * x * k[(0, 0)] + y * y * k[(1, 1)] + x * y * (k[(0, 1)] + k[(1, 0)]);
+        let mut axial = k[(2, 2)];
+        let degrees = &self.model.bodies[2 + j].degrees;
+        for (degree, share) in degrees.iter().zip([x * x, y * y]) {
+            radial += degree.stiffness() * share;
         }
-        jacobian
+        axial += degrees[2].stiffness();
+        radial += self.cage_spring[j].stiffness();
+        Matrix2::new(
+            radial,
+            x * k[(0, 2)] + y * k[(1, 2)],
+            x * k[(2, 0)] + y * k[(2, 1)],
+            axial,
+        )
+    }
+
+    /// Stiffness of a ball (radius, z) against the six places of the rings, and of these against the ball.
+    pub(super) fn coupling(
+        &self,
+        j: usize,
+        contacts: &[Matrix3<f64>; 2],
+    ) -> (SMatrix<f64, 2, 6>, SMatrix<f64, 6, 2>) {
+        let (x, y) = (self.directions[j].x, self.directions[j].y);
+        let at = |a: usize| (&contacts[a / 3], a % 3);
+        let pulled = SMatrix::from_fn(|a, b| match at(b) {
+            (k, i) if a == 0 => x * k[(0, i)] + y * k[(1, i)],
+            (k, i) => k[(2, i)],
+        });
+        let pulling = SMatrix::from_fn(|a, b| match at(a) {
+            (k, i) if b == 0 => x * k[(i, 0)] + y * k[(i, 1)],
+            (k, i) => k[(i, 2)],
+        });
+        (pulled, pulling)
+    }
+
+    /// Whether a support holds a ball at its nominal place.
+    pub(super) fn is_held(&self, j: usize) -> bool {
+        let degrees = &self.model.bodies[2 + j].degrees[..3];
+        degrees.iter().any(|d| !matches!(d, Degree::Free { .. }))
     }
 
     pub(super) fn state(&self, rings: &SVector<f64, 6>, balls: &[Vector2<f64>]) -> Vec<f64> {
@@ -171,24 +202,23 @@ impl<'m> Problem<'m> {
     }
 }
 
-/// Adds up the elastic forces on the ball.
-struct Static {
-    plane: V2,
-    axial: f64,
+/// A ball at a place between the rings.
+#[derive(Debug, Clone)]
+pub(super) struct BallState {
+    /// Its radius and axial place.
+    pub(super) place: Vector2<f64>,
+    /// Force on it along these.
+    pub(super) force: Vector2<f64>,
+    /// Its place from the centres of outer and inner ring.
+    from_rings: [Vector3<f64>; 2],
+    /// What the races do to it.
+    pub(super) contacts: [Tangent; 2],
 }
 
-impl Default for Static {
-    fn default() -> Self {
-        Self {
-            plane: V2::zeros(),
-            axial: 0.0,
-        }
-    }
-}
-
-impl Sink for Static {
-    fn touch(&mut self, touch: &Touch) {
-        self.plane -= touch.n_e * (touch.elastic * touch.share.0);
-        self.axial -= touch.elastic * touch.share.1;
+impl BallState {
+    /// Size of the contact forces.
+    pub(super) fn pressed(&self) -> f64 {
+        let [outer, inner] = &self.contacts;
+        outer.force.norm().hypot(inner.force.norm())
     }
 }

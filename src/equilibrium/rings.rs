@@ -1,13 +1,13 @@
 //! Newton's method on the rings, every ball condensed to a nonlinear spring.
 
-use nalgebra::{DMatrix, DVector, Matrix2, SMatrix, SVector, Vector2};
+use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector2};
 
-use super::problem::{Eight, Problem};
+use super::ball::least;
+use super::problem::Problem;
 use super::search::search;
 use super::{STALLED, TOLERANCE};
 use crate::contact::V2;
 use crate::error::{Error, Result};
-use crate::model::Degree;
 
 /// Newton iterations of the rings before giving up.
 const RING_ITERATIONS: usize = 200;
@@ -17,9 +17,26 @@ const STALL: usize = 8;
 const GIVE_UP: usize = 40;
 
 /// The rings at some place, every ball in its own equilibrium.
-struct RingState {
+pub(super) struct RingState {
+    /// Where the balls stand.
+    pub(super) balls: Vec<Vector2<f64>>,
+    /// Forces on the rings along their free directions, and the stiffness against them.
     residual: DVector<f64>,
     stiffness: DMatrix<f64>,
+    /// How each ball follows the rings, as far as it does so smoothly.
+    follow: Vec<SMatrix<f64, 2, 6>>,
+    /// Stiffness of the bearing alone, both rings free.
+    pub(super) bearing: SMatrix<f64, 6, 6>,
+}
+
+impl RingState {
+    /// Where the balls would stand after a step of the rings, to first order.
+    fn followed(&self, step: &SVector<f64, 6>) -> Vec<Vector2<f64>> {
+        let places = self.balls.iter().zip(&self.follow);
+        places
+            .map(|(place, follow)| place + follow * step)
+            .collect()
+    }
 }
 
 impl Problem<'_> {
@@ -27,9 +44,9 @@ impl Problem<'_> {
     pub(super) fn balance(
         &self,
         rings: &mut SVector<f64, 6>,
-        balls: &mut Vec<Vector2<f64>>,
-    ) -> Result<usize> {
-        let mut state = self.rings(rings, balls)?;
+        starts: &[Vector2<f64>],
+    ) -> Result<(RingState, usize)> {
+        let mut state = self.rings(rings, starts, 0.0)?;
         let mut best = (f64::INFINITY, 0);
         // As far as the balls can follow; further where nothing touches.
         let shortest = 0.02 * self.model.balls[0].side.radius;
@@ -41,7 +58,8 @@ impl Problem<'_> {
             }
             let stalled = iteration > best.1 + STALL;
             if error <= TOLERANCE || stalled && error <= STALLED {
-                return self.check(&state, balls, rings).map(|()| iteration);
+                self.check(&state, rings)?;
+                return Ok((state, iteration));
             }
             if stalled && iteration > best.1 + GIVE_UP {
                 break;
@@ -55,24 +73,27 @@ impl Problem<'_> {
                     .sum()
             };
             let clipped = step.norm() > 0.99 * longest;
-            let Some((moved, (trial_rings, trial_balls, trial))) = search(force(&state), |t| {
-                let trial_rings = *rings + step * t;
-                let mut trial_balls = balls.clone();
-                let trial = self.rings(&trial_rings, &mut trial_balls).ok()?;
-                Some((force(&trial), (t, (trial_rings, trial_balls, trial))))
-            }) else {
+            let found = search(force(&state), |t| {
+                let moved = step * t;
+                let starts = state.followed(&moved);
+                let trial = self.rings(&(*rings + moved), &starts, moved.norm()).ok()?;
+                Some((force(&trial), (t, trial)))
+            });
+            let Some((share, trial)) = found else {
                 // Rounding, or a jump, leaves no better place: large forces of a misfit cancel to no more than this.
                 if error <= STALLED {
-                    return self.check(&state, balls, rings).map(|()| iteration);
+                    self.check(&state, rings)?;
+                    return Ok((state, iteration));
                 }
                 break;
             };
-            longest = if clipped && moved == 1.0 {
+            longest = if clipped && share == 1.0 {
                 2.0 * longest
             } else {
                 shortest
             };
-            (*rings, *balls, state) = (trial_rings, trial_balls, trial);
+            *rings += step * share;
+            state = trial;
         }
         Err(Error::Equilibrium {
             reason: format!(
@@ -83,52 +104,83 @@ impl Problem<'_> {
         })
     }
 
-    /// Lets every ball settle, and condenses it to forces and stiffness on the rings.
-    fn rings(&self, rings: &SVector<f64, 6>, balls: &mut [Vector2<f64>]) -> Result<RingState> {
+    /// Lets every ball settle, and condenses it to forces and stiffness on the rings, which have moved so far.
+    fn rings(
+        &self,
+        rings: &SVector<f64, 6>,
+        starts: &[Vector2<f64>],
+        moved: f64,
+    ) -> Result<RingState> {
         let mut forces = self.loads;
-        let mut stiffness = SMatrix::<f64, 6, 6>::zeros();
-        for (j, ball) in balls.iter_mut().enumerate() {
-            // A ball is seeded anew when the rings have moved far.
-            let seed = self.seed(j, rings);
-            if (seed - *ball).norm() > self.model.scales.approach {
-                *ball = seed;
+        let mut bearing = SMatrix::<f64, 6, 6>::zeros();
+        let mut balls = Vec::with_capacity(starts.len());
+        let mut follow = Vec::with_capacity(starts.len());
+        for (j, &start) in starts.iter().enumerate() {
+            let mut ball = self.settle(j, rings, self.refreshed(j, rings, start, moved))?;
+            let contacts = self.contact_stiffness(j, &mut ball);
+            for (race, stiffness) in contacts.iter().enumerate() {
+                let k = 3 * race;
+                let mut on_ring = forces.fixed_rows_mut::<3>(k);
+                on_ring -= ball.contacts[race].force;
+                let mut own = bearing.fixed_view_mut::<3, 3>(k, k);
+                own += stiffness;
             }
-            self.settle(j, rings, ball)?;
-            let mut u = Eight::zeros();
-            u.fixed_rows_mut::<2>(0).copy_from(ball);
-            u.fixed_rows_mut::<6>(2).copy_from(rings);
-            forces += self.ball_forces(j, &u).fixed_rows::<6>(2);
-            let jacobian = self.ball_jacobian(j, &u, 8);
-            let k = |row: usize, column: usize| -jacobian[(row, column)];
-            let own = Matrix2::new(k(0, 0), k(0, 1), k(1, 0), k(1, 1));
-            let to_rings = SMatrix::<f64, 6, 2>::from_fn(|a, b| k(2 + a, b));
-            let from_rings = SMatrix::<f64, 2, 6>::from_fn(|a, b| k(a, 2 + b));
-            stiffness += SMatrix::<f64, 6, 6>::from_fn(|a, b| k(2 + a, 2 + b));
+            let (pulled, pulling) = self.coupling(j, &contacts);
+            let own = self.ball_stiffness(j, &mut ball);
             // A loose ball carries nothing and has no stiffness to condense.
-            if let Some(inverse) = own.try_inverse().filter(|_| self.is_stiff(&own)) {
-                stiffness -= to_rings * inverse * from_rings;
+            let stiff = !self.is_held(j) && least(&own) > 1e-9 * self.stiffness();
+            let mut followed = SMatrix::zeros();
+            if let Some(inverse) = own.try_inverse().filter(|_| stiff) {
+                followed = SMatrix::<f64, 2, 6>::from_fn(|a, b| {
+                    inverse[(a, 0)] * pulled[(0, b)] + inverse[(a, 1)] * pulled[(1, b)]
+                });
+                let last = self.last_step(&ball, &inverse);
+                forces += pulling * last;
+                ball.place += last;
             }
+            bearing -= SMatrix::<f64, 6, 6>::from_fn(|a, b| {
+                pulling[(a, 0)] * followed[(0, b)] + pulling[(a, 1)] * followed[(1, b)]
+            });
+            balls.push(ball.place);
+            follow.push(followed);
         }
+        bearing = (bearing + bearing.transpose()) / 2.0;
+        let mut held = bearing;
         for (b, body) in self.model.bodies[..2].iter().enumerate() {
             for i in 0..3 {
-                if let Degree::Free { stiffness: k, .. } = body.degrees[i] {
-                    forces[3 * b + i] -= k * rings[3 * b + i];
-                    stiffness[(3 * b + i, 3 * b + i)] += k;
-                }
+                let (a, k) = (3 * b + i, body.degrees[i].stiffness());
+                forces[a] -= k * rings[a];
+                held[(a, a)] += k;
             }
         }
         let n = self.free.len();
         Ok(RingState {
+            balls,
             residual: DVector::from_fn(n, |a, _| forces[self.free[a]]),
-            stiffness: DMatrix::from_fn(n, n, |a, b| {
-                let (a, b) = (self.free[a], self.free[b]);
-                f64::midpoint(stiffness[(a, b)], stiffness[(b, a)])
-            }),
+            stiffness: DMatrix::from_fn(n, n, |a, b| held[(self.free[a], self.free[b])]),
+            follow,
+            bearing,
         })
     }
 
-    fn is_stiff(&self, own: &Matrix2<f64>) -> bool {
-        (own + own.transpose()).symmetric_eigenvalues().min() / 2.0 > 1e-9 * self.stiffness()
+    /// A ball's place to start from: it is seeded anew when the rings have moved far.
+    fn refreshed(
+        &self,
+        j: usize,
+        rings: &SVector<f64, 6>,
+        start: Vector2<f64>,
+        moved: f64,
+    ) -> Vector2<f64> {
+        let approach = self.model.scales.approach;
+        if moved <= approach {
+            return start;
+        }
+        let seed = self.seed(j, rings);
+        if (seed - start).norm() > approach {
+            seed
+        } else {
+            start
+        }
     }
 
     fn newton_step(&self, state: &RingState, longest: f64) -> SVector<f64, 6> {
@@ -137,10 +189,15 @@ impl Problem<'_> {
         if n == 0 {
             return step;
         }
-        let least = state.stiffness.clone().symmetric_eigenvalues().min();
-        let shift = (1e-6 * self.stiffness() - least).max(0.0);
-        let shifted = &state.stiffness + DMatrix::identity(n, n) * shift;
-        let solved = shifted
+        // Positive definite by some margin: as it is. Else shifted until it is.
+        let margin = 1e-6 * self.stiffness();
+        let shifted = |by: f64| &state.stiffness + DMatrix::identity(n, n) * by;
+        let shift = if shifted(-margin).cholesky().is_some() {
+            0.0
+        } else {
+            (margin - state.stiffness.symmetric_eigenvalues().min()).max(0.0)
+        };
+        let solved = shifted(shift)
             .lu()
             .solve(&state.residual)
             .unwrap_or_else(|| DVector::zeros(n));
@@ -152,12 +209,7 @@ impl Problem<'_> {
     }
 
     /// Refuses what balances without being stable, and balls that left their groove.
-    fn check(
-        &self,
-        state: &RingState,
-        balls: &[Vector2<f64>],
-        rings: &SVector<f64, 6>,
-    ) -> Result<()> {
+    fn check(&self, state: &RingState, rings: &SVector<f64, 6>) -> Result<()> {
         let n = self.free.len();
         if n > 0 && state.stiffness.clone().cholesky().is_none() {
             let eigen = state.stiffness.clone().symmetric_eigen();
@@ -171,7 +223,7 @@ impl Problem<'_> {
                 ),
             });
         }
-        for (j, ball) in balls.iter().enumerate() {
+        for (j, ball) in state.balls.iter().enumerate() {
             let compiled = &self.model.balls[j];
             for (race, pair) in self.model.rows[compiled.row].pairs.iter().enumerate() {
                 let ring = SVector::<f64, 3>::new(

@@ -43,6 +43,16 @@ pub enum Degree {
     Driven,
 }
 
+impl Degree {
+    /// Of the spring to the frame \[N/m\], about z \[N m/rad\]; 0 where nothing moves by forces.
+    pub(crate) fn stiffness(&self) -> f64 {
+        match self {
+            Self::Free { stiffness, .. } => *stiffness,
+            Self::Fixed | Self::Driven => 0.0,
+        }
+    }
+}
+
 impl From<Mount> for Degree {
     fn from(mount: Mount) -> Self {
         match mount {

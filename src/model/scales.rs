@@ -50,19 +50,21 @@ impl Scales {
             let centrifugal = body.mass[0] * orbit * orbit * geometry.pitch_diameter / 2.0;
             let squeeze = (-geometry.clearance / 4.0 * cos).max(0.0)
                 + (geometry.axial_preload / 2.0 * sin).max(0.0);
+            let bottoms = row
+                .pairs
+                .each_ref()
+                .map(|pair| Bottom::new(pair, &ball.side));
             // Where nothing acts, a touch of a hundred-thousandth of the ball.
-            let touch = force_at(&row.pairs[0], &ball.side, 2e-5 * ball.side.radius);
+            let touch = bottoms[0].force(2e-5 * ball.side.radius);
             let mut load = (external + centrifugal).max(touch);
-            for pair in &row.pairs {
-                load = load.max(force_at(pair, &ball.side, squeeze) + external);
+            for bottom in &bottoms {
+                load = load.max(bottom.force(squeeze) + external);
             }
-            let stiffness = row.pairs.each_ref().map(|pair| {
-                let approach = approach_at(pair, &ball.side, load);
+            let stiffness = bottoms.each_ref().map(|bottom| {
+                let approach = bottom.approach(load);
                 scales.approach = scales.approach.max(approach);
                 let step = 1e-3 * approach;
-                (force_at(pair, &ball.side, approach + step)
-                    - force_at(pair, &ball.side, approach - step))
-                    / (2.0 * step)
+                (bottom.force(approach + step) - bottom.force(approach - step)) / (2.0 * step)
             });
             scales.load = scales.load.max(load);
             let cage = scene.cage.as_ref().map_or(0.0, |cage| 4.0 * cage.stiffness);
@@ -99,47 +101,58 @@ impl Sink for Elastic {
     }
 }
 
-/// Elastic force of a ball pressed radially into a healthy groove's bottom by an approach \[m\].
-fn force_at(pair: &Pair, ball: &BallSide, approach: f64) -> f64 {
-    let race = &pair.race;
-    let distance = race.a + race.sigma * (race.r - ball.radius + approach);
-    let at = |x: f64, z: f64| Motion {
-        centre: V2::new(x, 0.0),
-        z,
-        theta: 0.0,
-        velocity: V2::zeros(),
-        vz: 0.0,
-        omega: 0.0,
-    };
-    let healthy = BallSide {
-        radius: ball.radius,
-        faults: Vec::new(),
-    };
-    let whole = Pair {
-        faults: Vec::new(),
-        waves: crate::contact::Waves::default(),
-        ..pair.clone()
-    };
-    let mut sum = Elastic(0.0);
-    whole.evaluate(
-        &healthy,
-        &at(distance, race.centre),
-        &at(0.0, 0.0),
-        &mut sum,
-    );
-    sum.0
+/// A ball at the bottom of a healthy groove.
+struct Bottom {
+    pair: Pair,
+    ball: BallSide,
 }
 
-/// The approach \[m\] at which that force is reached, by bisection.
-fn approach_at(pair: &Pair, ball: &BallSide, load: f64) -> f64 {
-    let (mut low, mut high) = (1e-9 * ball.radius, 0.5 * ball.radius);
-    for _ in 0..60 {
-        let middle = (low * high).sqrt();
-        if force_at(pair, ball, middle) < load {
-            low = middle;
-        } else {
-            high = middle;
+impl Bottom {
+    fn new(pair: &Pair, ball: &BallSide) -> Self {
+        Self {
+            pair: Pair {
+                faults: Vec::new(),
+                waves: crate::contact::Waves::default(),
+                friction: None,
+                ..pair.clone()
+            },
+            ball: BallSide {
+                radius: ball.radius,
+                faults: Vec::new(),
+            },
         }
     }
-    high
+
+    /// Elastic force when pressed radially by an approach \[m\].
+    fn force(&self, approach: f64) -> f64 {
+        let race = &self.pair.race;
+        let distance = race.a + race.sigma * (race.r - self.ball.radius + approach);
+        let at = |x: f64, z: f64| Motion {
+            centre: V2::new(x, 0.0),
+            z,
+            theta: 0.0,
+            velocity: V2::zeros(),
+            vz: 0.0,
+            omega: 0.0,
+        };
+        let mut sum = Elastic(0.0);
+        let (ball, ring) = (at(distance, race.centre), at(0.0, 0.0));
+        self.pair.evaluate(&self.ball, &ball, &ring, &mut sum);
+        sum.0
+    }
+
+    /// The approach \[m\] at which that force is reached, by bisection.
+    fn approach(&self, load: f64) -> f64 {
+        let radius = self.ball.radius;
+        let (mut low, mut high) = (1e-9 * radius, 0.5 * radius);
+        for _ in 0..60 {
+            let middle = (low * high).sqrt();
+            if self.force(middle) < load {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        high
+    }
 }

@@ -7,6 +7,7 @@ mod campaign;
 mod errors;
 mod run;
 mod scene;
+mod statics;
 
 use pyo3::prelude::*;
 
@@ -16,10 +17,12 @@ mod _core {
     #[pymodule_export]
     use super::campaign::{available_threads, campaign, feature_columns};
     #[pymodule_export]
-    use super::run::{Model, equilibrium, simulate};
+    use super::run::{Model, simulate};
     #[pymodule_export]
     use super::scene::{
         preset_deep_groove_6205, preset_wheel_bearing, scene_from_json, scene_from_toml,
         scene_replace, scene_to_toml,
     };
+    #[pymodule_export]
+    use super::statics::{equilibrium, load_distribution, stiffness};
 }

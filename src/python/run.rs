@@ -1,4 +1,4 @@
-//! Models, runs and equilibria.
+//! Models and runs.
 
 // Arguments from Python come by value.
 #![allow(clippy::needless_pass_by_value)]
@@ -165,13 +165,6 @@ pub(super) fn simulate<'py>(
         attend(py, progress.as_ref(), 1.0)?;
     }
     hand_over(py, signals)
-}
-
-/// Static equilibrium, as JSON.
-#[pyfunction]
-pub(super) fn equilibrium(py: Python<'_>, scene: &str) -> PyResult<String> {
-    let scene = Scene::from_json(scene).or_raise(py)?;
-    to_json(&py.detach(|| crate::equilibrium(&scene)).or_raise(py)?)
 }
 
 pub(super) fn start(kind: &str, state: Option<Vec<f64>>) -> crate::Result<Start> {

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import ballrace as br
@@ -103,6 +104,22 @@ def test_equilibrium_prints_a_table(capsys: pytest.CaptureFixture[str], scene_fi
     assert main(["equilibrium", str(scene_file)]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len([line for line in lines if line.startswith("row0.ball")]) == 9
+    assert not any(line.startswith(("stiffness", "equivalent")) for line in lines)
+
+
+def test_equilibrium_prints_stiffness_and_equivalent_loads(
+    capsys: pytest.CaptureFixture[str], scene_file: Path
+) -> None:
+    """Truth: the functions behind the command."""
+    assert main(["equilibrium", str(scene_file), "--stiffness", "--life"]) == 0
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    scene = br.Scene.load(scene_file)
+    printed = [[float(x) for x in line[1:]] for line in lines if line and line[0] in "xyz"]
+    np.testing.assert_allclose(printed, 1e-6 * br.stiffness(scene).inner, atol=5.1e-4)
+    loads = br.load_distribution(scene)
+    (printed_loads,) = ([float(x) for x in line[1:]] for line in lines if line[:1] == ["row0"])
+    expected = [loads.outer_equivalent[0], loads.inner_equivalent[0]]
+    np.testing.assert_allclose(printed_loads, expected, atol=0.051)
 
 
 def test_bad_input_is_one_line_and_leaves_nothing(

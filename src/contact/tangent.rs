@@ -1,0 +1,374 @@
+//! Elastic force of a contact at rest and its derivative: what a static solve needs.
+//!
+//! Where all surfaces are whole, ball and groove are two circles in the meridional plane, and the force depends on
+//! their distance l and on the angle α' of the common normal alone. Its derivative is that of the very sum that
+//! `walk` makes, node by node, so Newton's method converges on it quadratically. Near a defect, and where a
+//! shoulder or the ball's equator cuts the zone, it is found by differences.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::race::{Meridian, SHALLOW};
+use super::{BallSide, Law, Motion, Pair, Rules, Sink, Slices, Touch, V2, hertz, iso16281};
+
+/// Elastic force on the ball along x, y, z \[N\], and the stiffness −∂force/∂place of the ball against the ring
+/// \[N/m\]; a stiffness that only differences can tell is left out.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Tangent {
+    pub force: Vector3<f64>,
+    pub stiffness: Option<Matrix3<f64>>,
+}
+
+impl Pair {
+    /// Force and stiffness at rest of a ball whose centre stands at `place` from the ring's, neither turned.
+    pub(crate) fn tangent(&self, ball: &BallSide, place: &Vector3<f64>) -> Tangent {
+        let distance = place.xy().norm();
+        let n = V2::new(place.x, place.y) / distance;
+        let angle = if self.waves.is_round() && self.faults.is_empty() && ball.faults.is_empty() {
+            0.0
+        } else {
+            n.y.atan2(n.x)
+        };
+        let meridian = self.race.meridian(distance, place.z, self.waves.at(angle));
+        if meridian.e > 0.0 && meridian.approach(ball.radius) <= 0.0 {
+            return Tangent {
+                force: Vector3::zeros(),
+                stiffness: Some(Matrix3::zeros()),
+            };
+        }
+        let sigma = self.race.sigma;
+        let whole = !self.faults.iter().any(|fault| fault.in_reach(angle))
+            && !ball.faults.iter().any(|fault| {
+                let towards = if sigma > 0.0 {
+                    angle
+                } else {
+                    angle + std::f64::consts::PI
+                };
+                fault.in_reach(towards)
+            });
+        match self.meridional(ball.radius, &meridian).filter(|_| whole) {
+            Some(found) => self.in_space(&found, n, distance, angle),
+            None => Tangent {
+                force: self.elastic(ball, place),
+                stiffness: None,
+            },
+        }
+    }
+
+    /// The stiffness by central differences.
+    pub(crate) fn stiffness_by_differences(
+        &self,
+        ball: &BallSide,
+        place: &Vector3<f64>,
+        step: f64,
+    ) -> Matrix3<f64> {
+        let mut stiffness = Matrix3::zeros();
+        for i in 0..3 {
+            let aside = Vector3::ith(i, step);
+            let fall = self.elastic(ball, &(place - aside)) - self.elastic(ball, &(place + aside));
+            stiffness.set_column(i, &(fall / (2.0 * step)));
+        }
+        stiffness
+    }
+
+    /// Elastic force on the ball by the walk along the contact.
+    fn elastic(&self, ball: &BallSide, place: &Vector3<f64>) -> Vector3<f64> {
+        let at = |centre: V2, z: f64| Motion {
+            centre,
+            z,
+            theta: 0.0,
+            velocity: V2::zeros(),
+            vz: 0.0,
+            omega: 0.0,
+        };
+        let mut sum = Elastic(Vector3::zeros());
+        let ring = at(V2::zeros(), 0.0);
+        self.evaluate(ball, &at(place.xy(), place.z), &ring, &mut sum);
+        sum.0
+    }
+
+    /// From the meridional plane to x, y, z: e = σ (d − a − wave), c = z₀ − z.
+    fn in_space(&self, found: &Meridional, n: V2, distance: f64, angle: f64) -> Tangent {
+        let sigma = self.race.sigma;
+        let [[r_e, r_c], [a_e, a_c]] = found.slope;
+        let [radial, axial] = found.force;
+        // The ball gets −F_r n_e − F_a ẑ with n_e = σ n, which turns with the ball's direction. Stiffness along n,
+        // t = ẑ × n and z:
+        let wave = self.waves.slope(angle) / distance;
+        let [nn, nt, nz] = [r_e, -r_e * wave, -sigma * r_c];
+        let tt = sigma * radial / distance;
+        let [zn, zt, zz] = [sigma * a_e, -sigma * a_e * wave, -a_c];
+        // The same along x, y and z.
+        let (x, y) = (n.x, n.y);
+        let stiffness = Matrix3::new(
+            nn * x * x - nt * x * y + tt * y * y,
+            nn * x * y + nt * x * x - tt * x * y,
+            nz * x,
+            nn * x * y - nt * y * y - tt * x * y,
+            nn * y * y + nt * x * y + tt * x * x,
+            nz * y,
+            zn * x - zt * y,
+            zn * y + zt * x,
+            zz,
+        );
+        Tangent {
+            force: Vector3::new(-sigma * radial * x, -sigma * radial * y, -axial),
+            stiffness: Some(stiffness),
+        }
+    }
+
+    /// Force of a whole contact; none where something cuts its zone.
+    fn meridional(&self, radius: f64, meridian: &Meridian) -> Option<Meridional> {
+        match (&self.law, &self.slices) {
+            (Law::Hertz(law), Slices::Fitted(_)) => self.hertz(law, radius, meridian),
+            (Law::Iso16281(law), Slices::Fitted(rules)) => {
+                self.fitted(*law, rules, radius, meridian)
+            }
+            (Law::Iso16281(law), Slices::Fixed(count)) => {
+                Some(self.fixed(*law, *count, radius, meridian))
+            }
+            (Law::Hertz(_), Slices::Fixed(_)) => None,
+        }
+    }
+
+    /// F = K δ^{3/2} along the common normal.
+    fn hertz(&self, law: &hertz::Hertz, radius: f64, meridian: &Meridian) -> Option<Meridional> {
+        let approach = meridian.approach(radius);
+        let half = law.half_zone(approach);
+        let (cos, sin) = meridian.normal();
+        let fits = meridian.e > 0.0
+            && [-half, half].into_iter().all(|u| {
+                let zeta = radius * sin + u * cos;
+                zeta.abs() < radius && self.holds(zeta - meridian.c)
+            });
+        // ∫ k' (δ − κ τ²/2) dτ over the zone.
+        let force = law.force(approach, 4.0 / 3.0 * half);
+        fits.then(|| {
+            let rate = 1.5 * force / approach;
+            Meridional {
+                force: [force * cos, force * sin],
+                slope: by_axes(
+                    meridian,
+                    [rate * cos, rate * sin],
+                    [-force * sin, force * cos],
+                ),
+            }
+        })
+    }
+
+    /// Whether the race is there, at a place from the groove's centre.
+    fn holds(&self, x: f64) -> bool {
+        x.abs() < self.race.r && x >= self.race.lowest && x <= self.race.highest
+    }
+
+    /// The nodes on the common chord: u = x · half, over which the ball's surface stands at h = √(R² − u²).
+    fn fitted(
+        &self,
+        law: iso16281::Iso16281,
+        rules: &Rules,
+        radius: f64,
+        meridian: &Meridian,
+    ) -> Option<Meridional> {
+        let (l, r) = (meridian.distance(), meridian.r);
+        let (cos, sin) = meridian.normal();
+        let approach = l + radius - r;
+        let sum = approach * (l + radius + r) / (2.0 * l);
+        let square = sum * (2.0 * radius - sum);
+        let half = square.max(0.0).sqrt();
+        let end = |u: f64| (radius - sum + l) * sin + u * cos;
+        let fits = meridian.e > 0.0
+            && radius - sum >= SHALLOW * radius
+            && half < radius * cos
+            && self.holds(end(-half))
+            && self.holds(end(half));
+        if !fits {
+            return None;
+        }
+        // ∂half/∂l over half; with sum = (l + 2R + (R² − r²)/l)/2.
+        let sum_rate = 0.5 * (1.0 - (radius * radius - r * r) / (l * l));
+        let half_rate = (radius - sum) * sum_rate / square;
+        let mut force = [0.0; 2];
+        let (mut by_distance, mut by_angle) = ([0.0; 2], [0.0; 2]);
+        for &(x, weight) in rules.on([true, true]) {
+            let u = x * half;
+            let u_rate = u * half_rate;
+            let h = (radius * radius - u * u).sqrt();
+            let h_rate = -u * u_rate / h;
+            let (rho, zeta) = (h * cos - u * sin, h * sin + u * cos);
+            let (rho_rate, zeta_rate) = (h_rate * cos - u_rate * sin, h_rate * sin + u_rate * cos);
+            // The slice from the groove's centre, and the groove's height there.
+            let (out, along) = (rho + l * cos, zeta + l * sin);
+            let groove = (r * r - along * along).sqrt();
+            let depth = out - groove;
+            if depth <= 0.0 {
+                continue;
+            }
+            let tilt = along / groove;
+            let depth_rate = rho_rate + cos + tilt * (zeta_rate + sin);
+            let depth_turn = tilt * out - along;
+            let pressed = law.force(depth, half * weight * rho / h);
+            let stiff = 10.0 / 9.0 / depth;
+            let rate = pressed * (half_rate + rho_rate / rho - h_rate / h + stiff * depth_rate);
+            let turn = pressed * (stiff * depth_turn - zeta / rho);
+            let tan = zeta / rho;
+            add(&mut force, pressed, pressed * tan);
+            let tan_rate = (zeta_rate - tan * rho_rate) / rho;
+            add(&mut by_distance, rate, rate * tan + pressed * tan_rate);
+            let tan_turn = 1.0 + tan * tan;
+            add(&mut by_angle, turn, turn * tan + pressed * tan_turn);
+        }
+        Some(Meridional {
+            force,
+            slope: by_axes(meridian, by_distance, by_angle),
+        })
+    }
+
+    /// Slices at fixed places of the ball.
+    fn fixed(
+        &self,
+        law: iso16281::Iso16281,
+        count: usize,
+        radius: f64,
+        meridian: &Meridian,
+    ) -> Meridional {
+        let width = 2.0 * radius / count as f64;
+        let mut found = Meridional {
+            force: [0.0; 2],
+            slope: [[0.0; 2]; 2],
+        };
+        for k in 0..count {
+            let zeta = -radius + (k as f64 + 0.5) * width;
+            let along = zeta - meridian.c;
+            if !self.holds(along) {
+                continue;
+            }
+            let rho = (radius * radius - zeta * zeta).sqrt();
+            let groove = (meridian.r * meridian.r - along * along).sqrt();
+            let depth = meridian.e + rho - groove;
+            if depth <= 0.0 {
+                continue;
+            }
+            let tan = zeta / rho;
+            let pressed = law.force(depth, width);
+            let stiff = 10.0 / 9.0 * pressed / depth;
+            let towards = -stiff * along / groove;
+            add(&mut found.force, pressed, pressed * tan);
+            add(&mut found.slope[0], stiff, towards);
+            add(&mut found.slope[1], stiff * tan, towards * tan);
+        }
+        found
+    }
+}
+
+/// Force of a whole contact in its meridional plane.
+struct Meridional {
+    /// F_r along n_e and F_a along z \[N\].
+    force: [f64; 2],
+    /// Derivatives of each by e and c \[N/m\].
+    slope: [[f64; 2]; 2],
+}
+
+/// Derivatives by e and c from those by the distance l and the normal's angle α': e = l cos α', c = −l sin α'.
+fn by_axes(meridian: &Meridian, by_distance: [f64; 2], by_angle: [f64; 2]) -> [[f64; 2]; 2] {
+    let l = meridian.distance();
+    let (cos, sin) = meridian.normal();
+    [0, 1].map(|i| {
+        let turn = by_angle[i] / l;
+        [
+            by_distance[i] * cos - turn * sin,
+            -by_distance[i] * sin - turn * cos,
+        ]
+    })
+}
+
+fn add(sum: &mut [f64; 2], first: f64, second: f64) {
+    sum[0] += first;
+    sum[1] += second;
+}
+
+/// Adds up the elastic forces on the ball.
+struct Elastic(Vector3<f64>);
+
+impl Sink for Elastic {
+    fn touch(&mut self, touch: &Touch) {
+        let plane = touch.n_e * (touch.elastic * touch.share.0);
+        self.0 -= Vector3::new(plane.x, plane.y, touch.elastic * touch.share.1);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Torus, Waves};
+    use super::*;
+    use crate::scene::{Material, Waviness};
+
+    fn pair(sigma: f64, hertz: bool, slices: Slices, waves: Waves) -> Pair {
+        let steel = Material::default();
+        let law = if hertz {
+            Law::Hertz(hertz::Hertz::new(
+                sigma, 12e-3, 60e-3, 0.52, 0.3, &steel, &steel,
+            ))
+        } else {
+            Law::Iso16281(iso16281::Iso16281::new(3.5948e10, 0.5, 12e-3))
+        };
+        Pair {
+            race: Torus {
+                sigma,
+                a: 30e-3,
+                centre: 0.1e-3,
+                r: 6.24e-3,
+                lowest: -6.24e-3,
+                highest: 6.24e-3,
+            },
+            waves,
+            law,
+            slices,
+            damping: 0.2,
+            clamp_pull: true,
+            friction: None,
+            faults: Vec::new(),
+        }
+    }
+
+    /// Truth: the walk along the contact. The same force, and the stiffness as its central differences.
+    #[test]
+    fn agrees_with_the_walk() {
+        let ball = BallSide {
+            radius: 6e-3,
+            faults: Vec::new(),
+        };
+        let wavy = || {
+            Waves(vec![Waviness {
+                order: 9,
+                amplitude: 1e-6,
+                phase: 0.4,
+            }])
+        };
+        let mut worst = [0.0_f64; 2];
+        for sigma in [1.0, -1.0] {
+            for (hertz, slices) in [
+                (false, Slices::Fitted(Rules::new(6, iso16281::EXPONENT))),
+                (false, Slices::Fixed(200)),
+                (true, Slices::Fitted(Rules::new(6, hertz::EXPONENT))),
+            ] {
+                for waves in [Waves::default(), wavy()] {
+                    let pair = pair(sigma, hertz, slices.clone(), waves);
+                    for (tilt, direction) in [(0.0, 0.3), (0.4, -2.0), (-0.7, 1.1)] {
+                        let l = 6.24e-3 - ball.radius + 15e-6;
+                        let d = pair.race.a + sigma * l * f64::cos(tilt);
+                        let (sin, cos) = f64::sin_cos(direction);
+                        let place =
+                            Vector3::new(d * cos, d * sin, pair.race.centre + l * tilt.sin());
+                        let found = pair.tangent(&ball, &place);
+                        let force = pair.elastic(&ball, &place);
+                        let stiffness = pair.stiffness_by_differences(&ball, &place, 1e-8);
+                        let analytic = found.stiffness.unwrap();
+                        worst[0] = worst[0].max((found.force - force).norm() / force.norm());
+                        worst[1] = worst[1].max((analytic - stiffness).norm() / stiffness.norm());
+                    }
+                }
+            }
+        }
+        println!("force to {:.1e}, stiffness to {:.1e}", worst[0], worst[1]);
+        assert!(worst[0] < 1e-11 && worst[1] < 1e-6, "{worst:?}");
+    }
+}

@@ -1,0 +1,112 @@
+//! Loads over a turn of the cage, and the equivalent loads that a race's life is computed from.
+
+use std::f64::consts::TAU;
+
+use serde::Serialize;
+
+use super::{Equilibrium, equilibrium};
+use crate::error::{Error, Result};
+use crate::scene::{Row, Scene, Surface};
+
+/// Exponents of the mean for a ring that turns and for one that stands under the load (ball bearings).
+const TURNING: f64 = 3.0;
+const STANDING: f64 = 10.0 / 3.0;
+
+/// Static loads while the cage turns past rings that stand.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LoadDistribution {
+    /// How far the cage has turned from the scene's start angles at each position \[rad\].
+    pub turn: Vec<f64>,
+    /// The bearing at each position.
+    pub equilibria: Vec<Equilibrium>,
+    /// Equivalent loads, one entry per row.
+    pub equivalent: Vec<EquivalentLoads>,
+}
+
+/// Loads \[N\] that tire the races of a row as much, acting on every ball all the time.
+///
+/// The inner ring turns under the load and every place of it meets every load, (mean of Q³)^{1/3}; the outer ring
+/// stands, and its most loaded places decide, (mean of Q^{10/3})^{3/10}. ISO/TS 16281, section on ball bearings, and
+/// T. A. Harris, *Rolling Bearing Analysis*, ch. 18, after G. Lundberg, A. Palmgren 1947.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct EquivalentLoads {
+    /// Of the outer race.
+    pub outer: f64,
+    /// Of the inner race.
+    pub inner: f64,
+}
+
+/// The static loads at so many positions of the cage per ball pitch.
+///
+/// Where all balls are alike, one pitch shows all there is: ball j at a turn of φ is where ball j + 1 will be a pitch
+/// later. Where they differ (diameters, ball defects, rows of different numbers of balls) the cage makes a whole
+/// turn. Rings stand at angle 0 throughout, with their defects and waviness.
+///
+/// ```
+/// use ballrace::scene::presets;
+/// let found = ballrace::load_distribution(&presets::deep_groove_6205(500.0, 0.0, 1800.0), 8).unwrap();
+/// assert_eq!((found.turn.len(), found.equilibria[0].balls.len()), (8, 9));
+/// assert!(found.equivalent[0].outer > found.equivalent[0].inner);
+/// ```
+///
+/// # Errors
+/// As [`super::equilibrium()`]; [`Error::Scene`] for no positions.
+pub fn load_distribution(scene: &Scene, positions: usize) -> Result<LoadDistribution> {
+    if positions == 0 {
+        return Err(Error::scene("positions", "0", "at least 1 per ball pitch"));
+    }
+    scene.validate()?;
+    let most = scene.rows.iter().map(|row| row.ball_count).max();
+    let pitches = if repeats(scene) { 1 } else { most.unwrap_or(1) };
+    let range = if pitches == 1 {
+        TAU / most.unwrap_or(1) as f64
+    } else {
+        TAU
+    };
+    let count = pitches * positions;
+    let turn: Vec<f64> = (0..count)
+        .map(|k| range * k as f64 / count as f64)
+        .collect();
+    let equilibria = turn
+        .iter()
+        .map(|turn| {
+            let mut turned = scene.clone();
+            for row in &mut turned.rows {
+                row.start_angle += turn;
+            }
+            equilibrium(&turned)
+        })
+        .collect::<Result<Vec<_>>>()?;
+    let equivalent = (0..scene.rows.len())
+        .map(|row| EquivalentLoads {
+            outer: mean(&equilibria, row, STANDING, |ball| ball.outer.load),
+            inner: mean(&equilibria, row, TURNING, |ball| ball.inner.load),
+        })
+        .collect();
+    Ok(LoadDistribution {
+        turn,
+        equilibria,
+        equivalent,
+    })
+}
+
+/// Whether a turn by one pitch leaves everything as it was.
+fn repeats(scene: &Scene) -> bool {
+    let alike = |row: &Row| {
+        row.ball_count == scene.rows[0].ball_count && row.diameter_errors.iter().all(|e| *e == 0.0)
+    };
+    scene.rows.iter().all(alike) && scene.defects.values().all(|d| d.on != Surface::Ball)
+}
+
+/// Mean of order p over all balls of a row at all positions.
+fn mean(
+    equilibria: &[Equilibrium],
+    row: usize,
+    p: f64,
+    load: impl Fn(&super::BallEquilibrium) -> f64,
+) -> f64 {
+    let balls = || equilibria.iter().flat_map(|found| &found.balls);
+    let loads = || balls().filter(|ball| ball.row == row).map(&load);
+    let count = loads().count() as f64;
+    (loads().map(|q| q.powf(p)).sum::<f64>() / count).powf(1.0 / p)
+}
