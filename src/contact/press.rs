@@ -26,7 +26,7 @@ pub(crate) struct Press {
 }
 
 /// The eight contacts as two circles each in their meridional planes (see `Meridian`), and how they move.
-struct Circles {
+pub(super) struct Circles {
     /// Ball radius, and one over it.
     radius: Lanes,
     inverse: Lanes,
@@ -45,7 +45,7 @@ struct Circles {
     strength: Lanes,
     half_curvature: Lanes,
     /// The contact's arm from the ball's centre, R(z) − d, is this and σ √(r² − x²).
-    arm: Lanes,
+    pub arm: Lanes,
     v_e: Lanes,
     v_z: Lanes,
     /// v_t is slide + spin · arm.
@@ -65,15 +65,30 @@ struct Zone {
 }
 
 /// A node of every contact.
-struct Node {
+pub(super) struct Node {
     /// ζ/R and ρ/R.
-    sin: Lanes,
-    cos: Lanes,
+    pub sin: Lanes,
+    pub cos: Lanes,
     /// √(r² − x²).
-    groove: Lanes,
-    elastic: Lanes,
+    pub groove: Lanes,
+    pub elastic: Lanes,
     /// In-plane and axial part of the normal force over its magnitude.
-    share: (Lanes, Lanes),
+    pub share: (Lanes, Lanes),
+}
+
+/// Where eight contacts are and which way they point.
+pub(super) struct Place {
+    /// Unit vector in the plane from the ring's centre to the ball's, and their distance there.
+    pub n: (Lanes, Lanes),
+    pub d: Lanes,
+    /// Contacts whose nodes are these; the others get none that press.
+    pub simple: Mask,
+}
+
+/// Takes the nodes of eight contacts.
+pub(super) trait Receiver {
+    /// One node of each. Wants `#[inline(always)]`.
+    fn node<const FMA: bool>(&mut self, pair: &Pair, circles: &Circles, node: &Node);
 }
 
 /// Sums over the nodes: forces along n_e, t_e and z, and the moment of those along t_e about the ball.
@@ -91,6 +106,25 @@ impl Pair {
     /// the ball is cut, damping, friction) is the same for all rows.
     #[inline(always)]
     pub(crate) fn press<const FMA: bool>(&self, octet: &Octet, ring: &Motion) -> Press {
+        let (circles, place) = self.place::<FMA>(octet, ring);
+        let mut sums = Sums::default();
+        self.each::<FMA, _>(&circles, &mut sums);
+        let (sigma, n) = (self.race.sigma, place.n);
+        let (along, across) = (sums.normal * sigma, sums.tangential * sigma);
+        let plane = (n.0 * along - n.1 * across, n.1 * along + n.0 * across);
+        let moment = sums.moment * sigma;
+        Press {
+            ball: [plane.0, plane.1, sums.axial, moment],
+            // About the ring's centre the arm is longer by d.
+            ring: [-plane.0, -plane.1, -sums.axial, -moment - place.d * across],
+            pulls: sums.pulls.total(),
+            careful: place.simple.not(),
+        }
+    }
+
+    /// Where eight contacts are.
+    #[inline(always)]
+    pub(super) fn place<const FMA: bool>(&self, octet: &Octet, ring: &Motion) -> (Circles, Place) {
         let of = &octet.constants;
         let sigma = self.race.sigma;
         let (dx, dy) = (octet.q[0] - ring.centre.x, octet.q[1] - ring.centre.y);
@@ -114,7 +148,7 @@ impl Pair {
             octet.v[1] - ring.velocity.y,
             octet.v[2] - ring.vz,
         ];
-        let sums = self.sum::<FMA>(&Circles {
+        let circles = Circles {
             radius: of.radius,
             inverse: one / of.radius,
             r_square: of.r * of.r,
@@ -132,17 +166,8 @@ impl Pair {
             v_z: v[2],
             slide: (v[1] * n.0 - v[0] * n.1 - d * ring.omega) * sigma,
             spin: (octet.v[3] - ring.omega) * sigma,
-        });
-        let (along, across) = (sums.normal * sigma, sums.tangential * sigma);
-        let plane = (n.0 * along - n.1 * across, n.1 * along + n.0 * across);
-        let moment = sums.moment * sigma;
-        Press {
-            ball: [plane.0, plane.1, sums.axial, moment],
-            // About the ring's centre the arm is longer by d.
-            ring: [-plane.0, -plane.1, -sums.axial, -moment - d * across],
-            pulls: sums.pulls.total(),
-            careful: simple.not(),
-        }
+        };
+        (circles, Place { n, d, simple })
     }
 
     /// The zones in closed form, as in `Meridian::zone` and `Line::along_tangent`.
@@ -170,30 +195,29 @@ impl Pair {
         }
     }
 
-    /// The law, cut as the scene says.
+    /// Hands all nodes to their receiver: the law, cut as the scene says.
     #[inline(always)]
-    fn sum<const FMA: bool>(&self, circles: &Circles) -> Sums {
-        let mut sums = Sums::default();
+    pub(super) fn each<const FMA: bool, R: Receiver>(&self, circles: &Circles, to: &mut R) {
         let half = circles.half;
         match (&self.slices, &self.law) {
             (Slices::Fitted(rules), Law::Iso16281(_)) => {
                 let reach = half * circles.inverse;
                 for &(x, weight) in rules.on([true; 2]) {
                     let node = circles.iso_node::<FMA>(reach * x, half * weight);
-                    self.add::<FMA>(circles, &node, &mut sums);
+                    to.node::<FMA>(self, circles, &node);
                 }
             }
             (Slices::Fitted(rules), Law::Hertz(_)) => {
                 for &(x, weight) in rules.on([true; 2]) {
                     let node = circles.hertz::<FMA>(half * x, half * weight);
-                    self.add::<FMA>(circles, &node, &mut sums);
+                    to.node::<FMA>(self, circles, &node);
                 }
             }
             (Slices::Fixed(count), Law::Iso16281(_)) => {
                 let width = circles.radius * (2.0 / *count as f64);
                 for sin in circles.fixed_sines(*count) {
                     let node = circles.iso_slice::<FMA>(sin, width);
-                    self.add::<FMA>(circles, &node, &mut sums);
+                    to.node::<FMA>(self, circles, &node);
                 }
             }
             (Slices::Fixed(count), Law::Hertz(_)) => {
@@ -203,39 +227,40 @@ impl Pair {
                 for sin in circles.fixed_sines(*count) {
                     let u = (circles.radius * sin - middle) * over;
                     let node = circles.hertz::<FMA>(u, length);
-                    self.add::<FMA>(circles, &node, &mut sums);
+                    to.node::<FMA>(self, circles, &node);
                 }
             }
         }
-        sums
     }
+}
 
+impl Receiver for Sums {
     /// Damping and friction of a node (model section 5), and its part in the sums.
     #[inline(always)]
-    fn add<const FMA: bool>(&self, circles: &Circles, node: &Node, sums: &mut Sums) {
+    fn node<const FMA: bool>(&mut self, pair: &Pair, circles: &Circles, node: &Node) {
         let (in_plane, axial) = node.share;
         let (v_e, v_z) = (circles.v_e, circles.v_z);
         let approach = v_e.mul_add::<FMA>(in_plane, v_z * axial);
-        let damped = node.elastic * (approach * (1.5 * self.damping) + 1.0);
-        sums.pulls.add(Lanes::ZERO.above(damped));
+        let damped = node.elastic * (approach * (1.5 * pair.damping) + 1.0);
+        self.pulls.add(Lanes::ZERO.above(damped));
         let pressed = damped.or_zero();
-        let normal = if self.clamp_pull { pressed } else { damped };
+        let normal = if pair.clamp_pull { pressed } else { damped };
         let (mut along, mut out) = (normal * in_plane, normal * axial);
-        if let Some(friction) = &self.friction {
+        if let Some(friction) = &pair.friction {
             let arm = node
                 .groove
-                .mul_add::<FMA>(Lanes::all(self.race.sigma), circles.arm);
+                .mul_add::<FMA>(Lanes::all(pair.race.sigma), circles.arm);
             let v_t = circles.spin.mul_add::<FMA>(arm, circles.slide);
             let u_m = v_z * node.cos - v_e * node.sin;
             let factor = friction.factors(v_t.mul_add::<FMA>(v_t, u_m * u_m)) * pressed;
             let (tangential, meridional) = (factor * v_t, factor * u_m);
             along = along - meridional * node.sin;
             out = meridional.mul_add::<FMA>(node.cos, out);
-            sums.tangential = sums.tangential - tangential;
-            sums.moment = sums.moment - tangential * arm;
+            self.tangential = self.tangential - tangential;
+            self.moment = self.moment - tangential * arm;
         }
-        sums.normal = sums.normal - along;
-        sums.axial = sums.axial - out;
+        self.normal = self.normal - along;
+        self.axial = self.axial - out;
     }
 }
 
