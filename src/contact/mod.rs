@@ -5,7 +5,7 @@
 //! [`friction`] (section 5). Where a [`fault`] removes the surface, fault circles take the slice's
 //! place (section 7). [`pair`] puts these together and hands every single force to a [`Sink`]:
 //! `walk` visits the slices, `feature` decides what each one meets. `press` does the same for eight contacts at once
-//! where all surfaces are whole; `octet` says which those are.
+//! where all surfaces are whole; `octet` says which those are; `still` holds contacts at one place for any velocities.
 
 pub mod elliptic;
 pub mod fault;
@@ -20,6 +20,7 @@ mod power;
 mod press;
 pub mod race;
 pub mod slices;
+mod still;
 mod walk;
 
 use nalgebra::Vector2;
@@ -32,6 +33,7 @@ pub use pair::{BallSide, Pair};
 pub(crate) use press::Press;
 pub use race::{Torus, Waves};
 pub use slices::{Rules, Slices};
+pub(crate) use still::{Held, Pack, Packing, Plane, Reaction, Still, in_contact};
 
 /// A vector in the x-y plane.
 pub type V2 = Vector2<f64>;

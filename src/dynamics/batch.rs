@@ -20,7 +20,7 @@ pub(super) struct Batch {
     /// The balls of every row by eights, for the search.
     stretches: Vec<Stretch>,
     /// Constants of the contacts with the outer and with the inner race.
-    constants: [SideConstants; 2],
+    pub constants: [SideConstants; 2],
     /// Contacts of whole surfaces with the outer and with the inner ring, in the order of the balls.
     touching: [Vec<Touching>; 2],
     /// The same by eights: the first `active` of these.
@@ -43,7 +43,7 @@ struct Stretch {
 
 /// Constants of all contacts with one ring.
 #[derive(Debug, Clone)]
-struct SideConstants {
+pub(super) struct SideConstants {
     /// Those of every ball.
     balls: Vec<Constants<f64>>,
     /// Those of the first in all lanes.
@@ -53,10 +53,10 @@ struct SideConstants {
 }
 
 #[derive(Debug, Clone, Copy, Default)]
-struct Touching {
-    ball: usize,
+pub(super) struct Touching {
+    pub ball: usize,
     /// Raise of the race there.
-    wave: f64,
+    pub wave: f64,
 }
 
 /// Up to eight contacts with one ring; the last one fills the lanes that are left.
@@ -105,12 +105,7 @@ impl Batch {
     /// Evaluates all contacts at a state, by the threads of a pool if there is one.
     pub fn fill(&mut self, model: &Model, y: &[f64], pool: Option<&ThreadPool>) {
         let rings = [motion(y, 0), motion(y, 1)];
-        model.level.run(Find {
-            batch: self,
-            model,
-            y,
-            rings: &rings,
-        });
+        self.find(model, y, &rings);
         self.gather();
         let constants = &self.constants;
         let eight = |group: &mut Group| {
@@ -145,6 +140,26 @@ impl Batch {
             leave(groups, singles);
             singles.iter_mut().for_each(one);
         }
+    }
+
+    /// Finds what touches.
+    pub fn find(&mut self, model: &Model, y: &[f64], rings: &[Motion; 2]) {
+        model.level.run(Find {
+            batch: self,
+            model,
+            y,
+            rings,
+        });
+    }
+
+    /// Contacts of whole surfaces with a ring, as last found.
+    pub fn touching(&self, side: usize) -> &[Touching] {
+        &self.touching[side]
+    }
+
+    /// Ring and ball of the contacts that may see a defect, as last found.
+    pub fn faulted(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.singles.iter().map(|single| (single.side, single.ball))
     }
 
     /// What touches, by eights.
@@ -210,6 +225,35 @@ impl SideConstants {
             first,
             alike,
         }
+    }
+
+    /// Eight contacts at a state.
+    // Compiled for the level that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    pub fn octet(&self, contacts: &[Touching; LANES], y: &[f64]) -> Octet {
+        let (q, v) = y.split_at(y.len() / 2);
+        let mut octet = Octet {
+            constants: self.first,
+            ..Octet::default()
+        };
+        for (lane, contact) in contacts.iter().enumerate() {
+            let of = &self.balls[contact.ball];
+            if self.alike {
+                octet.constants.centre[lane] = of.centre;
+            } else {
+                octet.constants.set(lane, of);
+            }
+            octet.wave[lane] = contact.wave;
+            let body = 4 * (2 + contact.ball);
+            for k in 0..3 {
+                octet.q[k][lane] = q[body + k];
+            }
+            for k in 0..4 {
+                octet.v[k][lane] = v[body + k];
+            }
+        }
+        octet
     }
 }
 
@@ -303,28 +347,7 @@ impl Task for Eight<'_> {
     fn run<const FMA: bool>(self) {
         let group = self.group;
         let side = group.side;
-        let (q, v) = self.y.split_at(self.y.len() / 2);
-        let constants = &self.constants[side];
-        let mut octet = Octet {
-            constants: constants.first,
-            ..Octet::default()
-        };
-        for (lane, contact) in group.contacts.iter().enumerate() {
-            let of = &constants.balls[contact.ball];
-            if constants.alike {
-                octet.constants.centre[lane] = of.centre;
-            } else {
-                octet.constants.set(lane, of);
-            }
-            octet.wave[lane] = contact.wave;
-            let body = 4 * (2 + contact.ball);
-            for k in 0..3 {
-                octet.q[k][lane] = q[body + k];
-            }
-            for k in 0..4 {
-                octet.v[k][lane] = v[body + k];
-            }
-        }
+        let mut octet = self.constants[side].octet(&group.contacts, self.y);
         // Lanes left over must not count as pulling.
         for lane in group.count..LANES {
             octet.constants.radius[lane] *= 0.5;

@@ -7,6 +7,7 @@ mod energy;
 mod grip;
 mod implicit;
 mod others;
+mod stage;
 mod sums;
 
 use std::sync::Arc;
@@ -22,7 +23,7 @@ pub use contacts::{ContactSummary, SliceForce};
 pub use energy::Energy;
 
 use batch::Batch;
-use implicit::Implicit;
+use stage::Stage;
 use sums::Named;
 
 /// A model with the memory that evaluating it needs. One a thread of control.
@@ -34,7 +35,7 @@ pub struct Dynamics<'m> {
     forces: Vec<[f64; 4]>,
     pool: Option<Arc<ThreadPool>>,
     /// Memory of implicit stages, once there was one.
-    implicit: Option<Box<Implicit>>,
+    implicit: Option<Box<Stage>>,
 }
 
 /// Names of the contributions of [`Dynamics::contributions`], in their order.

@@ -75,6 +75,12 @@ impl Lanes {
         Mask(self.map(|x| if x.is_nan() { 1.0 } else { 0.0 }))
     }
 
+    /// All eight together, in their order.
+    #[inline(always)]
+    pub(crate) fn sum(self) -> f64 {
+        self.0.iter().sum()
+    }
+
     #[inline(always)]
     pub(crate) fn least(self) -> f64 {
         self.0.into_iter().fold(f64::INFINITY, f64::min)
