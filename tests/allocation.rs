@@ -1,7 +1,7 @@
-//! An evaluation allocates nothing.
+//! An evaluation allocates nothing, nor does an implicit stage.
 
 use ballrace::dynamics::Dynamics;
-use ballrace::integrate::System;
+use ballrace::integrate::{ImplicitVelocity, System};
 use ballrace::scene::{Slices, presets};
 use ballrace::{Model, Start, start};
 
@@ -19,4 +19,20 @@ fn a_right_hand_side_allocates_nothing() {
         let counted = allocation_counter::measure(|| dynamics.rhs(0.0, &y, &mut dy));
         assert_eq!(counted.count_total, 0, "{slices:?}: {counted:?}");
     }
+}
+
+/// Analytic: counted by the allocator, once the memory of implicit stages is there.
+#[test]
+fn an_implicit_stage_allocates_nothing() {
+    let model = Model::new(&presets::wheel_bearing(3000.0)).unwrap();
+    let y = start(&model, &Start::Equilibrium).unwrap();
+    let base = &y[model.dim() / 2..];
+    let mut dynamics = Dynamics::new(&model);
+    let mut stage = |y: &mut [f64]| dynamics.solve_velocity(0.0, y, base, 1e-6).unwrap();
+    stage(&mut y.clone());
+    let mut y = y.clone();
+    let counted = allocation_counter::measure(|| {
+        stage(&mut y);
+    });
+    assert_eq!(counted.count_total, 0, "{counted:?}");
 }

@@ -122,4 +122,29 @@ impl Friction {
         };
         (mu * root, (bend - mu * root * root) * root)
     }
+
+    /// The same of eight squares of slip speeds.
+    // Into the vector loop that uses it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    pub(super) fn factors_and_bends(&self, squares: Lanes) -> (Lanes, Lanes) {
+        if let Coefficient::Constant(mu) = self.coefficient {
+            let square = Lanes::all(1.0) / (squares + self.slip_speed * self.slip_speed);
+            let factor = square.sqrt() * mu;
+            return (factor, -(factor * square));
+        }
+        self.both_one_by_one(squares)
+    }
+
+    /// As [`Friction::one_by_one`].
+    #[inline(never)]
+    fn both_one_by_one(&self, squares: Lanes) -> (Lanes, Lanes) {
+        let mut bends = Lanes::ZERO;
+        let factors = Lanes::from_fn(|lane| {
+            let (factor, bend) = self.factor_and_bend(squares[lane]);
+            bends[lane] = bend;
+            factor
+        });
+        (factors, bends)
+    }
 }

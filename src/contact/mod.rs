@@ -6,7 +6,7 @@
 //! place (section 7). [`pair`] puts these together and hands every single force to a [`Sink`]:
 //! `walk` visits the slices, `feature` decides what each one meets. `press` does the same for eight contacts at once
 //! where all surfaces are whole; `octet` says which those are, and `closed` has whole contacts in one formula.
-//! `tangent` gives force and stiffness at rest.
+//! `still` holds contacts at one place for any velocities; `tangent` gives force and stiffness at rest.
 
 mod closed;
 pub mod elliptic;
@@ -22,6 +22,7 @@ mod power;
 mod press;
 pub mod race;
 pub mod slices;
+mod still;
 mod tangent;
 mod walk;
 
@@ -36,6 +37,7 @@ pub use pair::{BallSide, Pair};
 pub(crate) use press::Press;
 pub use race::{Torus, Waves};
 pub use slices::{Rules, Slices};
+pub(crate) use still::{Held, Pack, Packing, Plane, Reaction, Still, in_contact};
 pub(crate) use tangent::Tangent;
 
 /// A vector in the x-y plane.

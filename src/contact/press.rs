@@ -28,7 +28,7 @@ pub(crate) struct Press {
 }
 
 /// The eight contacts as two circles each in their meridional planes (see `Meridian`), and how they move.
-struct Circles {
+pub(super) struct Circles {
     /// Ball radius, and one over it.
     radius: Lanes,
     inverse: Lanes,
@@ -47,7 +47,7 @@ struct Circles {
     strength: Lanes,
     half_curvature: Lanes,
     /// The contact's arm from the ball's centre, R(z) − d, is this and σ √(r² − x²).
-    arm: Lanes,
+    pub arm: Lanes,
     v_e: Lanes,
     v_z: Lanes,
     /// v_t is slide + spin · arm.
@@ -67,15 +67,36 @@ struct Zone {
 }
 
 /// A node of every contact.
-struct Node {
+pub(super) struct Node {
     /// ζ/R and ρ/R.
-    sin: Lanes,
-    cos: Lanes,
+    pub sin: Lanes,
+    pub cos: Lanes,
     /// √(r² − x²).
-    groove: Lanes,
-    elastic: Lanes,
+    pub groove: Lanes,
+    pub elastic: Lanes,
     /// In-plane and axial part of the normal force over its magnitude.
-    share: (Lanes, Lanes),
+    pub share: (Lanes, Lanes),
+}
+
+/// Where eight contacts are and which way they point.
+pub(super) struct Place {
+    /// Unit vector in the plane from the ring's centre to the ball's, and their distance there.
+    pub n: (Lanes, Lanes),
+    pub d: Lanes,
+    /// Contacts whose nodes are these; the others get none that press.
+    pub simple: Mask,
+}
+
+/// Takes the nodes of eight contacts.
+pub(super) trait Receiver {
+    /// One node of each, which stands for so many slices. Wants `#[inline(always)]`.
+    fn node<const FMA: bool, const PLANE: bool>(
+        &mut self,
+        pair: &Pair,
+        circles: &Circles,
+        node: &Node,
+        times: u32,
+    );
 }
 
 /// Sums over the nodes: forces along n_e, t_e and z, and the moment of those along t_e about the ball.
@@ -99,6 +120,33 @@ impl Pair {
         skip: Mask,
         closed: Option<&Closed>,
     ) -> Press {
+        let (circles, place) = self.place::<FMA, PLANE>(octet, ring, skip);
+        let mut sums = Sums::default();
+        match closed {
+            Some(closed) => self.whole::<FMA>(&circles, closed, &mut sums),
+            None => self.each::<FMA, PLANE, _>(&circles, &mut sums),
+        }
+        let (sigma, n) = (self.race.sigma, place.n);
+        let (along, across) = (sums.normal * sigma, sums.tangential * sigma);
+        let plane = (n.0 * along - n.1 * across, n.1 * along + n.0 * across);
+        let moment = sums.moment * sigma;
+        Press {
+            ball: [plane.0, plane.1, sums.axial, moment],
+            // About the ring's centre the arm is longer by d.
+            ring: [-plane.0, -plane.1, -sums.axial, -moment - place.d * across],
+            pulls: sums.pulls.total(),
+            careful: place.simple.not(),
+        }
+    }
+
+    /// Where eight contacts are; those in `skip` are not simple.
+    #[inline(always)]
+    pub(super) fn place<const FMA: bool, const PLANE: bool>(
+        &self,
+        octet: &Octet,
+        ring: &Motion,
+        skip: Mask,
+    ) -> (Circles, Place) {
         let of = &octet.constants;
         let sigma = self.race.sigma;
         let (zero, one) = (Lanes::ZERO, Lanes::all(1.0));
@@ -142,20 +190,7 @@ impl Pair {
             slide: (v[1] * n.0 - v[0] * n.1 - d * ring.omega) * sigma,
             spin: (octet.v[3] - ring.omega) * sigma,
         };
-        let sums = match closed {
-            Some(closed) => self.whole::<FMA>(&circles, closed),
-            None => self.sum::<FMA, PLANE>(&circles),
-        };
-        let (along, across) = (sums.normal * sigma, sums.tangential * sigma);
-        let plane = (n.0 * along - n.1 * across, n.1 * along + n.0 * across);
-        let moment = sums.moment * sigma;
-        Press {
-            ball: [plane.0, plane.1, sums.axial, moment],
-            // About the ring's centre the arm is longer by d.
-            ring: [-plane.0, -plane.1, -sums.axial, -moment - d * across],
-            pulls: sums.pulls.total(),
-            careful: simple.not(),
-        }
+        (circles, Place { n, d, simple })
     }
 
     /// The zones in closed form, as in `Meridian::zone` and `Line::along_tangent`.
@@ -198,30 +233,33 @@ impl Pair {
         }
     }
 
-    /// The law, cut as the scene says.
+    /// Hands all nodes to their receiver: the law, cut as the scene says.
     #[inline(always)]
-    fn sum<const FMA: bool, const PLANE: bool>(&self, circles: &Circles) -> Sums {
-        let mut sums = Sums::default();
+    pub(super) fn each<const FMA: bool, const PLANE: bool, R: Receiver>(
+        &self,
+        circles: &Circles,
+        to: &mut R,
+    ) {
         let half = circles.half;
         match (&self.slices, &self.law) {
             (Slices::Fitted(rules), Law::Iso16281(_)) => {
                 let reach = half * circles.inverse;
                 for (x, weight, times) in nodes::<PLANE>(rules.on([true; 2])) {
                     let node = circles.iso_node::<FMA, PLANE>(reach * x, half * weight);
-                    self.add::<FMA, PLANE>(circles, &node, times, &mut sums);
+                    to.node::<FMA, PLANE>(self, circles, &node, times);
                 }
             }
             (Slices::Fitted(rules), Law::Hertz(_)) => {
                 for (x, weight, times) in nodes::<PLANE>(rules.on([true; 2])) {
                     let node = circles.hertz::<FMA>(half * x, half * weight);
-                    self.add::<FMA, PLANE>(circles, &node, times, &mut sums);
+                    to.node::<FMA, PLANE>(self, circles, &node, times);
                 }
             }
             (Slices::Fixed(count), Law::Iso16281(_)) => {
                 let width = circles.radius * (2.0 / *count as f64);
                 for (sin, times) in circles.fixed_sines::<PLANE>(*count) {
                     let node = circles.iso_slice::<FMA>(sin, width * f64::from(times));
-                    self.add::<FMA, PLANE>(circles, &node, times, &mut sums);
+                    to.node::<FMA, PLANE>(self, circles, &node, times);
                 }
             }
             (Slices::Fixed(count), Law::Hertz(_)) => {
@@ -231,17 +269,15 @@ impl Pair {
                 for (sin, times) in circles.fixed_sines::<PLANE>(*count) {
                     let u = (circles.radius * sin - middle) * over;
                     let node = circles.hertz::<FMA>(u, length * f64::from(times));
-                    self.add::<FMA, PLANE>(circles, &node, times, &mut sums);
+                    to.node::<FMA, PLANE>(self, circles, &node, times);
                 }
             }
         }
-        sums
     }
 
     /// Contacts without friction in closed form: every slice approaches alike.
     #[inline(always)]
-    fn whole<const FMA: bool>(&self, circles: &Circles, closed: &Closed) -> Sums {
-        let mut sums = Sums::default();
+    fn whole<const FMA: bool>(&self, circles: &Circles, closed: &Closed, sums: &mut Sums) {
         let node = Node {
             sin: Lanes::ZERO,
             cos: Lanes::ZERO,
@@ -249,18 +285,19 @@ impl Pair {
             elastic: closed.force::<FMA>(circles.approach.or_zero()),
             share: circles.normal,
         };
-        self.add::<FMA, false>(circles, &node, self.slices.count(), &mut sums);
-        sums
+        sums.node::<FMA, false>(self, circles, &node, self.slices.count());
     }
+}
 
+impl Receiver for Sums {
     /// Damping and friction of a node (model section 5), and its part in the sums; it stands for so many slices.
     #[inline(always)]
-    fn add<const FMA: bool, const PLANE: bool>(
-        &self,
+    fn node<const FMA: bool, const PLANE: bool>(
+        &mut self,
+        pair: &Pair,
         circles: &Circles,
         node: &Node,
         times: u32,
-        sums: &mut Sums,
     ) {
         let (in_plane, axial) = node.share;
         let (v_e, v_z) = (circles.v_e, circles.v_z);
@@ -269,19 +306,19 @@ impl Pair {
         } else {
             v_e.mul_add::<FMA>(in_plane, v_z * axial)
         };
-        let damped = node.elastic * (approach * (1.5 * self.damping) + 1.0);
-        sums.pulls.add(Lanes::ZERO.above(damped), times);
+        let damped = node.elastic * (approach * (1.5 * pair.damping) + 1.0);
+        self.pulls.add(Lanes::ZERO.above(damped), times);
         let pressed = damped.or_zero();
-        let normal = if self.clamp_pull { pressed } else { damped };
+        let normal = if pair.clamp_pull { pressed } else { damped };
         let (mut along, mut out) = if PLANE {
             (normal, Lanes::ZERO)
         } else {
             (normal * in_plane, normal * axial)
         };
-        if let Some(friction) = &self.friction {
+        if let Some(friction) = &pair.friction {
             let arm = node
                 .groove
-                .mul_add::<FMA>(Lanes::all(self.race.sigma), circles.arm);
+                .mul_add::<FMA>(Lanes::all(pair.race.sigma), circles.arm);
             let v_t = circles.spin.mul_add::<FMA>(arm, circles.slide);
             let u_m = if PLANE {
                 -(v_e * node.sin)
@@ -294,12 +331,12 @@ impl Pair {
             if !PLANE {
                 out = meridional.mul_add::<FMA>(node.cos, out);
             }
-            sums.tangential = sums.tangential - tangential;
-            sums.moment = sums.moment - tangential * arm;
+            self.tangential = self.tangential - tangential;
+            self.moment = self.moment - tangential * arm;
         }
-        sums.normal = sums.normal - along;
+        self.normal = self.normal - along;
         if !PLANE {
-            sums.axial = sums.axial - out;
+            self.axial = self.axial - out;
         }
     }
 }

@@ -1,121 +1,300 @@
 //! A linear system whose matrix is an arrow: every ball is coupled to the two rings only.
 
-use nalgebra::{Matrix4, SMatrix, SVector, Vector4};
+// Everything in lanes must be compiled for the instructions of its caller.
+#![allow(clippy::inline_always)]
+// Loops over matrices read as their formulae do.
+#![allow(clippy::needless_range_loop)]
+
+use nalgebra::{Const, LU, SMatrix, SVector};
+
+use crate::simd::{LANES, Lanes};
 
 type Rings = SVector<f64, 8>;
+type Factors = LU<f64, Const<8>, Const<8>>;
 
-/// Balls eliminated one by one, then the rings solved.
+/// A matrix of four rows for each of eight balls.
+pub(super) type Block<const COLUMNS: usize> = [[Lanes; COLUMNS]; 4];
+
+/// Balls eliminated by eights, and the rings' own matrix factorised: good for any right-hand side.
+///
+/// With contacts of slope S between ball and ring, w = v_b − T v_r, ball and rings obey
+/// (1 − Σ D S) x + Σ D S T X = r and (1 + d) X − D_r Σ Tᵀ S (T X − x) = R.
 #[derive(Debug, Clone)]
 pub(super) struct Arrow {
-    /// Rings by rings, after the balls so far were eliminated.
-    rings: SMatrix<f64, 8, 8>,
-    rings_right: Rings,
-    /// For every ball A⁻¹ r and A⁻¹ B of its row A x + B (rings) = r.
-    balls: Vec<(Vector4<f64>, SMatrix<f64, 4, 8>)>,
+    /// What the balls put into the rings' rows, before D_r, and into their right-hand side.
+    rings: [[Lanes; 8]; 8],
+    right: [Lanes; 8],
+    factors: Option<Factors>,
+    scale: Rings,
+    eights: Vec<Eight>,
 }
+
+/// Of the balls' rows A x + B X = r and the rings' C x.
+#[derive(Debug, Clone)]
+struct Eight {
+    /// A⁻¹.
+    inverse: Block<4>,
+    /// A⁻¹ B.
+    wide: Block<8>,
+    /// Tᵀ S, and whether there is any.
+    from: [Block<4>; 2],
+    touches: [bool; 2],
+    /// A⁻¹ r.
+    part: [Lanes; 4],
+}
+
+/// The slopes S of eight contacts, and where the balls are from the ring's centre.
+pub(super) type Contacts<'a> = Option<(&'a Block<4>, [Lanes; 2])>;
 
 impl Arrow {
     pub fn new(balls: usize) -> Self {
-        Self {
-            rings: SMatrix::identity(),
-            rings_right: Rings::zeros(),
-            balls: Vec::with_capacity(balls),
-        }
-    }
-
-    /// Begins anew with the rings' diagonal and right-hand side.
-    pub fn begin(&mut self, diagonal: &Rings, right: &Rings) {
-        self.rings = SMatrix::from_diagonal(diagonal);
-        self.rings_right = *right;
-        self.balls.clear();
-    }
-
-    /// Adds to the block of one ring by itself.
-    pub fn add_ring(&mut self, ring: usize, block: &Matrix4<f64>) {
-        let mut view = self.rings.fixed_view_mut::<4, 4>(4 * ring, 4 * ring);
-        view += block;
-    }
-
-    /// Eliminates the next ball: `own` its diagonal block, `to` and `from` the blocks in its row and in the
-    /// rings' rows. False if its block is singular.
-    pub fn eliminate(
-        &mut self,
-        own: &Matrix4<f64>,
-        to: &[Matrix4<f64>; 2],
-        from: &[Matrix4<f64>; 2],
-        right: &Vector4<f64>,
-    ) -> bool {
-        let Some(inverse) = own.try_inverse() else {
-            return false;
+        let eight = Eight {
+            inverse: [[Lanes::ZERO; 4]; 4],
+            wide: [[Lanes::ZERO; 8]; 4],
+            from: [[[Lanes::ZERO; 4]; 4]; 2],
+            touches: [false; 2],
+            part: [Lanes::ZERO; 4],
         };
-        let part = inverse * right;
-        let mut coupling = SMatrix::<f64, 4, 8>::zeros();
-        for (s, to) in to.iter().enumerate() {
-            let mut block = coupling.fixed_view_mut::<4, 4>(0, 4 * s);
-            block.copy_from(&(inverse * to));
+        Self {
+            rings: [[Lanes::ZERO; 8]; 8],
+            right: [Lanes::ZERO; 8],
+            factors: None,
+            scale: Rings::zeros(),
+            eights: vec![eight; balls.div_ceil(LANES)],
         }
-        for (s, from) in from.iter().enumerate() {
-            let mut right = self.rings_right.fixed_rows_mut::<4>(4 * s);
-            right -= from * part;
-            let mut rows = self.rings.fixed_rows_mut::<4>(4 * s);
-            rows -= from * coupling;
+    }
+
+    /// Begins a new matrix.
+    pub fn begin(&mut self) {
+        self.rings = [[Lanes::ZERO; 8]; 8];
+    }
+
+    /// Eliminates eight balls with their contacts and their D.
+    #[inline(always)]
+    pub fn eliminate<const FMA: bool>(
+        &mut self,
+        eight: usize,
+        contacts: &[Contacts<'_>; 2],
+        scale: &[Lanes; 4],
+    ) {
+        let eight = &mut self.eights[eight];
+        let mut own = [[Lanes::ZERO; 4]; 4];
+        let mut to = [[Lanes::ZERO; 8]; 4];
+        for (s, contact) in contacts.iter().enumerate() {
+            eight.touches[s] = contact.is_some();
+            let Some((slope, apart)) = *contact else {
+                continue;
+            };
+            for i in 0..4 {
+                let carried = carried::<FMA>(&slope[i], apart);
+                for j in 0..4 {
+                    own[i][j] = own[i][j] - slope[i][j];
+                    to[i][4 * s + j] = scale[i] * carried[j];
+                }
+            }
+            let from = &mut eight.from[s];
+            *from = *slope;
+            for j in 0..4 {
+                let turned = slope[1][j].mul_add::<FMA>(apart[0], slope[3][j]);
+                from[3][j] = (-slope[0][j]).mul_add::<FMA>(apart[1], turned);
+            }
         }
-        self.balls.push((part, coupling));
-        true
+        for i in 0..4 {
+            for j in 0..4 {
+                own[i][j] = own[i][j] * scale[i];
+            }
+            own[i][i] = own[i][i] + 1.0;
+        }
+        invert::<FMA>(&mut own);
+        for i in 0..4 {
+            for j in 0..8 {
+                let mut sum = own[i][0] * to[0][j];
+                for k in 1..4 {
+                    sum = own[i][k].mul_add::<FMA>(to[k][j], sum);
+                }
+                eight.wide[i][j] = sum;
+            }
+        }
+        eight.inverse = own;
+        for (s, contact) in contacts.iter().enumerate() {
+            let Some((_, apart)) = *contact else {
+                continue;
+            };
+            // Tᵀ S (T X − x), with x = A⁻¹ r − A⁻¹ B X.
+            for (row, sums) in eight.from[s].iter().zip(&mut self.rings[4 * s..]) {
+                let own = carried::<FMA>(row, apart);
+                for j in 0..4 {
+                    sums[4 * s + j] += own[j];
+                }
+                for k in 0..4 {
+                    for j in 0..8 {
+                        sums[j] = row[k].mul_add::<FMA>(eight.wide[k][j], sums[j]);
+                    }
+                }
+            }
+        }
     }
 
-    /// A ball that touches nothing keeps its right-hand side.
-    pub fn pass(&mut self, right: &Vector4<f64>) {
-        self.balls.push((*right, SMatrix::zeros()));
+    /// Ends the matrix with the rings' 1 + d and D.
+    pub fn factorise(&mut self, diagonal: &Rings, scale: &Rings) {
+        let mut matrix = SMatrix::<f64, 8, 8>::from_diagonal(diagonal);
+        for i in (0..8).filter(|&i| scale[i] != 0.0) {
+            for j in 0..8 {
+                matrix[(i, j)] -= scale[i] * self.rings[i][j].sum();
+            }
+        }
+        self.factors = Some(matrix.lu());
+        self.scale = *scale;
     }
 
-    /// The rings' unknowns; none if the system is singular.
-    pub fn rings(&self) -> Option<Rings> {
-        self.rings.lu().solve(&self.rings_right)
+    /// Begins a new right-hand side.
+    pub fn begin_right(&mut self) {
+        self.right = [Lanes::ZERO; 8];
     }
 
-    /// A ball's unknowns, once the rings' are known.
-    pub fn ball(&self, j: usize, rings: &Rings) -> Vector4<f64> {
-        let (part, coupling) = &self.balls[j];
-        part - coupling * rings
+    /// Eliminates eight balls from the right-hand side.
+    #[inline(always)]
+    pub fn eliminate_right<const FMA: bool>(&mut self, eight: usize, right: &[Lanes; 4]) {
+        let eight = &mut self.eights[eight];
+        eight.part = product::<FMA>(&eight.inverse, right);
+        for s in (0..2).filter(|&s| eight.touches[s]) {
+            let sums = product::<FMA>(&eight.from[s], &eight.part);
+            for i in 0..4 {
+                self.right[4 * s + i] += sums[i];
+            }
+        }
+    }
+
+    /// The rings' unknowns for their R; none if the system is singular.
+    pub fn rings(&self, right: &Rings) -> Option<Rings> {
+        let of = |i: usize| right[i] - self.scale[i] * self.right[i].sum();
+        let known = Rings::from_fn(|i, _| of(i));
+        self.factors.as_ref()?.solve(&known)
+    }
+
+    /// The unknowns of eight balls, once the rings' are known.
+    #[inline(always)]
+    pub fn balls<const FMA: bool>(&self, eight: usize, rings: &Rings) -> [Lanes; 4] {
+        let Eight { part, wide, .. } = &self.eights[eight];
+        let mut x = *part;
+        for i in 0..4 {
+            for j in 0..8 {
+                x[i] = x[i] - wide[i][j] * rings[j];
+            }
+        }
+        x
+    }
+}
+
+#[inline(always)]
+fn product<const FMA: bool>(a: &Block<4>, x: &[Lanes; 4]) -> [Lanes; 4] {
+    let mut product = [Lanes::ZERO; 4];
+    for i in 0..4 {
+        product[i] = a[i][0] * x[0];
+        for k in 1..4 {
+            product[i] = a[i][k].mul_add::<FMA>(x[k], product[i]);
+        }
+    }
+    product
+}
+
+/// A row times T, whose last column is (−a_y, a_x, 0, 1).
+#[inline(always)]
+fn carried<const FMA: bool>(row: &[Lanes; 4], apart: [Lanes; 2]) -> [Lanes; 4] {
+    let turned = row[1].mul_add::<FMA>(apart[0], row[3]);
+    let last = (-row[0]).mul_add::<FMA>(apart[1], turned);
+    [row[0], row[1], row[2], last]
+}
+
+/// Replaces a matrix by its inverse (Gauss and Jordan).
+///
+/// There is no pivoting: 1 − D S is the unit matrix and what friction and damping add to its definite side.
+#[inline(always)]
+fn invert<const FMA: bool>(a: &mut Block<4>) {
+    for k in 0..4 {
+        let inverse = Lanes::all(1.0) / a[k][k];
+        a[k][k] = Lanes::all(1.0);
+        for j in 0..4 {
+            a[k][j] = a[k][j] * inverse;
+        }
+        for i in (0..4).filter(|&i| i != k) {
+            let factor = -a[i][k];
+            a[i][k] = Lanes::ZERO;
+            for j in 0..4 {
+                a[i][j] = factor.mul_add::<FMA>(a[k][j], a[i][j]);
+            }
+        }
     }
 }
 
 /// The truth is the residual of the written-out system.
 #[cfg(test)]
 mod tests {
+    use nalgebra::{Matrix4, Vector4};
+
     use super::*;
+
+    fn block(seed: f64) -> Matrix4<f64> {
+        Matrix4::from_fn(|i, j| (seed + (5 * i + 3 * j) as f64).sin())
+    }
+
+    fn carry(apart: [f64; 2]) -> Matrix4<f64> {
+        let mut carry = Matrix4::identity();
+        (carry[(0, 3)], carry[(1, 3)]) = (-apart[1], apart[0]);
+        carry
+    }
 
     #[test]
     fn solves_the_arrow_it_was_given() {
-        let block = |seed: f64| Matrix4::from_fn(|i, j| (seed + (5 * i + 3 * j) as f64).sin());
-        let right = |seed: f64| Vector4::from_fn(|i, _| (seed + i as f64).cos());
-        let own = |j: f64| block(j) + Matrix4::identity() * 4.0;
-        let diagonal = Rings::repeat(9.0);
+        // Ball by ring and lane; the second eight has no contact with the first ring.
+        let slope = |eight: usize, s: usize, lane: usize| {
+            block((eight * 31 + s * 7 + lane) as f64) - Matrix4::identity() * 4.0
+        };
+        let apart = |s: usize, lane: usize| [0.3 + lane as f64 / 9.0, 0.7 - s as f64];
+        let right = |eight: usize, lane: usize| {
+            Vector4::from_fn(|i, _| ((eight * 8 + lane * 3 + i) as f64).cos())
+        };
+        let scale = [0.5, 0.25, 1.0, 0.0];
+        let (ring_scale, diagonal) = (Rings::from_fn(|i, _| i as f64 / 4.0), Rings::repeat(9.0));
         let ring_right = Rings::from_fn(|i, _| i as f64);
-        let mut arrow = Arrow::new(3);
-        arrow.begin(&diagonal, &ring_right);
-        arrow.add_ring(1, &block(7.0));
-        for j in [0.0, 1.0, 2.0] {
-            let (to, from) = (
-                [block(j + 0.1), block(j + 0.2)],
-                [block(j + 0.3), block(j + 0.4)],
-            );
-            assert!(arrow.eliminate(&own(j), &to, &from, &right(j)));
+        let mut arrow = Arrow::new(16);
+        arrow.begin();
+        arrow.begin_right();
+        let has = |eight: usize, s: usize| eight == 0 || s == 1;
+        for eight in 0..2 {
+            let blocks: [Block<4>; 2] = [0, 1].map(|s| {
+                std::array::from_fn(|i| {
+                    std::array::from_fn(|j| Lanes::from_fn(|lane| slope(eight, s, lane)[(i, j)]))
+                })
+            });
+            let contacts = [0, 1].map(|s| {
+                let apart = [0, 1].map(|k| Lanes::from_fn(|lane| apart(s, lane)[k]));
+                has(eight, s).then_some((&blocks[s], apart))
+            });
+            let right = std::array::from_fn(|i| Lanes::from_fn(|lane| right(eight, lane)[i]));
+            arrow.eliminate::<true>(eight, &contacts, &scale.map(Lanes::all));
+            arrow.eliminate_right::<true>(eight, &right);
         }
-        let rings = arrow.rings().unwrap();
-        let ring = |s: usize| Vector4::from_fn(|i, _| rings[4 * s + i]);
-        let mut sums = [ring(0) * 9.0, ring(1) * 9.0 + block(7.0) * ring(1)];
-        for (j, n) in [0.0, 1.0, 2.0].into_iter().enumerate() {
-            let ball = arrow.ball(j, &rings);
-            let sum = own(n) * ball + block(n + 0.1) * ring(0) + block(n + 0.2) * ring(1);
-            assert!((sum - right(n)).norm() < 1e-13);
-            sums[0] += block(n + 0.3) * ball;
-            sums[1] += block(n + 0.4) * ball;
+        arrow.factorise(&diagonal, &ring_scale);
+        let rings = arrow.rings(&ring_right).unwrap();
+        let ring = |s: usize| Vector4::from(rings.fixed_rows::<4>(4 * s));
+        let mut sums = diagonal.component_mul(&rings) - ring_right;
+        for eight in 0..2 {
+            let balls = arrow.balls::<true>(eight, &rings);
+            for lane in 0..8 {
+                let ball = Vector4::from_fn(|i, _| balls[i][lane]);
+                let mut off = ball - right(eight, lane);
+                for s in (0..2).filter(|&s| has(eight, s)) {
+                    let carry = carry(apart(s, lane));
+                    let force = slope(eight, s, lane) * (ball - carry * ring(s));
+                    off -= Vector4::from(scale).component_mul(&force);
+                    let mut rows = sums.fixed_rows_mut::<4>(4 * s);
+                    let scale = ring_scale.fixed_rows::<4>(4 * s);
+                    rows += scale.component_mul(&carry.tr_mul(&force));
+                }
+                assert!(off.norm() < 1e-12, "ball {lane} of {eight}: {off}");
+            }
         }
-        for (s, sum) in sums.iter().enumerate() {
-            let wanted = Vector4::from_fn(|i, _| ring_right[4 * s + i]);
-            assert!((sum - wanted).norm() < 1e-12);
-        }
+        assert!(sums.norm() < 1e-11, "{sums}");
     }
 }

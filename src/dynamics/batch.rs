@@ -36,7 +36,7 @@ pub(super) struct Batch {
     /// Closed forms by row, with the outer and the inner race.
     closed: Vec<[Option<Closed>; 2]>,
     /// Constants of the contacts with the outer and with the inner race.
-    constants: [SideConstants; 2],
+    pub constants: [SideConstants; 2],
     /// Contacts of whole surfaces with the outer and with the inner ring, in the order of the balls.
     touching: [Vec<Touching>; 2],
     /// The same by eights: the first `active` of these.
@@ -67,7 +67,7 @@ struct Stretch {
 
 /// Constants of all contacts with one ring.
 #[derive(Debug, Clone)]
-struct SideConstants {
+pub(super) struct SideConstants {
     /// Those of every ball.
     balls: Vec<Constants<f64>>,
     /// Those of the first in all lanes.
@@ -77,10 +77,10 @@ struct SideConstants {
 }
 
 #[derive(Debug, Clone, Copy, Default)]
-struct Touching {
-    ball: usize,
+pub(super) struct Touching {
+    pub ball: usize,
     /// Raise of the race there.
-    wave: f64,
+    pub wave: f64,
 }
 
 /// Up to eight contacts with one ring; the last one fills the lanes that are left.
@@ -147,13 +147,7 @@ impl Batch {
         pool: Option<&ThreadPool>,
     ) {
         let rings = [state.motion(0), state.motion(1)];
-        model.level.run(Find {
-            batch: self,
-            forces,
-            model,
-            state,
-            rings: &rings,
-        });
+        self.find(Some(forces), model, state, &rings);
         self.gather();
         let (constants, plane) = (&self.constants, self.kind.plane);
         let eight = |group: &mut Group| {
@@ -189,6 +183,33 @@ impl Batch {
             leave(groups, singles);
             singles.iter_mut().for_each(one);
         }
+    }
+
+    /// Finds what touches; what has a closed form puts its forces where it is told.
+    pub fn find(
+        &mut self,
+        forces: Option<&mut Table>,
+        model: &Model,
+        state: &State,
+        rings: &[Motion; 2],
+    ) {
+        model.level.run(Find {
+            batch: self,
+            forces,
+            model,
+            state,
+            rings,
+        });
+    }
+
+    /// Contacts of whole surfaces with a ring, as last found.
+    pub fn touching(&self, side: usize) -> &[Touching] {
+        &self.touching[side]
+    }
+
+    /// Ring and ball of the contacts that may see a defect, as last found.
+    pub fn faulted(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.singles.iter().map(|single| (single.side, single.ball))
     }
 
     /// What touches, by eights.
@@ -332,6 +353,39 @@ impl SideConstants {
             alike,
         }
     }
+
+    /// Eight contacts at a state.
+    // Compiled for the level that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    pub fn octet(&self, contacts: &[Touching; LANES], state: &State) -> Octet {
+        let State { q, v } = state;
+        let (q, v) = (
+            [0, 1, 2].map(|k| q.along(k)),
+            [0, 1, 2, 3].map(|k| v.along(k)),
+        );
+        let mut octet = Octet {
+            constants: self.first,
+            ..Octet::default()
+        };
+        for (lane, contact) in contacts.iter().enumerate() {
+            let of = &self.balls[contact.ball];
+            if self.alike {
+                octet.constants.centre[lane] = of.centre;
+            } else {
+                octet.constants.set(lane, of);
+            }
+            octet.wave[lane] = contact.wave;
+            let body = 2 + contact.ball;
+            for (to, from) in octet.q.iter_mut().zip(q) {
+                to[lane] = from[body];
+            }
+            for (to, from) in octet.v.iter_mut().zip(v) {
+                to[lane] = from[body];
+            }
+        }
+        octet
+    }
 }
 
 impl Single {
@@ -359,7 +413,7 @@ fn leave(groups: &[Group], singles: &mut Vec<Single>) {
 /// Finds what touches, and evaluates what has a closed form.
 struct Find<'a> {
     batch: &'a mut Batch,
-    forces: &'a mut Table,
+    forces: Option<&'a mut Table>,
     model: &'a Model,
     state: &'a State,
     rings: &'a [Motion; 2],
@@ -374,7 +428,7 @@ impl Task for Find<'_> {
     fn run<const FMA: bool>(self) {
         let Self {
             batch,
-            forces,
+            mut forces,
             model,
             state,
             rings,
@@ -402,7 +456,8 @@ impl Task for Find<'_> {
                     continue;
                 }
                 let faulted = near.faulted.or(stretch.faulted).and(touching);
-                if let Some(closed) = &batch.closed[stretch.row][side] {
+                let closed = batch.closed[stretch.row][side].as_ref();
+                if let Some((closed, forces)) = closed.zip(forces.as_deref_mut()) {
                     let skip = faulted.or(touching.not());
                     let (vx, vy) = (stretch.lanes(&state.v, 0), stretch.lanes(&state.v, 1));
                     let ring = &rings[side];
@@ -474,32 +529,7 @@ impl Task for Eight<'_> {
     fn run<const FMA: bool>(self) {
         let group = self.group;
         let side = group.side;
-        let State { q, v } = self.state;
-        let (q, v) = (
-            [0, 1, 2].map(|k| q.along(k)),
-            [0, 1, 2, 3].map(|k| v.along(k)),
-        );
-        let constants = &self.constants[side];
-        let mut octet = Octet {
-            constants: constants.first,
-            ..Octet::default()
-        };
-        for (lane, contact) in group.contacts.iter().enumerate() {
-            let of = &constants.balls[contact.ball];
-            if constants.alike {
-                octet.constants.centre[lane] = of.centre;
-            } else {
-                octet.constants.set(lane, of);
-            }
-            octet.wave[lane] = contact.wave;
-            let body = 2 + contact.ball;
-            for (to, from) in octet.q.iter_mut().zip(q) {
-                to[lane] = from[body];
-            }
-            for (to, from) in octet.v.iter_mut().zip(v) {
-                to[lane] = from[body];
-            }
-        }
+        let mut octet = self.constants[side].octet(&group.contacts, self.state);
         // Lanes left over must not count as pulling.
         for lane in group.count..LANES {
             octet.constants.radius[lane] *= 0.5;

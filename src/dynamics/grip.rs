@@ -1,180 +1,251 @@
-//! A contact held still: its slices at one place of the bodies, ready for any velocities.
-//!
-//! With all of a slice's force at one point, slip and approach depend only on the relative twist
-//! w = (v_b − v_r − θ̇_r ẑ × a, θ̇_b − θ̇_r), where a leads from the ring's centre to the ball's: four numbers a
-//! contact. The wrench on the ball about its centre and its derivative by w say all about both bodies.
+//! Eight balls held still between both races, ready for any velocities.
 
-use nalgebra::{Matrix4, Vector4};
+use std::array::from_fn;
 
-use crate::contact::{Friction, Pair, Sink, Touch, V2, cross, law::hunt_crossley, turned};
+use super::batch::{SideConstants, Touching};
+use super::state::State;
+use crate::contact::{Held, Law, Motion, Pack, Packing, Plane, Reaction, Still, in_contact};
+use crate::model::Model;
+use crate::simd::{LANES, Lanes, Mask, Task};
 
-/// A slice: what of it does not depend on velocities.
-#[derive(Debug, Clone, Copy)]
-struct Slice {
-    elastic: f64,
-    n_e: V2,
-    /// Moments about the ball's centre of unit forces along n_e and t_e.
-    levers: (f64, f64),
-    /// In-plane and axial part of the normal force over its magnitude.
-    share: (f64, f64),
-    /// sin α and cos α of the slice: the meridional direction is −sin α n_e + cos α ẑ.
-    slope: (f64, f64),
+/// What a ball may meet at one ring.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) enum Meeting {
+    #[default]
+    Nothing,
+    /// A whole race, raised by so much.
+    Whole(f64),
+    /// Perhaps a defect: evaluated alone.
+    Faulted,
 }
 
-/// The slices of one contact.
+/// Up to eight balls that touch something; the last one fills the lanes that are left.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Grip {
-    slices: Vec<Slice>,
-    radius: f64,
-    flat: bool,
-    /// From the ring's centre to the ball's.
-    pub apart: V2,
+    pub balls: [usize; LANES],
+    pub count: usize,
+    meetings: [[Meeting; LANES]; 2],
+    pub sides: [Side; 2],
+}
+
+/// Their contacts with one ring.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Side {
+    held: Held,
+    nodes: Vec<Still>,
+    /// Slices of contacts that are evaluated alone, and the lanes of these.
+    packs: Vec<(usize, Pack)>,
+    /// Whether any touches.
+    pub touches: bool,
+    /// What they do, in (x, y, z, about z).
+    pub reaction: Reaction,
+}
+
+impl Side {
+    /// From the ring's centre to the balls'.
+    pub fn apart(&self) -> Plane {
+        self.held.apart
+    }
 }
 
 impl Grip {
-    /// Empties the grip for a contact of a ball of that radius; `flat` if all slices press along the common
-    /// normal.
-    pub fn open(&mut self, radius: f64, flat: bool, apart: V2) {
-        self.slices.clear();
-        self.radius = radius;
-        self.flat = flat;
-        self.apart = apart;
+    /// Empties it.
+    pub fn clear(&mut self) {
+        self.count = 0;
+        self.meetings = [[Meeting::Nothing; LANES]; 2];
     }
 
-    /// Whether nothing touches.
-    pub fn is_empty(&self) -> bool {
-        self.slices.is_empty()
-    }
-
-    /// Wrench on the ball about its centre for a relative twist, (x, y, z \[N\], about z \[N m\]), and its
-    /// derivative by the twist.
-    ///
-    /// With `secant`, friction's slope is the steeper one through rest, φ for φ + φ'(u) u: from far away, where
-    /// Newton's tangent leads across to the other side, iterations by it do not overshoot.
-    pub fn wrench_and_slope(
-        &self,
-        pair: &Pair,
-        twist: &Vector4<f64>,
-        secant: bool,
-    ) -> (Vector4<f64>, Matrix4<f64>) {
-        let (mut wrench, mut slope) = (Vector4::zeros(), Matrix4::zeros());
-        // On a whole race all slices share one direction.
-        for slices in self.slices.chunk_by(|a, b| a.n_e == b.n_e) {
-            let world_from_contact = turn(slices[0].n_e);
-            let mut sum = Sum::default();
-            let twist = world_from_contact.tr_mul(twist);
-            for slice in slices {
-                sum.add(slice, pair, &twist, secant);
-            }
-            let local = Matrix4::from_fn(|i, j| sum.slope[i][j]);
-            wrench += world_from_contact * Vector4::from(sum.wrench);
-            slope += world_from_contact * local * world_from_contact.transpose();
+    /// Takes another ball.
+    pub fn push(&mut self, ball: usize, meetings: [Meeting; 2]) {
+        self.balls[self.count..].fill(ball);
+        for (lanes, meeting) in self.meetings.iter_mut().zip(meetings) {
+            lanes[self.count] = meeting;
         }
-        (wrench, slope)
+        self.count += 1;
     }
-}
 
-/// Sums in the contact's own frame: along n_e, t_e, ẑ and about ẑ.
-#[derive(Default)]
-struct Sum {
-    wrench: [f64; 4],
-    slope: [[f64; 4]; 4],
-}
-
-impl Sum {
-    #[inline]
-    fn add(&mut self, slice: &Slice, pair: &Pair, twist: &Vector4<f64>, secant: bool) {
-        let ((lever_n, lever_t), (sin, cos)) = (slice.levers, slice.slope);
-        let v_n = twist.x + lever_n * twist.w;
-        let u_t = twist.y + lever_t * twist.w;
-        let u_m = twist.z * cos - v_n * sin;
-        let factor = hunt_crossley(pair.damping, slice.share.0 * v_n + slice.share.1 * twist.z);
-        let (normal, rate) = if factor < 0.0 && pair.clamp_pull {
-            (0.0, 0.0)
-        } else {
-            // The derivative of the factor by the approach.
-            let rate = hunt_crossley(pair.damping, 1.0) - 1.0;
-            (slice.elastic * factor, slice.elastic * rate)
-        };
-        let (factor, bend) = rubbing(pair.friction.as_ref(), u_t * u_t + u_m * u_m);
-        let bend = if secant { 0.0 } else { bend };
-        // The slice's force on the ball over −(normal force), along n_e, t_e and ẑ.
-        let (f_t, f_m) = (factor * u_t, factor * u_m);
-        let force = [slice.share.0 - sin * f_m, f_t, slice.share.1 + cos * f_m];
-        // Friction by slip at constant normal force: −N (φ 1 + (φ'/u) u⃗ u⃗ᵀ).
-        let pressed = normal.max(0.0);
-        let tt = pressed * (factor + bend * u_t * u_t);
-        let tm = pressed * bend * u_t * u_m;
-        let mm = pressed * (factor + bend * u_m * u_m);
-        // By the velocities along n_e, t_e and ẑ, with damping.
-        let (by_n, by_z) = (rate * slice.share.0, rate * slice.share.1);
-        let slope = [
-            [
-                force[0] * by_n + mm * sin * sin,
-                -tm * sin,
-                force[0] * by_z - mm * sin * cos,
-            ],
-            [force[1] * by_n - tm * sin, tt, force[1] * by_z + tm * cos],
-            [
-                force[2] * by_n - mm * sin * cos,
-                tm * cos,
-                force[2] * by_z + mm * cos * cos,
-            ],
-        ];
-        let moment = |column: usize| lever_n * slope[0][column] + lever_t * slope[1][column];
-        let turning = |row: &[f64; 3]| lever_n * row[0] + lever_t * row[1];
-        for (i, row) in slope.iter().enumerate() {
-            self.wrench[i] -= normal * force[i];
-            for (j, entry) in row.iter().enumerate() {
-                self.slope[i][j] -= entry;
+    /// Finds the nodes of all contacts at the places of a state.
+    pub fn hold(
+        &mut self,
+        model: &Model,
+        constants: &[SideConstants; 2],
+        state: &State,
+        rings: &[Motion; 2],
+    ) {
+        for s in 0..2 {
+            let meetings = self.meetings[s];
+            let side = &mut self.sides[s];
+            side.nodes.clear();
+            side.packs.clear();
+            side.touches = meetings.iter().any(|m| *m != Meeting::Nothing);
+            if !side.touches {
+                side.reaction = Reaction::default();
+                continue;
             }
-            self.slope[i][3] -= turning(row);
-            self.slope[3][i] -= moment(i);
+            let whole = |lane: usize| matches!(meetings[lane], Meeting::Whole(_));
+            side.held = model.level.run(Hold {
+                nodes: &mut side.nodes,
+                side: s,
+                contacts: &from_fn(|lane| Touching {
+                    ball: self.balls[lane],
+                    wave: match meetings[lane] {
+                        Meeting::Whole(wave) => wave,
+                        Meeting::Nothing | Meeting::Faulted => 0.0,
+                    },
+                }),
+                whole: Mask::from_fn(whole),
+                constants,
+                model,
+                state,
+                rings,
+            });
+            for (lane, ball) in self.balls[..self.count].iter().enumerate() {
+                if meetings[lane] != Meeting::Nothing && !side.held.simple.lane(lane) {
+                    side.single(lane, model, *ball, s, state, rings);
+                }
+            }
         }
-        self.wrench[3] -= normal * (lever_n * force[0] + lever_t * force[1]);
-        self.slope[3][3] -= lever_n * moment(0) + lever_t * moment(1);
     }
-}
 
-/// φ and φ'(u)/u of a friction that may be none.
-fn rubbing(friction: Option<&Friction>, square: f64) -> (f64, f64) {
-    friction.map_or((0.0, 0.0), |friction| friction.factor_and_bend(square))
-}
+    /// Finds what all contacts do at the velocities of a state.
+    pub fn react(&mut self, model: &Model, y: &[f64]) {
+        model.level.run(React::<false> {
+            grip: self,
+            model,
+            y,
+            secant: false,
+        });
+    }
 
-impl Sink for Grip {
-    fn touch(&mut self, touch: &Touch) {
-        // α of the slice: that of the place on the ball (flat contact), or of the force's direction.
-        let slope = if self.flat {
-            let sin = touch.zeta / self.radius;
-            (sin, (1.0 - sin * sin).sqrt())
-        } else {
-            let tan = touch.share.1 / touch.share.0;
-            let cos = 1.0 / (1.0 + tan * tan).sqrt();
-            (tan * cos, cos)
-        };
-        let (n_e, arm) = (touch.n_e, touch.arm_ball);
-        self.slices.push(Slice {
-            elastic: touch.elastic,
-            n_e,
-            levers: (cross(arm, n_e), cross(arm, turned(n_e))),
-            share: touch.share,
-            slope,
+    /// The same with the slopes; see [`crate::contact::Pair::react`].
+    pub fn react_and_slope(&mut self, model: &Model, y: &[f64], secant: bool) {
+        model.level.run(React::<true> {
+            grip: self,
+            model,
+            y,
+            secant,
         });
     }
 }
 
-/// Turns (n_e, t_e, ẑ, about ẑ) into (x, y, z, about z).
-fn turn(n_e: V2) -> Matrix4<f64> {
-    let mut turn = Matrix4::identity();
-    (turn[(0, 0)], turn[(1, 0)]) = (n_e.x, n_e.y);
-    (turn[(0, 1)], turn[(1, 1)]) = (-n_e.y, n_e.x);
-    turn
+impl Side {
+    /// The slices of a contact that is evaluated alone.
+    fn single(
+        &mut self,
+        lane: usize,
+        model: &Model,
+        ball: usize,
+        side: usize,
+        state: &State,
+        rings: &[Motion; 2],
+    ) {
+        let compiled = &model.balls[ball];
+        let pair = &model.rows[compiled.row].pairs[side];
+        let mut packing = Packing {
+            lane,
+            packs: &mut self.packs,
+            radius: compiled.side.radius,
+            flat: matches!(pair.law, Law::Hertz(_)),
+            count: 0,
+        };
+        pair.evaluate(
+            &compiled.side,
+            &state.motion(2 + ball),
+            &rings[side],
+            &mut packing,
+        );
+    }
 }
 
-/// T of the twist w = v_b − T v_r, with (vx, vy, vz, θ̇) of ball and ring.
-pub(super) fn carried(apart: V2) -> Matrix4<f64> {
-    let mut carried = Matrix4::identity();
-    carried[(0, 3)] = -apart.y;
-    carried[(1, 3)] = apart.x;
-    carried
+/// Finds the nodes of whole contacts.
+struct Hold<'a> {
+    nodes: &'a mut Vec<Still>,
+    side: usize,
+    contacts: &'a [Touching; LANES],
+    whole: Mask,
+    constants: &'a [SideConstants; 2],
+    model: &'a Model,
+    state: &'a State,
+    rings: &'a [Motion; 2],
+}
+
+impl Task for Hold<'_> {
+    type Output = Held;
+
+    // Compiled for the level that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn run<const FMA: bool>(self) -> Held {
+        let octet = self.constants[self.side].octet(self.contacts, self.state);
+        let pair = &self.model.rows[0].pairs[self.side];
+        pair.hold::<FMA>(&octet, &self.rings[self.side], self.whole, self.nodes)
+    }
+}
+
+/// Finds what the nodes do.
+struct React<'a, const SLOPE: bool> {
+    grip: &'a mut Grip,
+    model: &'a Model,
+    y: &'a [f64],
+    secant: bool,
+}
+
+impl<const SLOPE: bool> Task for React<'_, SLOPE> {
+    type Output = ();
+
+    // Compiled for the level that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        let Self {
+            grip,
+            model,
+            y,
+            secant,
+        } = self;
+        let v = &y[y.len() / 2..];
+        let mut of_balls = [Lanes::ZERO; 4];
+        for (lane, ball) in grip.balls.iter().enumerate() {
+            let v = &v[4 * (2 + ball)..][..4];
+            for k in 0..4 {
+                of_balls[k][lane] = v[k];
+            }
+        }
+        for (s, side) in grip.sides.iter_mut().enumerate() {
+            if !side.touches {
+                continue;
+            }
+            let (n_e, apart) = (side.held.n_e, side.held.apart);
+            let pair = &model.rows[0].pairs[s];
+            let ring = &v[4 * s..4 * s + 4];
+            // w = v_b − v_r − θ̇_r ẑ × a.
+            let twist = [
+                of_balls[0] - ring[0] + apart[1] * ring[3],
+                of_balls[1] - ring[1] - apart[0] * ring[3],
+                of_balls[2] - ring[2],
+                of_balls[3] - ring[3],
+            ];
+            let local = in_contact(&twist, n_e);
+            let sum = &mut side.reaction;
+            sum.wrench = [Lanes::ZERO; 4];
+            if SLOPE {
+                sum.slope = [[Lanes::ZERO; 4]; 4];
+            }
+            for node in &side.nodes {
+                pair.react::<FMA, SLOPE>(node, &local, secant, sum);
+            }
+            sum.turn::<SLOPE>(n_e);
+            for (lane, pack) in &side.packs {
+                let mut all = twist;
+                for w in &mut all {
+                    *w = Lanes::all(w[*lane]);
+                }
+                let mut part = Reaction::default();
+                let local = in_contact(&all, pack.n_e);
+                pair.react::<FMA, SLOPE>(&pack.still, &local, secant, &mut part);
+                part.turn::<SLOPE>(pack.n_e);
+                sum.gather::<SLOPE>(*lane, &part);
+            }
+        }
+    }
 }

@@ -1,162 +1,48 @@
 //! Implicit velocities: v = base + γh a(t, q, v) by Newton's method at fixed places.
 //!
 //! Friction is the stiffest part of the model, and linearising it once a step is not enough: within a step
-//! slices go over from sticking to sliding. So the slices of every contact are found once
-//! ([`Grip`]), and their forces are iterated on velocities alone. The matrix is an [`Arrow`] of a 4×4
-//! block a ball and 8×8 for the rings; cage links and supports are in the residual, not in the matrix: their
-//! damping is slow and converges by itself.
+//! slices go over from sticking to sliding. So the nodes of every contact are found once a stage
+//! ([`Stage`]), and their forces are iterated on velocities alone. The matrix is an arrow
+//! (`arrow.rs`) of a 4×4 block a ball and 8×8 for the rings; cage links and supports are in the residual, not in
+//! the matrix: their damping is slow and converges by itself. A matrix serves as many stages and steps as
+//! corrections by it shrink fast, which at a steady roll are many.
 
-use nalgebra::{Matrix4, SVector, Vector4};
-use rayon::prelude::*;
+use nalgebra::{Matrix4, Vector4};
 
-use super::arrow::Arrow;
-use super::grip::{Grip, carried};
-use super::state::Table;
-use super::{Dynamics, motion};
-use crate::contact::Law;
+use super::Dynamics;
+use super::stage::{Largest, Stage};
 use crate::integrate::{ImplicitVelocity, Stuck};
-use crate::model::{Degree, Model};
 
 /// Iterations before a stage is given up and the step tried again smaller.
 const MOST_ITERATIONS: usize = 20;
 
-/// Ratio of one correction to that before it, above which the next one follows secants.
+/// Ratio of one correction to that before it, above which the next stage gets a matrix of its own.
+const WORN: f64 = 0.1;
+
+/// The same, above which already the next correction does.
+const SLOW: f64 = 0.3;
+
+/// The same, above which that matrix is one of secants.
 const DIVERGING: f64 = 0.7;
 
-/// Residual of a velocity over what the tolerance sees of it.
-const RESIDUAL_SHARE: f64 = 0.02;
-
-/// Memory of the iteration.
-#[derive(Debug, Clone)]
-pub(super) struct Implicit {
-    /// Contacts with outer and inner race, by ball.
-    grips: Vec<[Grip; 2]>,
-    arrow: Arrow,
-    residual: Vec<Vector4<f64>>,
-    slopes: Vec<[Matrix4<f64>; 2]>,
-    /// Whether slopes are secants, since tangents led astray.
-    secant: bool,
-}
-
-impl Implicit {
-    fn new(balls: usize) -> Self {
-        Self {
-            grips: vec![<[Grip; 2]>::default(); balls],
-            arrow: Arrow::new(balls),
-            residual: vec![Vector4::zeros(); balls + 2],
-            slopes: vec![[Matrix4::zeros(); 2]; balls],
-            secant: false,
-        }
-    }
-
-    /// Finds the slices of all contacts.
-    fn grip(&mut self, dynamics: &Dynamics<'_>, y: &[f64]) {
-        let model = dynamics.model;
-        let rings = [motion(y, 0), motion(y, 1)];
-        let find = |(j, grips): (usize, &mut [Grip; 2])| {
-            let ball = &model.balls[j];
-            let place = motion(y, 2 + j);
-            for ((grip, ring), pair) in grips
-                .iter_mut()
-                .zip(&rings)
-                .zip(&model.rows[ball.row].pairs)
-            {
-                let flat = matches!(pair.law, Law::Hertz(_));
-                grip.open(ball.side.radius, flat, place.centre - ring.centre);
-                pair.evaluate(&ball.side, &place, ring, grip);
-            }
-        };
-        match &dynamics.pool {
-            Some(pool) => pool.install(|| self.grips.par_iter_mut().enumerate().for_each(find)),
-            None => self.grips.iter_mut().enumerate().for_each(find),
-        }
-    }
-
-    /// Contact forces on all bodies at the velocities of `y`, with their slopes by the twists.
-    fn contacts(&mut self, model: &Model, y: &[f64], forces: &mut Table) {
-        for (j, ball) in model.balls.iter().enumerate() {
-            for (s, pair) in model.rows[ball.row].pairs.iter().enumerate() {
-                let grip = &self.grips[j][s];
-                if grip.is_empty() {
-                    continue;
-                }
-                let carried = carried(grip.apart);
-                let twist = velocity(y, 2 + j) - carried * velocity(y, s);
-                let (wrench, slope) = grip.wrench_and_slope(pair, &twist, self.secant);
-                forces.add(2 + j, &wrench.into());
-                forces.add(s, &(-carried.tr_mul(&wrench)).into());
-                self.slopes[j][s] = slope;
-            }
-        }
-    }
-
-    /// Solves for the correction of all velocities; `residual` is replaced by it. False if singular.
-    fn correct(&mut self, model: &Model, gamma_h: f64) -> bool {
-        let scales = [0, 1].map(|s| mobility(model, s) * gamma_h);
-        let mut diagonal = SVector::<f64, 8>::repeat(1.0);
-        let mut right = SVector::<f64, 8>::zeros();
-        for s in 0..2 {
-            right
-                .fixed_rows_mut::<4>(4 * s)
-                .copy_from(&self.residual[s]);
-            for i in 0..4 {
-                if let Degree::Free { damping, .. } = model.bodies[s].degrees[i] {
-                    diagonal[4 * s + i] += scales[s][i] * damping;
-                }
-            }
-        }
-        self.arrow.begin(&diagonal, &right);
-        for (j, grips) in self.grips.iter().enumerate() {
-            let right = &self.residual[2 + j];
-            if grips.iter().all(Grip::is_empty) {
-                self.arrow.pass(right);
-                continue;
-            }
-            let scale = mobility(model, 2 + j) * gamma_h;
-            let mut own = Matrix4::identity();
-            let (mut to, mut from) = ([Matrix4::zeros(); 2], [Matrix4::zeros(); 2]);
-            for s in 0..2 {
-                if grips[s].is_empty() {
-                    continue;
-                }
-                let slope = &self.slopes[j][s];
-                let carried = carried(grips[s].apart);
-                let ring = scaled(&scales[s], carried.tr_mul(slope));
-                let ball = scaled(&scale, *slope);
-                own -= ball;
-                to[s] = ball * carried;
-                from[s] = ring;
-                self.arrow.add_ring(s, &(-ring * carried));
-            }
-            if !self.arrow.eliminate(&own, &to, &from, right) {
-                return false;
-            }
-        }
-        let Some(rings) = self.arrow.rings() else {
-            return false;
-        };
-        for s in 0..2 {
-            self.residual[s] = rings.fixed_rows::<4>(4 * s).into();
-        }
-        for j in 0..self.grips.len() {
-            self.residual[2 + j] = self.arrow.ball(j, &rings);
-        }
-        true
-    }
-}
+/// Residual of a velocity over what the tolerance sees of it. At ten times as much the residuals of loose
+/// tolerances show in the accelerations; a correction more where they would costs less than steps.
+const RESIDUAL_SHARE: f64 = 0.002;
 
 impl Dynamics<'_> {
-    /// The residual base + γh a − v into `implicit`.
-    fn residual(&mut self, t: f64, y: &[f64], base: &[f64], gamma_h: f64, work: &mut Implicit) {
-        let model = self.model;
+    /// The residual base + γh a − v with the last reactions of the contacts.
+    fn residual(&mut self, t: f64, y: &[f64], base: &[f64], gamma_h: f64, work: &mut Stage) {
         self.read(t, y);
         self.forces.copy_from(&self.constant);
-        work.contacts(model, y, &mut self.forces);
+        work.add_to(&mut self.forces);
         self.others(t);
-        for (b, residual) in work.residual.iter_mut().enumerate() {
-            let base = Vector4::from_column_slice(&base[4 * b..4 * b + 4]);
-            let acceleration = Vector4::from(self.acceleration(t, b));
-            *residual = base + acceleration * gamma_h - velocity(y, b);
+        let (bases, velocities) = (base.as_chunks::<4>().0, y[y.len() / 2..].as_chunks::<4>().0);
+        let bodies = bases.iter().zip(velocities).enumerate();
+        for (residual, (b, (base, v))) in work.residual.iter_mut().zip(bodies) {
+            let acceleration = self.acceleration(t, b);
+            for i in 0..4 {
+                residual[i] = base[i] + acceleration[i] * gamma_h - v[i];
+            }
         }
     }
 
@@ -166,47 +52,47 @@ impl Dynamics<'_> {
         y: &mut [f64],
         base: &[f64],
         gamma_h: f64,
-        work: &mut Implicit,
+        work: &mut Stage,
     ) -> Result<usize, Stuck> {
-        let half = y.len() / 2;
         let limit = self.velocity_limit();
-        let (mut worst, mut before) = (0, 0.0);
+        let half = y.len() / 2;
+        let mut worst = Largest::default();
+        // Not a number: comparisons with it are false.
+        let mut before = f64::NAN;
+        let mut anew = !work.is_kept(gamma_h);
         work.secant = false;
         for iteration in 1..=MOST_ITERATIONS {
+            work.react(self, y, anew);
             self.residual(t, y, base, gamma_h, work);
-            if !work.correct(self.model, gamma_h) {
+            if anew {
+                work.factorise(self.model, gamma_h);
+            }
+            if !work.correct(self.model) {
                 break;
             }
-            let mut largest = 0.0;
-            for (b, correction) in work.residual.iter().enumerate() {
-                let radius = self.model.radius(b);
-                for i in 0..4 {
-                    y[half + 4 * b + i] += correction[i];
-                    let size = correction[i].abs() * if i == 3 { radius } else { 1.0 };
-                    if size > largest || size.is_nan() {
-                        (largest, worst) = (size, half + 4 * b + i);
-                    }
-                }
-            }
+            worst = work.apply(&mut y[half..]);
             // What is left after a correction, by the rate at which they shrink (Hairer & Wanner II, IV.8).
-            let rate = largest / before;
-            if largest <= limit || rate < 1.0 && largest * rate / (1.0 - rate) <= limit {
+            let (size, rate) = (worst.size, worst.size / before);
+            if size <= limit || rate < 1.0 && size * rate / (1.0 - rate) <= limit {
+                if rate > WORN {
+                    work.kept = None;
+                }
                 return Ok(iteration);
             }
-            work.secant = rate > DIVERGING && before > 0.0;
-            before = largest;
+            (anew, work.secant) = (rate > SLOW, rate > DIVERGING);
+            before = size;
         }
+        work.kept = None;
         Err(Stuck {
-            state: worst,
+            state: half + worst.velocity,
             iterations: MOST_ITERATIONS,
         })
     }
 
-    fn implicit_memory(&mut self) -> Box<Implicit> {
-        let balls = self.model.balls.len();
+    fn implicit_memory(&mut self) -> Box<Stage> {
         self.implicit
             .take()
-            .unwrap_or_else(|| Box::new(Implicit::new(balls)))
+            .unwrap_or_else(|| Box::new(Stage::new(self.model)))
     }
 
     /// The change of a velocity \[m/s\] below which an iteration is over.
@@ -225,52 +111,37 @@ impl ImplicitVelocity for Dynamics<'_> {
         gamma_h: f64,
     ) -> Result<usize, Stuck> {
         let mut work = self.implicit_memory();
-        work.grip(self, y);
+        self.read(t, y);
+        work.hold(self);
         let result = self.iterate(t, y, base, gamma_h, &mut work);
         self.implicit = Some(work);
         result
     }
 
-    fn fastest_rate(&mut self, _t: f64, y: &[f64]) -> f64 {
+    fn fastest_rate(&mut self, t: f64, y: &[f64]) -> f64 {
         let mut work = self.implicit_memory();
-        work.grip(self, y);
-        work.slopes.fill([Matrix4::zeros(); 2]);
+        self.read(t, y);
+        work.hold(self);
         work.secant = false;
-        work.contacts(self.model, y, &mut self.forces);
-        let rates = work.slopes.iter().enumerate().map(|(j, slopes)| {
-            let mobility = mobility(self.model, 2 + j);
-            let root = Matrix4::from_diagonal(&mobility.map(f64::sqrt));
-            let block = root * (slopes[0] + slopes[1]) * root;
-            // Friction's part is symmetric, damping's nearly: the spectral norm of the symmetric part.
-            let symmetric = (block + block.transpose()) / 2.0;
-            symmetric.symmetric_eigenvalues().amax()
-        });
-        let fastest = rates.fold(0.0, f64::max);
+        work.react(self, y, true);
+        let mut fastest: f64 = 0.0;
+        for grip in work.grips() {
+            for (lane, ball) in grip.balls[..grip.count].iter().enumerate() {
+                let mobility = Vector4::from(self.model.mobility[2 + ball]);
+                let root = Matrix4::from_diagonal(&mobility.map(f64::sqrt));
+                let slope = |i: usize, j: usize| {
+                    let of = |s: usize| grip.sides[s].reaction.slope[i][j][lane];
+                    of(0) + of(1)
+                };
+                let block = root * Matrix4::from_fn(slope) * root;
+                // Friction's part is symmetric, damping's nearly: the spectral norm of the symmetric part.
+                let symmetric = (block + block.transpose()) / 2.0;
+                fastest = fastest.max(symmetric.symmetric_eigenvalues().amax());
+            }
+        }
         self.implicit = Some(work);
         fastest
     }
-}
-
-/// The rows of a matrix, each times its scale.
-fn scaled(scale: &Vector4<f64>, mut matrix: Matrix4<f64>) -> Matrix4<f64> {
-    for mut column in matrix.column_iter_mut() {
-        column.component_mul_assign(scale);
-    }
-    matrix
-}
-
-/// One over the mass of every degree that forces move.
-fn mobility(model: &Model, body: usize) -> Vector4<f64> {
-    let body = &model.bodies[body];
-    Vector4::from_fn(|i, _| match body.degrees[i] {
-        Degree::Free { .. } => 1.0 / body.mass[i],
-        Degree::Fixed | Degree::Driven => 0.0,
-    })
-}
-
-fn velocity(y: &[f64], body: usize) -> Vector4<f64> {
-    let half = y.len() / 2;
-    Vector4::from_column_slice(&y[half + 4 * body..half + 4 * body + 4])
 }
 
 /// The truth is the right-hand side itself.
@@ -278,8 +149,8 @@ fn velocity(y: &[f64], body: usize) -> Vector4<f64> {
 mod tests {
     use super::*;
     use crate::integrate::System;
-    use crate::scene::{Friction, presets};
-    use crate::{Scene, Start, start};
+    use crate::scene::{Friction, Slices, presets};
+    use crate::{Model, Scene, Start, start};
 
     fn accelerations(model: &Model, y: &[f64]) -> Vec<f64> {
         let mut dy = vec![0.0; y.len()];
@@ -318,7 +189,13 @@ mod tests {
             d: 0.02,
             slip_speed: 0.01,
         };
-        vec![wheel, hertz, traction]
+        // Slices that pull, and whose friction then is none.
+        let mut pulling = wheel.clone();
+        (pulling.contact.damping, pulling.contact.clamp_pull) = (40.0, false);
+        pulling.contact.slices = Slices::Fixed(30);
+        let mut smooth = wheel.clone();
+        smooth.friction = Friction::None;
+        vec![wheel, hertz, traction, pulling, smooth]
     }
 
     /// (1 − γh ∂a/∂v) x = r holds for the correction x of any residual r, with ∂a/∂v by central differences.
@@ -330,14 +207,16 @@ mod tests {
             let half = y.len() / 2;
             let mut dynamics = Dynamics::new(&model);
             let mut work = dynamics.implicit_memory();
-            work.grip(&dynamics, &y);
-            work.contacts(&model, &y, &mut dynamics.forces);
+            dynamics.read(0.0, &y);
+            work.hold(&dynamics);
+            work.react(&dynamics, &y, true);
             let residual: Vec<f64> = (0..half).map(|i| (1.0 + i as f64).sin()).collect();
             for (b, r) in work.residual.iter_mut().enumerate() {
-                *r = Vector4::from_column_slice(&residual[4 * b..4 * b + 4]);
+                r.copy_from_slice(&residual[4 * b..4 * b + 4]);
             }
             let gamma_h = 1e-6;
-            assert!(work.correct(&model, gamma_h));
+            work.factorise(&model, gamma_h);
+            assert!(work.correct(&model));
             let x: Vec<f64> = work
                 .residual
                 .iter()
@@ -364,28 +243,30 @@ mod tests {
         }
     }
 
-    /// What comes out solves the equation that was asked for.
+    /// What comes out solves the equation that was asked for: by a matrix of its own, and then, for a base and
+    /// a guess elsewhere, by the one that is there.
     #[test]
     fn a_stage_solves_its_equation() {
         for scene in scenes() {
             let model = Model::new(&scene).unwrap();
             let mut y = state(&model);
             let half = y.len() / 2;
-            let base = y[half..].to_vec();
             let mut dynamics = Dynamics::new(&model);
-            let gamma_h = 2e-6;
-            dynamics
-                .solve_velocity(0.0, &mut y, &base, gamma_h)
-                .unwrap();
-            let limit = dynamics.velocity_limit();
-            for (i, a) in accelerations(&model, &y).into_iter().enumerate() {
-                let off = y[half + i] - base[i] - gamma_h * a;
-                let radius = if i % 4 == 3 { model.radius(i / 4) } else { 1.0 };
-                assert!(
-                    off.abs() * radius < limit,
-                    "{}, velocity {i}: {off:e}",
-                    scene.name
-                );
+            // A fiftieth of what the tolerance sees.
+            let limit = 0.02 / RESIDUAL_SHARE * dynamics.velocity_limit();
+            for gamma_h in [2e-6, 1.9e-6] {
+                let base: Vec<f64> = y[half..].iter().map(|v| 1.001 * v).collect();
+                let solved = dynamics.solve_velocity(0.0, &mut y, &base, gamma_h);
+                solved.unwrap();
+                for (i, a) in accelerations(&model, &y).into_iter().enumerate() {
+                    let off = y[half + i] - base[i] - gamma_h * a;
+                    let radius = if i % 4 == 3 { model.radius(i / 4) } else { 1.0 };
+                    assert!(
+                        off.abs() * radius < limit,
+                        "{}, γh {gamma_h}, velocity {i}: {off:e}",
+                        scene.name
+                    );
+                }
             }
         }
     }

@@ -7,6 +7,7 @@ mod energy;
 mod grip;
 mod implicit;
 mod others;
+mod stage;
 mod state;
 mod sums;
 mod uses;
@@ -25,7 +26,7 @@ pub use energy::Energy;
 pub(crate) use uses::Use;
 
 use batch::{Batch, Kind};
-use implicit::Implicit;
+use stage::Stage;
 use state::{State, Table};
 use sums::Named;
 
@@ -44,7 +45,7 @@ pub struct Dynamics<'m> {
     mobility: Table,
     pool: Option<Arc<ThreadPool>>,
     /// Memory of implicit stages, once there was one.
-    implicit: Option<Box<Implicit>>,
+    implicit: Option<Box<Stage>>,
 }
 
 /// What a state vector holds.

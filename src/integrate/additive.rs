@@ -82,10 +82,10 @@ impl Additive {
                 a[i],
                 known,
             );
-            // A first guess along the acceleration of the stage before.
-            let ahead = (c[i] - c[i - 1]) * h;
-            for (v, a) in work.stage[half..].iter_mut().zip(&known[i - 1][half..]) {
-                *v += ahead * a;
+            // A first guess by the acceleration of the stage before.
+            let velocities = work.stage[half..].iter_mut().zip(&base[half..]);
+            for ((v, base), a) in velocities.zip(&known[i - 1][half..]) {
+                *v = base + gamma_h * a;
             }
             let time = if c[i] == 1.0 { t1 } else { t + c[i] * h };
             work.calls += 1;

@@ -1,0 +1,293 @@
+//! Contacts held still: what of their nodes does not depend on velocities, ready for any of them.
+//!
+//! With all of a node's force at one point, slip and approach depend only on the relative twist
+//! w = (v_b − v_r − θ̇_r ẑ × a, θ̇_b − θ̇_r), where a leads from the ring's centre to the ball's: four numbers a
+//! contact. The wrench on the ball about its centre and its derivative by w say all about both bodies.
+
+// Everything here must be compiled for the instructions of its caller.
+#![allow(clippy::inline_always)]
+// Loops over matrices read as their formulae do.
+#![allow(clippy::needless_range_loop)]
+
+use super::octet::Octet;
+use super::press::{Circles, Node, Receiver};
+use super::{Motion, Pair, Sink, Touch, cross, turned};
+use crate::simd::{LANES, Lanes, Mask};
+
+/// Directions in the plane.
+pub(crate) type Plane = [Lanes; 2];
+
+/// A node of eight contacts, or eight slices of one.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Still {
+    elastic: Lanes,
+    /// In-plane and axial part of the normal force over its magnitude.
+    share: Plane,
+    /// sin α and cos α: the meridional direction is −sin α n_e + cos α ẑ.
+    slope: Plane,
+    /// Moments about the ball's centre of unit forces along n_e and t_e.
+    levers: Plane,
+}
+
+/// Wrench on the ball about its centre, (n_e, t_e, z \[N\], about z \[N m\]) or (x, y, z, about z), and its
+/// derivative by the relative twist.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Reaction {
+    pub wrench: [Lanes; 4],
+    pub slope: [[Lanes; 4]; 4],
+}
+
+/// Where eight contacts are held.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Held {
+    /// Unit vector out of the ball at the contact.
+    pub n_e: Plane,
+    /// From the ring's centre to the ball's.
+    pub apart: Plane,
+    /// Contacts whose nodes are there; the others get none that press.
+    pub simple: Mask,
+}
+
+impl Pair {
+    /// Holds eight contacts still, those of `whole` with their nodes.
+    #[inline(always)]
+    pub(crate) fn hold<const FMA: bool>(
+        &self,
+        octet: &Octet,
+        ring: &Motion,
+        whole: Mask,
+        nodes: &mut Vec<Still>,
+    ) -> Held {
+        let (circles, place) = self.place::<FMA, false>(octet, ring, whole.not());
+        self.each::<FMA, false, _>(&circles, nodes);
+        let (simple, sigma) = (place.simple.and(whole), self.race.sigma);
+        for node in nodes {
+            node.elastic = simple.choose(node.elastic, Lanes::ZERO);
+        }
+        Held {
+            n_e: [place.n.0 * sigma, place.n.1 * sigma],
+            apart: [place.n.0 * place.d, place.n.1 * place.d],
+            simple,
+        }
+    }
+
+    /// Adds what a node does at a relative twist in the frame (n_e, t_e, z, about z), with its slope or without.
+    ///
+    /// With `secant`, friction's slope is the steeper one through rest, φ for φ + φ'(u) u: from far away, where
+    /// Newton's tangent leads across to the other side, iterations by it do not overshoot.
+    #[inline(always)]
+    pub(crate) fn react<const FMA: bool, const SLOPE: bool>(
+        &self,
+        still: &Still,
+        twist: &[Lanes; 4],
+        secant: bool,
+        to: &mut Reaction,
+    ) {
+        let ([in_plane, axial], [sin, cos]) = (still.share, still.slope);
+        let levers = still.levers;
+        let v_n = twist[3].mul_add::<FMA>(levers[0], twist[0]);
+        let v_t = twist[3].mul_add::<FMA>(levers[1], twist[1]);
+        let v_z = twist[2];
+        let approach = v_n.mul_add::<FMA>(in_plane, v_z * axial);
+        let rate = 1.5 * self.damping;
+        let damped = still.elastic * (approach * rate + 1.0);
+        let pressed = damped.or_zero();
+        let normal = if self.clamp_pull { pressed } else { damped };
+        let mut force = [normal * in_plane, Lanes::ZERO, normal * axial];
+        let mut slope = [[Lanes::ZERO; 3]; 3];
+        // How the normal force grows with the velocities; friction only where it presses.
+        let stiff = still.elastic * rate;
+        let rubs = Lanes::ZERO.above(damped).choose(Lanes::ZERO, stiff);
+        let stiff = if self.clamp_pull { rubs } else { stiff };
+        if SLOPE {
+            let (by_n, by_z) = (stiff * in_plane, stiff * axial);
+            (slope[0][0], slope[0][2]) = (by_n * in_plane, by_n * axial);
+            (slope[2][0], slope[2][2]) = (by_n * axial, by_z * axial);
+        }
+        if let Some(friction) = &self.friction {
+            let u_m = v_z * cos - v_n * sin;
+            let (factor, bend) = friction.factors_and_bends(v_t.mul_add::<FMA>(v_t, u_m * u_m));
+            let f_m = factor * u_m;
+            let rubbing = [-(f_m * sin), factor * v_t, f_m * cos];
+            for i in 0..3 {
+                force[i] = rubbing[i].mul_add::<FMA>(pressed, force[i]);
+            }
+            if SLOPE {
+                // By slip at constant normal force: N (φ 1 + (φ'/u) u⃗ u⃗ᵀ).
+                let drag = factor * pressed;
+                let bent = if secant { Lanes::ZERO } else { bend * pressed };
+                let tt = (bent * v_t).mul_add::<FMA>(v_t, drag);
+                let tm = bent * v_t * u_m;
+                let mm = (bent * u_m).mul_add::<FMA>(u_m, drag);
+                let (m_n, m_z) = (mm * sin, mm * cos);
+                let slip = [
+                    [m_n * sin, -(tm * sin), -(m_n * cos)],
+                    [-(tm * sin), tt, tm * cos],
+                    [-(m_n * cos), tm * cos, m_z * cos],
+                ];
+                let (by_n, by_z) = (rubs * in_plane, rubs * axial);
+                for i in 0..3 {
+                    for j in 0..3 {
+                        slope[i][j] += slip[i][j];
+                    }
+                    slope[i][0] = rubbing[i].mul_add::<FMA>(by_n, slope[i][0]);
+                    slope[i][2] = rubbing[i].mul_add::<FMA>(by_z, slope[i][2]);
+                }
+            }
+        }
+        to.subtract_force::<FMA>(&force, still.levers);
+        if SLOPE {
+            to.subtract_slope::<FMA>(&slope, still.levers);
+        }
+    }
+}
+
+impl Reaction {
+    /// Subtracts a force at a point with those levers.
+    #[inline(always)]
+    fn subtract_force<const FMA: bool>(&mut self, force: &[Lanes; 3], levers: Plane) {
+        for i in 0..3 {
+            self.wrench[i] = self.wrench[i] - force[i];
+        }
+        self.wrench[3] = self.wrench[3] - moment::<FMA>(force[0], force[1], levers);
+    }
+
+    /// Subtracts the slope of such a force by the velocity of the point.
+    #[inline(always)]
+    fn subtract_slope<const FMA: bool>(&mut self, slope: &[[Lanes; 3]; 3], levers: Plane) {
+        for i in 0..3 {
+            for j in 0..3 {
+                self.slope[i][j] = self.slope[i][j] - slope[i][j];
+            }
+            let turning = moment::<FMA>(slope[i][0], slope[i][1], levers);
+            self.slope[i][3] = self.slope[i][3] - turning;
+        }
+        let mut turning = [Lanes::ZERO; 3];
+        for j in 0..3 {
+            turning[j] = moment::<FMA>(slope[0][j], slope[1][j], levers);
+            self.slope[3][j] = self.slope[3][j] - turning[j];
+        }
+        self.slope[3][3] = self.slope[3][3] - moment::<FMA>(turning[0], turning[1], levers);
+    }
+
+    /// Turns it from the contact's frame into (x, y, z, about z).
+    #[inline(always)]
+    pub(crate) fn turn<const SLOPE: bool>(&mut self, n_e: Plane) {
+        let turn = |n: Lanes, t: Lanes| (n * n_e[0] - t * n_e[1], n * n_e[1] + t * n_e[0]);
+        let force = &mut self.wrench;
+        (force[0], force[1]) = turn(force[0], force[1]);
+        if SLOPE {
+            let slope = &mut self.slope;
+            for j in 0..4 {
+                (slope[0][j], slope[1][j]) = turn(slope[0][j], slope[1][j]);
+            }
+            for row in slope {
+                (row[0], row[1]) = turn(row[0], row[1]);
+            }
+        }
+    }
+
+    /// Adds all lanes of another to one lane.
+    pub(crate) fn gather<const SLOPE: bool>(&mut self, lane: usize, other: &Self) {
+        for i in 0..4 {
+            self.wrench[i][lane] += other.wrench[i].sum();
+            for j in 0..if SLOPE { 4 } else { 0 } {
+                self.slope[i][j][lane] += other.slope[i][j].sum();
+            }
+        }
+    }
+}
+
+/// About z of components along n_e and t_e.
+#[inline(always)]
+fn moment<const FMA: bool>(n: Lanes, t: Lanes, levers: Plane) -> Lanes {
+    levers[0].mul_add::<FMA>(n, levers[1] * t)
+}
+
+/// A relative twist (x, y, z, about z) in the frame (n_e, t_e, z, about z).
+#[inline(always)]
+pub(crate) fn in_contact(twist: &[Lanes; 4], n_e: Plane) -> [Lanes; 4] {
+    let [x, y, z, turn] = *twist;
+    [x * n_e[0] + y * n_e[1], y * n_e[0] - x * n_e[1], z, turn]
+}
+
+impl Receiver for Vec<Still> {
+    #[inline(always)]
+    fn node<const FMA: bool, const PLANE: bool>(
+        &mut self,
+        pair: &Pair,
+        circles: &Circles,
+        node: &Node,
+        _times: u32,
+    ) {
+        let sigma = Lanes::all(pair.race.sigma);
+        let arm = node.groove.mul_add::<FMA>(sigma, circles.arm);
+        self.push(Still {
+            elastic: node.elastic,
+            share: [node.share.0, node.share.1],
+            slope: [node.sin, node.cos],
+            levers: [Lanes::ZERO, arm * sigma],
+        });
+    }
+}
+
+/// Eight slices of one contact, each with its own direction.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pack {
+    pub n_e: Plane,
+    pub still: Still,
+}
+
+/// Collects the slices of a contact in packs of some lane.
+pub(crate) struct Packing<'a> {
+    pub packs: &'a mut Vec<(usize, Pack)>,
+    pub lane: usize,
+    /// Ball radius \[m\].
+    pub radius: f64,
+    /// Whether all slices press along the common normal.
+    pub flat: bool,
+    /// Slices so far.
+    pub count: usize,
+}
+
+impl Sink for Packing<'_> {
+    fn touch(&mut self, touch: &Touch) {
+        let lane = self.count % LANES;
+        if lane == 0 {
+            self.packs.push((self.lane, Pack::EMPTY));
+        }
+        self.count += 1;
+        let Some((_, Pack { n_e, still })) = self.packs.last_mut() else {
+            return;
+        };
+        // α of the slice: that of the place on the ball (flat contact), or of the force's direction.
+        let (sin, cos) = if self.flat {
+            let sin = touch.zeta / self.radius;
+            (sin, (1.0 - sin * sin).sqrt())
+        } else {
+            let tan = touch.share.1 / touch.share.0;
+            let cos = 1.0 / (1.0 + tan * tan).sqrt();
+            (tan * cos, cos)
+        };
+        let (out, arm) = (touch.n_e, touch.arm_ball);
+        still.elastic[lane] = touch.elastic;
+        (n_e[0][lane], n_e[1][lane]) = (out.x, out.y);
+        (still.share[0][lane], still.share[1][lane]) = touch.share;
+        (still.slope[0][lane], still.slope[1][lane]) = (sin, cos);
+        still.levers[0][lane] = cross(arm, out);
+        still.levers[1][lane] = cross(arm, turned(out));
+    }
+}
+
+impl Pack {
+    /// One that does not press.
+    const EMPTY: Self = Self {
+        n_e: [Lanes::ZERO; 2],
+        still: Still {
+            elastic: Lanes::ZERO,
+            share: [Lanes::ZERO; 2],
+            slope: [Lanes::ZERO; 2],
+            levers: [Lanes::ZERO; 2],
+        },
+    };
+}

@@ -1,0 +1,294 @@
+//! What an implicit stage needs to know of the contacts: held at its places, and the matrix of their slopes.
+
+use nalgebra::SVector;
+use rayon::prelude::*;
+
+use super::Dynamics;
+use super::arrow::Arrow;
+use super::batch::{Batch, Kind};
+use super::grip::{Grip, Meeting};
+use super::state::Table;
+use crate::model::{Degree, Model};
+use crate::simd::{LANES, Lanes, Task};
+
+/// Relative change of γh up to which a matrix serves on.
+const SAME: f64 = 0.2;
+
+/// Memory of an implicit stage.
+#[derive(Debug, Clone)]
+pub(super) struct Stage {
+    /// Used to search what touches.
+    search: Batch,
+    /// What every ball may meet at both rings.
+    meetings: Vec<[Meeting; 2]>,
+    /// The balls that meet something, by eights: the first `active` of these.
+    grips: Vec<Grip>,
+    active: usize,
+    arrow: Arrow,
+    /// Residuals of all velocities, by body; after [`Stage::correct`] their corrections.
+    pub residual: Vec<[f64; 4]>,
+    /// Radii that make speeds of rotation comparable, by body.
+    radii: Vec<f64>,
+    /// Whether slopes are secants, since tangents led astray.
+    pub secant: bool,
+    /// γh of the matrix, as long as it serves.
+    pub kept: Option<f64>,
+    /// Which rings every ball met when it was made.
+    kept_meetings: Vec<[bool; 2]>,
+}
+
+impl Stage {
+    pub fn new(model: &Model) -> Self {
+        let balls = model.balls.len();
+        let eights = balls.div_ceil(LANES);
+        Self {
+            search: Batch::new(model, Kind::default()),
+            meetings: vec![<[Meeting; 2]>::default(); balls],
+            grips: vec![Grip::default(); eights],
+            active: 0,
+            arrow: Arrow::new(balls),
+            residual: vec![[0.0; 4]; balls + 2],
+            radii: (0..balls + 2).map(|body| model.radius(body)).collect(),
+            secant: false,
+            kept: None,
+            kept_meetings: vec![[false; 2]; balls],
+        }
+    }
+
+    /// Finds the nodes of all contacts at the state that was read last.
+    pub fn hold(&mut self, dynamics: &Dynamics<'_>) {
+        let (model, state) = (dynamics.model, &dynamics.state);
+        let rings = [state.motion(0), state.motion(1)];
+        self.search.find(None, model, state, &rings);
+        self.gather();
+        let constants = &self.search.constants;
+        let hold = |grip: &mut Grip| grip.hold(model, constants, state, &rings);
+        let grips = &mut self.grips[..self.active];
+        match &dynamics.pool {
+            Some(pool) => pool.install(|| grips.par_iter_mut().for_each(hold)),
+            None => grips.iter_mut().for_each(hold),
+        }
+    }
+
+    /// The balls that meet something, by eights: first those between both rings, so that others may go
+    /// without one.
+    fn gather(&mut self) {
+        self.meetings.fill(<[Meeting; 2]>::default());
+        for side in 0..2 {
+            for contact in self.search.touching(side) {
+                self.meetings[contact.ball][side] = Meeting::Whole(contact.wave);
+            }
+        }
+        for (side, ball) in self.search.faulted() {
+            self.meetings[ball][side] = Meeting::Faulted;
+        }
+        let mut taken = 0;
+        for wanted in [2, 1] {
+            for (ball, meetings) in self.meetings.iter().enumerate() {
+                let meets = |meeting: &&Meeting| **meeting != Meeting::Nothing;
+                if meetings.iter().filter(meets).count() != wanted {
+                    continue;
+                }
+                let grip = &mut self.grips[taken / LANES];
+                if taken.is_multiple_of(LANES) {
+                    grip.clear();
+                }
+                grip.push(ball, *meetings);
+                taken += 1;
+            }
+        }
+        self.active = taken.div_ceil(LANES);
+    }
+
+    /// Finds what the contacts do at the velocities of `y`, with slopes or without.
+    pub fn react(&mut self, dynamics: &Dynamics<'_>, y: &[f64], slopes: bool) {
+        let (model, secant) = (dynamics.model, self.secant);
+        let react = |grip: &mut Grip| {
+            if slopes {
+                grip.react_and_slope(model, y, secant);
+            } else {
+                grip.react(model, y);
+            }
+        };
+        let grips = &mut self.grips[..self.active];
+        match &dynamics.pool {
+            Some(pool) => pool.install(|| grips.par_iter_mut().for_each(react)),
+            None => grips.iter_mut().for_each(react),
+        }
+    }
+
+    /// Adds the contacts' forces to those on all bodies.
+    pub fn add_to(&self, forces: &mut Table) {
+        for grip in &self.grips[..self.active] {
+            for (s, side) in grip
+                .sides
+                .iter()
+                .enumerate()
+                .filter(|(_, side)| side.touches)
+            {
+                let ([x, y, z, turn], apart) = (side.reaction.wrench, side.apart());
+                for (lane, ball) in grip.balls[..grip.count].iter().enumerate() {
+                    forces.add(2 + ball, &[x[lane], y[lane], z[lane], turn[lane]]);
+                }
+                // −Tᵀ of the wrench on the ball.
+                let about = turn + y * apart[0] - x * apart[1];
+                forces.add(s, &[x, y, z, about].map(|part| -part.sum()));
+            }
+        }
+    }
+
+    /// Makes the matrix of the last slopes.
+    pub fn factorise(&mut self, model: &Model, gamma_h: f64) {
+        model.level.run(Factorise {
+            work: self,
+            model,
+            gamma_h,
+        });
+        self.kept = Some(gamma_h);
+        for (kept, meetings) in self.kept_meetings.iter_mut().zip(&self.meetings) {
+            *kept = meetings.map(|meeting| meeting != Meeting::Nothing);
+        }
+    }
+
+    /// Whether the matrix that is there was made for nearly the same equations.
+    pub fn is_kept(&self, gamma_h: f64) -> bool {
+        let same = |kept: f64| (gamma_h / kept - 1.0).abs() < SAME;
+        let meets = |meeting: Meeting| meeting != Meeting::Nothing;
+        self.kept.is_some_and(same)
+            && self
+                .kept_meetings
+                .iter()
+                .zip(&self.meetings)
+                .all(|(kept, meetings)| *kept == meetings.map(meets))
+    }
+
+    /// Adds the corrections to the velocities, and tells the largest.
+    pub fn apply(&self, velocities: &mut [f64]) -> Largest {
+        let mut largest = Largest::default();
+        let bodies = velocities.as_chunks_mut::<4>().0.iter_mut();
+        let corrections = self.residual.iter().zip(&self.radii);
+        for (b, (v, (correction, radius))) in bodies.zip(corrections).enumerate() {
+            for (i, lever) in [1.0, 1.0, 1.0, *radius].into_iter().enumerate() {
+                v[i] += correction[i];
+                let size = correction[i].abs() * lever;
+                if size > largest.size || size.is_nan() {
+                    let velocity = 4 * b + i;
+                    largest = Largest { size, velocity };
+                }
+            }
+        }
+        largest
+    }
+
+    /// The balls that meet something, by eights.
+    pub fn grips(&self) -> &[Grip] {
+        &self.grips[..self.active]
+    }
+
+    /// Solves for the correction of all velocities; `residual` is replaced by it. False if singular.
+    pub fn correct(&mut self, model: &Model) -> bool {
+        model.level.run(Correct { work: self })
+    }
+}
+
+/// The largest correction \[m/s\], or one that is not a number, and of which velocity it is.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Largest {
+    pub size: f64,
+    pub velocity: usize,
+}
+
+/// Makes the matrix.
+struct Factorise<'a> {
+    work: &'a mut Stage,
+    model: &'a Model,
+    gamma_h: f64,
+}
+
+impl Task for Factorise<'_> {
+    type Output = ();
+
+    // Compiled for the level that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        let (model, gamma_h) = (self.model, self.gamma_h);
+        let Stage {
+            arrow,
+            grips,
+            active,
+            ..
+        } = self.work;
+        arrow.begin();
+        for (eight, grip) in grips[..*active].iter().enumerate() {
+            let mut scale = [Lanes::ZERO; 4];
+            for (lane, ball) in grip.balls.iter().enumerate() {
+                for (scale, mobility) in scale.iter_mut().zip(&model.mobility[2 + ball]) {
+                    scale[lane] = gamma_h * mobility;
+                }
+            }
+            let contact = |s: usize| {
+                let side = &grip.sides[s];
+                side.touches.then(|| (&side.reaction.slope, side.apart()))
+            };
+            arrow.eliminate::<FMA>(eight, &[contact(0), contact(1)], &scale);
+        }
+        let scale = SVector::from_fn(|i, _| gamma_h * model.mobility[i / 4][i % 4]);
+        let diagonal = SVector::from_fn(|i, _| match model.bodies[i / 4].degrees[i % 4] {
+            Degree::Free { damping, .. } => 1.0 + scale[i] * damping,
+            Degree::Fixed | Degree::Driven => 1.0,
+        });
+        arrow.factorise(&diagonal, &scale);
+    }
+}
+
+/// Solves for the corrections.
+struct Correct<'a> {
+    work: &'a mut Stage,
+}
+
+impl Task for Correct<'_> {
+    type Output = bool;
+
+    // Compiled for the level that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn run<const FMA: bool>(self) -> bool {
+        let Stage {
+            arrow,
+            residual,
+            grips,
+            active,
+            ..
+        } = self.work;
+        let grips = &grips[..*active];
+        arrow.begin_right();
+        for (eight, grip) in grips.iter().enumerate() {
+            let mut right = [Lanes::ZERO; 4];
+            for (lane, ball) in grip.balls.iter().enumerate() {
+                for i in 0..4 {
+                    right[i][lane] = residual[2 + ball][i];
+                }
+            }
+            arrow.eliminate_right::<FMA>(eight, &right);
+        }
+        let right = SVector::from_fn(|i, _| residual[i / 4][i % 4]);
+        let Some(rings) = arrow.rings(&right) else {
+            return false;
+        };
+        for s in 0..2 {
+            for i in 0..4 {
+                residual[s][i] = rings[4 * s + i];
+            }
+        }
+        for (eight, grip) in grips.iter().enumerate() {
+            let balls = arrow.balls::<FMA>(eight, &rings);
+            for (lane, ball) in grip.balls[..grip.count].iter().enumerate() {
+                for i in 0..4 {
+                    residual[2 + ball][i] = balls[i][lane];
+                }
+            }
+        }
+        true
+    }
+}
