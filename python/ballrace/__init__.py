@@ -25,6 +25,7 @@ from .errors import (
     IntegrationError,
     SceneError,
 )
+from .explanation import Explanation, explain
 from .model import Model
 from .run import simulate
 from .scene import Scene
@@ -46,6 +47,7 @@ __all__ = [
     "CampaignWarning",
     "Equilibrium",
     "EquilibriumError",
+    "Explanation",
     "IntegrationError",
     "LoadDistribution",
     "Model",
@@ -56,6 +58,7 @@ __all__ = [
     "Stiffness",
     "campaign",
     "equilibrium",
+    "explain",
     "frequencies",
     "grid",
     "latin_hypercube",

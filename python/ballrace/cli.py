@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import importlib.util
+import json
 import os
 import sys
 import time
@@ -18,6 +19,7 @@ from ._files import check_writable, whole
 from ._progress import Bar
 from .campaigns.cli import add_command as add_campaign
 from .errors import BallraceError, SceneError
+from .explanation import explain
 from .frequencies import of_row
 from .run import simulate
 from .scene import Scene, SpeedDrive
@@ -152,6 +154,13 @@ def _parser() -> argparse.ArgumentParser:
         help="print the races' equivalent loads over a turn of the cage, too",
     )  # fmt: skip
     static.set_defaults(command=_equilibrium)
+
+    told = commands.add_parser(
+        "explain", help="tell what a scene is compiled to, what it costs and what would be cheaper"
+    )
+    told.add_argument("scene", type=Path, metavar="SCENE", help="scene, a .toml or .json file")
+    told.add_argument("--json", action="store_true", help="print it as JSON")
+    told.set_defaults(command=_explain)
 
     add_campaign(commands)
     return parser
@@ -325,6 +334,11 @@ def _equilibrium(options: argparse.Namespace) -> None:
             [f"row{i}", f"{outer:.1f}", f"{inner:.1f}"] for i, (outer, inner) in enumerate(races)
         ]
         _print_table(["equivalent load", "outer N", "inner N"], lines)
+
+
+def _explain(options: argparse.Namespace) -> None:
+    told = explain(Scene.load(options.scene))
+    print(json.dumps(told.to_dict(), indent=2) if options.json else str(told).rstrip())
 
 
 def _numbers(values: NDArray[np.float64], digits: int) -> list[str]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _core
 from .errors import SceneError
+from .explanation import Explanation, explain
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -64,6 +65,21 @@ class Model:
     def bodies(self) -> tuple[str, ...]:
         """Names of the bodies in their order: the outer ring, the inner ring, then the balls row by row."""
         return self._bodies
+
+    def summary(self) -> Explanation:
+        """Tell what a run integrates and leaves out, what it costs, and what would make it cheaper.
+
+        Returns
+        -------
+        Explanation
+            As of :func:`ballrace.explain`.
+
+        Raises
+        ------
+        EquilibriumError
+            There is no stable equilibrium to start from.
+        """
+        return explain(self._scene)
 
     def start(self, kind: Literal["equilibrium", "rolling"] = "equilibrium") -> NDArray[np.float64]:
         """Return the state at which a run starts.

@@ -158,8 +158,7 @@ class Stiffness:
     @property
     def radial(self) -> NDArray[np.float64]:
         """Softest and stiffest radial direction with z held, shape (2,) [N/m]."""
-        principal: NDArray[np.float64] = np.linalg.eigvalsh(self.inner[:2, :2])
-        return principal
+        return np.asarray(np.linalg.eigvalsh(self.inner[:2, :2]), dtype=np.float64)
 
     def __repr__(self) -> str:
         low, high = 1e-6 * self.radial

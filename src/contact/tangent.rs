@@ -343,7 +343,9 @@ mod tests {
                 phase: 0.4,
             }])
         };
-        let mut worst = [0.0_f64; 2];
+        // Of the force, of the stiffness on nodes, and of that on slices: one that enters within a difference
+        // bends its own force like s^{1/9}.
+        let mut worst = [0.0_f64; 3];
         for sigma in [1.0, -1.0] {
             for (hertz, slices) in [
                 (false, Slices::Fitted(Rules::new(6, iso16281::EXPONENT))),
@@ -363,12 +365,21 @@ mod tests {
                         let stiffness = pair.stiffness_by_differences(&ball, &place, 1e-8);
                         let analytic = found.stiffness.unwrap();
                         worst[0] = worst[0].max((found.force - force).norm() / force.norm());
-                        worst[1] = worst[1].max((analytic - stiffness).norm() / stiffness.norm());
+                        let kind = if matches!(slices, Slices::Fitted(_)) {
+                            1
+                        } else {
+                            2
+                        };
+                        let error = (analytic - stiffness).norm() / stiffness.norm();
+                        worst[kind] = worst[kind].max(error);
                     }
                 }
             }
         }
-        println!("force to {:.1e}, stiffness to {:.1e}", worst[0], worst[1]);
-        assert!(worst[0] < 1e-11 && worst[1] < 1e-6, "{worst:?}");
+        println!("force, stiffness on nodes and on slices: {worst:?}");
+        assert!(
+            worst[0] < 1e-11 && worst[1] < 1e-6 && worst[2] < 5e-3,
+            "{worst:?}"
+        );
     }
 }

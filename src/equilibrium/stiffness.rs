@@ -29,7 +29,7 @@ pub struct Stiffness {
 ///
 /// ```
 /// use ballrace::scene::presets;
-/// let found = ballrace::stiffness(&presets::deep_groove_6205(500.0, 200.0, 1800.0)).unwrap();
+/// let found = ballrace::stiffness(&presets::deep_groove_6205(500.0, 0.0, 1800.0)).unwrap();
 /// // Loaded along −y, and stiffest there; much softer along the axis.
 /// let [x, y, z] = [0, 1, 2].map(|i| found.inner[i][i]);
 /// assert!(y > x && x > z && z > 1e6);

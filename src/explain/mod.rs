@@ -41,7 +41,7 @@ pub struct Explanation {
     pub absent: Vec<&'static str>,
     /// What a run costs, measured here and now.
     pub cost: Cost,
-    /// What it would cost otherwise, the cheapest first.
+    /// Changes that would make it cheaper, the cheapest first.
     pub variants: Vec<Variant>,
 }
 

@@ -20,6 +20,9 @@ pub struct Variant {
     pub seconds: f64,
 }
 
+/// Share of the cost below which a change is worth telling; nearer to it the clock decides.
+const HELPS: f64 = 0.95;
+
 /// A change that may make a scene cheaper; nothing where it does not apply.
 type Change = fn(&Scene) -> Option<Scene>;
 
@@ -82,7 +85,7 @@ const CHANGES: [(&str, &str, Change); 8] = [
     ),
 ];
 
-/// All that apply, the cheapest first. They are timed at the scene's own start, and take its steps.
+/// All that help, the cheapest first. They are timed at the scene's own start, and take its steps.
 pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Result<Vec<Variant>> {
     let mut variants = Vec::new();
     let own = model.reduction(y0).map_or(model.dim(), |r| r.dim());
@@ -102,6 +105,7 @@ pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Result<Vec<Variant>>
             seconds: cost.evaluations * evaluation,
         });
     }
+    variants.retain(|variant| variant.seconds < HELPS * cost.seconds);
     variants.push(Variant {
         change: "with twice the largest step at rtol 1e-3".to_owned(),
         note: "accelerations to 0.3 %; solver.frequency_cap = false, solver.max_step".to_owned(),

@@ -17,7 +17,7 @@ mod _core {
     #[pymodule_export]
     use super::campaign::{available_threads, campaign, feature_columns};
     #[pymodule_export]
-    use super::run::{Model, simulate};
+    use super::run::{Model, explain, simulate};
     #[pymodule_export]
     use super::scene::{
         preset_deep_groove_6205, preset_wheel_bearing, scene_from_json, scene_from_toml,

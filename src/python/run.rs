@@ -167,6 +167,14 @@ pub(super) fn simulate<'py>(
     hand_over(py, signals)
 }
 
+/// What a scene is compiled to and costs, as JSON and as text.
+#[pyfunction]
+pub(super) fn explain(py: Python<'_>, scene: &str) -> PyResult<(String, String)> {
+    let scene = Scene::from_json(scene).or_raise(py)?;
+    let told = py.detach(|| crate::explain(&scene)).or_raise(py)?;
+    Ok((to_json(&told)?, told.to_string()))
+}
+
 pub(super) fn start(kind: &str, state: Option<Vec<f64>>) -> crate::Result<Start> {
     match (kind, state) {
         (_, Some(state)) => Ok(Start::State(state)),

@@ -1,0 +1,84 @@
+"""What a scene is compiled to, what it costs, and what would make it cheaper."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from . import _core
+from .signals import Record
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from .scene import Scene
+
+__all__ = ["Explanation", "explain"]
+
+
+class Explanation(Record):
+    """What a run of a scene integrates and evaluates; ``print`` shows it as a page of text.
+
+    Attributes
+    ----------
+    bodies, states, kept : int
+        Number of bodies, of their states, and of those that a run integrates.
+    omissions : list of dict
+        What is left out since it does not change the motion: ``what``, ``degrees`` of freedom, ``reason``.
+    obstacles : list of dict
+        What cannot be left out: ``what``, ``reason``.
+    contacts : list of dict
+        For every race its ``contacts`` and the ``evaluation`` of one of them.
+    evaluated, constant, absent : list of str
+        Forces that are evaluated in a run, that are set once before it, and that the scene does not have.
+    cost : Record
+        Measured here and now on one thread: ``evaluations`` of the right-hand side for a simulated second, time
+        for an ``evaluation`` with the integrator's share and for the ``right_hand_side`` alone [s], ``seconds``
+        for a simulated second.
+    variants : list of dict
+        Changes of the scene that would help, the cheapest first: ``change``, ``note`` on what it does to the
+        answer, states ``kept``, estimated ``seconds`` for a simulated second.
+    """
+
+    def __init__(self, entries: Mapping[str, Any], text: str) -> None:
+        super().__init__(entries)
+        self.__dict__["_text"] = text
+
+    def __str__(self) -> str:
+        text: str = self.__dict__["_text"]
+        return text
+
+
+def explain(scene: Scene) -> Explanation:
+    """Tell what a run of a scene integrates and leaves out, what it costs, and what would make it cheaper.
+
+    The scene is compiled and started from equilibrium, and some steps are timed: a fraction of a second.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+
+    Returns
+    -------
+    Explanation
+        Its parts as attributes; ``print`` shows them.
+
+    Raises
+    ------
+    SceneError
+        A field of the scene is not usable.
+    EquilibriumError
+        There is no stable equilibrium to start from.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> told = br.explain(br.presets.deep_groove_6205())
+    >>> told.states, told.kept
+    (88, 62)
+    >>> [omission["what"] for omission in told.omissions]
+    ['held directions', 'rotation of the inner ring', 'z']
+    """
+    entries, text = _core.explain(scene.to_json())
+    return Explanation(json.loads(entries), text)
