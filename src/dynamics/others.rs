@@ -80,7 +80,7 @@ impl Task for Links<'_> {
             let (n_x, n_y) = (x * inverse, y * inverse);
             let extension = x.mul_add::<FMA>(n_x, y * n_y) - row.cage_distance;
             let half = 0.5 * cage.play;
-            let beyond = extension - extension.map(|e| e.clamp(-half, half));
+            let beyond = extension - extension.map(|e| within(e, half));
             let rate = apart(v, 0, from, first, last) * n_x + apart(v, 1, from, first, last) * n_y;
             let there = Lanes::from_fn(|lane| lane as f64);
             let there = Lanes::all((count - start) as f64).above(there);
@@ -101,6 +101,14 @@ impl Task for Links<'_> {
             }
         }
     }
+}
+
+/// The nearest number between −half and half; `f64::clamp` is not vectorised.
+#[allow(clippy::inline_always)]
+#[inline(always)]
+fn within(x: f64, half: f64) -> f64 {
+    let x = if x < half { x } else { half };
+    if x > -half { x } else { -half }
 }
 
 /// Eight balls' next neighbours less they themselves; the one at `last`, if any, has the `first` ball next.
