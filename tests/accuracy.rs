@@ -6,28 +6,11 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use ballrace::scene::{Defect, Friction, Method, Scene, Slices, Surface, presets};
 use ballrace::{Error, Model, Run, Start, simulate, start};
-use common::run;
-
-/// Numbers in 0 … 1, the same in every run.
-struct Noise(u64);
-
-impl Noise {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        f64::from((self.0 >> 33) as u32) / f64::from(1u32 << 31)
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-}
+use common::{Noise, run};
 
 /// A bearing with a spall on a race that its most loaded ball is about to meet.
 fn random(noise: &mut Noise) -> Scene {
-    let wheel = noise.next() < 0.5;
+    let wheel = !noise.yes();
     let mut scene = if wheel {
         presets::wheel_bearing(noise.between(-3000.0, 3000.0))
     } else {
@@ -45,7 +28,7 @@ fn random(noise: &mut Noise) -> Scene {
         coefficient: noise.between(0.01, 0.1),
         slip_speed,
     };
-    let on = if noise.next() < 0.7 {
+    let on = if noise.between(0.0, 1.0) < 0.7 {
         Surface::OuterRace
     } else {
         Surface::InnerRace

@@ -1,6 +1,8 @@
 //! Contacts by eights against contacts one by one: `rhs` uses the former wherever surfaces are whole, `forces` the
 //! latter always, and `rhs` at every level of instructions that this processor has.
 
+mod common;
+
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::dynamics::Dynamics;
@@ -8,19 +10,7 @@ use ballrace::integrate::System;
 use ballrace::scene::{Defect, Friction, NormalLaw, Scene, Slices, Surface, Waviness, presets};
 use ballrace::simd::Level;
 use ballrace::{Model, Start, start};
-
-/// Numbers in −1 … 1, the same in every run.
-struct Noise(u64);
-
-impl Noise {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        f64::from((self.0 >> 33) as u32) / f64::from(1u32 << 30) - 1.0
-    }
-}
+use common::Noise;
 
 /// Largest difference of the two evaluations at random states around an equilibrium, over the sum of the contact
 /// loads on a body and 1 kN: the distance of two axes is known to 4e-18 m, which a contact of some 1e8 N/m turns

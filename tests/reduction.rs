@@ -1,5 +1,7 @@
 //! Runs leave out what does not change the motion: the reduced model against the full one.
 
+mod common;
+
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
 
@@ -10,23 +12,7 @@ use ballrace::scene::{
     Waviness, Width, WidthProfile, presets,
 };
 use ballrace::{Model, Reduction, Run, Start, simulate, start};
-
-/// Numbers in −1 … 1, the same in every run.
-struct Noise(u64);
-
-impl Noise {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        f64::from((self.0 >> 33) as u32) / f64::from(1u32 << 30) - 1.0
-    }
-
-    fn yes(&mut self) -> bool {
-        self.next() > 0.0
-    }
-}
+use common::Noise;
 
 /// A healthy deep-groove bearing under a radial load.
 fn plane(law: NormalLaw, friction: bool) -> Scene {

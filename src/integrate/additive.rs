@@ -69,8 +69,7 @@ impl Additive {
         let Tableau { c, a, b, b_err, .. } = self.explicit;
         let half = work.y.len() / 2;
         let gamma_h = self.gamma * h;
-        // The state's own memory serves for the base, until the last derivative is wanted.
-        work.stage.copy_from_slice(&work.y);
+        // The next state's memory serves for the base, until the last derivative is wanted.
         for i in 1..self.explicit.stages {
             let (known, new) = work.k.split_at_mut(i);
             let base = &mut work.y1;

@@ -9,6 +9,27 @@ use std::ops::ControlFlow;
 use ballrace::scene::{Friction, Mount, Probe, Scene, Support, presets};
 use ballrace::{Run, Signals, simulate};
 
+/// Numbers in −1 … 1, the same in every run.
+pub struct Noise(pub u64);
+
+impl Noise {
+    pub fn next(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        f64::from((self.0 >> 33) as u32) / f64::from(1u32 << 30) - 1.0
+    }
+
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * 0.5 * (1.0 + self.next())
+    }
+
+    pub fn yes(&mut self) -> bool {
+        self.next() > 0.0
+    }
+}
+
 /// Shows a number beside the published one and holds it to a relative tolerance. `tests/validation.py` reads
 /// the line into the validation page.
 pub fn meets(case: &str, published: f64, ours: f64, tolerance: f64) {

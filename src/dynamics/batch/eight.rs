@@ -1,0 +1,131 @@
+//! Eight contacts gathered from anywhere, and evaluated together.
+
+use super::Single;
+use crate::contact::{Constants, Motion, Octet, Press};
+use crate::dynamics::state::State;
+use crate::model::{Ball, Model};
+use crate::simd::{LANES, Lanes, Mask, Task};
+
+/// Constants of all contacts with one ring.
+#[derive(Debug, Clone)]
+pub(in crate::dynamics) struct SideConstants {
+    /// Those of every ball.
+    pub balls: Vec<Constants<f64>>,
+    /// Those of the first in all lanes.
+    first: Constants<Lanes>,
+    /// Whether all are the same but for the axial place, so that nothing else need be gathered.
+    alike: bool,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+pub(in crate::dynamics) struct Touching {
+    pub ball: usize,
+    /// Raise of the race there.
+    pub wave: f64,
+}
+
+/// Up to eight contacts with one ring; the last one fills the lanes that are left.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Group {
+    pub side: usize,
+    pub contacts: [Touching; LANES],
+    pub count: usize,
+    pub press: Press,
+}
+
+impl SideConstants {
+    pub fn new(model: &Model, side: usize) -> Self {
+        let of = |ball: &Ball| model.rows[ball.row].pairs[side].constants(ball.side.radius);
+        let balls: Vec<_> = model.balls.iter().map(of).collect();
+        let mut first = Constants::default();
+        (0..LANES).for_each(|lane| first.set(lane, &balls[0]));
+        let alike = balls.iter().all(|other| {
+            let centre = balls[0].centre;
+            Constants { centre, ..*other } == balls[0]
+        });
+        Self {
+            balls,
+            first,
+            alike,
+        }
+    }
+
+    /// Eight contacts at a state.
+    // Compiled for the level that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    pub fn octet(&self, contacts: &[Touching; LANES], state: &State) -> Octet {
+        let State { q, v } = state;
+        let (q, v) = (
+            [0, 1, 2].map(|k| q.along(k)),
+            [0, 1, 2, 3].map(|k| v.along(k)),
+        );
+        let mut octet = Octet {
+            constants: self.first,
+            ..Octet::default()
+        };
+        for (lane, contact) in contacts.iter().enumerate() {
+            let of = &self.balls[contact.ball];
+            if self.alike {
+                octet.constants.centre[lane] = of.centre;
+            } else {
+                octet.constants.set(lane, of);
+            }
+            octet.wave[lane] = contact.wave;
+            let body = 2 + contact.ball;
+            for (to, from) in octet.q.iter_mut().zip(q) {
+                to[lane] = from[body];
+            }
+            for (to, from) in octet.v.iter_mut().zip(v) {
+                to[lane] = from[body];
+            }
+        }
+        octet
+    }
+}
+
+/// Leaves to themselves the contacts that were not simple.
+pub(super) fn leave(groups: &[Group], singles: &mut Vec<Single>) {
+    for group in groups {
+        let lanes = group
+            .press
+            .careful
+            .lanes()
+            .filter(|lane| *lane < group.count);
+        singles.extend(lanes.map(|lane| Single::new(group.side, group.contacts[lane].ball)));
+    }
+}
+
+/// Evaluates a group.
+pub(super) struct Eight<'a> {
+    pub group: &'a mut Group,
+    pub constants: &'a [SideConstants; 2],
+    pub plane: bool,
+    pub model: &'a Model,
+    pub state: &'a State,
+    pub rings: &'a [Motion; 2],
+}
+
+impl Task for Eight<'_> {
+    type Output = ();
+
+    // Compiled for the level that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        let group = self.group;
+        let side = group.side;
+        let mut octet = self.constants[side].octet(&group.contacts, self.state);
+        // Lanes left over must not count as pulling.
+        for lane in group.count..LANES {
+            octet.constants.radius[lane] *= 0.5;
+        }
+        let pair = &self.model.rows[0].pairs[side];
+        let (ring, skip) = (&self.rings[side], Mask::default());
+        group.press = if self.plane {
+            pair.press::<FMA, true>(&octet, ring, skip, None)
+        } else {
+            pair.press::<FMA, false>(&octet, ring, skip, None)
+        };
+    }
+}

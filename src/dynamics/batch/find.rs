@@ -1,0 +1,155 @@
+//! The search: which balls touch which race, eight at a time.
+
+use std::array::from_fn;
+
+use super::{Batch, SideConstants, Single, Touching};
+use crate::contact::{Constants, Motion, Octet, Places};
+use crate::dynamics::state::{State, Table};
+use crate::model::Model;
+use crate::simd::{LANES, Lanes, Mask, Task};
+
+/// Up to eight neighbours of a row.
+#[derive(Debug, Clone)]
+pub(super) struct Stretch {
+    pub row: usize,
+    pub first: usize,
+    radius: Lanes,
+    /// Which lanes are balls.
+    filled: Mask,
+    /// Which of them have defects of their own.
+    faulted: Mask,
+    /// Constants of their contacts with the outer and with the inner race.
+    constants: [Constants<Lanes>; 2],
+}
+
+impl Stretch {
+    pub fn new(
+        model: &Model,
+        constants: &[SideConstants; 2],
+        row: usize,
+        first: usize,
+        count: usize,
+    ) -> Self {
+        let lane = |lane: usize| first + lane.min(count - 1);
+        Self {
+            row,
+            first,
+            radius: Lanes::from_fn(|i| model.balls[lane(i)].side.radius),
+            filled: Mask::from_fn(|i| i < count),
+            faulted: Mask::from_fn(|i| !model.balls[lane(i)].side.faults.is_empty()),
+            constants: from_fn(|side| {
+                let mut all = Constants::default();
+                (0..LANES).for_each(|i| all.set(i, &constants[side].balls[lane(i)]));
+                all
+            }),
+        }
+    }
+
+    /// Numbers of its balls along one direction; in lanes that are left, of whatever comes next.
+    // Into what is compiled for the level that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn lanes(&self, of: &Table, direction: usize) -> Lanes {
+        of.eight(2 + self.first, direction)
+    }
+}
+
+/// Finds what touches, and evaluates what has a closed form.
+pub(super) struct Find<'a> {
+    pub batch: &'a mut Batch,
+    pub forces: Option<&'a mut Table>,
+    pub model: &'a Model,
+    pub state: &'a State,
+    pub rings: &'a [Motion; 2],
+}
+
+impl Task for Find<'_> {
+    type Output = ();
+
+    // Compiled for the level that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        let Self {
+            batch,
+            mut forces,
+            model,
+            state,
+            rings,
+        } = self;
+        batch.touching.iter_mut().for_each(Vec::clear);
+        batch.singles.clear();
+        (batch.lost, batch.pulls) = (None, 0);
+        let mut on_rings = [[Lanes::ZERO; 3]; 2];
+        for stretch in &batch.stretches {
+            let q = [
+                stretch.lanes(&state.q, 0),
+                stretch.lanes(&state.q, 1),
+                stretch.lanes(&state.q, 2),
+            ];
+            let places = Places {
+                radius: stretch.radius,
+                q,
+            };
+            let mut lost = Mask::default();
+            for (side, pair) in model.rows[stretch.row].pairs.iter().enumerate() {
+                let near = pair.near::<FMA>(&places, &rings[side]);
+                lost = lost.or(near.lost);
+                let touching = near.touching.and(stretch.filled);
+                if !touching.any() {
+                    continue;
+                }
+                let faulted = near.faulted.or(stretch.faulted).and(touching);
+                let closed = batch.closed[stretch.row][side].as_ref();
+                if let Some((closed, forces)) = closed.zip(forces.as_deref_mut()) {
+                    let skip = faulted.or(touching.not());
+                    let (vx, vy) = (stretch.lanes(&state.v, 0), stretch.lanes(&state.v, 1));
+                    let ring = &rings[side];
+                    let (ball, pulls, careful) = if batch.kind.plane {
+                        let level = pair.press_level::<FMA>(closed, &near, [vx, vy], ring, skip);
+                        let [x, y] = level.ball;
+                        ([x, y, Lanes::ZERO], level.pulls, level.careful)
+                    } else {
+                        let octet = Octet {
+                            constants: stretch.constants[side],
+                            wave: near.wave,
+                            q,
+                            v: [vx, vy, stretch.lanes(&state.v, 2), Lanes::ZERO],
+                        };
+                        let press = pair.press::<FMA, false>(&octet, ring, skip, Some(closed));
+                        let [x, y, z, _] = press.ball;
+                        ([x, y, z], press.pulls, press.careful)
+                    };
+                    for (i, force) in ball.into_iter().enumerate() {
+                        forces.add_eight(2 + stretch.first, i, force);
+                        on_rings[side][i] += force;
+                    }
+                    batch.pulls += pulls;
+                    let careful = careful.or(faulted).and(touching);
+                    if careful.any() {
+                        for lane in careful.lanes() {
+                            batch.singles.push(Single::new(side, stretch.first + lane));
+                        }
+                    }
+                    continue;
+                }
+                for lane in touching.lanes() {
+                    let ball = stretch.first + lane;
+                    if faulted.lane(lane) {
+                        batch.singles.push(Single::new(side, ball));
+                    } else {
+                        let wave = near.wave[lane];
+                        batch.touching[side].push(Touching { ball, wave });
+                    }
+                }
+            }
+            let lost = lost.and(stretch.filled);
+            if lost.any() && batch.lost.is_none() {
+                batch.lost = lost.lanes().map(|lane| stretch.first + lane).next();
+            }
+        }
+        for (ring, [x, y, z]) in batch.rings.iter_mut().zip(on_rings) {
+            *ring = [-x.sum(), -y.sum(), -z.sum(), 0.0];
+        }
+    }
+}

@@ -1,0 +1,282 @@
+//! All contacts of an evaluation: those that touch are found, gathered by eights and evaluated together.
+//!
+//! Where a contact has a closed form all neighbours are evaluated as they stand: to gather would cost more.
+//!
+//! Eights may be evaluated by several threads; since their members depend on the state alone and they are added
+//! up in one order afterwards, the bits do not depend on the number of threads.
+
+mod eight;
+mod find;
+
+use std::array::from_fn;
+
+use rayon::ThreadPool;
+use rayon::prelude::*;
+
+use super::state::{State, Table};
+use super::sums::Sum;
+use crate::contact::{Closed, Motion, Press};
+use crate::model::Model;
+use crate::simd::{LANES, Lanes};
+
+use eight::{Eight, Group, leave};
+pub(super) use eight::{SideConstants, Touching};
+use find::{Find, Stretch};
+
+/// What a batch may take for granted.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Kind {
+    /// All bodies stay in the planes of their rows.
+    pub plane: bool,
+    /// The second row is an image of the first, and not evaluated.
+    pub mirrored: bool,
+    /// Closed forms are used where there are any.
+    pub closed: bool,
+}
+
+/// The memory for all contacts of a model, and their sums after an evaluation.
+#[derive(Debug, Clone)]
+pub(super) struct Batch {
+    kind: Kind,
+    /// The balls of every row by eights, for the search.
+    stretches: Vec<Stretch>,
+    /// Closed forms by row, with the outer and the inner race.
+    closed: Vec<[Option<Closed>; 2]>,
+    /// Constants of the contacts with the outer and with the inner race.
+    pub constants: [SideConstants; 2],
+    /// Contacts of whole surfaces with the outer and with the inner ring, in the order of the balls.
+    touching: [Vec<Touching>; 2],
+    /// The same by eights: the first `active` of these.
+    groups: Vec<Group>,
+    active: usize,
+    /// Contacts that are evaluated one by one.
+    singles: Vec<Single>,
+    /// The first ball that has left its groove.
+    lost: Option<usize>,
+    /// Forces on the two rings by closed forms, and slices there whose damping wanted to pull.
+    rings: [[f64; 4]; 2],
+    pulls: u32,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Single {
+    side: usize,
+    ball: usize,
+    sum: Sum,
+}
+
+impl Batch {
+    pub fn new(model: &Model, kind: Kind) -> Self {
+        let constants: [SideConstants; 2] = from_fn(|side| SideConstants::new(model, side));
+        let rows = if kind.mirrored { 1 } else { model.rows.len() };
+        let mut stretches = Vec::new();
+        for (row, compiled) in model.rows.iter().enumerate().take(rows) {
+            for start in (0..compiled.count).step_by(LANES) {
+                let (first, count) = (compiled.first + start, LANES.min(compiled.count - start));
+                stretches.push(Stretch::new(model, &constants, row, first, count));
+            }
+        }
+        let balls = model.balls.len();
+        Self {
+            kind,
+            closed: (0..rows).map(|row| closed(model, row, kind)).collect(),
+            stretches,
+            constants,
+            touching: from_fn(|_| Vec::with_capacity(balls)),
+            groups: vec![Group::default(); 2 * balls.div_ceil(LANES)],
+            active: 0,
+            singles: Vec::with_capacity(2 * balls),
+            lost: None,
+            rings: [[0.0; 4]; 2],
+            pulls: 0,
+        }
+    }
+
+    /// Evaluates all contacts at a state, by the threads of a pool if there is one, and adds their sums to the forces
+    /// on all bodies; returns the moments about z on the two rings.
+    pub fn add_to(
+        &mut self,
+        forces: &mut Table,
+        model: &Model,
+        state: &State,
+        pool: Option<&ThreadPool>,
+    ) -> [f64; 2] {
+        self.fill(forces, model, state, pool);
+        self.sum(forces)
+    }
+
+    fn fill(
+        &mut self,
+        forces: &mut Table,
+        model: &Model,
+        state: &State,
+        pool: Option<&ThreadPool>,
+    ) {
+        let rings = [state.motion(0), state.motion(1)];
+        self.find(Some(forces), model, state, &rings);
+        self.gather();
+        let (constants, plane) = (&self.constants, self.kind.plane);
+        let eight = |group: &mut Group| {
+            model.level.run(Eight {
+                group,
+                constants,
+                plane,
+                model,
+                state,
+                rings: &rings,
+            });
+        };
+        let one = |single: &mut Single| {
+            let ball = &model.balls[single.ball];
+            let motion = state.motion(2 + single.ball);
+            model.rows[ball.row].pairs[single.side].evaluate(
+                &ball.side,
+                &motion,
+                &rings[single.side],
+                &mut single.sum,
+            );
+        };
+        let (groups, singles) = (&mut self.groups[..self.active], &mut self.singles);
+        if let Some(pool) = pool {
+            // From inside the pool, where a run lives, this is a plain call.
+            pool.install(|| {
+                groups.par_iter_mut().for_each(eight);
+                leave(groups, singles);
+                singles.par_iter_mut().for_each(one);
+            });
+        } else {
+            groups.iter_mut().for_each(eight);
+            leave(groups, singles);
+            singles.iter_mut().for_each(one);
+        }
+    }
+
+    /// Finds what touches; what has a closed form puts its forces where it is told.
+    pub fn find(
+        &mut self,
+        forces: Option<&mut Table>,
+        model: &Model,
+        state: &State,
+        rings: &[Motion; 2],
+    ) {
+        model.level.run(Find {
+            batch: self,
+            forces,
+            model,
+            state,
+            rings,
+        });
+    }
+
+    /// Contacts of whole surfaces with a ring, as last found.
+    pub fn touching(&self, side: usize) -> &[Touching] {
+        &self.touching[side]
+    }
+
+    /// Ring and ball of the contacts that may see a defect, as last found.
+    pub fn faulted(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.singles.iter().map(|single| (single.side, single.ball))
+    }
+
+    /// What touches, by eights.
+    fn gather(&mut self) {
+        self.active = 0;
+        for (side, touching) in self.touching.iter().enumerate() {
+            for contacts in touching.chunks(LANES) {
+                let group = &mut self.groups[self.active];
+                self.active += 1;
+                (group.side, group.count) = (side, contacts.len());
+                group.contacts[..contacts.len()].copy_from_slice(contacts);
+                group.contacts[contacts.len()..].fill(contacts[contacts.len() - 1]);
+            }
+        }
+    }
+
+    fn sum(&self, forces: &mut Table) -> [f64; 2] {
+        let mut rings = self.rings;
+        for group in &self.groups[..self.active] {
+            for (lane, contact) in group.contacts.iter().enumerate().take(group.count) {
+                let Press { ball, ring, .. } = &group.press;
+                let of = |[x, y, z, theta]: &[Lanes; 4]| [x[lane], y[lane], z[lane], theta[lane]];
+                forces.add(2 + contact.ball, &of(ball));
+                super::add(&mut rings[group.side], &of(ring));
+            }
+        }
+        for single in &self.singles {
+            forces.add(2 + single.ball, &single.sum.ball);
+            super::add(&mut rings[single.side], &single.sum.ring);
+        }
+        for (ring, mut sum) in rings.into_iter().enumerate() {
+            if self.kind.mirrored {
+                // What the image adds; along z it takes all.
+                sum = [2.0 * sum[0], 2.0 * sum[1], 0.0, 2.0 * sum[3]];
+            }
+            forces.add(ring, &sum);
+        }
+        rings.map(|sum| sum[3] * self.times())
+    }
+
+    /// Rows that are evaluated.
+    pub fn rows(&self) -> usize {
+        self.closed.len()
+    }
+
+    /// Whether the contacts of a row with a race are evaluated in closed form.
+    pub fn is_closed(&self, row: usize, side: usize) -> bool {
+        self.closed[row][side].is_some()
+    }
+
+    /// Whether all bodies stay in the planes of their rows.
+    pub fn is_plane(&self) -> bool {
+        self.kind.plane
+    }
+
+    /// How many contacts one stands for.
+    fn times(&self) -> f64 {
+        if self.kind.mirrored { 2.0 } else { 1.0 }
+    }
+
+    /// Slices whose damping wanted to pull.
+    pub fn pulls(&self) -> usize {
+        let grouped: u32 = self.groups[..self.active]
+            .iter()
+            .map(|group| group.press.pulls)
+            .sum();
+        let single: u32 = self.singles.iter().map(|single| single.sum.pulls).sum();
+        (self.pulls + grouped + single) as usize * (1 + usize::from(self.kind.mirrored))
+    }
+
+    /// Contacts cut off by a shoulder.
+    pub fn truncated(&self) -> usize {
+        let cut = self.singles.iter().filter(|single| single.sum.truncated);
+        cut.count() * (1 + usize::from(self.kind.mirrored))
+    }
+
+    /// The first ball that has left its groove: pressed deeper than half its radius, or beside the groove.
+    pub fn lost(&self) -> Option<usize> {
+        self.lost
+    }
+}
+
+/// Closed forms of a row's contacts.
+fn closed(model: &Model, row: usize, kind: Kind) -> [Option<Closed>; 2] {
+    let compiled = &model.rows[row];
+    let mut radii = model.balls[compiled.first..][..compiled.count]
+        .iter()
+        .map(|ball| ball.side.radius);
+    let radius = radii.next().filter(|first| radii.all(|r| r == *first));
+    from_fn(|side| {
+        let radius = radius.filter(|_| kind.closed)?;
+        Closed::new(&compiled.pairs[side], radius, kind.plane)
+    })
+}
+
+impl Single {
+    fn new(side: usize, ball: usize) -> Self {
+        Self {
+            side,
+            ball,
+            sum: Sum::default(),
+        }
+    }
+}
