@@ -48,8 +48,9 @@
 //!
 //! | what | touch | prove |
 //! |---|---|---|
-//! | a normal law | a file in `contact/`, a variant in `scene/contact.rs` and in `contact/law.rs`, a node in `contact/press.rs` | doctest values, limits |
+//! | a normal law | a file in `contact/`, a variant in `scene/contact.rs` and in `contact/law.rs`, a node in `contact/press.rs`, its slope in `contact/tangent.rs` | doctest values, limits |
 //! | a friction law | `contact/friction.rs`, a variant in `scene/contact.rs` | dissipation ≥ 0 |
+//! | what acts along z, or differs by row | `model/reduction/symmetry.rs` | a hair of it in `tests/reduction.rs` |
 //! | a race profile | `contact/race.rs`, `contact/press.rs` | gap against a closed form |
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
 //! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` | row sums, order of convergence |
