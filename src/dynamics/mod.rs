@@ -57,7 +57,7 @@ enum Order {
     Kept(Reduction, Option<usize>),
 }
 
-/// Names of the contributions of [`Dynamics::contributions`], in their order.
+/// Names of the contributions of [`Model::forces`], in their order.
 pub const CONTRIBUTIONS: [&str; 8] = [
     "contact", "damping", "friction", "cage", "support", "gravity", "load", "drive",
 ];
