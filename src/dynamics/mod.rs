@@ -72,6 +72,9 @@ impl<'m> Dynamics<'m> {
     }
 
     /// For the states that a reduction keeps. `start` is a state of all bodies.
+    ///
+    /// # Panics
+    /// If the length of `start` is not [`Model::dim`].
     pub fn reduced(model: &'m Model, reduction: Reduction, start: &[f64]) -> Self {
         let kind = Kind {
             plane: reduction.plane,
@@ -172,7 +175,10 @@ impl<'m> Dynamics<'m> {
         }
     }
 
-    /// The states of a run out of those of all bodies.
+    /// The states of a run ([`System::dim`] of them) out of those of all bodies ([`Model::dim`]).
+    ///
+    /// # Panics
+    /// If `full` is too short.
     pub fn compress(&self, full: &[f64]) -> Vec<f64> {
         match &self.order {
             Order::Bodies => full.to_vec(),
@@ -181,6 +187,9 @@ impl<'m> Dynamics<'m> {
     }
 
     /// The states of all bodies at a time \[s\] from those of a run; `full` holds them from another time.
+    ///
+    /// # Panics
+    /// If a length is wrong.
     pub fn expand(&self, t: f64, y: &[f64], full: &mut [f64]) {
         match &self.order {
             Order::Bodies => full.copy_from_slice(y),
@@ -189,6 +198,9 @@ impl<'m> Dynamics<'m> {
     }
 
     /// The same for their rates.
+    ///
+    /// # Panics
+    /// If a length is wrong.
     pub fn expand_rates(&self, t: f64, dy: &[f64], full: &mut [f64]) {
         match &self.order {
             Order::Bodies => full.copy_from_slice(dy),

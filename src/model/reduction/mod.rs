@@ -284,6 +284,9 @@ impl Reduction {
     }
 
     /// The kept states out of those of all bodies.
+    ///
+    /// # Panics
+    /// If `full` is too short.
     pub fn compress(&self, full: &[f64]) -> Vec<f64> {
         let (q, v) = full.split_at(full.len() / 2);
         let of = |half: &'_ [f64]| -> Vec<f64> {
