@@ -366,7 +366,7 @@ impl Recorder {
         dynamics.expand(t, y, &mut self.y);
         if self.needs_rhs {
             dynamics.rhs(t, y, dy);
-            dynamics.expand_rates(t, dy, &mut self.dy);
+            dynamics.expand_rates(t, y, dy, &mut self.dy);
         }
         self.values.clear();
         for reader in &self.readers {

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "AccurateSlices",
+    "Approximations",
     "Cage",
     "CageProbe",
     "Component",
@@ -776,6 +777,32 @@ is explicit in positions and implicit in velocities, and the choice of it or the
 
 
 @dataclass(frozen=True, kw_only=True)
+class Approximations(Part):
+    """Simplifications that change the answer, all off by default.
+
+    What each costs in accuracy is measured in ``benches/README.md``; :func:`ballrace.explain` offers those that
+    apply to a scene, and ``out.provenance.left_out`` tells which ones a run made use of.
+
+    Attributes
+    ----------
+    rolling : bool
+        Balls and cage are kinematic: every row orbits in proportion to the inner ring as it rolls at the start,
+        its balls evenly spaced, and moves along its radii and z only. Friction and cage are left out. Needs a
+        driven speed.
+    plane : bool
+        Rings and balls keep their axial places from the start, the balls of a row all the same one: the plane
+        model of a bearing with a contact angle, where loads along z do not change.
+    one_row : bool
+        Of two rows the one that carries less than 2 % of the load at the start is left out, where loads do not
+        change.
+    """
+
+    rolling: bool = False
+    plane: bool = False
+    one_row: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
 class Solver(Part):
     """How the equations are integrated.
 
@@ -844,6 +871,8 @@ class Scene(Part):
         Defects by name.
     probes : mapping of str to Probe
         Probes by name; none: the motion of the outer ring.
+    approximations : Approximations
+        What is given up for speed; nothing by default.
     solver : Solver
         Options of the integrator.
 
@@ -872,6 +901,7 @@ class Scene(Part):
     unbalances: Mapping[str, Unbalance] = field(default_factory=_empty)
     defects: Mapping[str, Defect] = field(default_factory=_empty)
     probes: Mapping[str, Probe] = field(default_factory=_empty)
+    approximations: Approximations = Approximations()
     solver: Solver = Solver()
 
     def __repr__(self) -> str:

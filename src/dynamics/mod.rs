@@ -7,6 +7,7 @@ mod energy;
 mod grip;
 mod implicit;
 mod others;
+mod rolling;
 mod stage;
 mod state;
 mod sums;
@@ -26,6 +27,7 @@ pub use energy::Energy;
 pub(crate) use uses::Use;
 
 use batch::{Batch, Kind};
+use rolling::Rolling;
 use stage::Stage;
 use state::{State, Table};
 use sums::Named;
@@ -53,8 +55,16 @@ pub struct Dynamics<'m> {
 enum Order {
     /// Everything, body by body, as [`Model::names`] says.
     Bodies,
-    /// What a reduction keeps, direction by direction; and the place of the driven rotation, if it is kept.
-    Kept(Reduction, Option<usize>),
+    /// What a reduction keeps, direction by direction.
+    Kept(Box<Kept>),
+}
+
+#[derive(Debug)]
+struct Kept {
+    reduction: Reduction,
+    /// Place of the driven rotation, if it is among the states.
+    driven: Option<usize>,
+    rolling: Rolling,
 }
 
 /// Names of the contributions of [`Model::forces`], in their order.
@@ -68,7 +78,7 @@ const INNER: usize = 1;
 impl<'m> Dynamics<'m> {
     /// For evaluations on one thread, of states as [`Model::names`] orders them.
     pub fn new(model: &'m Model) -> Self {
-        Self::with(model, Order::Bodies, Kind::default())
+        Self::with(model, Order::Bodies, Kind::whole(model))
     }
 
     /// For the states that a reduction keeps. `start` is a state of all bodies.
@@ -77,6 +87,7 @@ impl<'m> Dynamics<'m> {
     /// If the length of `start` is not [`Model::dim`].
     pub fn reduced(model: &'m Model, reduction: Reduction, start: &[f64]) -> Self {
         let kind = Kind {
+            rows: reduction.rows.clone(),
             plane: reduction.plane,
             mirrored: reduction.mirrored,
             closed: reduction.closed,
@@ -84,7 +95,13 @@ impl<'m> Dynamics<'m> {
         let driven = reduction
             .degrees()
             .position(|(body, i)| model.bodies[body].degrees[i] == Degree::Driven);
-        let mut dynamics = Self::with(model, Order::Kept(reduction, driven), kind);
+        let rolling = Rolling::new(&reduction);
+        let order = Order::Kept(Box::new(Kept {
+            reduction,
+            driven,
+            rolling,
+        }));
+        let mut dynamics = Self::with(model, order, kind);
         let mut places = start.to_vec();
         let kept = dynamics.compress(start);
         dynamics.expand(0.0, &kept, &mut places);
@@ -171,7 +188,7 @@ impl<'m> Dynamics<'m> {
             Order::Bodies => (0..4 * self.model.bodies.len())
                 .map(|i| (i / 4, i % 4))
                 .collect(),
-            Order::Kept(reduction, _) => reduction.degrees().collect(),
+            Order::Kept(kept) => kept.reduction.degrees().collect(),
         }
     }
 
@@ -182,7 +199,7 @@ impl<'m> Dynamics<'m> {
     pub fn compress(&self, full: &[f64]) -> Vec<f64> {
         match &self.order {
             Order::Bodies => full.to_vec(),
-            Order::Kept(reduction, _) => reduction.compress(full),
+            Order::Kept(kept) => kept.reduction.compress(full),
         }
     }
 
@@ -193,26 +210,27 @@ impl<'m> Dynamics<'m> {
     pub fn expand(&self, t: f64, y: &[f64], full: &mut [f64]) {
         match &self.order {
             Order::Bodies => full.copy_from_slice(y),
-            Order::Kept(reduction, _) => reduction.expand(self.model, t, y, full),
+            Order::Kept(kept) => kept.reduction.expand(self.model, t, y, full),
         }
     }
 
-    /// The same for their rates.
+    /// The same for the rates `dy` of a state `y`.
     ///
     /// # Panics
     /// If a length is wrong.
-    pub fn expand_rates(&self, t: f64, dy: &[f64], full: &mut [f64]) {
+    pub fn expand_rates(&self, t: f64, y: &[f64], dy: &[f64], full: &mut [f64]) {
         match &self.order {
             Order::Bodies => full.copy_from_slice(dy),
-            Order::Kept(reduction, _) => reduction.expand_rates(self.model, t, dy, full),
+            Order::Kept(kept) => kept.reduction.expand_rates(self.model, t, y, dy, full),
         }
     }
 
     /// Takes over a state vector.
     fn read(&mut self, t: f64, y: &[f64]) {
-        match &self.order {
+        match &mut self.order {
             Order::Bodies => self.state.read(y),
-            Order::Kept(reduction, _) => {
+            Order::Kept(kept) => {
+                let reduction = &kept.reduction;
                 let (q, v) = y.split_at(y.len() / 2);
                 for s in reduction.stretches() {
                     let (to, from) = (s.first..s.first + s.count, s.at..s.at + s.count);
@@ -224,10 +242,11 @@ impl<'m> Dynamics<'m> {
                     speeds.along_mut(s.direction)[to].copy_from_slice(&v[from]);
                 }
                 for coast in reduction.felt() {
-                    let (place, speed) = coast.at(t);
+                    let (place, speed) = coast.course.at(t);
                     *self.state.q.get_mut(coast.body, coast.direction) = place;
                     *self.state.v.get_mut(coast.body, coast.direction) = speed;
                 }
+                kept.rolling.place(reduction, t, &mut self.state);
             }
         }
     }
@@ -282,7 +301,7 @@ impl<'m> Dynamics<'m> {
                 }
             }
         }
-        others::cage(model, model.rows.len(), &state, &mut parts[3]);
+        others::cage(model, 0..model.rows.len(), &state, &mut parts[3]);
         others::supports(model, &state, &mut parts[4]);
         others::gravity(model, &mut parts[5]);
         for constant in [true, false] {
@@ -302,7 +321,7 @@ impl System for Dynamics<'_> {
     fn dim(&self) -> usize {
         match &self.order {
             Order::Bodies => self.model.dim(),
-            Order::Kept(reduction, _) => reduction.dim(),
+            Order::Kept(kept) => kept.reduction.dim(),
         }
     }
 
@@ -319,8 +338,8 @@ impl System for Dynamics<'_> {
                     *acceleration = self.acceleration(t, b);
                 }
             }
-            Order::Kept(reduction, driven) => {
-                for s in reduction.stretches() {
+            Order::Kept(kept) => {
+                for s in kept.reduction.stretches() {
                     let bodies = s.first..s.first + s.count;
                     let force = &self.forces.along(s.direction)[bodies.clone()];
                     let mobility = &self.mobility.along(s.direction)[bodies];
@@ -329,9 +348,14 @@ impl System for Dynamics<'_> {
                         *a = f * m;
                     }
                 }
-                if let (Some(i), Drive::Speed(speed)) = (driven, &self.model.scene.drive) {
-                    accelerations[*i] = speed.rate(t);
+                if let (Some(i), Drive::Speed(speed)) = (kept.driven, &self.model.scene.drive) {
+                    accelerations[i] = speed.rate(t);
                 }
+                kept.rolling.accelerate(
+                    &kept.reduction,
+                    (&self.forces, &self.mobility),
+                    accelerations,
+                );
             }
         }
     }

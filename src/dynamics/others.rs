@@ -1,5 +1,7 @@
 //! Forces that are not contacts: cage, supports, gravity, loads, drive.
 
+use std::ops::Range;
+
 use super::state::{State, Table};
 use crate::contact::Motion;
 use crate::model::{Model, RowModel};
@@ -34,10 +36,10 @@ pub(super) fn link(cage: &Cage, nominal: f64, first: &Motion, second: &Motion) -
     }
 }
 
-/// The links of the first `rows` rows.
-pub(super) fn cage(model: &Model, rows: usize, state: &State, forces: &mut Table) {
+/// The links of some rows.
+pub(super) fn cage(model: &Model, rows: Range<usize>, state: &State, forces: &mut Table) {
     if let Some(cage) = &model.scene.cage {
-        for row in &model.rows[..rows] {
+        for row in &model.rows[rows] {
             model.level.run(Links {
                 cage,
                 row,

@@ -42,7 +42,7 @@ impl Stage {
         let balls = model.balls.len();
         let eights = balls.div_ceil(LANES);
         Self {
-            search: Batch::new(model, Kind::default()),
+            search: Batch::new(model, Kind::whole(model)),
             meetings: vec![<[Meeting; 2]>::default(); balls],
             grips: vec![Grip::default(); eights],
             active: 0,

@@ -39,6 +39,12 @@ impl Table {
         &mut self.values[direction * self.stride..][..self.stride]
     }
 
+    /// All bodies, direction by direction.
+    pub fn directions_mut(&mut self) -> [&mut [f64]; 4] {
+        let mut chunks = self.values.chunks_exact_mut(self.stride);
+        std::array::from_fn(|_| chunks.next().unwrap_or_default())
+    }
+
     #[inline(always)]
     pub fn get(&self, body: usize, direction: usize) -> f64 {
         self.values[direction * self.stride + body]

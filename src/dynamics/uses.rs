@@ -56,8 +56,13 @@ impl Dynamics<'_> {
 
     /// How the contacts of a row with outer (0) or inner race are evaluated where nothing is in their way.
     pub(crate) fn evaluation(&self, row: usize, side: usize) -> String {
-        if row >= self.contacts.rows() {
-            return "image of row 0".to_owned();
+        if !self.contacts.rows().contains(&row) {
+            let instead = if self.contacts.is_mirrored() {
+                "image of row 0"
+            } else {
+                "left out by request"
+            };
+            return instead.to_owned();
         }
         if self.contacts.is_closed(row, side) {
             return "closed form".to_owned();

@@ -8,11 +8,12 @@ use crate::contact::hertz::Hertz;
 use crate::contact::iso16281::Iso16281;
 use crate::contact::{BallSide, Fault, Friction, Law, Pair, Rules, Slices, Torus, Waves};
 use crate::error::{Error, Result};
-use crate::scene::{self, Drive, Mount, NormalLaw, RingName, Row, Scene, Surface};
+use crate::scene::{self, Approximations, Drive, Mount, NormalLaw, RingName, Row, Scene, Surface};
 use crate::simd::Level;
 
 pub(super) fn compile(scene: &Scene) -> Result<Model> {
     scene.validate()?;
+    let scene = &Approximations::simplified(scene);
     let mut bodies = vec![
         ring(scene, &scene.outer_ring, RingName::Outer)?,
         ring(scene, &scene.inner_ring, RingName::Inner)?,

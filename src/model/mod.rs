@@ -109,7 +109,7 @@ impl Model {
         compile::compile(scene)
     }
 
-    /// The scene it was compiled from.
+    /// The scene it was compiled from, without the forces that its approximations give up.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -180,8 +180,7 @@ impl Model {
         let solver = &self.scene.solver;
         match solver.method {
             Method::ImplicitFriction | Method::Auto => None,
-            _ if solver.reduce => Some(Reduction::of(self, start)),
-            _ => Some(Reduction::none(self)),
+            _ => Some(Reduction::of(self, start, solver.reduce)),
         }
     }
 
@@ -189,9 +188,15 @@ impl Model {
     /// angle, fixed outer ring: ω_c = Ω(1 − γ)/2, θ̇_b = −ω_c d_m / (D cos α₀), γ = D cos α₀ / d_m.
     pub fn rolling_speeds(&self, row: usize) -> (f64, f64) {
         let speed = self.scene.drive.initial_speed();
+        let (orbit, spin) = self.rolling_shares(row);
+        (speed * orbit, speed * spin)
+    }
+
+    /// The same over the speed of the inner ring.
+    fn rolling_shares(&self, row: usize) -> (f64, f64) {
         let row = &self.scene.rows[row];
         let gamma = row.ball_diameter * row.contact_angle.cos() / row.pitch_diameter;
-        let orbit = speed * (1.0 - gamma) / 2.0;
+        let orbit = (1.0 - gamma) / 2.0;
         (orbit, -orbit / gamma)
     }
 }

@@ -12,6 +12,7 @@
 //! assert_eq!(wide.rows[0].clearance, 20e-6);
 //! ```
 
+mod approximations;
 mod bearing;
 mod contact;
 mod defaults;
@@ -31,6 +32,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
 
+pub use approximations::Approximations;
 pub use bearing::{Mount, Ring, RingName, Row, Support, Waviness};
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
 pub use defect::{Defect, Floor, Surface, Width, WidthProfile};
@@ -90,6 +92,9 @@ pub struct Scene {
     /// Probes by name; none: the motion of the outer ring.
     #[serde(default)]
     pub probes: BTreeMap<String, Probe>,
+    /// What is given up for speed; nothing by default.
+    #[serde(default)]
+    pub approximations: Approximations,
     /// Options of the integrator.
     #[serde(default)]
     pub solver: Solver,

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::{
-    Cage, Contact, Defect, Drive, Friction, Load, Materials, Mount, NormalLaw, Probe, Ring,
-    RingName, Row, SCHEMA, Scene, Solver, Support, Surface, defaults,
+    Approximations, Cage, Contact, Defect, Drive, Friction, Load, Materials, Mount, NormalLaw,
+    Probe, Ring, RingName, Row, SCHEMA, Scene, Solver, Support, Surface, defaults,
 };
 
 /// The paper's faulted double-row wheel bearing under 7 kN radial and the given axial load \[N\].
@@ -100,6 +100,7 @@ pub fn wheel_bearing(axial_load: f64) -> Scene {
             },
         )]),
         probes: ring_motion(),
+        approximations: Approximations::default(),
         solver: Solver::default(),
     }
 }
@@ -173,6 +174,7 @@ pub fn deep_groove_6205(radial_load: f64, axial_load: f64, speed_rpm: f64) -> Sc
         unbalances: BTreeMap::new(),
         defects: BTreeMap::new(),
         probes: ring_motion(),
+        approximations: Approximations::default(),
         solver: Solver::default(),
     }
 }

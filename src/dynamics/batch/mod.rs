@@ -9,6 +9,7 @@ mod eight;
 mod find;
 
 use std::array::from_fn;
+use std::ops::Range;
 
 use rayon::ThreadPool;
 use rayon::prelude::*;
@@ -24,14 +25,28 @@ pub(super) use eight::{SideConstants, Touching};
 use find::{Find, Stretch};
 
 /// What a batch may take for granted.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone)]
 pub(super) struct Kind {
+    /// Rows whose contacts are evaluated.
+    pub rows: Range<usize>,
     /// All bodies stay in the planes of their rows.
     pub plane: bool,
-    /// The second row is an image of the first, and not evaluated.
+    /// The second row is an image of the first.
     pub mirrored: bool,
     /// Closed forms are used where there are any.
     pub closed: bool,
+}
+
+impl Kind {
+    /// All rows, anything possible.
+    pub fn whole(model: &Model) -> Self {
+        Self {
+            rows: 0..model.rows.len(),
+            plane: false,
+            mirrored: false,
+            closed: false,
+        }
+    }
 }
 
 /// The memory for all contacts of a model, and their sums after an evaluation.
@@ -68,9 +83,9 @@ struct Single {
 impl Batch {
     pub fn new(model: &Model, kind: Kind) -> Self {
         let constants: [SideConstants; 2] = from_fn(|side| SideConstants::new(model, side));
-        let rows = if kind.mirrored { 1 } else { model.rows.len() };
         let mut stretches = Vec::new();
-        for (row, compiled) in model.rows.iter().enumerate().take(rows) {
+        for row in kind.rows.clone() {
+            let compiled = &model.rows[row];
             for start in (0..compiled.count).step_by(LANES) {
                 let (first, count) = (compiled.first + start, LANES.min(compiled.count - start));
                 stretches.push(Stretch::new(model, &constants, row, first, count));
@@ -78,8 +93,10 @@ impl Batch {
         }
         let balls = model.balls.len();
         Self {
+            closed: (0..model.rows.len())
+                .map(|row| closed(model, row, &kind))
+                .collect(),
             kind,
-            closed: (0..rows).map(|row| closed(model, row, kind)).collect(),
             stretches,
             constants,
             touching: from_fn(|_| Vec::with_capacity(balls)),
@@ -217,8 +234,13 @@ impl Batch {
     }
 
     /// Rows that are evaluated.
-    pub fn rows(&self) -> usize {
-        self.closed.len()
+    pub fn rows(&self) -> Range<usize> {
+        self.kind.rows.clone()
+    }
+
+    /// Whether one row stands for two.
+    pub fn is_mirrored(&self) -> bool {
+        self.kind.mirrored
     }
 
     /// Whether the contacts of a row with a race are evaluated in closed form.
@@ -259,14 +281,14 @@ impl Batch {
 }
 
 /// Closed forms of a row's contacts.
-fn closed(model: &Model, row: usize, kind: Kind) -> [Option<Closed>; 2] {
+fn closed(model: &Model, row: usize, kind: &Kind) -> [Option<Closed>; 2] {
     let compiled = &model.rows[row];
     let mut radii = model.balls[compiled.first..][..compiled.count]
         .iter()
         .map(|ball| ball.side.radius);
     let radius = radii.next().filter(|first| radii.all(|r| r == *first));
     from_fn(|side| {
-        let radius = radius.filter(|_| kind.closed)?;
+        let radius = radius.filter(|_| kind.closed && kind.rows.contains(&row))?;
         Closed::new(&compiled.pairs[side], radius, kind.plane)
     })
 }

@@ -1,12 +1,18 @@
 //! No more model than the scene needs: which degrees of freedom a run integrates, and why not the others.
 //!
-//! All of it is exact. Left out are directions that cannot accelerate (held, driven, or without any moment), and
-//! those that a mirror symmetry of scene *and* start keeps at rest or makes a copy of others.
+//! Exact is what goes unasked: directions that cannot accelerate (held, driven, or without any moment), and those that
+//! a mirror symmetry of scene *and* start keeps at rest or makes a copy of others. Approximations go by request
+//! ([`crate::scene::Approximations`]).
 
+mod course;
+mod request;
 mod symmetry;
 
+use std::ops::Range;
+
 use super::{Degree, Model};
-use crate::scene::{Drive, TimeFunction};
+
+use course::{Coast, Course, Orbit};
 
 /// The degrees of freedom that a run integrates, and what becomes of the others.
 ///
@@ -19,6 +25,10 @@ pub struct Reduction {
     coasts: Vec<Coast>,
     /// Those that some force depends on.
     felt: Vec<Coast>,
+    /// Rows that turn as one.
+    orbits: Vec<Orbit>,
+    /// Rows whose contacts are evaluated.
+    pub(crate) rows: Range<usize>,
     /// All bodies stay in the planes of their rows.
     pub(crate) plane: bool,
     /// The second row is the first one's mirror image.
@@ -59,33 +69,6 @@ pub(crate) struct Stretch {
     pub at: usize,
 }
 
-/// A degree of freedom whose speed does not depend on any force.
-#[derive(Debug, Clone)]
-pub(crate) struct Coast {
-    pub body: usize,
-    pub direction: usize,
-    place: f64,
-    speed: f64,
-    /// The drive, which prescribes the change of speed.
-    drive: Option<TimeFunction>,
-}
-
-impl Coast {
-    /// Place and speed at a time.
-    pub fn at(&self, t: f64) -> (f64, f64) {
-        match &self.drive {
-            Some(drive) => {
-                let extra = self.speed - drive.at(0.0);
-                (
-                    self.place + extra * t + drive.integral(t),
-                    extra + drive.at(t),
-                )
-            }
-            None => (self.place + self.speed * t, self.speed),
-        }
-    }
-}
-
 /// Why a degree of freedom is not integrated.
 #[derive(Clone, Copy, PartialEq)]
 enum Reason {
@@ -94,15 +77,21 @@ enum Reason {
     NoMoment,
     Mirror,
     Copy,
+    Rolling,
+    Level,
+    Idle,
 }
 
 impl Reason {
-    const ALL: [Self; 5] = [
+    const ALL: [Self; 8] = [
         Self::Held,
         Self::Driven,
         Self::NoMoment,
         Self::Mirror,
         Self::Copy,
+        Self::Rolling,
+        Self::Level,
+        Self::Idle,
     ];
 
     fn describe(self) -> (&'static str, &'static str) {
@@ -112,18 +101,102 @@ impl Reason {
             Self::NoMoment => ("spin of balls", "no friction: nothing turns them"),
             Self::Mirror => ("z", "mirror symmetry"),
             Self::Copy => ("balls of row 1", "mirror image of row 0"),
+            Self::Rolling => (
+                "orbit and spin of balls",
+                "by request: they roll, without friction and cage",
+            ),
+            Self::Level => ("z", "by request: axial places are kept"),
+            Self::Idle => (
+                "balls of the unloaded row",
+                "by request: they carry less than 2 % of the load",
+            ),
+        }
+    }
+}
+
+/// What may go, found before it is sorted out who goes.
+#[derive(Default)]
+struct Grounds {
+    exact: bool,
+    plane: bool,
+    mirrored: bool,
+    rolling: bool,
+    /// Axial places of rings and rows.
+    levels: Option<Vec<f64>>,
+    idle: Option<usize>,
+}
+
+impl Grounds {
+    /// Why a degree of freedom can be left out.
+    fn reason(&self, model: &Model, body: usize, direction: usize) -> Option<Reason> {
+        let ball = body.checked_sub(2).map(|j| &model.balls[j]);
+        if self.mirrored && ball.is_some_and(|ball| ball.row == 1) {
+            return Some(Reason::Copy);
+        }
+        if ball.is_some_and(|ball| self.idle == Some(ball.row)) {
+            return Some(Reason::Idle);
+        }
+        match model.bodies[body].degrees[direction] {
+            Degree::Fixed => self.exact.then_some(Reason::Held),
+            Degree::Driven => self.exact.then_some(Reason::Driven),
+            Degree::Free { stiffness, damping } => match (direction, ball) {
+                (2, _) if self.plane => Some(Reason::Mirror),
+                // The image pulls the rings the other way.
+                (2, None) if self.mirrored => Some(Reason::Mirror),
+                (2, _) if self.levels.is_some() => Some(Reason::Level),
+                (1 | 3, Some(_)) if self.rolling => Some(Reason::Rolling),
+                (3, Some(ball)) if self.exact => {
+                    let smooth = model.rows[ball.row].pairs[0].friction.is_none();
+                    let whole = ball.side.faults.is_empty();
+                    let loose = stiffness == 0.0 && damping == 0.0;
+                    (smooth && whole && loose).then_some(Reason::NoMoment)
+                }
+                _ => None,
+            },
+        }
+    }
+
+    /// How what is left out moves by itself, from a start; none where others tell.
+    fn course(&self, model: &Model, start: &[f64], state: usize, reason: Reason) -> Option<Course> {
+        let (body, direction) = (state / 4, state % 4);
+        let (place, speed) = (start[state], start[start.len() / 2 + state]);
+        let drive = &model.scene.drive;
+        match (reason, direction) {
+            (Reason::Copy, _) | (Reason::Rolling, 1) | (Reason::Idle, 0 | 1) => None,
+            (Reason::Mirror, _) => Some(Course::steady(model.bodies[body].nominal[direction], 0.0)),
+            (Reason::Level, _) => {
+                let at = match body.checked_sub(2) {
+                    Some(j) => 2 + model.balls[j].row,
+                    None => body,
+                };
+                self.levels
+                    .as_ref()
+                    .map(|levels| Course::steady(levels[at], 0.0))
+            }
+            (Reason::Idle, 2) => Some(Course::steady(place, 0.0)),
+            (Reason::Driven, _) => Some(Course::driven(place, speed, 1.0, drive)),
+            (Reason::Rolling, _) => {
+                let share = match drive.initial_speed() {
+                    0.0 => model.rolling_shares(model.balls[body - 2].row).1,
+                    of => speed / of,
+                };
+                Some(Course::driven(place, speed, share, drive))
+            }
+            _ => Some(Course::steady(place, speed)),
         }
     }
 }
 
 impl Reduction {
     /// Keeps everything.
-    pub fn none(model: &Model) -> Self {
+    fn none(model: &Model) -> Self {
         let mut whole = Self {
             stretches: Vec::new(),
             kept: 0,
             coasts: Vec::new(),
             felt: Vec::new(),
+            orbits: Vec::new(),
+            rows: 0..model.rows.len(),
             plane: false,
             mirrored: false,
             closed: false,
@@ -134,30 +207,57 @@ impl Reduction {
         whole
     }
 
-    /// Leaves out what does not change the motion from a start, a state of all bodies.
-    pub fn of(model: &Model, start: &[f64]) -> Self {
+    /// Leaves out what is given up by request and, if `exact` reductions are wanted, what does not change the motion
+    /// from a start, a state of all bodies.
+    pub(super) fn of(model: &Model, start: &[f64], exact: bool) -> Self {
         let mut reduction = Self::none(model);
         let mut obstacle = |what: &str, reason: String| {
             let what = what.to_owned();
             reduction.obstacles.push(Obstacle { what, reason });
         };
-        let plane = symmetry::about_rows(model, start)
-            .map_err(|reason| obstacle("motion in the plane", reason));
-        let mirrored = symmetry::of_rows(model, start)
-            .map(|reason| reason.map_err(|reason| obstacle("one row for two", reason)));
-        if model.rows[0].pairs[0].friction.is_some() {
-            obstacle("balls without spin", "friction turns them".to_owned());
+        let wanted = model.scene.approximations;
+        let mut grounds = Grounds {
+            exact,
+            rolling: wanted.rolling,
+            ..Grounds::default()
+        };
+        if exact {
+            grounds.plane = symmetry::about_rows(model, start)
+                .map_err(|reason| obstacle("motion in the plane", reason))
+                .is_ok();
+            grounds.mirrored = symmetry::of_rows(model, start).is_some_and(|found| {
+                found
+                    .map_err(|reason| obstacle("one row for two", reason))
+                    .is_ok()
+            });
+            if model.rows[0].pairs[0].friction.is_some() {
+                obstacle("balls without spin", "friction turns them".to_owned());
+            }
         }
-        reduction.closed = true;
-        reduction.plane = plane.is_ok();
-        reduction.mirrored = matches!(mirrored, Some(Ok(())));
-        reduction.leave_out(model, start);
+        if wanted.plane {
+            grounds.levels = request::levels(model, start)
+                .map_err(|reason| obstacle("axial places that are kept", reason))
+                .ok();
+        }
+        if wanted.one_row && !grounds.mirrored {
+            grounds.idle = request::idle_row(model, start)
+                .map_err(|reason| obstacle("without the unloaded row", reason))
+                .ok();
+        }
+        (reduction.closed, reduction.plane, reduction.mirrored) =
+            (exact, grounds.plane, grounds.mirrored);
+        reduction.rows = match grounds.idle {
+            Some(row) => 1 - row..2 - row,
+            None if grounds.mirrored => 0..1,
+            None => 0..model.rows.len(),
+        };
+        reduction.leave_out(model, start, &grounds);
         reduction
     }
 
-    fn leave_out(&mut self, model: &Model, start: &[f64]) {
+    fn leave_out(&mut self, model: &Model, start: &[f64], grounds: &Grounds) {
         let reasons: Vec<[Option<Reason>; 4]> = (0..model.bodies.len())
-            .map(|body| std::array::from_fn(|direction| self.reason(model, body, direction)))
+            .map(|body| std::array::from_fn(|direction| grounds.reason(model, body, direction)))
             .collect();
         self.keep(model, |body, direction| reasons[body][direction].is_none());
         for reason in Reason::ALL {
@@ -174,58 +274,38 @@ impl Reduction {
                 });
             }
         }
-        let half = start.len() / 2;
-        for (body, reasons) in reasons.iter().enumerate() {
-            for (direction, reason) in reasons.iter().enumerate() {
-                let Some(reason) = *reason else { continue };
-                let state = 4 * body + direction;
-                let (place, speed) = match reason {
-                    Reason::Copy => continue,
-                    Reason::Mirror => (model.bodies[body].nominal[direction], 0.0),
-                    _ => (start[state], start[half + state]),
-                };
-                let drive = match &model.scene.drive {
-                    Drive::Speed(value) if reason == Reason::Driven => Some(value.clone()),
-                    _ => None,
-                };
-                let moves = speed != 0.0 || drive.is_some();
-                let coast = Coast {
-                    body,
-                    direction,
-                    place,
-                    speed,
-                    drive,
-                };
-                if moves && reason != Reason::NoMoment {
-                    self.felt.push(coast.clone());
-                }
-                self.coasts.push(coast);
+        for (state, reason) in reasons.iter().flatten().enumerate() {
+            let Some(reason) = *reason else { continue };
+            let Some(course) = grounds.course(model, start, state, reason) else {
+                continue;
+            };
+            let coast = Coast {
+                body: state / 4,
+                direction: state % 4,
+                course,
+            };
+            if coast.course.moves() && is_felt(model, &coast, reason) {
+                self.felt.push(coast.clone());
+            }
+            self.coasts.push(coast);
+        }
+        for row in 0..model.rows.len() {
+            let idle = grounds.idle == Some(row);
+            let copy = grounds.mirrored && row == 1;
+            if idle || grounds.rolling && !copy {
+                let at = (!idle).then(|| self.at(2 + model.rows[row].first, 0));
+                self.orbits.push(Orbit::of(model, row, start, at));
             }
         }
     }
 
-    /// Why a degree of freedom can be left out.
-    fn reason(&self, model: &Model, body: usize, direction: usize) -> Option<Reason> {
-        let ball = body.checked_sub(2).map(|j| &model.balls[j]);
-        if self.mirrored && ball.is_some_and(|ball| ball.row == 1) {
-            return Some(Reason::Copy);
-        }
-        match model.bodies[body].degrees[direction] {
-            Degree::Fixed => Some(Reason::Held),
-            Degree::Driven => Some(Reason::Driven),
-            Degree::Free { stiffness, damping } => match (direction, ball) {
-                (2, _) if self.plane => Some(Reason::Mirror),
-                // The image pulls the rings the other way.
-                (2, None) if self.mirrored => Some(Reason::Mirror),
-                (3, Some(ball)) => {
-                    let smooth = model.rows[ball.row].pairs[0].friction.is_none();
-                    let whole = ball.side.faults.is_empty();
-                    let loose = stiffness == 0.0 && damping == 0.0;
-                    (smooth && whole && loose).then_some(Reason::NoMoment)
-                }
-                _ => None,
-            },
-        }
+    /// Place of a degree of freedom among those that are kept.
+    fn at(&self, body: usize, direction: usize) -> usize {
+        let holds =
+            |s: &&Stretch| s.direction == direction && (s.first..s.first + s.count).contains(&body);
+        let stretch = self.stretches.iter().find(holds);
+        let stretch = stretch.expect("a degree of freedom that is kept");
+        stretch.at + body - stretch.first
     }
 
     /// Lists what is kept, direction by direction.
@@ -276,6 +356,13 @@ impl Reduction {
         &self.felt
     }
 
+    /// Rows that turn as one and whose radii are states, with the place of their first one.
+    pub(crate) fn orbits(&self) -> impl Iterator<Item = (&Orbit, usize)> {
+        self.orbits
+            .iter()
+            .filter_map(|orbit| Some((orbit, orbit.at?)))
+    }
+
     /// The kept degrees of freedom in their order, as (body, direction).
     pub(crate) fn degrees(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.stretches
@@ -294,7 +381,11 @@ impl Reduction {
                 .map(|(body, direction)| half[4 * body + direction])
                 .collect()
         };
-        [of(q), of(v)].concat()
+        let mut kept = [of(q), of(v)].concat();
+        for orbit in &self.orbits {
+            orbit.compress(full, &mut kept);
+        }
+        kept
     }
 
     /// The states of all bodies at a time, from those that are kept. `full` holds them from another time, or from
@@ -304,7 +395,10 @@ impl Reduction {
         self.spread(y, full);
         for coast in &self.coasts {
             let state = 4 * coast.body + coast.direction;
-            (full[state], full[half + state]) = coast.at(t);
+            (full[state], full[half + state]) = coast.course.at(t);
+        }
+        for orbit in &self.orbits {
+            orbit.place(t, y, full);
         }
         if self.mirrored {
             let axial = f64::midpoint(
@@ -315,14 +409,24 @@ impl Reduction {
         }
     }
 
-    /// Rates of all states from those of the kept ones and the places and speeds of all.
-    pub(crate) fn expand_rates(&self, model: &Model, t: f64, rates: &[f64], full: &mut [f64]) {
+    /// Rates of all states from the kept states and their rates.
+    pub(crate) fn expand_rates(
+        &self,
+        model: &Model,
+        t: f64,
+        y: &[f64],
+        rates: &[f64],
+        full: &mut [f64],
+    ) {
         let half = full.len() / 2;
         self.spread(rates, full);
         for coast in &self.coasts {
             let state = 4 * coast.body + coast.direction;
-            full[state] = coast.at(t).1;
-            full[half + state] = coast.drive.as_ref().map_or(0.0, |drive| drive.rate(t));
+            full[state] = coast.course.at(t).1;
+            full[half + state] = coast.course.rate(t);
+        }
+        for orbit in &self.orbits {
+            orbit.rates(t, y, rates, full);
         }
         if self.mirrored {
             copy_row(model, full, 0.0);
@@ -351,5 +455,15 @@ fn copy_row(model: &Model, full: &mut [f64], sum: f64) {
             full.copy_within(from..from + 4, to);
             full[to + 2] = sum - full[from + 2];
         }
+    }
+}
+
+/// Whether forces depend on a degree of freedom that runs its course.
+fn is_felt(model: &Model, coast: &Coast, reason: Reason) -> bool {
+    match reason {
+        Reason::NoMoment | Reason::Idle => false,
+        // Only a defect tells how far a ball has turned.
+        Reason::Rolling => !model.balls[coast.body - 2].side.faults.is_empty(),
+        _ => true,
     }
 }

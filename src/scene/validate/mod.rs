@@ -60,6 +60,7 @@ impl Scene {
             entry_name("probes", name)?;
             probe::probe(self, &format!("probes.{name}"), probe)?;
         }
+        self.approximations.validate(self)?;
         within("solver.rtol", self.solver.rtol, 1e-12..=1e-1)?;
         for (path, step) in [
             ("solver.first_step", self.solver.first_step),

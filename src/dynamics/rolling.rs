@@ -1,0 +1,72 @@
+//! Rows that turn as one: from radii to places, and from forces to what accelerates the radii.
+
+use super::state::{State, Table};
+use crate::model::Reduction;
+
+/// Directions of the balls of all rows that turn as one, at the last state.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Rolling {
+    balls: Vec<Ball>,
+}
+
+/// A ball on its radius.
+#[derive(Debug, Clone, Copy, Default)]
+struct Ball {
+    direction: [f64; 2],
+    /// r ω² \[m/s²\].
+    centrifugal: f64,
+}
+
+impl Rolling {
+    pub fn new(reduction: &Reduction) -> Self {
+        let count = reduction
+            .orbits()
+            .map(|(orbit, _)| orbit.starts.len())
+            .sum();
+        Self {
+            balls: vec![Ball::default(); count],
+        }
+    }
+
+    /// Puts balls whose radii stand for x where they are.
+    pub fn place(&mut self, reduction: &Reduction, t: f64, state: &mut State) {
+        let mut balls = self.balls.iter_mut();
+        for (orbit, _) in reduction.orbits() {
+            let turn = orbit.turn(t);
+            let bodies = orbit.first..orbit.first + orbit.starts.len();
+            let [x, y, ..] = state.q.directions_mut().map(|of| &mut of[bodies.clone()]);
+            let [vx, vy, ..] = state.v.directions_mut().map(|of| &mut of[bodies.clone()]);
+            for (k, (start, ball)) in orbit.starts.iter().zip(balls.by_ref()).enumerate() {
+                let [cos, sin] = turn.of(*start);
+                let (r, v) = (x[k], vx[k]);
+                let around = r * turn.speed;
+                (x[k], y[k]) = (r * cos, r * sin);
+                (vx[k], vy[k]) = (v * cos - around * sin, v * sin + around * cos);
+                *ball = Ball {
+                    direction: [cos, sin],
+                    centrifugal: around * turn.speed,
+                };
+            }
+        }
+    }
+
+    /// Second derivatives of the radii: r̈ = F_r / m + r ω².
+    pub fn accelerate(
+        &self,
+        reduction: &Reduction,
+        (forces, mobility): (&Table, &Table),
+        accelerations: &mut [f64],
+    ) {
+        let mut balls = self.balls.iter();
+        for (orbit, at) in reduction.orbits() {
+            let count = orbit.starts.len();
+            let bodies = orbit.first..orbit.first + count;
+            let [x, y, m] = [forces.along(0), forces.along(1), mobility.along(0)]
+                .map(|along| &along[bodies.clone()]);
+            for (k, ball) in balls.by_ref().take(count).enumerate() {
+                let [cos, sin] = ball.direction;
+                accelerations[at + k] = (x[k] * cos + y[k] * sin) * m[k] + ball.centrifugal;
+            }
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Motions that no force changes.
+
+use crate::model::{Model, RowModel};
+use crate::scene::{Drive, TimeFunction};
+
+/// A place whose speed is constant or follows the drive.
+#[derive(Debug, Clone)]
+pub(crate) struct Course {
+    place: f64,
+    speed: f64,
+    /// The drive and the share of it that this speed changes by.
+    drive: Option<(f64, TimeFunction)>,
+}
+
+impl Course {
+    /// At a constant speed from a place.
+    pub fn steady(place: f64, speed: f64) -> Self {
+        Self {
+            place,
+            speed,
+            drive: None,
+        }
+    }
+
+    /// At a speed that changes with a share of the drive's.
+    pub fn driven(place: f64, speed: f64, share: f64, drive: &Drive) -> Self {
+        Self {
+            place,
+            speed,
+            drive: match drive {
+                Drive::Speed(of) => Some((share, of.clone())),
+                Drive::Torque { .. } => None,
+            },
+        }
+    }
+
+    /// Whether it ever leaves its place.
+    pub fn moves(&self) -> bool {
+        self.speed != 0.0 || self.drive.is_some()
+    }
+
+    /// Place and speed at a time.
+    pub fn at(&self, t: f64) -> (f64, f64) {
+        match &self.drive {
+            Some((share, drive)) => {
+                let extra = self.speed - share * drive.at(0.0);
+                (
+                    self.place + extra * t + share * drive.integral(t),
+                    extra + share * drive.at(t),
+                )
+            }
+            None => (self.place + self.speed * t, self.speed),
+        }
+    }
+
+    /// Acceleration at a time.
+    pub fn rate(&self, t: f64) -> f64 {
+        self.drive
+            .as_ref()
+            .map_or(0.0, |(share, drive)| share * drive.rate(t))
+    }
+}
+
+/// A degree of freedom that runs its course.
+#[derive(Debug, Clone)]
+pub(crate) struct Coast {
+    pub body: usize,
+    pub direction: usize,
+    pub course: Course,
+}
+
+/// A row whose balls turn about the axis as one, each on its own radius.
+#[derive(Debug, Clone)]
+pub(crate) struct Orbit {
+    /// Body of its first ball.
+    pub first: usize,
+    /// Directions of the balls at the start; or their places, where radii do not change.
+    pub starts: Vec<[f64; 2]>,
+    /// Place of the first radius among the states, if they are: they stand where x would, their speeds where vx.
+    pub at: Option<usize>,
+    /// Angle from the start.
+    course: Course,
+}
+
+/// How far an orbit has turned.
+pub(crate) struct Turn {
+    sin: f64,
+    cos: f64,
+    /// \[rad/s\]
+    pub speed: f64,
+    /// \[rad/s²\]
+    rate: f64,
+}
+
+impl Turn {
+    /// A direction turned.
+    pub fn of(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.cos * x - self.sin * y, self.sin * x + self.cos * y]
+    }
+}
+
+impl Orbit {
+    /// From a start, a state of all bodies: as fast as the balls of the row are in the mean, and in proportion to the
+    /// drive. `at` is the place of the first radius among the states, if they are.
+    pub fn of(model: &Model, row: usize, start: &[f64], at: Option<usize>) -> Self {
+        let half = start.len() / 2;
+        let RowModel { first, count, .. } = model.rows[row];
+        let first = 2 + first;
+        let mut speed = 0.0;
+        let starts = (first..first + count)
+            .map(|body| {
+                let [x, y] = [start[4 * body], start[4 * body + 1]];
+                let [vx, vy] = [start[half + 4 * body], start[half + 4 * body + 1]];
+                let square = x * x + y * y;
+                speed += (x * vy - y * vx) / square / count as f64;
+                let scale = if at.is_some() { square.sqrt() } else { 1.0 };
+                [x / scale, y / scale]
+            })
+            .collect();
+        let drive = &model.scene.drive;
+        let share = match drive.initial_speed() {
+            0.0 => model.rolling_shares(row).0,
+            of => speed / of,
+        };
+        Self {
+            first,
+            starts,
+            at,
+            course: Course::driven(0.0, speed, share, drive),
+        }
+    }
+
+    /// How far it has turned.
+    pub fn turn(&self, t: f64) -> Turn {
+        let (angle, speed) = self.course.at(t);
+        let (sin, cos) = angle.sin_cos();
+        Turn {
+            sin,
+            cos,
+            speed,
+            rate: self.course.rate(t),
+        }
+    }
+
+    /// Writes places and speeds of its balls into a state of all bodies, from those that are kept.
+    pub(super) fn place(&self, t: f64, y: &[f64], full: &mut [f64]) {
+        let turn = self.turn(t);
+        let half = full.len() / 2;
+        for (k, start) in self.starts.iter().enumerate() {
+            let [r, v] = self
+                .at
+                .map_or([1.0, 0.0], |at| [y[at + k], y[y.len() / 2 + at + k]]);
+            let [x, y] = turn.of(*start);
+            let body = 4 * (self.first + k);
+            full[body..body + 2].copy_from_slice(&[r * x, r * y]);
+            let w = r * turn.speed;
+            full[half + body..half + body + 2].copy_from_slice(&[v * x - w * y, v * y + w * x]);
+        }
+    }
+
+    /// The same for the rates.
+    pub(super) fn rates(&self, t: f64, y: &[f64], rates: &[f64], full: &mut [f64]) {
+        let turn = self.turn(t);
+        let half = full.len() / 2;
+        for (k, start) in self.starts.iter().enumerate() {
+            let [r, v, a] = self.at.map_or([1.0, 0.0, 0.0], |at| {
+                [y[at + k], rates[at + k], rates[y.len() / 2 + at + k]]
+            });
+            let [x, y] = turn.of(*start);
+            let body = 4 * (self.first + k);
+            let w = r * turn.speed;
+            full[body..body + 2].copy_from_slice(&[v * x - w * y, v * y + w * x]);
+            let (radial, along) = (a - w * turn.speed, 2.0 * v * turn.speed + r * turn.rate);
+            full[half + body..half + body + 2]
+                .copy_from_slice(&[radial * x - along * y, radial * y + along * x]);
+        }
+    }
+
+    /// Radii and their speeds into the kept states, from a state of all bodies.
+    pub(super) fn compress(&self, full: &[f64], y: &mut [f64]) {
+        let Some(at) = self.at else { return };
+        let (half, kept) = (full.len() / 2, y.len() / 2);
+        for k in 0..self.starts.len() {
+            let body = 4 * (self.first + k);
+            let [x, y_] = [full[body], full[body + 1]];
+            let r = x.hypot(y_);
+            y[at + k] = r;
+            y[kept + at + k] = (x * full[half + body] + y_ * full[half + body + 1]) / r;
+        }
+    }
+}

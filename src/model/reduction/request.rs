@@ -1,0 +1,60 @@
+//! Approximations by request: what they need of scene and start.
+
+use crate::model::Model;
+use crate::scene::TimeFunction;
+
+/// Share of the load up to which a row counts as unloaded.
+const IDLE: f64 = 0.02;
+
+/// Axial places that rings (first two) and rows keep: those of the start, a row's balls in the mean of what they carry.
+pub(super) fn levels(model: &Model, start: &[f64]) -> Result<Vec<f64>, String> {
+    steady(model, |direction| direction[2] != 0.0)?;
+    let z = |body: usize| start[4 * body + 2];
+    let rows = model.rows.iter().map(|row| {
+        let balls = row.first..row.first + row.count;
+        let (mut sum, mut all, mut mean) = (0.0, 0.0, 0.0);
+        for j in balls {
+            let [outer, inner] = [0, 1].map(|race| model.contact(start, j, race).load);
+            let load = outer.min(inner);
+            sum += load * z(2 + j);
+            all += load;
+            mean += z(2 + j) / row.count as f64;
+        }
+        if all > 0.0 { sum / all } else { mean }
+    });
+    Ok([z(0), z(1)].into_iter().chain(rows).collect())
+}
+
+/// The unloaded one of two rows.
+pub(super) fn idle_row(model: &Model, start: &[f64]) -> Result<usize, String> {
+    steady(model, |_| true)?;
+    let loads: Vec<f64> = model
+        .rows
+        .iter()
+        .map(|row| {
+            let balls = row.first..row.first + row.count;
+            balls.map(|j| model.contact(start, j, 1).load).sum()
+        })
+        .collect();
+    let row = usize::from(loads[1] < loads[0]);
+    let share = loads[row] / (loads[0] + loads[1]).max(f64::MIN_POSITIVE);
+    if share <= IDLE {
+        Ok(row)
+    } else {
+        Err(format!(
+            "row {row} carries {:.0} % of the load, more than {:.0} %",
+            100.0 * share,
+            100.0 * IDLE
+        ))
+    }
+}
+
+/// Loads of some directions must not change.
+fn steady(model: &Model, matters: impl Fn(&[f64; 3]) -> bool) -> Result<(), String> {
+    for ((name, _), load) in model.scene.loads.iter().zip(&model.loads) {
+        if matters(&load.direction) && !matches!(load.force, TimeFunction::Constant(_)) {
+            return Err(format!("load {name:?} changes in time"));
+        }
+    }
+    Ok(())
+}

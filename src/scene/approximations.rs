@@ -1,0 +1,76 @@
+//! What a user gives up for speed.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Drive, Friction, Method, Mount, Scene};
+use crate::error::{Error, Result};
+
+/// Simplifications that change the answer, all off by default. What each costs in accuracy is measured in
+/// `benches/README.md`; [`crate::explain()`] offers those that apply to a scene.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Approximations {
+    /// Balls and cage are kinematic: every row orbits in proportion to the inner ring as it rolls at the start, its
+    /// balls evenly spaced, and moves along its radii and z only. Friction and cage are left out.
+    pub rolling: bool,
+    /// Rings and balls keep their axial places from the start, the balls of a row all the same one: the plane model
+    /// of a bearing with a contact angle, for loads along z that do not change.
+    pub plane: bool,
+    /// Of two rows the one that carries next to nothing at the start is left out, for thrust that unloads it.
+    pub one_row: bool,
+}
+
+impl Approximations {
+    /// Whether any is asked for.
+    pub fn any(self) -> bool {
+        self != Self::default()
+    }
+
+    /// The scene without the forces that are given up.
+    pub(crate) fn simplified(scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        if scene.approximations.rolling {
+            (scene.friction, scene.cage) = (Friction::None, None);
+        }
+        scene
+    }
+
+    /// Refuses what cannot be.
+    pub(super) fn validate(self, scene: &Scene) -> Result<()> {
+        let refuse = |field: &str, allowed: String| {
+            Err(Error::scene(
+                format!("approximations.{field}"),
+                true,
+                allowed,
+            ))
+        };
+        let method = scene.solver.method;
+        if self.any() && matches!(method, Method::ImplicitFriction | Method::Auto) {
+            return Err(Error::scene(
+                "approximations",
+                "asked for",
+                "none with solver.method \"implicit-friction\" or \"auto\", which take all states",
+            ));
+        }
+        if self.rolling {
+            if !matches!(scene.drive, Drive::Speed(_)) {
+                return refuse(
+                    "rolling",
+                    "false with drive.torque: without friction nothing balances it".to_owned(),
+                );
+            }
+            for (i, row) in scene.rows.iter().enumerate() {
+                if row.ball_support.mounts(Mount::Free) != [Mount::Free; 4] {
+                    return refuse(
+                        "rolling",
+                        format!("false with rows[{i}].ball_support, which holds balls in place"),
+                    );
+                }
+            }
+        }
+        if self.one_row && scene.rows.len() != 2 {
+            return refuse("one_row", "false unless there are two rows".to_owned());
+        }
+        Ok(())
+    }
+}
