@@ -84,7 +84,7 @@ fn difference(scene: &Scene) -> f64 {
         dynamics.expand(t, &y, &mut full);
         dynamics.rhs(t, &y, &mut own);
         rates.copy_from_slice(&full);
-        dynamics.expand_rates(t, &own, &mut rates);
+        dynamics.expand_rates(t, &y, &own, &mut rates);
         model.rhs(t, &full, &mut wanted);
         let loads: f64 = (0..model.body_count() - 2)
             .flat_map(|j| [0, 1].map(|race| model.contact(&full, j, race).load))

@@ -24,6 +24,7 @@ LITERATURE = [
     "literature_statics",
     "literature_dynamics",
     "literature_spall",
+    "statics",
 ]
 # Python tests that print rows of the same form.
 MEASURED = ["test_defects_speak.py", "test_cwru.py", "test_exudyn.py"]

@@ -1,5 +1,7 @@
 //! Arcs where a surface is absent, and the fault circles at their edges (model section 7).
 
+use std::f64::consts::PI;
+
 use super::wrapped;
 use crate::scene::{Defect, Width};
 
@@ -19,6 +21,12 @@ pub struct Fault {
     /// Twice the largest half-angle: a contact further away never sees the fault \[rad\].
     pub reach: f64,
     width: Width,
+}
+
+/// Directions in the frame of the scene: those whose component along the middle, over their length, is above a bound.
+pub(crate) struct Sight {
+    pub middle: [f64; 2],
+    pub bound: f64,
 }
 
 impl Fault {
@@ -51,6 +59,16 @@ impl Fault {
             // Each found it on its own race.
             && (self.reach - other.reach).abs() <= 1e-12 * self.reach
             && *self == image
+    }
+
+    /// The directions of contacts that may see the fault, while its body is turned by an angle.
+    pub(crate) fn sight(&self, turned: f64) -> Sight {
+        let (sin, cos) = (self.angle + turned).sin_cos();
+        Sight {
+            middle: [cos, sin],
+            // A little more than the reach, for rounding.
+            bound: self.reach.min(PI).cos() - 1e-12,
+        }
     }
 
     /// Whether a contact in this direction of the body's frame may see the fault.

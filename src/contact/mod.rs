@@ -5,7 +5,8 @@
 //! [`friction`] (section 5). Where a [`fault`] removes the surface, fault circles take the slice's
 //! place (section 7). [`pair`] puts these together and hands every single force to a [`Sink`]:
 //! `walk` visits the slices, `feature` decides what each one meets. `press` does the same for eight contacts at once
-//! where all surfaces are whole; `octet` says which those are, and `closed` has whole contacts in one formula.
+//! where all surfaces are whole; `octet` says which those are. `closed` has whole contacts in one formula, `level` evaluates
+//! it for balls that keep their axial places.
 //! `still` holds contacts at one place for any velocities; `tangent` gives force and stiffness at rest.
 
 mod closed;
@@ -16,6 +17,7 @@ pub mod friction;
 pub mod hertz;
 pub mod iso16281;
 pub mod law;
+mod level;
 mod octet;
 pub mod pair;
 mod power;
@@ -28,11 +30,13 @@ mod walk;
 
 use nalgebra::Vector2;
 
-pub(crate) use closed::Closed;
+pub(crate) use closed::{InPlane, stiffness};
 pub use fault::Fault;
+pub(crate) use fault::Sight;
 pub use friction::Friction;
 pub use law::Law;
-pub(crate) use octet::{Constants, Near, Octet, Places};
+pub(crate) use level::{LevelBalls, LevelRace};
+pub(crate) use octet::{Constants, Octet, Places};
 pub use pair::{BallSide, Pair};
 pub(crate) use press::Press;
 pub use race::{Torus, Waves};

@@ -3,8 +3,7 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use std::f64::consts::PI;
-
+use super::fault::Sight;
 use super::{Law, Motion, Pair};
 use crate::simd::{Lanes, Mask};
 
@@ -25,11 +24,6 @@ pub(crate) struct Near {
     pub faulted: Mask,
     pub wave: Lanes,
     pub lost: Mask,
-    /// From the ring's centre to the ball's.
-    pub apart: [Lanes; 2],
-    pub distance: Lanes,
-    pub e: Lanes,
-    pub approach: Lanes,
 }
 
 /// Eight touching contacts, not necessarily of one row, all with the outer or all with the inner ring.
@@ -115,11 +109,11 @@ impl Pair {
         let mut faulted = Mask::default();
         if !self.faults.is_empty() && touching.any() {
             for fault in &self.faults {
-                let (sin, cos) = (fault.angle + ring.theta).sin_cos();
-                let along = x * cos + y * sin;
-                // A little more than the reach, for rounding.
-                let bound = d * (fault.reach.min(PI).cos() - 1e-12);
-                faulted = faulted.or(along.above(bound));
+                let Sight {
+                    middle: [cos, sin],
+                    bound,
+                } = fault.sight(ring.theta);
+                faulted = faulted.or((x * cos + y * sin).above(d * bound));
             }
         }
         // Pressed deeper than half the radius, or beside the groove; what is not a number counts as lost.
@@ -131,10 +125,6 @@ impl Pair {
             faulted: faulted.and(touching),
             wave,
             lost: inside.not(),
-            apart: [x, y],
-            distance: d,
-            e,
-            approach,
         }
     }
 }

@@ -13,7 +13,7 @@
 use super::octet::Octet;
 use super::power::ten_ninths;
 use super::race::SHALLOW;
-use super::{Closed, Law, Motion, Pair, Slices};
+use super::{Law, Motion, Pair, Slices};
 use crate::simd::{Counters, Lanes, Mask};
 
 /// What eight contacts put on balls and ring: force \[N\] and moment about z \[N m\].
@@ -118,12 +118,12 @@ impl Pair {
         octet: &Octet,
         ring: &Motion,
         skip: Mask,
-        closed: Option<&Closed>,
+        stiffness: Option<f64>,
     ) -> Press {
         let (circles, place) = self.place::<FMA, PLANE>(octet, ring, skip);
         let mut sums = Sums::default();
-        match closed {
-            Some(closed) => self.whole::<FMA>(&circles, closed, &mut sums),
+        match stiffness {
+            Some(stiffness) => self.whole::<FMA>(&circles, stiffness, &mut sums),
             None => self.each::<FMA, PLANE, _>(&circles, &mut sums),
         }
         let (sigma, n) = (self.race.sigma, place.n);
@@ -275,14 +275,15 @@ impl Pair {
         }
     }
 
-    /// Contacts without friction in closed form: every slice approaches alike.
+    /// Hertz's contacts without friction as a whole, K δ^{3/2}: every slice approaches alike.
     #[inline(always)]
-    fn whole<const FMA: bool>(&self, circles: &Circles, closed: &Closed, sums: &mut Sums) {
+    fn whole<const FMA: bool>(&self, circles: &Circles, stiffness: f64, sums: &mut Sums) {
+        let pressed = circles.approach.or_zero();
         let node = Node {
             sin: Lanes::ZERO,
             cos: Lanes::ZERO,
             groove: Lanes::ZERO,
-            elastic: closed.force::<FMA>(circles.approach.or_zero()),
+            elastic: pressed * pressed.sqrt() * stiffness,
             share: circles.normal,
         };
         sums.node::<FMA, false>(self, circles, &node, self.slices.count());

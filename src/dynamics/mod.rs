@@ -19,7 +19,7 @@ use rayon::ThreadPool;
 
 use crate::contact::{Motion, Pair, Slices};
 use crate::integrate::System;
-use crate::model::{Degree, Model, Reduction, RowModel};
+use crate::model::{Degree, Model, Reduction, RowModel, Spring};
 use crate::scene::Drive;
 
 pub use contacts::{ContactSummary, SliceForce};
@@ -43,6 +43,8 @@ pub struct Dynamics<'m> {
     forces: Table,
     /// Gravity and loads that stay the same.
     constant: Table,
+    /// Supports of the directions that are integrated: what is left out does not strain its own.
+    springs: Vec<Spring>,
     /// One over the mass where a direction is free, 0 where it is not.
     mobility: Table,
     pool: Option<Arc<ThreadPool>>,
@@ -89,6 +91,7 @@ impl<'m> Dynamics<'m> {
         let kind = Kind {
             rows: reduction.rows.clone(),
             plane: reduction.plane,
+            levels: reduction.levels.clone(),
             mirrored: reduction.mirrored,
             closed: reduction.closed,
         };
@@ -102,6 +105,10 @@ impl<'m> Dynamics<'m> {
             rolling,
         }));
         let mut dynamics = Self::with(model, order, kind);
+        let kept = dynamics.degrees();
+        dynamics
+            .springs
+            .retain(|spring| kept.contains(&(spring.body, spring.direction)));
         let mut places = start.to_vec();
         let kept = dynamics.compress(start);
         dynamics.expand(0.0, &kept, &mut places);
@@ -133,6 +140,7 @@ impl<'m> Dynamics<'m> {
             contact_torques: [0.0; 2],
             forces: Table::zeros(bodies),
             constant,
+            springs: model.springs.clone(),
             mobility,
             pool: None,
             implicit: None,
@@ -266,7 +274,7 @@ impl<'m> Dynamics<'m> {
     fn others(&mut self, t: f64) {
         let (state, forces) = (&self.state, &mut self.forces);
         others::cage(self.model, self.contacts.rows(), state, forces);
-        others::supports(self.model, state, forces);
+        others::supports(&self.springs, state, forces);
         others::loads(self.model, false, t, forces);
         others::unbalances(self.model, t, state, forces);
         others::drive(self.model, t, forces);
@@ -302,7 +310,7 @@ impl<'m> Dynamics<'m> {
             }
         }
         others::cage(model, 0..model.rows.len(), &state, &mut parts[3]);
-        others::supports(model, &state, &mut parts[4]);
+        others::supports(&model.springs, &state, &mut parts[4]);
         others::gravity(model, &mut parts[5]);
         for constant in [true, false] {
             others::loads(model, constant, t, &mut parts[6]);

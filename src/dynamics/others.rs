@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use super::state::{State, Table};
 use crate::contact::Motion;
-use crate::model::{Model, RowModel};
+use crate::model::{Model, RowModel, Spring};
 use crate::scene::{Cage, Drive, TimeFunction};
-use crate::simd::{LANES, Lanes, Task};
+use crate::simd::{Simd, Vector, Wide};
 
 /// A cage link between two balls: force on the first (positive in tension), stored energy and dissipated power.
 pub(super) struct Link {
@@ -40,7 +40,7 @@ pub(super) fn link(cage: &Cage, nominal: f64, first: &Motion, second: &Motion) -
 pub(super) fn cage(model: &Model, rows: Range<usize>, state: &State, forces: &mut Table) {
     if let Some(cage) = &model.scene.cage {
         for row in &model.rows[rows] {
-            model.level.run(Links {
+            model.level.run_wide(Links {
                 cage,
                 row,
                 state,
@@ -50,7 +50,7 @@ pub(super) fn cage(model: &Model, rows: Range<usize>, state: &State, forces: &mu
     }
 }
 
-/// All links of a row, eight at once: each from a ball to its neighbour, the last one back to the first.
+/// All links of a row: each from a ball to its neighbour, and the last one back to the first.
 struct Links<'a> {
     cage: &'a Cage,
     row: &'a RowModel,
@@ -58,75 +58,69 @@ struct Links<'a> {
     forces: &'a mut Table,
 }
 
-impl Task for Links<'_> {
+impl Wide for Links<'_> {
     type Output = ();
 
     // Compiled for the level that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
-    fn run<const FMA: bool>(self) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let Self {
             cage,
             row,
-            state: State { q, v },
+            state,
             forces,
         } = self;
-        let (first, count) = (2 + row.first, row.links().count());
-        for start in (0..count).step_by(LANES) {
-            let from = first + start;
-            // Where the circle closes.
-            let last = (row.count - 1).wrapping_sub(start);
-            let x = apart(q, 0, from, first, last);
-            let y = apart(q, 1, from, first, last);
-            let inverse = Lanes::all(1.0) / x.mul_add::<FMA>(x, y * y).sqrt();
-            let (n_x, n_y) = (x * inverse, y * inverse);
-            let extension = x.mul_add::<FMA>(n_x, y * n_y) - row.cage_distance;
-            let half = 0.5 * cage.play;
-            let beyond = extension - extension.map(|e| within(e, half));
-            let rate = apart(v, 0, from, first, last) * n_x + apart(v, 1, from, first, last) * n_y;
-            let there = Lanes::from_fn(|lane| lane as f64);
-            let there = Lanes::all((count - start) as f64).above(there);
+        let all = |x: f64| Vector::all(simd, x);
+        let (zero, half) = (all(0.0), all(0.5 * cage.play));
+        let (from, links) = (2 + row.first, row.count - 1);
+        let count = links.div_ceil(Vector::<S>::LANES);
+        let all_of = |of| Vector::<S>::registers(of, count);
+        let [x, y, ..] = state.q.directions();
+        let [vx, vy, ..] = state.v.directions();
+        let balls = [x, y, vx, vy].map(|of| all_of(&of[from..]));
+        let next = [x, y, vx, vy].map(|of| all_of(&of[from + 1..]));
+        let [fx, fy, ..] = forces.directions_mut().map(|of| &mut of[from..]);
+        for i in 0..count {
+            let apart = [0, 1, 2, 3]
+                .map(|k: usize| Vector::of(simd, next[k][i]) - Vector::of(simd, balls[k][i]));
+            let [dx, dy, dvx, dvy] = apart;
+            let over = all(1.0) / dx.mul_add(dx, dy * dy).sqrt();
+            let n = (dx * over, dy * over);
+            let extension = dx.mul_add(n.0, dy * n.1) - all(row.cage_distance);
+            let slack = extension.or_more(-half).or_less(half);
+            let rate = dvx.mul_add(n.0, dvy * n.1);
+            let beyond = extension - slack;
+            let force = beyond.mul_add(all(cage.stiffness), rate * all(cage.damping));
+            let at = i * Vector::<S>::LANES;
+            let there = Vector::count(simd).below(all((links - at) as f64));
             let engaged = if cage.play > 0.0 {
-                there.and(extension.abs().above(Lanes::all(half)))
+                half.below(extension).or(extension.below(-half)).and(there)
             } else {
                 there
             };
-            let force = beyond * cage.stiffness + rate * cage.damping;
-            for (direction, n) in [(0, n_x), (1, n_y)] {
-                let mut pull = engaged.choose(force * n, Lanes::ZERO);
-                forces.add_eight(from, direction, pull);
-                if last < LANES {
-                    *forces.get_mut(first, direction) -= pull[last];
-                    pull[last] = 0.0;
-                }
-                forces.add_eight(from + 1, direction, -pull);
+            for (along, n) in [(&mut *fx, n.0), (&mut *fy, n.1)] {
+                let pull = engaged.choose(force * n, zero);
+                let first = &mut along[at..];
+                (Vector::load(simd, first) + pull).store(first);
+                let next = &mut along[at + 1..];
+                (Vector::load(simd, next) - pull).store(next);
             }
+        }
+        // Two balls have one link, which is done.
+        if links > 1 {
+            let (last, first) = (from + links, from);
+            let [a, b] = [last, first].map(|body| state.motion(body));
+            let apart = b.centre - a.centre;
+            let pull = apart * (link(cage, row.cage_distance, &a, &b).force / apart.norm());
+            forces.add(last, &[pull.x, pull.y, 0.0, 0.0]);
+            forces.add(first, &[-pull.x, -pull.y, 0.0, 0.0]);
         }
     }
 }
 
-/// The nearest number between −half and half; `f64::clamp` is not vectorised.
-#[allow(clippy::inline_always)]
-#[inline(always)]
-fn within(x: f64, half: f64) -> f64 {
-    let x = if x < half { x } else { half };
-    if x > -half { x } else { -half }
-}
-
-/// Eight balls' next neighbours less they themselves; the one at `last`, if any, has the `first` ball next.
-// Into what is compiled for the level that runs it.
-#[allow(clippy::inline_always)]
-#[inline(always)]
-fn apart(of: &Table, direction: usize, from: usize, first: usize, last: usize) -> Lanes {
-    let mut next = of.eight(from + 1, direction);
-    if last < LANES {
-        next[last] = of.get(first, direction);
-    }
-    next - of.eight(from, direction)
-}
-
-pub(super) fn supports(model: &Model, state: &State, forces: &mut Table) {
-    for spring in &model.springs {
+pub(super) fn supports(springs: &[Spring], state: &State, forces: &mut Table) {
+    for spring in springs {
         let (direction, body) = (spring.direction, spring.body);
         *forces.get_mut(body, direction) -= spring.stiffness
             * (state.q.get(body, direction) - spring.nominal)

@@ -40,6 +40,12 @@ impl Table {
     }
 
     /// All bodies, direction by direction.
+    #[inline(always)]
+    pub fn directions(&self) -> [&[f64]; 4] {
+        std::array::from_fn(|direction| self.along(direction))
+    }
+
+    #[inline(always)]
     pub fn directions_mut(&mut self) -> [&mut [f64]; 4] {
         let mut chunks = self.values.chunks_exact_mut(self.stride);
         std::array::from_fn(|_| chunks.next().unwrap_or_default())
@@ -119,6 +125,7 @@ impl State {
         self.v.read(v);
     }
 
+    #[inline]
     pub fn motion(&self, body: usize) -> Motion {
         let ([x, y, z, theta], [vx, vy, vz, omega]) = (self.q.of(body), self.v.of(body));
         Motion {

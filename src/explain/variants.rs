@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::cost::{self, Cost};
 use crate::error::Result;
-use crate::model::Model;
+use crate::model::{Model, Reduction};
 use crate::scene::{Friction, Scene, Slices};
 
 /// The same scene with one change.
@@ -27,7 +27,26 @@ const HELPS: f64 = 0.95;
 type Change = fn(&Scene) -> Option<Scene>;
 
 /// Changes by name, and what they do to the answer.
-const CHANGES: [(&str, &str, Change); 8] = [
+const CHANGES: [(&str, &str, Change); 11] = [
+    ("with approximations.rolling", "NOTE ROLLING", |scene| {
+        let mut changed = scene.clone();
+        changed.approximations.rolling = true;
+        (changed != *scene).then_some(changed)
+    }),
+    ("with approximations.plane", "NOTE PLANE", |scene| {
+        let mut changed = scene.clone();
+        changed.approximations.plane = true;
+        (changed != *scene).then_some(changed)
+    }),
+    (
+        "with approximations.one_row",
+        "the row left out carries less than 2 % of the load",
+        |scene| {
+            let mut changed = scene.clone();
+            changed.approximations.one_row = true;
+            (changed != *scene).then_some(changed)
+        },
+    ),
     ("without friction", "another answer", |scene| {
         (scene.friction != Friction::None).then(|| Scene {
             friction: Friction::None,
@@ -88,13 +107,21 @@ const CHANGES: [(&str, &str, Change); 8] = [
 /// All that help, the cheapest first. They are timed at the scene's own start, and take its steps.
 pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Result<Vec<Variant>> {
     let mut variants = Vec::new();
-    let own = model.reduction(y0).map_or(model.dim(), |r| r.dim());
+    let reduction_now = model.reduction(y0);
+    let own = reduction_now.as_ref().map_or(model.dim(), Reduction::dim);
     for (change, note, apply) in CHANGES {
         let Some(scene) = apply(model.scene()) else {
             continue;
         };
-        let changed = Model::new(&scene)?;
-        let kept = changed.reduction(y0).map_or(changed.dim(), |r| r.dim());
+        // What the scene does not allow, or what would not hold, is no offer.
+        let Ok(changed) = Model::new(&scene) else {
+            continue;
+        };
+        let reduction = changed.reduction(y0);
+        if obstacles(reduction.as_ref()) > obstacles(reduction_now.as_ref()) {
+            continue;
+        }
+        let kept = reduction.map_or(changed.dim(), |r| r.dim());
         // The integrator's share goes with the states.
         let share = (cost.evaluation - cost.right_hand_side).max(0.0) * kept as f64 / own as f64;
         let evaluation = cost::right_hand_side(&changed, y0) + share;
@@ -114,4 +141,8 @@ pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Result<Vec<Variant>>
     });
     variants.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
     Ok(variants)
+}
+
+fn obstacles(reduction: Option<&Reduction>) -> usize {
+    reduction.map_or(0, |reduction| reduction.obstacles().len())
 }

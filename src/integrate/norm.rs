@@ -15,17 +15,8 @@ pub struct Tolerance {
     /// Relative tolerance by state; 0 where only the absolute one counts.
     rtol: Vec<f64>,
     group: Vec<usize>,
-    /// Stretches of neighbouring states of the same group.
-    runs: Vec<Run>,
     /// One over the number of states of each group; 0 for an empty one.
     share: Vec<f64>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Run {
-    start: usize,
-    end: usize,
-    group: usize,
 }
 
 impl Tolerance {
@@ -55,18 +46,9 @@ impl Tolerance {
                 "the relative tolerance must be finite and not negative",
             ));
         }
-        let mut runs: Vec<Run> = Vec::new();
         let mut size = vec![0.0; group.iter().max().map_or(0, |most| most + 1)];
-        for (i, &group) in group.iter().enumerate() {
+        for &group in &group {
             size[group] += 1.0;
-            match runs.last_mut() {
-                Some(run) if run.group == group => run.end = i + 1,
-                _ => runs.push(Run {
-                    start: i,
-                    end: i + 1,
-                    group,
-                }),
-            }
         }
         Ok(Self {
             rtol: relative
@@ -79,7 +61,6 @@ impl Tolerance {
                 .collect(),
             atol,
             group,
-            runs,
         })
     }
 
@@ -147,8 +128,8 @@ impl<'a> Norm<'a> {
             x,
         });
         self.sum.fill(0.0);
-        for run in &self.tolerance.runs {
-            self.sum[run.group] += self.square[run.start..run.end].iter().sum::<f64>();
+        for (square, group) in self.square.iter().zip(&self.tolerance.group) {
+            self.sum[*group] += square;
         }
         let mut worst = Worst {
             value: 0.0,

@@ -3,7 +3,9 @@
 use std::fmt;
 use std::sync::OnceLock;
 
-use pulp::NullaryFnOnce;
+use pulp::{NullaryFnOnce, Scalar256b, Simd};
+
+use super::vector::Wide;
 
 /// The environment variable that overrides the choice.
 const VARIABLE: &str = "BALLRACE_SIMD";
@@ -102,6 +104,20 @@ impl Level {
             Self::V3(level) => level.vectorize(Fused(task)),
             #[cfg(target_arch = "x86_64")]
             Self::V4(level) => level.vectorize(Fused(task)),
+        }
+    }
+}
+
+impl Level {
+    /// Does a task that is written for registers of any width.
+    #[inline]
+    pub(crate) fn run_wide<T: Wide>(self, task: T) -> T::Output {
+        match self {
+            Self::Baseline => Scalar256b.vectorize(task),
+            #[cfg(target_arch = "x86_64")]
+            Self::V3(level) => Simd::vectorize(level, task),
+            #[cfg(target_arch = "x86_64")]
+            Self::V4(level) => Simd::vectorize(level, task),
         }
     }
 }

@@ -1,12 +1,14 @@
 //! Eight numbers at once, and the widest instructions that the processor has for them.
 //!
 //! `Lanes` are plain arrays with arithmetic; the compiler turns them into vector instructions of whatever
-//! level the code around them is compiled for. [`Level`] compiles a task for three levels into one program
-//! and picks one at run time.
+//! level the code around them is compiled for. `Vector`s are the registers themselves. [`Level`] compiles a task for
+//! three levels into one program and picks one at run time.
 
 mod lanes;
 mod level;
+mod vector;
 
 pub(crate) use lanes::{Counters, LANES, Lanes, Mask, mul_add};
 pub(crate) use level::Task;
 pub use level::{Level, UnknownLevel};
+pub(crate) use vector::{Choice, Simd, Vector, Wide};

@@ -77,9 +77,6 @@ impl Task for Find<'_> {
             state,
             rings,
         } = self;
-        batch.touching.iter_mut().for_each(Vec::clear);
-        batch.singles.clear();
-        (batch.lost, batch.pulls) = (None, 0);
         let mut on_rings = [[Lanes::ZERO; 3]; 2];
         for stretch in &batch.stretches {
             let q = [
@@ -100,32 +97,28 @@ impl Task for Find<'_> {
                     continue;
                 }
                 let faulted = near.faulted.or(stretch.faulted).and(touching);
-                let closed = batch.closed[stretch.row][side].as_ref();
-                if let Some((closed, forces)) = closed.zip(forces.as_deref_mut()) {
+                let stiffness = batch.stiffness[stretch.row][side];
+                if let Some((stiffness, forces)) = stiffness.zip(forces.as_deref_mut()) {
                     let skip = faulted.or(touching.not());
-                    let (vx, vy) = (stretch.lanes(&state.v, 0), stretch.lanes(&state.v, 1));
-                    let ring = &rings[side];
-                    let (ball, pulls, careful) = if batch.kind.plane {
-                        let level = pair.press_level::<FMA>(closed, &near, [vx, vy], ring, skip);
-                        let [x, y] = level.ball;
-                        ([x, y, Lanes::ZERO], level.pulls, level.careful)
-                    } else {
-                        let octet = Octet {
-                            constants: stretch.constants[side],
-                            wave: near.wave,
-                            q,
-                            v: [vx, vy, stretch.lanes(&state.v, 2), Lanes::ZERO],
-                        };
-                        let press = pair.press::<FMA, false>(&octet, ring, skip, Some(closed));
-                        let [x, y, z, _] = press.ball;
-                        ([x, y, z], press.pulls, press.careful)
+                    let octet = Octet {
+                        constants: stretch.constants[side],
+                        wave: near.wave,
+                        q,
+                        v: [
+                            stretch.lanes(&state.v, 0),
+                            stretch.lanes(&state.v, 1),
+                            stretch.lanes(&state.v, 2),
+                            Lanes::ZERO,
+                        ],
                     };
-                    for (i, force) in ball.into_iter().enumerate() {
+                    let ring = &rings[side];
+                    let press = pair.press::<FMA, false>(&octet, ring, skip, Some(stiffness));
+                    for (i, force) in press.ball.into_iter().take(3).enumerate() {
                         forces.add_eight(2 + stretch.first, i, force);
                         on_rings[side][i] += force;
                     }
-                    batch.pulls += pulls;
-                    let careful = careful.or(faulted).and(touching);
+                    batch.pulls += press.pulls;
+                    let careful = press.careful.or(faulted).and(touching);
                     if careful.any() {
                         for lane in careful.lanes() {
                             batch.singles.push(Single::new(side, stretch.first + lane));

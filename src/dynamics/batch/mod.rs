@@ -1,12 +1,14 @@
 //! All contacts of an evaluation: those that touch are found, gathered by eights and evaluated together.
 //!
-//! Where a contact has a closed form all neighbours are evaluated as they stand: to gather would cost more.
+//! Where a contact has a closed form all neighbours are evaluated as they stand: to gather would cost more. Rows whose
+//! balls keep their axial places as well are not even searched.
 //!
 //! Eights may be evaluated by several threads; since their members depend on the state alone and they are added
 //! up in one order afterwards, the bits do not depend on the number of threads.
 
 mod eight;
 mod find;
+mod level;
 
 use std::array::from_fn;
 use std::ops::Range;
@@ -16,13 +18,14 @@ use rayon::prelude::*;
 
 use super::state::{State, Table};
 use super::sums::Sum;
-use crate::contact::{Closed, Motion, Press};
-use crate::model::Model;
+use crate::contact::{self, Motion, Press};
+use crate::model::{Degree, Model};
 use crate::simd::{LANES, Lanes};
 
 use eight::{Eight, Group, leave};
 pub(super) use eight::{SideConstants, Touching};
 use find::{Find, Stretch};
+use level::{EvaluateLevel, LevelRow, LevelSums};
 
 /// What a batch may take for granted.
 #[derive(Debug, Clone)]
@@ -31,6 +34,8 @@ pub(super) struct Kind {
     pub rows: Range<usize>,
     /// All bodies stay in the planes of their rows.
     pub plane: bool,
+    /// Axial places of rings (first two) and rows that never change.
+    pub levels: Option<Vec<f64>>,
     /// The second row is an image of the first.
     pub mirrored: bool,
     /// Closed forms are used where there are any.
@@ -43,9 +48,22 @@ impl Kind {
         Self {
             rows: 0..model.rows.len(),
             plane: false,
+            levels: None,
             mirrored: false,
             closed: false,
         }
+    }
+
+    /// Axial place of a row's balls from the centre of a groove, where it never changes.
+    fn offset(&self, model: &Model, row: usize, side: usize) -> Option<f64> {
+        if self.plane {
+            return Some(0.0);
+        }
+        let compiled = &model.rows[row];
+        let levels = self.levels.as_ref()?;
+        let held = |j: usize| model.bodies[2 + j].degrees[2] == Degree::Fixed;
+        let free = !(compiled.first..compiled.first + compiled.count).any(held);
+        free.then(|| levels[2 + row] - levels[side] - compiled.pairs[side].race.centre)
     }
 }
 
@@ -53,10 +71,12 @@ impl Kind {
 #[derive(Debug, Clone)]
 pub(super) struct Batch {
     kind: Kind,
-    /// The balls of every row by eights, for the search.
+    /// Rows that are evaluated as they stand.
+    levels: Vec<LevelRow>,
+    /// The balls of the other rows by eights, for the search.
     stretches: Vec<Stretch>,
-    /// Closed forms by row, with the outer and the inner race.
-    closed: Vec<[Option<Closed>; 2]>,
+    /// Hertz's stiffness where it is all there is to a contact, by row and race.
+    stiffness: Vec<[Option<f64>; 2]>,
     /// Constants of the contacts with the outer and with the inner race.
     pub constants: [SideConstants; 2],
     /// Contacts of whole surfaces with the outer and with the inner ring, in the order of the balls.
@@ -83,9 +103,16 @@ struct Single {
 impl Batch {
     pub fn new(model: &Model, kind: Kind) -> Self {
         let constants: [SideConstants; 2] = from_fn(|side| SideConstants::new(model, side));
+        let levels: Vec<LevelRow> = kind
+            .rows
+            .clone()
+            .filter_map(|row| LevelRow::new(model, row, &kind))
+            .collect();
         let mut stretches = Vec::new();
-        for row in kind.rows.clone() {
-            let compiled = &model.rows[row];
+        for (row, compiled) in model.rows.iter().enumerate() {
+            if !kind.rows.contains(&row) || levels.iter().any(|level| level.row() == row) {
+                continue;
+            }
             for start in (0..compiled.count).step_by(LANES) {
                 let (first, count) = (compiled.first + start, LANES.min(compiled.count - start));
                 stretches.push(Stretch::new(model, &constants, row, first, count));
@@ -93,9 +120,17 @@ impl Batch {
         }
         let balls = model.balls.len();
         Self {
-            closed: (0..model.rows.len())
-                .map(|row| closed(model, row, &kind))
+            stiffness: model
+                .rows
+                .iter()
+                .map(|row| {
+                    row.pairs.each_ref().map(|pair| {
+                        let anywhere = kind.closed && !kind.plane;
+                        contact::stiffness(pair).filter(|_| anywhere)
+                    })
+                })
                 .collect(),
+            levels,
             kind,
             stretches,
             constants,
@@ -131,6 +166,7 @@ impl Batch {
     ) {
         let rings = [state.motion(0), state.motion(1)];
         self.find(Some(forces), model, state, &rings);
+        self.level(forces, model, state, &rings);
         self.gather();
         let (constants, plane) = (&self.constants, self.kind.plane);
         let eight = |group: &mut Group| {
@@ -168,6 +204,26 @@ impl Batch {
         }
     }
 
+    /// Evaluates the rows that stand as they are.
+    fn level(&mut self, forces: &mut Table, model: &Model, state: &State, rings: &[Motion; 2]) {
+        for row in &mut self.levels {
+            row.look(model, state, rings);
+            model.level.run_wide(EvaluateLevel {
+                pairs: &model.rows[row.row()].pairs,
+                row,
+                state,
+                rings,
+                forces,
+                sums: LevelSums {
+                    rings: &mut self.rings,
+                    singles: &mut self.singles,
+                    pulls: &mut self.pulls,
+                    lost: &mut self.lost,
+                },
+            });
+        }
+    }
+
     /// Finds what touches; what has a closed form puts its forces where it is told.
     pub fn find(
         &mut self,
@@ -176,6 +232,13 @@ impl Batch {
         state: &State,
         rings: &[Motion; 2],
     ) {
+        self.touching.iter_mut().for_each(Vec::clear);
+        self.singles.clear();
+        (self.lost, self.pulls) = (None, 0);
+        self.rings = [[0.0; 4]; 2];
+        if self.stretches.is_empty() {
+            return;
+        }
         model.level.run(Find {
             batch: self,
             forces,
@@ -245,7 +308,7 @@ impl Batch {
 
     /// Whether the contacts of a row with a race are evaluated in closed form.
     pub fn is_closed(&self, row: usize, side: usize) -> bool {
-        self.closed[row][side].is_some()
+        self.stiffness[row][side].is_some() || self.levels.iter().any(|level| level.row() == row)
     }
 
     /// Whether all bodies stay in the planes of their rows.
@@ -278,19 +341,6 @@ impl Batch {
     pub fn lost(&self) -> Option<usize> {
         self.lost
     }
-}
-
-/// Closed forms of a row's contacts.
-fn closed(model: &Model, row: usize, kind: &Kind) -> [Option<Closed>; 2] {
-    let compiled = &model.rows[row];
-    let mut radii = model.balls[compiled.first..][..compiled.count]
-        .iter()
-        .map(|ball| ball.side.radius);
-    let radius = radii.next().filter(|first| radii.all(|r| r == *first));
-    from_fn(|side| {
-        let radius = radius.filter(|_| kind.closed && kind.rows.contains(&row))?;
-        Closed::new(&compiled.pairs[side], radius, kind.plane)
-    })
 }
 
 impl Single {

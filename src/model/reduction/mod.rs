@@ -31,6 +31,8 @@ pub struct Reduction {
     pub(crate) rows: Range<usize>,
     /// All bodies stay in the planes of their rows.
     pub(crate) plane: bool,
+    /// Axial places of rings (first two) and rows that are kept.
+    pub(crate) levels: Option<Vec<f64>>,
     /// The second row is the first one's mirror image.
     pub(crate) mirrored: bool,
     /// Contacts may be evaluated in closed form.
@@ -198,6 +200,7 @@ impl Reduction {
             orbits: Vec::new(),
             rows: 0..model.rows.len(),
             plane: false,
+            levels: None,
             mirrored: false,
             closed: false,
             omissions: Vec::new(),
@@ -252,6 +255,7 @@ impl Reduction {
             None => 0..model.rows.len(),
         };
         reduction.leave_out(model, start, &grounds);
+        reduction.levels = grounds.levels;
         reduction
     }
 

@@ -1,0 +1,236 @@
+//! As many numbers as a register of the level holds: for loops along tables, where eight at a time would leave half of
+//! them idle or spill.
+
+// Everything here must end up in the loop that uses it, compiled for that loop's instructions.
+#![allow(clippy::inline_always)]
+
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+pub(crate) use pulp::{Simd, WithSimd as Wide};
+
+/// The numbers of a register.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Vector<S: Simd> {
+    simd: S,
+    numbers: S::f64s,
+}
+
+/// Yes or no for each.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Choice<S: Simd> {
+    simd: S,
+    lanes: S::m64s,
+}
+
+impl<S: Simd> Vector<S> {
+    /// How many.
+    pub(crate) const LANES: usize = S::F64_LANES;
+
+    /// The same number everywhere.
+    #[inline(always)]
+    pub(crate) fn all(simd: S, x: f64) -> Self {
+        Self {
+            simd,
+            numbers: simd.splat_f64s(x),
+        }
+    }
+
+    /// 0, 1, 2, …
+    #[inline(always)]
+    pub(crate) fn count(simd: S) -> Self {
+        Self::load(simd, &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0])
+    }
+
+    /// The first numbers of a slice.
+    ///
+    /// # Panics
+    /// If there are too few.
+    #[inline(always)]
+    pub(crate) fn load(simd: S, from: &[f64]) -> Self {
+        Self::of(simd, S::as_simd_f64s(from).0[0])
+    }
+
+    /// Into the first numbers of a slice.
+    ///
+    /// # Panics
+    /// If there are too few.
+    #[inline(always)]
+    pub(crate) fn store(self, to: &mut [f64]) {
+        S::as_mut_simd_f64s(to).0[0] = self.numbers;
+    }
+
+    /// All registers of a slice, and what is left.
+    #[inline(always)]
+    pub(crate) fn split(of: &[f64]) -> (&[S::f64s], &[f64]) {
+        S::as_simd_f64s(of)
+    }
+
+    /// What a register holds.
+    #[inline(always)]
+    pub(crate) fn of(simd: S, numbers: S::f64s) -> Self {
+        Self { simd, numbers }
+    }
+
+    /// Into a register.
+    #[inline(always)]
+    pub(crate) fn put(self, to: &mut S::f64s) {
+        *to = self.numbers;
+    }
+
+    /// So many registers of a slice.
+    ///
+    /// # Panics
+    /// If there are too few.
+    #[inline(always)]
+    pub(crate) fn registers(of: &[f64], count: usize) -> &[S::f64s] {
+        &S::as_simd_f64s(of).0[..count]
+    }
+
+    /// The same to write into.
+    ///
+    /// # Panics
+    /// If there are too few.
+    #[inline(always)]
+    pub(crate) fn registers_mut(of: &mut [f64], count: usize) -> &mut [S::f64s] {
+        &mut S::as_mut_simd_f64s(of).0[..count]
+    }
+
+    #[inline(always)]
+    fn with(self, numbers: S::f64s) -> Self {
+        Self { numbers, ..self }
+    }
+
+    #[inline(always)]
+    fn told(self, lanes: S::m64s) -> Choice<S> {
+        Choice {
+            simd: self.simd,
+            lanes,
+        }
+    }
+
+    /// Another number everywhere.
+    #[inline(always)]
+    pub(crate) fn same(self, x: f64) -> Self {
+        Self::all(self.simd, x)
+    }
+
+    #[inline(always)]
+    pub(crate) fn sqrt(self) -> Self {
+        self.with(self.simd.sqrt_f64s(self.numbers))
+    }
+
+    /// The greater of two; what is not a number in the second stays.
+    #[inline(always)]
+    pub(crate) fn or_more(self, least: Self) -> Self {
+        self.with(self.simd.max_f64s(least.numbers, self.numbers))
+    }
+
+    /// The lesser of two; what is not a number in the first stays.
+    #[inline(always)]
+    pub(crate) fn or_less(self, most: Self) -> Self {
+        self.with(self.simd.min_f64s(most.numbers, self.numbers))
+    }
+
+    /// self · b + c, fused where the instructions have it.
+    #[inline(always)]
+    pub(crate) fn mul_add(self, b: Self, c: Self) -> Self {
+        self.with(self.simd.mul_add_e_f64s(self.numbers, b.numbers, c.numbers))
+    }
+
+    /// Where it is below another; nowhere where one of them is not a number.
+    #[inline(always)]
+    pub(crate) fn below(self, other: Self) -> Choice<S> {
+        self.told(self.simd.less_than_f64s(self.numbers, other.numbers))
+    }
+
+    /// Each by a function of one number.
+    #[inline(always)]
+    pub(crate) fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        // As wide as any level.
+        let mut numbers = [0.0; 8];
+        self.store(&mut numbers);
+        for number in &mut numbers[..Self::LANES] {
+            *number = f(*number);
+        }
+        Self::load(self.simd, &numbers)
+    }
+
+    #[inline(always)]
+    pub(crate) fn sum(self) -> f64 {
+        self.simd.reduce_sum_f64s(self.numbers)
+    }
+}
+
+macro_rules! operator {
+    ($trait:ident, $function:ident, $of:ident) => {
+        impl<S: Simd> $trait for Vector<S> {
+            type Output = Self;
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                self.with(self.simd.$of(self.numbers, other.numbers))
+            }
+        }
+    };
+}
+
+operator!(Add, add, add_f64s);
+operator!(Sub, sub, sub_f64s);
+operator!(Mul, mul, mul_f64s);
+operator!(Div, div, div_f64s);
+
+impl<S: Simd> Neg for Vector<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.with(self.simd.neg_f64s(self.numbers))
+    }
+}
+
+impl<S: Simd> AddAssign for Vector<S> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<S: Simd> Choice<S> {
+    #[inline(always)]
+    fn with(self, lanes: S::m64s) -> Self {
+        Self { lanes, ..self }
+    }
+
+    #[inline(always)]
+    pub(crate) fn and(self, other: Self) -> Self {
+        self.with(self.simd.and_m64s(self.lanes, other.lanes))
+    }
+
+    #[inline(always)]
+    pub(crate) fn or(self, other: Self) -> Self {
+        self.with(self.simd.or_m64s(self.lanes, other.lanes))
+    }
+
+    #[inline(always)]
+    pub(crate) fn not(self) -> Self {
+        self.with(self.simd.not_m64s(self.lanes))
+    }
+
+    /// One or the other number.
+    #[inline(always)]
+    pub(crate) fn choose(self, yes: Vector<S>, no: Vector<S>) -> Vector<S> {
+        yes.with(self.simd.select_f64s(self.lanes, yes.numbers, no.numbers))
+    }
+
+    #[inline(always)]
+    pub(crate) fn any(self) -> bool {
+        self.simd.first_true_m64s(self.lanes) < S::M64_LANES
+    }
+
+    /// Which ones.
+    #[inline(always)]
+    pub(crate) fn lanes(self) -> impl Iterator<Item = usize> {
+        let mut told = [0.0; 8];
+        let all = |x| Vector::all(self.simd, x);
+        self.choose(all(1.0), all(0.0)).store(&mut told);
+        (0..S::M64_LANES).filter(move |lane| told[*lane] > 0.0)
+    }
+}

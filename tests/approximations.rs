@@ -1,0 +1,378 @@
+//! Approximations by request do what they say and nothing else; what they cost in accuracy is measured in
+//! `benches/approximations.py`.
+
+mod common;
+
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+use ballrace::dynamics::Dynamics;
+use ballrace::integrate::System;
+use ballrace::scene::{
+    Approximations, Defect, Drive, Method, Mount, NormalLaw, Profile, Scene, Surface, TimeFunction,
+    presets,
+};
+use ballrace::{Model, Run, Start, simulate, start};
+use common::Noise;
+
+const ROLLING: Approximations = Approximations {
+    rolling: true,
+    plane: false,
+    one_row: false,
+};
+const PLANE: Approximations = Approximations {
+    rolling: false,
+    plane: true,
+    one_row: false,
+};
+const ONE_ROW: Approximations = Approximations {
+    rolling: false,
+    plane: false,
+    one_row: true,
+};
+const FLAT: Approximations = Approximations {
+    rolling: true,
+    plane: true,
+    one_row: false,
+};
+
+fn wheel(law: NormalLaw, approximations: Approximations) -> Scene {
+    let mut scene = presets::wheel_bearing(3000.0);
+    scene.contact.law = law;
+    scene.approximations = approximations;
+    scene
+}
+
+/// Thrust that takes the load off a row.
+fn thrust(approximations: Approximations) -> Scene {
+    let mut scene = presets::wheel_bearing(20e3);
+    scene.loads.get_mut("radial").unwrap().force = 500.0.into();
+    scene.approximations = approximations;
+    scene
+}
+
+/// States of all bodies and of a run near the start, at a time.
+struct Shaken<'m> {
+    model: &'m Model,
+    dynamics: Dynamics<'m>,
+    t: f64,
+    y: Vec<f64>,
+    full: Vec<f64>,
+    rates: Vec<f64>,
+}
+
+impl<'m> Shaken<'m> {
+    fn new(model: &'m Model, seed: u64) -> Self {
+        let y0 = start(model, &Start::Equilibrium).unwrap();
+        let mut dynamics = Dynamics::reduced(model, model.reduction(&y0).unwrap(), &y0);
+        let mut noise = Noise(seed);
+        let mut shaken = y0.clone();
+        let half = shaken.len() / 2;
+        for i in (0..half).filter(|i| i % 4 < 3) {
+            shaken[i] += 5e-6 * noise.next();
+            shaken[half + i] += 0.1 * noise.next();
+        }
+        let y = dynamics.compress(&shaken);
+        let t = 2e-3 * (1.0 + noise.next());
+        let (mut full, mut rates, mut dy) = (y0.clone(), y0, vec![0.0; y.len()]);
+        dynamics.rhs(t, &y, &mut dy);
+        dynamics.expand(t, &y, &mut full);
+        dynamics.expand_rates(t, &y, &dy, &mut rates);
+        Self {
+            model,
+            dynamics,
+            t,
+            y,
+            full,
+            rates,
+        }
+    }
+
+    /// Rates of the free bodies there, without what the scene gives up.
+    fn free(&self) -> Vec<f64> {
+        let mut rates = self.full.clone();
+        self.model.rhs(self.t, &self.full, &mut rates);
+        rates
+    }
+
+    /// Accelerations of a body along x, y, z and about z.
+    fn acceleration<'a>(&self, rates: &'a [f64], body: usize) -> &'a [f64] {
+        let half = rates.len() / 2;
+        &rates[half + 4 * body..half + 4 * body + 4]
+    }
+}
+
+/// Analytic: rings feel what free balls would put on them, and a ball moves along its radius as if it were free.
+#[test]
+fn rolling_balls_feel_their_radial_forces() {
+    for seed in 0..10 {
+        let model = Model::new(&wheel(NormalLaw::default(), ROLLING)).unwrap();
+        let shaken = Shaken::new(&model, seed);
+        let free = shaken.free();
+        for ring in 0..2 {
+            let [found, wanted] =
+                [&shaken.rates, &free].map(|rates| shaken.acceleration(rates, ring));
+            for i in 0..3 {
+                // A micrometre of approach is worth some 1e4 m/s².
+                assert!(
+                    (found[i] - wanted[i]).abs() < 1e-6,
+                    "{ring} {i}: {found:?} {wanted:?}"
+                );
+            }
+        }
+        for body in 2..model.body_count() {
+            let [found, wanted] =
+                [&shaken.rates, &free].map(|rates| shaken.acceleration(rates, body));
+            let place = &shaken.full[4 * body..4 * body + 2];
+            let radial = |a: &[f64]| (a[0] * place[0] + a[1] * place[1]) / place[0].hypot(place[1]);
+            let (a, b) = (radial(found), radial(wanted));
+            assert!((a - b).abs() < 1e-9 * b.abs() + 1e-4, "{body}: {a} {b}");
+            assert!(
+                (found[2] - wanted[2]).abs() < 1e-9 * wanted[2].abs() + 1e-4,
+                "{body}: z"
+            );
+        }
+    }
+}
+
+/// Analytic: places, speeds and accelerations of all bodies are each other's derivatives, also where the drive changes
+/// its speed and a ball has a defect that shows its spin.
+#[test]
+fn places_speeds_and_rates_belong_together() {
+    let mut scene = wheel(NormalLaw::default(), FLAT);
+    scene.drive = Drive::Speed(TimeFunction::Profile(Profile::Sine {
+        mean: 150.0,
+        amplitude: 100.0,
+        frequency: 50.0,
+        phase: 0.3,
+    }));
+    scene.defects.insert(
+        "pit".to_owned(),
+        Defect {
+            on: Surface::Ball,
+            row: 0,
+            ball: Some(3),
+            angle: PI,
+            axial_offset: 0.0,
+            length: 1e-3,
+            width: 0.5e-3.into(),
+            edge_radius: 0.3e-3,
+            floor: None,
+        },
+    );
+    let model = Model::new(&scene).unwrap();
+    let shaken = Shaken::new(&model, 5);
+    let (t, h, half) = (shaken.t, 1e-7, shaken.full.len() / 2);
+    let mut dy = shaken.y.clone();
+    let mut dynamics = Dynamics::reduced(
+        &model,
+        model
+            .reduction(&start(&model, &Start::Equilibrium).unwrap())
+            .unwrap(),
+        &start(&model, &Start::Equilibrium).unwrap(),
+    );
+    dynamics.rhs(t, &shaken.y, &mut dy);
+    let at = |h: f64| {
+        let y: Vec<f64> = shaken.y.iter().zip(&dy).map(|(y, d)| y + h * d).collect();
+        let mut full = shaken.full.clone();
+        shaken.dynamics.expand(t + h, &y, &mut full);
+        full
+    };
+    let (before, after) = (at(-h), at(h));
+    for i in 0..2 * half {
+        let slope = (after[i] - before[i]) / (2.0 * h);
+        let rate = shaken.rates[i];
+        // Rounding of 36 mm and of 10 m/s over the interval.
+        let noise = if i < half { 1e-9 } else { 1e-6 };
+        assert!(
+            (slope - rate).abs() < 1e-6 * rate.abs() + noise / h * 1e-2,
+            "{}: {slope} {rate}",
+            model.names()[i]
+        );
+    }
+    // The spin follows the drive.
+    let body = 2 + 3;
+    let share = |full: &[f64]| full[half + 4 * body + 3] / full[half + 7];
+    let y0 = start(&model, &Start::Equilibrium).unwrap();
+    assert!((share(&shaken.full) / share(&y0) - 1.0).abs() < 1e-12);
+}
+
+/// Analytic: with axial places kept, a contact's force in the plane is one formula: that of its nodes.
+#[test]
+fn contacts_in_the_plane_have_a_closed_form() {
+    for law in [NormalLaw::default(), NormalLaw::Hertz] {
+        let scene = wheel(law, FLAT);
+        let mut nodes = scene.clone();
+        nodes.solver.reduce = false;
+        let models = [&scene, &nodes].map(|scene| Model::new(scene).unwrap());
+        for seed in 0..10 {
+            let [closed, each] = models.each_ref().map(|model| Shaken::new(model, seed));
+            let bodies = closed.model.body_count();
+            let worst = (0..bodies)
+                .flat_map(|body| {
+                    let [a, b] = [&closed, &each].map(|of| of.acceleration(&of.rates, body));
+                    // Forces, over the load of the contacts.
+                    [0, 1].map(|i| (a[i] - b[i]).abs() * if body < 2 { 0.6 } else { 7e-3 } / 7e3)
+                })
+                .fold(0.0, f64::max);
+            println!("{worst:.1e}");
+            assert!(worst < 1e-10, "{worst:.1e}");
+        }
+    }
+}
+
+/// Analytic: with axial places kept, all else feels what it would.
+#[test]
+fn axial_places_are_kept_and_nothing_else() {
+    for approximations in [PLANE, FLAT] {
+        let model = Model::new(&wheel(NormalLaw::Hertz, approximations)).unwrap();
+        let shaken = Shaken::new(&model, 3);
+        let free = shaken.free();
+        for ring in 0..2 {
+            let [found, wanted] =
+                [&shaken.rates, &free].map(|rates| shaken.acceleration(rates, ring));
+            for i in 0..2 {
+                assert!((found[i] - wanted[i]).abs() < 1e-5, "{found:?} {wanted:?}");
+            }
+            assert_eq!(found[2], 0.0);
+        }
+        let levels = |row: usize| {
+            let balls = (2 + 13 * row)..(2 + 13 * (row + 1));
+            balls.map(|body| shaken.full[4 * body + 2])
+        };
+        for row in 0..2 {
+            assert!(levels(row).all(|z| z == levels(row).next().unwrap()));
+        }
+    }
+}
+
+/// Analytic: without a row the rings feel the other one alone.
+#[test]
+fn an_unloaded_row_goes() {
+    let model = Model::new(&thrust(ONE_ROW)).unwrap();
+    let shaken = Shaken::new(&model, 3);
+    let reduction = model.reduction(&shaken.full).unwrap();
+    let told: Vec<&str> = reduction
+        .omissions()
+        .iter()
+        .map(|o| o.what.as_str())
+        .collect();
+    assert!(told.contains(&"balls of the unloaded row"), "{told:?}");
+    assert_eq!(reduction.dim(), 224 - 8 * 13 - 4);
+    let free = shaken.free();
+    let loads = |row: usize| -> f64 {
+        (13 * row..13 * (row + 1))
+            .map(|j| model.contact(&shaken.full, j, 1).load)
+            .sum()
+    };
+    let idle = usize::from(loads(1) < loads(0));
+    // What the idle row puts on the rings is all that differs: a few newtons of its centrifugal forces.
+    let [found, wanted] = [&shaken.rates, &free].map(|rates| shaken.acceleration(rates, 1));
+    let apart: f64 = (0..3)
+        .map(|i| (found[i] - wanted[i]).powi(2))
+        .sum::<f64>()
+        .sqrt();
+    assert!(loads(idle) < 0.02 * loads(1 - idle));
+    assert!(apart * 0.6 <= loads(idle) + 1e-6, "{apart}");
+    // Its balls go round with the cage.
+    let turned = |body: usize| {
+        let at = 4 * body;
+        let y0 = start(&model, &Start::Equilibrium).unwrap();
+        let angle = |y: &[f64]| y[at + 1].atan2(y[at]);
+        ballrace::contact::wrapped(angle(&shaken.full) - angle(&y0)) / shaken.t
+    };
+    let body = 2 + 13 * idle;
+    let (orbit, _) = model.rolling_speeds(idle);
+    assert!(
+        (turned(body) / orbit - 1.0).abs() < 0.05,
+        "{}",
+        turned(body)
+    );
+}
+
+type Change = fn(&mut Scene);
+
+/// Where an approximation would not hold it is not made, and told.
+#[test]
+fn what_does_not_hold_is_told() {
+    let varying = || {
+        TimeFunction::Profile(Profile::Ramp {
+            from: 20e3,
+            to: 10e3,
+            start: 0.0,
+            end: 1.0,
+        })
+    };
+    let cases: [(&str, Approximations, Change); 2] = [
+        ("without the unloaded row", ONE_ROW, |s| {
+            s.loads.get_mut("radial").unwrap().force = 7e3.into();
+        }),
+        ("axial places that are kept", PLANE, |_| {}),
+    ];
+    for (what, approximations, change) in cases {
+        let mut scene = thrust(approximations);
+        change(&mut scene);
+        if approximations.plane {
+            scene.loads.get_mut("axial").unwrap().force = varying();
+        }
+        let model = Model::new(&scene).unwrap();
+        let y0 = start(&model, &Start::Equilibrium).unwrap();
+        let reduction = model.reduction(&y0).unwrap();
+        assert!(
+            reduction.obstacles().iter().any(|o| o.what == what),
+            "{:?}",
+            reduction.obstacles()
+        );
+        assert!(
+            reduction
+                .omissions()
+                .iter()
+                .all(|o| !o.reason.contains("request"))
+        );
+    }
+}
+
+/// What cannot be is refused by name.
+#[test]
+fn impossible_requests_are_refused() {
+    let cases: [(&str, Approximations, Change); 4] = [
+        ("approximations.rolling", ROLLING, |s| {
+            s.drive = Drive::Torque {
+                value: 1.0.into(),
+                initial_speed: 100.0,
+            };
+        }),
+        ("approximations.rolling", ROLLING, |s| {
+            s.rows[1].ball_support.x = Some(Mount::Fixed);
+        }),
+        ("approximations.one_row", ONE_ROW, |s| {
+            s.rows.truncate(1);
+            s.defects.clear();
+            s.probes.clear();
+        }),
+        ("approximations", PLANE, |s| {
+            s.solver.method = Method::ImplicitFriction;
+        }),
+    ];
+    for (field, approximations, change) in cases {
+        let mut scene = thrust(approximations);
+        change(&mut scene);
+        let error = scene.validate().unwrap_err().to_string();
+        assert!(error.contains(field), "{error}");
+    }
+}
+
+/// A run says what it gave up.
+#[test]
+fn a_run_tells_what_it_gave_up() {
+    let scene = wheel(NormalLaw::default(), FLAT);
+    let run = Run {
+        duration: 1e-4,
+        ..Run::default()
+    };
+    let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
+    let told = out.provenance.left_out.iter();
+    let given_up = told.filter(|o| o.reason.starts_with("by request")).count();
+    assert_eq!((out.provenance.states, given_up), (2 * (26 + 4), 2));
+    assert_eq!(out.scene, scene);
+}
