@@ -33,8 +33,8 @@ class Explanation(Record):
         Forces that are evaluated in a run, that are set once before it, and that the scene does not have.
     cost : Record
         Measured here and now on one thread: ``evaluations`` of the right-hand side for a simulated second, time
-        for an ``evaluation`` with the integrator's share and for the ``right_hand_side`` alone [s], ``seconds``
-        for a simulated second.
+        for an ``evaluation`` with the integrator's share and for the ``right_hand_side`` alone, of that for
+        ``contacts`` and ``cage`` [s], ``seconds`` for a simulated second.
     variants : list of dict
         Changes of the scene that would help, the cheapest first: ``change``, ``note`` on what it does to the
         answer, states ``kept``, estimated ``seconds`` for a simulated second.

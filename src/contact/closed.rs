@@ -23,7 +23,7 @@ const BOUND: (f64, f64) = (1e-12, 1e-10);
 /// Its coefficients.
 const TERMS: usize = 14;
 /// Half-length of the zone over the ball's radius up to which the polynomial is tried first.
-const REACH: f64 = 0.6;
+const REACH: f64 = 0.85;
 
 /// F = δ^{29/18} Σ c_k x^k, x from −1 to 1 as δ goes from 0 to its limit.
 #[derive(Debug, Clone, PartialEq)]
@@ -314,6 +314,7 @@ mod tests {
             (0.56, 0.0),
             (0.524, 7e-5),
             (0.515, -4e-5),
+            (0.524, 1.9e-4),
         ] {
             let (radius, r) = (6e-3, 12e-3 * f);
             let rules = Rules::new(6, 10.0 / 9.0);

@@ -261,19 +261,30 @@ impl<'m> Dynamics<'m> {
 
     fn sum(&mut self, t: f64) {
         self.forces.copy_from(&self.constant);
+        self.evaluate_contacts();
+        self.others(t);
+    }
+
+    /// Adds the forces of the contacts at the state last read.
+    pub(crate) fn evaluate_contacts(&mut self) {
         self.contact_torques = self.contacts.add_to(
             &mut self.forces,
             self.model,
             &self.state,
             self.pool.as_deref(),
         );
-        self.others(t);
+    }
+
+    /// Adds the forces of the cage at the state last read.
+    pub(crate) fn evaluate_cage(&mut self) {
+        let rows = self.contacts.rows();
+        others::cage(self.model, rows, &self.state, &mut self.forces);
     }
 
     /// Adds the forces that are neither contacts nor constant.
     fn others(&mut self, t: f64) {
+        self.evaluate_cage();
         let (state, forces) = (&self.state, &mut self.forces);
-        others::cage(self.model, self.contacts.rows(), state, forces);
         others::supports(&self.springs, state, forces);
         others::loads(self.model, false, t, forces);
         others::unbalances(self.model, t, state, forces);

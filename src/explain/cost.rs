@@ -1,5 +1,6 @@
 //! What a run costs, by running a little of it.
 
+use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -12,12 +13,16 @@ use crate::method::{self, Task};
 use crate::model::Model;
 use crate::simulate::{options, tolerance};
 
-/// Steps that are timed.
-const STEPS: usize = 300;
+/// Places of the cage over a ball's pitch.
+const PLACES: usize = 8;
+/// Steps that are timed at each.
+const STEPS: usize = 60;
+/// Of these the first ones, which grow.
+const GROWING: usize = 20;
 /// How often; the fastest counts, the others were disturbed.
 const TIMES: usize = 3;
 /// Evaluations that are timed at once.
-const EVALUATIONS: usize = 300;
+const EVALUATIONS: usize = 60;
 
 /// What a run costs on one thread of this machine, sampling aside.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -28,23 +33,69 @@ pub struct Cost {
     pub evaluation: f64,
     /// Time for the right-hand side alone \[s\].
     pub right_hand_side: f64,
+    /// Of that for the contacts of balls and races \[s\].
+    pub contacts: f64,
+    /// Of that for the cage \[s\].
+    pub cage: f64,
     /// Time for a simulated second \[s\].
     pub seconds: f64,
 }
 
-/// Times the first steps from a state.
+impl Cost {
+    /// What an evaluation is made of, by name \[s\].
+    pub fn parts(&self) -> [(&'static str, f64); 4] {
+        let others = self.right_hand_side - self.contacts - self.cage;
+        [
+            ("contacts", self.contacts),
+            ("cage", self.cage),
+            (
+                "other forces, reading and writing of states",
+                others.max(0.0),
+            ),
+            (
+                "steps, samples",
+                (self.evaluation - self.right_hand_side).max(0.0),
+            ),
+        ]
+    }
+}
+
+/// Times some steps from a state of all bodies, at several places of the cage.
 pub(super) fn of(model: &Model, y0: &[f64]) -> Result<Cost> {
+    let (mut sum, mut evaluations) = (0.0, 0.0);
+    for start in places(model, y0) {
+        let (evaluation, rate) = steps(model, &start)?;
+        sum += evaluation;
+        evaluations += rate / PLACES as f64;
+    }
+    let evaluation = sum / PLACES as f64;
+    Ok(Cost {
+        evaluations,
+        evaluation,
+        right_hand_side: right_hand_side(model, y0),
+        contacts: time_at_places(model, y0, |dynamics, _, _| dynamics.evaluate_contacts()),
+        cage: time_at_places(model, y0, |dynamics, _, _| dynamics.evaluate_cage()),
+        seconds: evaluations * evaluation,
+    })
+}
+
+/// Time for an evaluation in some steps, and evaluations for a simulated second.
+fn steps(model: &Model, start: &[f64]) -> Result<(f64, f64)> {
     let options = options(model)?;
-    let reduction = model.reduction(y0);
-    let (mut best, mut evaluations) = (f64::INFINITY, 0.0);
+    let reduction = model.reduction(start);
+    let mut best = f64::INFINITY;
+    let mut reached = [(0.0, 0); 2];
     for _ in 0..TIMES {
-        let mut dynamics = Dynamics::begin(model, reduction.as_ref(), y0);
+        let mut dynamics = Dynamics::begin(model, reduction.as_ref(), start);
         let tolerance = tolerance(&dynamics)?;
-        let own = dynamics.compress(y0);
+        let own = dynamics.compress(start);
         let begun = Instant::now();
-        let mut reached = (0.0, 0);
         let mut stop = |_: &mut Dynamics<'_>, step: &DenseStep<'_>, stats: &Statistics| {
-            reached = (step.t1(), stats.nfev);
+            let now = (step.t1(), stats.nfev);
+            if stats.accepted <= GROWING {
+                reached[0] = now;
+            }
+            reached[1] = now;
             if stats.accepted >= STEPS {
                 ControlFlow::Break(())
             } else {
@@ -59,32 +110,62 @@ pub(super) fn of(model: &Model, y0: &[f64]) -> Result<Cost> {
         };
         // A run that breaks down says so itself; what it did until then still tells the cost.
         let _ = method::run(&mut dynamics, task, &mut stop);
-        let (time, nfev) = reached;
-        if nfev > 0 {
-            best = best.min(begun.elapsed().as_secs_f64() / nfev as f64);
-            evaluations = nfev as f64 / time;
-        }
+        best = best.min(begun.elapsed().as_secs_f64());
     }
-    Ok(Cost {
-        evaluations,
-        evaluation: best,
-        right_hand_side: right_hand_side(model, y0),
-        seconds: evaluations * best,
-    })
+    let [(from, before), (to, nfev)] = reached;
+    let rate = (nfev - before) as f64 / (to - from);
+    Ok((
+        best / nfev as f64,
+        if rate.is_finite() { rate } else { 0.0 },
+    ))
 }
 
-/// Time of one evaluation at a state.
+/// Time of one evaluation near a state of all bodies.
 pub(super) fn right_hand_side(model: &Model, y0: &[f64]) -> f64 {
-    let reduction = model.reduction(y0);
-    let mut dynamics = Dynamics::begin(model, reduction.as_ref(), y0);
-    let own = dynamics.compress(y0);
-    let mut dy = vec![0.0; own.len()];
-    let mut time = || {
-        let begun = Instant::now();
-        for _ in 0..EVALUATIONS {
-            dynamics.rhs(0.0, std::hint::black_box(&own), &mut dy);
-        }
-        begun.elapsed().as_secs_f64() / EVALUATIONS as f64
+    time_at_places(model, y0, |dynamics, y, dy| dynamics.rhs(0.0, y, dy))
+}
+
+/// Time of a part of an evaluation, given the run's states and a place for their rates, in the mean over places of the
+/// cage.
+fn time_at_places(
+    model: &Model,
+    y0: &[f64],
+    work: impl Fn(&mut Dynamics<'_>, &[f64], &mut [f64]),
+) -> f64 {
+    let at = |start: &Vec<f64>| {
+        let reduction = model.reduction(start);
+        let mut dynamics = Dynamics::begin(model, reduction.as_ref(), start);
+        let own = dynamics.compress(start);
+        let mut dy = vec![0.0; own.len()];
+        dynamics.rhs(0.0, &own, &mut dy);
+        let mut time = || {
+            let begun = Instant::now();
+            for _ in 0..EVALUATIONS {
+                work(&mut dynamics, std::hint::black_box(&own), &mut dy);
+            }
+            begun.elapsed().as_secs_f64() / EVALUATIONS as f64
+        };
+        (0..TIMES).map(|_| time()).fold(f64::INFINITY, f64::min)
     };
-    (0..TIMES).map(|_| time()).fold(f64::INFINITY, f64::min)
+    places(model, y0).iter().map(at).sum::<f64>() / PLACES as f64
+}
+
+/// A state with the balls turned about the axis by parts of their pitch: a ball in a defect costs more than the others,
+/// and it is not always there.
+fn places(model: &Model, y0: &[f64]) -> Vec<Vec<f64>> {
+    let half = y0.len() / 2;
+    let turned = |part: usize| {
+        let mut y = y0.to_vec();
+        for (j, ball) in model.balls.iter().enumerate() {
+            let pitch = TAU / model.rows[ball.row].count as f64;
+            let (sin, cos) = (pitch * part as f64 / PLACES as f64).sin_cos();
+            for at in [4 * (2 + j), half + 4 * (2 + j)] {
+                let (along_x, along_y) = (y[at], y[at + 1]);
+                y[at] = cos * along_x - sin * along_y;
+                y[at + 1] = sin * along_x + cos * along_y;
+            }
+        }
+        y
+    };
+    (0..PLACES).map(turned).collect()
 }

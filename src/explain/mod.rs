@@ -151,13 +151,14 @@ impl fmt::Display for Explanation {
         let cost = &self.cost;
         writeln!(
             f,
-            "cost       {:.2} s for a simulated second on one thread: {:.0} evaluations of {:.2} µs, of which \
-             contacts and all other forces {:.2} µs",
+            "cost       {:.2} s for a simulated second on one thread: {:.0} evaluations of {:.2} µs",
             cost.seconds,
             cost.evaluations,
-            1e6 * cost.evaluation,
-            1e6 * cost.right_hand_side
+            1e6 * cost.evaluation
         )?;
+        for (name, time) in cost.parts() {
+            writeln!(f, "  {:>5.2} µs  {name}", 1e6 * time)?;
+        }
         for variant in &self.variants {
             writeln!(
                 f,

@@ -2,7 +2,7 @@
 
 use std::array::from_fn;
 
-use crate::simd::{Level, Task, mul_add};
+use crate::simd::{Level, Simd, Vector, Wide};
 
 /// Most nonzero weights a row may have; one arm of the match below for each.
 const MAX_TERMS: usize = 8;
@@ -23,7 +23,7 @@ pub(super) fn combine(
     weights: &[f64],
     k: &[Vec<f64>],
 ) {
-    Level::current().run(Combination {
+    Level::current().run_wide(Combination {
         out,
         base,
         h,
@@ -40,13 +40,13 @@ struct Combination<'a> {
     k: &'a [Vec<f64>],
 }
 
-impl Task for Combination<'_> {
+impl Wide for Combination<'_> {
     type Output = ();
 
     // Compiled for the level that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
-    fn run<const FMA: bool>(self) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let mut terms: [Term; MAX_TERMS] = [(0.0, &[]); MAX_TERMS];
         let mut count = 0;
         for (&weight, k) in self.weights.iter().zip(self.k) {
@@ -56,35 +56,59 @@ impl Task for Combination<'_> {
             }
         }
         match count {
-            0 => self.fused::<0, FMA>(&terms),
-            1 => self.fused::<1, FMA>(&terms),
-            2 => self.fused::<2, FMA>(&terms),
-            3 => self.fused::<3, FMA>(&terms),
-            4 => self.fused::<4, FMA>(&terms),
-            5 => self.fused::<5, FMA>(&terms),
-            6 => self.fused::<6, FMA>(&terms),
-            7 => self.fused::<7, FMA>(&terms),
-            _ => self.fused::<8, FMA>(&terms),
+            0 => self.fused::<0, S>(simd, &terms),
+            1 => self.fused::<1, S>(simd, &terms),
+            2 => self.fused::<2, S>(simd, &terms),
+            3 => self.fused::<3, S>(simd, &terms),
+            4 => self.fused::<4, S>(simd, &terms),
+            5 => self.fused::<5, S>(simd, &terms),
+            6 => self.fused::<6, S>(simd, &terms),
+            7 => self.fused::<7, S>(simd, &terms),
+            _ => self.fused::<8, S>(simd, &terms),
         }
     }
 }
 
 impl Combination<'_> {
-    /// The loop with the number of terms known, so that it is unrolled over the terms and vectorised over the
-    /// states.
+    /// The loop with the number of terms known, so that it is unrolled over the terms.
     #[allow(clippy::inline_always)]
     #[inline(always)]
-    fn fused<const N: usize, const FMA: bool>(self, terms: &[Term; MAX_TERMS]) {
+    fn fused<const N: usize, S: Simd>(self, simd: S, terms: &[Term; MAX_TERMS]) {
         let len = self.out.len();
-        let weight: [f64; N] = from_fn(|j| terms[j].0);
         let k: [&[f64]; N] = from_fn(|j| &terms[j].1[..len]);
         let base = self.base.map(|base| &base[..len]);
-        for i in 0..len {
-            let mut sum = 0.0;
-            for j in 0..N {
-                sum = mul_add::<FMA>(weight[j], k[j][i], sum);
+        let lanes = Vector::<S>::LANES;
+        let whole = len / lanes;
+        let zero = Vector::all(simd, 0.0);
+        let h = Vector::all(simd, self.h);
+        let weights: [Vector<S>; N] = from_fn(|j| Vector::all(simd, terms[j].0));
+        let registers: [&[S::f64s]; N] = from_fn(|j| Vector::<S>::registers(k[j], whole));
+        let out = Vector::<S>::registers_mut(self.out, whole);
+        if let Some(base) = base {
+            let base = Vector::<S>::registers(base, whole);
+            for i in 0..whole {
+                let mut sum = zero;
+                for j in 0..N {
+                    sum = weights[j].mul_add(Vector::of(simd, registers[j][i]), sum);
+                }
+                h.mul_add(sum, Vector::of(simd, base[i])).put(&mut out[i]);
             }
-            self.out[i] = mul_add::<FMA>(self.h, sum, base.map_or(0.0, |base| base[i]));
+        } else {
+            for i in 0..whole {
+                let mut sum = zero;
+                for j in 0..N {
+                    sum = weights[j].mul_add(Vector::of(simd, registers[j][i]), sum);
+                }
+                h.mul_add(sum, zero).put(&mut out[i]);
+            }
+        }
+        for i in whole * lanes..len {
+            let mut sum = zero;
+            for j in 0..N {
+                sum = weights[j].mul_add(Vector::all(simd, k[j][i]), sum);
+            }
+            let base = base.map_or(0.0, |base| base[i]);
+            self.out[i] = h.mul_add(sum, Vector::all(simd, base)).first();
         }
     }
 }

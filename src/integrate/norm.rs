@@ -1,7 +1,7 @@
 //! Tolerances, and the norm that weighs an error against them.
 
 use super::failure::Invalid;
-use crate::simd::{Level, Task};
+use crate::simd::{Level, Simd, Vector, Wide};
 
 /// What error is acceptable in each state, and which states belong together.
 ///
@@ -121,7 +121,7 @@ impl<'a> Norm<'a> {
     /// A non-finite `y1` counts as a non-finite `x`: it would otherwise make
     /// the scale infinite and the error vanish.
     pub(super) fn measure(&mut self, y0: &[f64], y1: &[f64], x: &[f64]) -> Worst {
-        Level::current().run(Scaling {
+        Level::current().run_wide(Scaling {
             norm: self,
             y0,
             y1,
@@ -165,28 +165,57 @@ struct Scaling<'n, 'a> {
     x: &'n [f64],
 }
 
-impl Task for Scaling<'_, '_> {
+impl Wide for Scaling<'_, '_> {
     type Output = ();
 
     // Compiled for the level that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
-    fn run<const FMA: bool>(self) {
-        let n = self.norm.weight.len();
-        let (atol, rtol) = (
-            &self.norm.tolerance.atol[..n],
-            &self.norm.tolerance.rtol[..n],
-        );
-        let (y0, y1, x) = (&self.y0[..n], &self.y1[..n], &self.x[..n]);
-        let (weight, square) = (&mut self.norm.weight[..n], &mut self.norm.square[..n]);
-        for i in 0..n {
-            let (before, after) = (y0[i].abs(), y1[i].abs());
-            let size = if before > after { before } else { after };
-            weight[i] = 1.0 / (atol[i] + rtol[i] * size);
-            let scaled = x[i] * weight[i];
-            square[i] = scaled * scaled + 0.0 * after;
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Norm {
+            tolerance,
+            weight,
+            square,
+            ..
+        } = self.norm;
+        let (n, lanes) = (weight.len(), Vector::<S>::LANES);
+        let whole = n / lanes;
+        let of = |of| Vector::<S>::registers(of, whole);
+        let (atol, rtol) = (of(&tolerance.atol), of(&tolerance.rtol));
+        let [y0, y1, x] = [self.y0, self.y1, self.x].map(of);
+        let weights = Vector::<S>::registers_mut(weight, whole);
+        let squares = Vector::<S>::registers_mut(square, whole);
+        for i in 0..whole {
+            let [atol, rtol, y0, y1, x] =
+                [atol[i], rtol[i], y0[i], y1[i], x[i]].map(|of| Vector::of(simd, of));
+            let (weight, square) = scaled([atol, rtol], [y0, y1, x]);
+            weight.put(&mut weights[i]);
+            square.put(&mut squares[i]);
+        }
+        for i in whole * lanes..n {
+            let tolerances = [tolerance.atol[i], tolerance.rtol[i]];
+            let states = [self.y0[i], self.y1[i], self.x[i]];
+            let found = scaled(
+                tolerances.map(|of| Vector::all(simd, of)),
+                states.map(|of| Vector::all(simd, of)),
+            );
+            (weight[i], square[i]) = (found.0.first(), found.1.first());
         }
     }
+}
+
+/// Weight and scaled square of an error `x` between two states.
+#[allow(clippy::inline_always)]
+#[inline(always)]
+fn scaled<S: Simd>(
+    [atol, rtol]: [Vector<S>; 2],
+    [y0, y1, x]: [Vector<S>; 3],
+) -> (Vector<S>, Vector<S>) {
+    let size = y0.abs().or_more(y1.abs());
+    let weight = y0.same(1.0) / rtol.mul_add(size, atol);
+    let scaled = x * weight;
+    // What is not finite in y1 makes the scale infinite, and must show.
+    (weight, scaled.mul_add(scaled, y1 * y1.same(0.0)))
 }
 
 /// The truth is the definition, worked by hand on small numbers.

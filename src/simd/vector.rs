@@ -119,6 +119,11 @@ impl<S: Simd> Vector<S> {
         self.with(self.simd.sqrt_f64s(self.numbers))
     }
 
+    #[inline(always)]
+    pub(crate) fn abs(self) -> Self {
+        self.with(self.simd.abs_f64s(self.numbers))
+    }
+
     /// The greater of two; what is not a number in the second stays.
     #[inline(always)]
     pub(crate) fn or_more(self, least: Self) -> Self {
@@ -153,6 +158,14 @@ impl<S: Simd> Vector<S> {
             *number = f(*number);
         }
         Self::load(self.simd, &numbers)
+    }
+
+    /// The first number.
+    #[inline(always)]
+    pub(crate) fn first(self) -> f64 {
+        let mut numbers = [0.0; 8];
+        self.store(&mut numbers);
+        numbers[0]
     }
 
     #[inline(always)]

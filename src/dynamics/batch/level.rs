@@ -18,6 +18,7 @@ pub(super) struct LevelRow {
     /// 1 for a ball, 0 for what is left of the last register.
     there: Vec<f64>,
     races: [LevelSide; 2],
+    must_look: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -59,6 +60,10 @@ impl LevelRow {
             count: compiled.count,
             there: of(|_, _| true),
             races: [side(0)?, side(1)?],
+            must_look: compiled
+                .pairs
+                .iter()
+                .any(|pair| !pair.waves.is_round() || !pair.faults.is_empty()),
         })
     }
 
@@ -66,13 +71,17 @@ impl LevelRow {
         self.row
     }
 
+    /// Whether its races are anywhere raised by waves, or have defects.
+    pub fn must_look(&self) -> bool {
+        self.must_look
+    }
+
     /// Notes where waves raise the races and where defects may be seen.
+    // Taken into the evaluation it would burden those that do without.
+    #[inline(never)]
     pub fn look(&mut self, model: &Model, state: &State, rings: &[Motion; 2]) {
         let row = &model.rows[self.row];
         for ((side, pair), ring) in self.races.iter_mut().zip(&row.pairs).zip(rings) {
-            if pair.waves.is_round() && pair.faults.is_empty() {
-                continue;
-            }
             let balls = row.first..row.first + row.count;
             let apart = |j: usize| state.motion(2 + j).centre - ring.centre;
             for (j, (raise, whole)) in balls.zip(side.raise.iter_mut().zip(&mut side.whole)) {

@@ -207,7 +207,9 @@ impl Batch {
     /// Evaluates the rows that stand as they are.
     fn level(&mut self, forces: &mut Table, model: &Model, state: &State, rings: &[Motion; 2]) {
         for row in &mut self.levels {
-            row.look(model, state, rings);
+            if row.must_look() {
+                row.look(model, state, rings);
+            }
             model.level.run_wide(EvaluateLevel {
                 pairs: &model.rows[row.row()].pairs,
                 row,
