@@ -1,9 +1,9 @@
 //! The static solve stands up to ordinary scenes, and says so when a load cannot be carried.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
-use ballrace::scene::{Defect, Surface, presets};
-use ballrace::{Error, equilibrium};
+use ballrace::scene::{Defect, Material, Surface, presets};
+use ballrace::{Error, Model, Start, equilibrium, start};
 
 /// Analytic: whatever the load and clearance, the balls carry it: forces on the free inner ring sum to the load.
 #[test]
@@ -49,7 +49,11 @@ fn a_ball_over_a_spall_is_found() {
             scene.defects.insert("spall".to_owned(), defect);
             loads.push(equilibrium(&scene).unwrap().balls[0].inner.load);
         }
-        assert!(loads.is_sorted_by(|a, b| a >= b), "{on:?}: {loads:?}");
+        // Sunk, a ball no longer sees the width: places near 0.02 m on contacts of 10⁸ N/m round to 4e-10 N.
+        assert!(
+            loads.is_sorted_by(|a, b| *a >= *b - 1e-9),
+            "{on:?}: {loads:?}"
+        );
         assert!(
             loads[0] > 200.0 && loads[4] < 0.25 * loads[0],
             "{on:?}: {loads:?}"
@@ -65,4 +69,40 @@ fn what_cannot_be_carried_is_refused() {
         matches!(&error, Error::Equilibrium { reason } if reason.contains("cannot be carried")),
         "{error}"
     );
+}
+
+/// Truth: Newton's law. In the cage's frame nothing is left on any ball of a bearing whose loose balls hang on their
+/// cage between the races; and it takes few iterations (22 where tension and balls take turns).
+#[test]
+fn balls_that_hang_on_the_cage_are_balanced_soon() {
+    for axial in [0.0, 3000.0, -3000.0] {
+        let scene = presets::wheel_bearing(axial);
+        let iterations = equilibrium(&scene).unwrap().iterations;
+        assert!(iterations <= 12, "{axial}: {iterations}");
+        let model = Model::new(&scene).unwrap();
+        let mut y = start(&model, &Start::Equilibrium).unwrap();
+        let half = y.len() / 2;
+        y[half..].fill(0.0);
+        let forces = model.forces(0.0, &y);
+        let at_rest = forces
+            .iter()
+            .filter(|(name, _)| !["damping", "friction"].contains(name));
+        let mut sum = vec![0.0; half];
+        for (_, part) in at_rest {
+            for (sum, part) in sum.iter_mut().zip(part) {
+                *sum += part;
+            }
+        }
+        let row = &scene.rows[0];
+        let mass = Material::default().density * PI / 6.0 * row.ball_diameter.powi(3);
+        let orbit = model.rolling_speeds(0).0;
+        for ball in (2..model.body_count()).map(|body| 4 * body) {
+            let radius = y[ball].hypot(y[ball + 1]);
+            let outwards = (sum[ball] * y[ball] + sum[ball + 1] * y[ball + 1]) / radius;
+            let centrifugal = mass * orbit * orbit * row.pitch_diameter / 2.0;
+            let left = (outwards + centrifugal).hypot(sum[ball + 2]);
+            // A ball weighs 0.07 N.
+            assert!(left < 1e-2, "{axial}, {ball}: {left}");
+        }
+    }
 }

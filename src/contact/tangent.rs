@@ -192,7 +192,8 @@ impl Pair {
             let u = x * half;
             let u_rate = u * half_rate;
             let h = (radius * radius - u * u).sqrt();
-            let h_rate = -u * u_rate / h;
+            let per_h = 1.0 / h;
+            let h_rate = -u * u_rate * per_h;
             let (rho, zeta) = (h * cos - u * sin, h * sin + u * cos);
             let (rho_rate, zeta_rate) = (h_rate * cos - u_rate * sin, h_rate * sin + u_rate * cos);
             // The slice from the groove's centre, and the groove's height there.
@@ -203,15 +204,17 @@ impl Pair {
                 continue;
             }
             let tilt = along / groove;
+            let per_rho = 1.0 / rho;
             let depth_rate = rho_rate + cos + tilt * (zeta_rate + sin);
             let depth_turn = tilt * out - along;
-            let pressed = law.force(depth, half * weight * rho / h);
+            let pressed = law.force(depth, half * weight * rho * per_h);
+            let tan = zeta * per_rho;
             let stiff = 10.0 / 9.0 / depth;
-            let rate = pressed * (half_rate + rho_rate / rho - h_rate / h + stiff * depth_rate);
-            let turn = pressed * (stiff * depth_turn - zeta / rho);
-            let tan = zeta / rho;
+            let rate =
+                pressed * (half_rate + rho_rate * per_rho - h_rate * per_h + stiff * depth_rate);
+            let turn = pressed * (stiff * depth_turn - tan);
             add(&mut force, pressed, pressed * tan);
-            let tan_rate = (zeta_rate - tan * rho_rate) / rho;
+            let tan_rate = (zeta_rate - tan * rho_rate) * per_rho;
             add(&mut by_distance, rate, rate * tan + pressed * tan_rate);
             let tan_turn = 1.0 + tan * tan;
             add(&mut by_angle, turn, turn * tan + pressed * tan_turn);

@@ -2,7 +2,6 @@
 
 use nalgebra::{Matrix2, SVector, Vector2};
 
-use super::TOLERANCE;
 use super::problem::{BallState, Problem};
 use super::search::search;
 use crate::contact::V2;
@@ -10,25 +9,33 @@ use crate::error::{Error, Result};
 
 /// Newton iterations of a ball before giving up.
 const BALL_ITERATIONS: usize = 100;
-/// Residual of a ball, over its share of the load, and step, over the approach, from which one more step of Newton's
-/// method needs no look at the force: what it leaves is of the order of both together.
-const LAST: (f64, f64) = (1e-9, 1e-6);
+/// Step over the approach that needs no look at the force any more.
+const LAST: f64 = 1e-3;
 /// Residual of a ball, over its share of the load, that is accepted where a slice that enters a defect makes
 /// the force jump.
 const BALL_STALLED: f64 = 1e-2;
 
 impl Problem<'_> {
-    /// A ball on the line of the groove centres, sharing the approach or the gap; a loose ball where its own load presses
-    /// it into the outer race, or into the inner one if it falls.
+    /// A ball on the line of the groove centres, sharing the approach or the gap; a loose ball as far out as its own
+    /// load presses it, or as far in if it falls.
     pub(super) fn seed(&self, j: usize, rings: &SVector<f64, 6>) -> Vector2<f64> {
-        let (centres, reach) = self.grooves(j, rings);
-        let apart = centres[1] - centres[0];
-        let length = apart.norm();
-        let approach = (length - reach[0] - reach[1]) / 2.0;
-        if approach > 0.0 || self.own_load(j).norm() == 0.0 {
-            return centres[0] + apart * ((reach[0] + approach) / length);
+        let load = self.own_load(j);
+        match self.loose(j, rings) {
+            Some([outmost, inmost]) if load.norm() > 0.0 => {
+                if load.x < 0.0 {
+                    inmost
+                } else {
+                    outmost
+                }
+            }
+            _ => {
+                let (centres, reach) = self.grooves(j, rings);
+                let apart = centres[1] - centres[0];
+                let length = apart.norm();
+                let approach = (length - reach[0] - reach[1]) / 2.0;
+                centres[0] + apart * ((reach[0] + approach) / length)
+            }
         }
-        self.seat(j, rings)
     }
 
     /// Where a loose ball's own load presses it: the normal of its only contact lies along the load.
@@ -38,6 +45,34 @@ impl Problem<'_> {
         let race = usize::from(load.x < 0.0);
         let normal = load.try_normalize(0.0).unwrap_or_else(Vector2::x);
         centres[race] + normal * (reach[race] + 1e-3 * self.model.scales.approach)
+    }
+
+    /// How far out and in a ball between whole races can be; none for a ball that both press.
+    pub(super) fn loose(&self, j: usize, rings: &SVector<f64, 6>) -> Option<[Vector2<f64>; 2]> {
+        let (centres, reach) = self.grooves(j, rings);
+        let apart = centres[1] - centres[0];
+        let length = apart.norm();
+        if length >= reach[0] + reach[1] {
+            return None;
+        }
+        Some([0, 1].map(|race| {
+            let outwards = if race == 0 { 1.0 } else { -1.0 };
+            let seat = centres[race] + Vector2::x() * (outwards * reach[race]);
+            let other = 1 - race;
+            if (seat - centres[other]).norm() <= reach[other] {
+                return seat;
+            }
+            // The other race is in the way: where the ball touches both.
+            let along =
+                (length * length + reach[0] * reach[0] - reach[1] * reach[1]) / (2.0 * length);
+            let aside = (reach[0] * reach[0] - along * along).max(0.0).sqrt();
+            let unit = apart / length;
+            let corner = |side: f64| {
+                centres[0] + unit * along + Vector2::new(-unit.y, unit.x) * (side * aside)
+            };
+            let (a, b) = (corner(1.0), corner(-1.0));
+            if (a.x - b.x) * outwards > 0.0 { a } else { b }
+        }))
     }
 
     /// Groove centres (radius, axial place) in the ball's meridional plane, and how far from them a ball that
@@ -54,27 +89,29 @@ impl Problem<'_> {
         ([centre(0), centre(1)], reach)
     }
 
-    /// A ball between rings that stand still, sought from a place.
+    /// A ball between rings that stand still, sought from a place; the precision is a residual over the ball's share of
+    /// the load.
     pub(super) fn settle(
         &self,
         j: usize,
         rings: &SVector<f64, 6>,
         start: Vector2<f64>,
+        precision: f64,
     ) -> Result<BallState> {
         let body = &self.model.bodies[2 + j];
         if self.is_held(j) {
             let place = Vector2::new(body.nominal[0].hypot(body.nominal[1]), body.nominal[2]);
             return Ok(self.ball_at(j, rings, place));
         }
-        let scale = self.share();
-        let accepted =
-            |state: &BallState| state.force.norm() <= BALL_STALLED * scale.max(state.pressed());
-        let found = self.relax(j, rings, start, scale);
+        let accepted = |state: &BallState| {
+            state.force.norm() <= BALL_STALLED * self.share().max(state.pressed())
+        };
+        let found = self.relax(j, rings, start, precision);
         if accepted(&found) {
             return Ok(found);
         }
         // Over a defect a ball may have lost one race, and lie far along the other.
-        let found = self.relax(j, rings, self.seat(j, rings), scale);
+        let found = self.relax(j, rings, self.seat(j, rings), precision);
         if accepted(&found) {
             return Ok(found);
         }
@@ -88,20 +125,14 @@ impl Problem<'_> {
     }
 
     /// A ball's share of the load.
-    fn share(&self) -> f64 {
+    pub(super) fn share(&self) -> f64 {
         self.magnitude / self.model.balls.len() as f64
     }
 
-    /// Whether a step is so small that it leaves nothing.
-    fn is_last(&self, left: f64, step: &Vector2<f64>) -> bool {
-        let (residual, share) = LAST;
-        left <= residual * self.share() && step.norm() <= share * self.model.scales.approach
-    }
-
-    /// The step that a settled ball still has to go, by the inverse of its stiffness.
+    /// The step that a settled ball still has to go, by the inverse of its stiffness; what it leaves is of second order.
     pub(super) fn last_step(&self, state: &BallState, inverse: &Matrix2<f64>) -> Vector2<f64> {
         let step = inverse * state.force;
-        if self.is_last(state.force.norm(), &step) {
+        if step.norm() <= LAST * self.model.scales.approach {
             step
         } else {
             Vector2::zeros()
@@ -114,9 +145,9 @@ impl Problem<'_> {
         j: usize,
         rings: &SVector<f64, 6>,
         start: Vector2<f64>,
-        scale: f64,
+        precision: f64,
     ) -> BallState {
-        let tolerance = TOLERANCE * 1e-2 * scale;
+        let tolerance = precision * self.share();
         let longest = 0.02 * self.model.balls[j].side.radius;
         let mut state = self.ball_at(j, rings, start);
         let mut best = (state.force.norm(), 0);
@@ -139,7 +170,7 @@ impl Problem<'_> {
             };
             let mut step = inverse * state.force;
             // Or places have no more digits.
-            if self.is_last(left, &step) || step.norm() <= 4.0 * f64::EPSILON * state.place.norm() {
+            if step.norm() <= 4.0 * f64::EPSILON * state.place.norm() {
                 break;
             }
             step *= (longest / step.norm()).min(1.0);

@@ -2,17 +2,25 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::Vector2;
+use nalgebra::{SVector, Vector2};
 
 use super::problem::Problem;
 use crate::contact::V2;
+use crate::model::RowModel;
 use crate::scene::Cage;
 
 /// Newton iterations for the length of the links, at most; three do.
 const LENGTH_ITERATIONS: usize = 10;
+/// Iterations for a row's tension, at most, and its precision over the sum of the acting forces.
+const TENSION_ITERATIONS: usize = 60;
+const TENSION: f64 = 1e-10;
+/// Passes over a row's balls that let each follow its neighbours.
+const SWEEPS: usize = 4;
+/// How close to a race, over the contacts' approach, a loose ball counts as lying on it.
+const ON_RACE: f64 = 1e-2;
 
-/// The cage's hold on a ball along its radius: its pull where the ball stood, and a stiffness that keeps a
-/// loose ball from jumping between the races from one round to the next.
+/// The cage's hold on a ball along its radius: its pull at a radius, and a stiffness that keeps a loose ball from
+/// jumping between the races from one round to the next.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct CageSpring {
     force: f64,
@@ -30,73 +38,250 @@ impl CageSpring {
     }
 }
 
-impl Problem<'_> {
-    /// The cage's part at the balls' present radii: angles at which all links of a row are equally long, and
-    /// the links' pull on the balls.
-    ///
-    /// Balls pressed outwards stretch the cage; left out, its tension would shake the bearing at the start.
-    pub(super) fn engage(&mut self, cage: &Cage, balls: &[Vector2<f64>]) {
-        for row in self.model.rows.iter().filter(|row| row.count > 2) {
-            let radii: Vec<f64> = (0..row.count).map(|k| balls[row.first + k].x).collect();
-            let next = |k: usize| (k + 1) % row.count;
-            // Law of cosines: the angle that a link of this length spans.
-            let span = |k: usize, length: f64| {
-                let (a, b) = (radii[k], radii[next(k)]);
-                ((a * a + b * b - length * length) / (2.0 * a * b))
-                    .clamp(-1.0, 1.0)
-                    .acos()
-            };
-            // All spans together make the circle, and each grows with the length ℓ by ℓ/(a b sin span).
-            let mut length = row.cage_distance;
-            for _ in 0..LENGTH_ITERATIONS {
-                let (mut sum, mut slope) = (0.0, 0.0);
-                for k in 0..row.count {
-                    let span = span(k, length);
-                    sum += span;
-                    slope += length / (radii[k] * radii[next(k)] * span.sin());
-                }
-                let step = (TAU - sum) / slope;
-                length += step;
-                if step.abs() <= f64::EPSILON * length {
-                    break;
-                }
-            }
-            let extension = length - row.cage_distance;
-            let beyond = (extension.abs() - cage.play / 2.0)
-                .max(0.0)
-                .copysign(extension);
-            let tension = cage.stiffness * beyond;
-            // The mean of the shifts is zero.
-            let pitch = TAU / row.count as f64;
-            let mut shift = vec![0.0; row.count];
-            for k in 1..row.count {
-                shift[k] = shift[k - 1] + span(k - 1, length) - pitch;
-            }
-            let mean = shift.iter().sum::<f64>() / row.count as f64;
-            for (k, shift) in shift.into_iter().enumerate() {
-                let body = &self.model.bodies[2 + row.first + k];
-                let angle = body.nominal[1].atan2(body.nominal[0]) + shift - mean;
-                self.directions[row.first + k] = V2::new(angle.cos(), angle.sin());
-            }
-            let place = |k: usize| self.directions[row.first + k] * radii[k];
-            for (k, &radius) in radii.iter().enumerate() {
-                let before = (k + row.count - 1) % row.count;
-                let pull = ((place(next(k)) - place(k)).normalize()
-                    + (place(before) - place(k)).normalize())
-                    * tension;
-                let j = row.first + k;
-                // What the row's cage has against all balls moving out together.
-                let chord = row.cage_distance / radius;
-                self.cage_spring[j] = CageSpring {
-                    force: pull.dot(&self.directions[j]),
-                    stiffness: if tension == 0.0 {
-                        0.0
-                    } else {
-                        cage.stiffness * chord * chord
-                    },
-                    radius,
-                };
+/// A row's balls as its cage sees them while the rings stand still: springs on their races; and a ball that one race
+/// alone carries leaves it when it is pulled off, for the other one or to hang between them on its neighbours.
+struct Chain {
+    /// Length of all links, and the length at which they are slack.
+    length: f64,
+    slack: f64,
+    balls: Vec<ChainBall>,
+}
+
+struct ChainBall {
+    /// Radius and z now, on the inner and on the outer race; the same where the ball cannot leave.
+    place: Vector2<f64>,
+    inmost: Vector2<f64>,
+    outmost: Vector2<f64>,
+    /// Its own load outwards, and the cage's pull that it has settled under.
+    load: f64,
+    pull: f64,
+    hold: Hold,
+    /// How far a race follows it at most.
+    most: f64,
+}
+
+/// How the races hold a ball along its radius: stiffness, and the way along z for a way outwards.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Hold {
+    pub(super) stiffness: f64,
+    pub(super) slope: f64,
+}
+
+impl ChainBall {
+    /// The next guess at its radius, from one under a tension with a pull per newton; its neighbours push it back with
+    /// so much per metre.
+    fn follow(&self, radius: f64, tension: f64, pull: f64, pushed: f64) -> f64 {
+        let k = self.hold.stiffness;
+        // What the races carried, and carry there.
+        let carried = -self.load - self.pull;
+        let carry = |radius: f64| carried - k * (radius - self.place.x);
+        let there = radius + (self.load + tension * pull + carry(radius)) / (pushed + k);
+        let there = there.clamp(self.place.x - self.most, self.place.x + self.most);
+        let (lowest, highest) = (self.inmost.x, self.outmost.x);
+        if k > 0.0 && (lowest == highest || carry(there) * carried > 0.0) {
+            return there;
+        }
+        (radius + (self.load + tension * pull) / pushed).clamp(lowest, highest)
+    }
+
+    /// Its place at a radius.
+    fn at(&self, radius: f64) -> Vector2<f64> {
+        let way = self.outmost - self.inmost;
+        if way.x > 0.0 && radius >= self.inmost.x && radius <= self.outmost.x {
+            return self.inmost + way * ((radius - self.inmost.x) / way.x);
+        }
+        self.place + Vector2::new(1.0, self.hold.slope) * (radius - self.place.x)
+    }
+}
+
+impl Chain {
+    fn radii(&self, of: impl Fn(&ChainBall) -> f64) -> Vec<f64> {
+        self.balls.iter().map(of).collect()
+    }
+
+    /// What a newton of tension pulls a ball outwards, less than nothing: a link of length ℓ from radius a to b points
+    /// by (b² − a² − ℓ²)/(2aℓ) outwards.
+    fn pull(&self, k: usize, radii: &[f64]) -> f64 {
+        let count = radii.len();
+        let a = radii[k];
+        [radii[(k + 1) % count], radii[(k + count - 1) % count]]
+            .map(|b| (b * b - a * a - self.length * self.length) / (2.0 * a * self.length))
+            .iter()
+            .sum()
+    }
+
+    /// Where the balls are under a tension, one after the other.
+    fn hang(&self, tension: f64) -> Vec<f64> {
+        let mut radii = self.radii(|ball| ball.place.x);
+        // Pushed out of line, two links under a tension T push back with 2T/ℓ per metre.
+        let pushed = (2.0 * tension.abs() / self.length).max(f64::MIN_POSITIVE);
+        for _ in 0..SWEEPS {
+            for (k, ball) in self.balls.iter().enumerate() {
+                radii[k] = ball.follow(radii[k], tension, self.pull(k, &radii), pushed);
             }
         }
+        radii
+    }
+
+    /// The tension at these radii: a ball that moves out lengthens all links.
+    fn stretched(&self, cage: &Cage, radii: &[f64]) -> f64 {
+        let count = self.balls.len() as f64;
+        let moved = self.balls.iter().zip(radii);
+        let more = moved.map(|(ball, radius)| (radius / ball.place.x - 1.0) / count);
+        let extension = self.length * (1.0 + more.sum::<f64>()) - self.slack;
+        let beyond = (extension.abs() - cage.play / 2.0).max(0.0);
+        cage.stiffness * beyond.copysign(extension)
+    }
+
+    /// The tension under which the balls are where it needs them, to a precision.
+    fn tension(&self, cage: &Cage, precision: f64) -> f64 {
+        let excess = |tension: f64| self.stretched(cage, &self.hang(tension)) - tension;
+        // The higher, the further in the balls and the less stretched the links: regula falsi (Illinois) between none,
+        // and as much as the links have where none acts on the balls.
+        let (mut a, mut at_a) = (0.0, excess(0.0));
+        let (mut b, mut at_b) = (at_a, excess(at_a));
+        for _ in 0..TENSION_ITERATIONS {
+            if at_b.abs() <= precision || (a - b).abs() <= precision {
+                break;
+            }
+            let next = b - at_b * (b - a) / (at_b - at_a);
+            let at_next = excess(next);
+            if at_next * at_b <= 0.0 {
+                (a, at_a) = (b, at_b);
+            } else {
+                at_a /= 2.0;
+            }
+            (b, at_b) = (next, at_next);
+        }
+        b
+    }
+}
+
+impl Problem<'_> {
+    /// The cage's part at the balls' present places: angles at which all links of a row are equally long, their
+    /// tension, and where the balls are under it. Returns how far the forces on a ball were from that.
+    ///
+    /// Balls pressed outwards stretch the cage; left out, its tension would shake the bearing at the start.
+    pub(super) fn engage(
+        &mut self,
+        cage: &Cage,
+        rings: &SVector<f64, 6>,
+        places: &mut [Vector2<f64>],
+        holds: &[Hold],
+    ) -> f64 {
+        let model = self.model;
+        let mut left: f64 = 0.0;
+        for row in model.rows.iter().filter(|row| row.count > 2) {
+            let places = &mut places[row.first..row.first + row.count];
+            let (length, turned) = self.spread(row, places);
+            left = left.max(self.share() * turned);
+            let balls = places.iter().enumerate();
+            let chain = Chain {
+                length,
+                slack: row.cage_distance,
+                balls: balls
+                    .map(|(k, &place)| {
+                        let j = row.first + k;
+                        self.chain_ball(j, rings, place, holds[j])
+                    })
+                    .collect(),
+            };
+            let radii = chain.radii(|ball| ball.place.x);
+            let tension = chain.stretched(cage, &radii);
+            for (k, ball) in chain.balls.iter().enumerate() {
+                left = left.max((tension * chain.pull(k, &radii) - ball.pull).abs());
+            }
+            let tension = chain.tension(cage, TENSION * self.magnitude);
+            let radii = chain.hang(tension);
+            for (k, &radius) in radii.iter().enumerate() {
+                // What the row's cage has against all balls moving out together.
+                let chord = row.cage_distance / radius;
+                let together = cage.stiffness * chord * chord;
+                let share = self.cage_share.max(1.0 / row.count as f64);
+                let mut spring = CageSpring::default();
+                if tension != 0.0 {
+                    places[k] = chain.balls[k].at(radius);
+                    spring = CageSpring {
+                        force: tension * chain.pull(k, &radii),
+                        stiffness: share * together,
+                        radius,
+                    };
+                }
+                self.cage_spring[row.first + k] = spring;
+            }
+        }
+        left
+    }
+
+    /// Turns the balls of a row to where all links are equally long; returns their length and the largest turn.
+    fn spread(&mut self, row: &RowModel, balls: &[Vector2<f64>]) -> (f64, f64) {
+        let mut turned: f64 = 0.0;
+        let next = |k: usize| (k + 1) % row.count;
+        // Law of cosines: the angle that a link of this length spans.
+        let span = |k: usize, length: f64| {
+            let (a, b) = (balls[k].x, balls[next(k)].x);
+            ((a * a + b * b - length * length) / (2.0 * a * b))
+                .clamp(-1.0, 1.0)
+                .acos()
+        };
+        // All spans together make the circle, and each grows with the length ℓ by ℓ/(a b sin span).
+        let mut length = row.cage_distance;
+        for _ in 0..LENGTH_ITERATIONS {
+            let (mut sum, mut slope) = (0.0, 0.0);
+            for k in 0..row.count {
+                let span = span(k, length);
+                sum += span;
+                slope += length / (balls[k].x * balls[next(k)].x * span.sin());
+            }
+            let step = (TAU - sum) / slope;
+            length += step;
+            if step.abs() <= f64::EPSILON * length {
+                break;
+            }
+        }
+        // The mean of the shifts is zero.
+        let pitch = TAU / row.count as f64;
+        let mut shift = vec![0.0; row.count];
+        for k in 1..row.count {
+            shift[k] = shift[k - 1] + span(k - 1, length) - pitch;
+        }
+        let mean = shift.iter().sum::<f64>() / row.count as f64;
+        for (k, shift) in shift.into_iter().enumerate() {
+            let body = &self.model.bodies[2 + row.first + k];
+            let angle = body.nominal[1].atan2(body.nominal[0]) + shift - mean;
+            let direction = V2::new(angle.cos(), angle.sin());
+            turned = turned.max((direction - self.directions[row.first + k]).norm());
+            self.directions[row.first + k] = direction;
+        }
+        (length, turned)
+    }
+
+    fn chain_ball(
+        &self,
+        j: usize,
+        rings: &SVector<f64, 6>,
+        place: Vector2<f64>,
+        hold: Hold,
+    ) -> ChainBall {
+        let mut ball = ChainBall {
+            place,
+            inmost: place,
+            outmost: place,
+            load: self.own_load(j).x,
+            pull: self.cage_spring[j].pull(place.x),
+            hold,
+            most: self.model.scales.approach,
+        };
+        if let Some([outmost, inmost]) = self.loose(j, rings).filter(|_| !self.is_held(j)) {
+            // On the race, or even beyond it where a defect or waves make room, is as far as it goes.
+            let near = ON_RACE * self.model.scales.approach;
+            if place.x < outmost.x - near {
+                ball.outmost = outmost;
+            }
+            if place.x > inmost.x + near {
+                ball.inmost = inmost;
+            }
+        }
+        ball
     }
 }

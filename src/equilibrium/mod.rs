@@ -5,6 +5,9 @@
 //! balls are seeded on the line of the groove centres, and only a positive definite tangent stiffness is
 //! accepted: Newton's method alone also finds balls that balance on a shoulder.
 //!
+//! The cage pulls at all balls of a row with one tension. It is found between two solves of the rings, with the rings
+//! held: loose balls leave the race that no longer presses them, and often hang between the races on the cage.
+//!
 //! What follows from it: [`stiffness()`], which the rings' Newton solve forms anyway, and [`load_distribution`] over
 //! a turn of the cage.
 
@@ -28,12 +31,14 @@ pub use stiffness::{Stiffness, stiffness};
 
 /// Residual over the sum of the acting forces that counts as zero.
 const TOLERANCE: f64 = 1e-10;
+/// The same as long as the cage's pull is not yet known.
+const ON_THE_WAY: f64 = 1e-5;
 /// Residual that is still accepted where a slice that enters a defect makes the force jump.
 const STALLED: f64 = 1e-3;
 /// Solves with the cage's pull renewed, at most.
 const CAGE_ROUNDS: usize = 12;
-/// Movement of the balls over the contacts' approach at which the cage counts as engaged.
-const CAGE_TOLERANCE: f64 = 1e-3;
+/// Change of the cage's pull on any ball, over the sum of the acting forces, at which the cage counts as engaged.
+const ENGAGED: f64 = 1e-6;
 
 /// Static state of a bearing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -161,20 +166,27 @@ fn solve(model: &Model) -> Result<Solved> {
     let seeds: Vec<_> = (0..model.balls.len())
         .map(|j| problem.seed(j, &rings))
         .collect();
-    let (mut state, mut iterations) = problem.balance(&mut rings, &seeds)?;
+    let (mut state, mut iterations) = problem.balance(&mut rings, &seeds, ON_THE_WAY)?;
     if let Some(cage) = &model.scene.cage {
+        let mut last = f64::INFINITY;
         for _ in 0..CAGE_ROUNDS {
-            problem.engage(cage, &state.balls);
-            let (found, more) = problem.balance(&mut rings, &state.balls)?;
-            iterations += more;
-            let moved = state.balls.iter().zip(&found.balls);
-            let most = moved.map(|(a, b)| (a.x - b.x).abs()).fold(0.0, f64::max);
-            state = found;
-            if most < CAGE_TOLERANCE * model.scales.approach {
+            let left = problem.engage(cage, &rings, &mut state.balls, &state.holds);
+            if left <= ENGAGED * problem.magnitude {
                 break;
             }
+            // Where a stiff cage makes it worse, with a firmer hold.
+            if left > last {
+                problem.cage_share = (4.0 * problem.cage_share).clamp(0.25, 1.0);
+            }
+            last = left;
+            let (found, more) = problem.balance(&mut rings, &state.balls, ON_THE_WAY)?;
+            state = found;
+            iterations += more;
         }
     }
+    let (state, more) = problem.balance(&mut rings, &state.balls, TOLERANCE)?;
+    iterations += more;
+    problem.check(&state, &rings)?;
     Ok(Solved {
         y: problem.state(&rings, &state.balls),
         iterations,

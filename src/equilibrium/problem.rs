@@ -13,6 +13,9 @@ pub(super) struct Problem<'m> {
     pub(super) directions: Vec<V2>,
     /// The cage's hold on each ball.
     pub(super) cage_spring: Vec<CageSpring>,
+    /// Stiffness of each ball's hold over what a row's cage has against all balls moving out together; at least what
+    /// it has against one of them.
+    pub(super) cage_share: f64,
     /// Free directions of the rings, as indices into the six.
     pub(super) free: Vec<usize>,
     /// Constant forces on the rings.
@@ -72,6 +75,7 @@ impl<'m> Problem<'m> {
             model,
             ball_loads,
             cage_spring: vec![CageSpring::default(); directions.len()],
+            cage_share: 0.0,
             directions,
             free,
             loads,

@@ -2,10 +2,11 @@
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector2};
 
+use super::STALLED;
 use super::ball::least;
+use super::cage::Hold;
 use super::problem::Problem;
 use super::search::search;
-use super::{STALLED, TOLERANCE};
 use crate::contact::V2;
 use crate::error::{Error, Result};
 
@@ -15,6 +16,13 @@ const RING_ITERATIONS: usize = 200;
 const STALL: usize = 8;
 /// The same before giving up.
 const GIVE_UP: usize = 40;
+/// Stiffness of a ball, over that of a typical contact, below which no race holds it.
+const SOFT: f64 = 1e-4;
+/// Precision to which balls settle at first. On the way each need not settle much better than the rings themselves will
+/// after their next step.
+const ROUGH: f64 = 1e-2;
+/// Precision of the balls over that of the rings.
+const FINE: f64 = 1e-2;
 
 /// The rings at some place, every ball in its own equilibrium.
 pub(super) struct RingState {
@@ -22,9 +30,13 @@ pub(super) struct RingState {
     pub(super) balls: Vec<Vector2<f64>>,
     /// Forces on the rings along their free directions, and the stiffness against them.
     residual: DVector<f64>,
+    /// Precision to which the balls have settled.
+    precision: f64,
     stiffness: DMatrix<f64>,
     /// How each ball follows the rings, as far as it does so smoothly.
     follow: Vec<SMatrix<f64, 2, 6>>,
+    /// How the races hold each ball.
+    pub(super) holds: Vec<Hold>,
     /// Stiffness of the bearing alone, both rings free.
     pub(super) bearing: SMatrix<f64, 6, 6>,
 }
@@ -40,13 +52,16 @@ impl RingState {
 }
 
 impl Problem<'_> {
-    /// Newton's method on the rings' places; returns the number of iterations.
+    /// Newton's method on the rings' places, to a residual over the sum of the acting forces; returns the number of
+    /// iterations.
     pub(super) fn balance(
         &self,
         rings: &mut SVector<f64, 6>,
         starts: &[Vector2<f64>],
+        tolerance: f64,
     ) -> Result<(RingState, usize)> {
-        let mut state = self.rings(rings, starts, 0.0)?;
+        let fine = FINE * tolerance;
+        let mut state = self.rings(rings, starts, 0.0, ROUGH)?;
         let mut best = (f64::INFINITY, 0);
         // As far as the balls can follow; further where nothing touches.
         let shortest = 0.02 * self.model.balls[0].side.radius;
@@ -57,8 +72,11 @@ impl Problem<'_> {
                 best = (error, iteration);
             }
             let stalled = iteration > best.1 + STALL;
-            if error <= TOLERANCE || stalled && error <= STALLED {
-                self.check(&state, rings)?;
+            if state.precision > fine && (error <= tolerance || stalled) {
+                state = self.rings(rings, &state.balls, 0.0, fine)?;
+                continue;
+            }
+            if error <= tolerance || stalled && error <= STALLED {
                 return Ok((state, iteration));
             }
             if stalled && iteration > best.1 + GIVE_UP {
@@ -72,17 +90,23 @@ impl Problem<'_> {
                     .map(|(&i, r)| r * step[i])
                     .sum()
             };
+            let precision = (FINE * error * error).clamp(fine, ROUGH);
             let clipped = step.norm() > 0.99 * longest;
             let found = search(force(&state), |t| {
                 let moved = step * t;
                 let starts = state.followed(&moved);
-                let trial = self.rings(&(*rings + moved), &starts, moved.norm()).ok()?;
+                let trial = self
+                    .rings(&(*rings + moved), &starts, moved.norm(), precision)
+                    .ok()?;
                 Some((force(&trial), (t, trial)))
             });
             let Some((share, trial)) = found else {
+                if state.precision > fine {
+                    state = self.rings(rings, &state.balls, 0.0, fine)?;
+                    continue;
+                }
                 // Rounding, or a jump, leaves no better place: large forces of a misfit cancel to no more than this.
                 if error <= STALLED {
-                    self.check(&state, rings)?;
                     return Ok((state, iteration));
                 }
                 break;
@@ -104,19 +128,23 @@ impl Problem<'_> {
         })
     }
 
-    /// Lets every ball settle, and condenses it to forces and stiffness on the rings, which have moved so far.
+    /// Lets every ball settle to a precision, and condenses it to forces and stiffness on the rings, which have moved so
+    /// far.
     fn rings(
         &self,
         rings: &SVector<f64, 6>,
         starts: &[Vector2<f64>],
         moved: f64,
+        precision: f64,
     ) -> Result<RingState> {
         let mut forces = self.loads;
         let mut bearing = SMatrix::<f64, 6, 6>::zeros();
         let mut balls = Vec::with_capacity(starts.len());
         let mut follow = Vec::with_capacity(starts.len());
+        let mut holds = vec![Hold::default(); starts.len()];
         for (j, &start) in starts.iter().enumerate() {
-            let mut ball = self.settle(j, rings, self.refreshed(j, rings, start, moved))?;
+            let start = self.refreshed(j, rings, start, moved);
+            let mut ball = self.settle(j, rings, start, precision)?;
             let contacts = self.contact_stiffness(j, &mut ball);
             for (race, stiffness) in contacts.iter().enumerate() {
                 let k = 3 * race;
@@ -134,6 +162,13 @@ impl Problem<'_> {
                 followed = SMatrix::<f64, 2, 6>::from_fn(|a, b| {
                     inverse[(a, 0)] * pulled[(0, b)] + inverse[(a, 1)] * pulled[(1, b)]
                 });
+                let radial = 1.0 / inverse[(0, 0)] - self.cage_spring[j].stiffness();
+                if radial > SOFT * self.stiffness() {
+                    holds[j] = Hold {
+                        stiffness: radial,
+                        slope: inverse[(1, 0)] / inverse[(0, 0)],
+                    };
+                }
                 let last = self.last_step(&ball, &inverse);
                 forces += pulling * last;
                 ball.place += last;
@@ -157,8 +192,10 @@ impl Problem<'_> {
         Ok(RingState {
             balls,
             residual: DVector::from_fn(n, |a, _| forces[self.free[a]]),
+            precision,
             stiffness: DMatrix::from_fn(n, n, |a, b| held[(self.free[a], self.free[b])]),
             follow,
+            holds,
             bearing,
         })
     }
@@ -209,7 +246,7 @@ impl Problem<'_> {
     }
 
     /// Refuses what balances without being stable, and balls that left their groove.
-    fn check(&self, state: &RingState, rings: &SVector<f64, 6>) -> Result<()> {
+    pub(super) fn check(&self, state: &RingState, rings: &SVector<f64, 6>) -> Result<()> {
         let n = self.free.len();
         if n > 0 && state.stiffness.clone().cholesky().is_none() {
             let eigen = state.stiffness.clone().symmetric_eigen();
