@@ -23,7 +23,7 @@
 //! scene  →  model  →  dynamics  →  integrate  →  signals
 //! ```
 //!
-//! * [`simd`] — eight numbers at once, compiled for three levels of vector instructions.
+//! * [`simd`] — eight numbers at once, or a register full, compiled for three levels of vector instructions.
 //! * [`scene`] — what a user says: names, numbers, defaults; a serde document that is only validated.
 //! * [`contact`] — laws of one ball on one race: races, slices, ISO and Hertz laws, damping, friction, fault
 //!   circles. Numbers in, numbers out; no indices, no state.
@@ -51,6 +51,7 @@
 //! | a normal law | a file in `contact/`, a variant in `scene/contact.rs` and in `contact/law.rs`, a node in `contact/press.rs`, its slope in `contact/tangent.rs` | doctest values, limits |
 //! | a friction law | `contact/friction.rs`, a variant in `scene/contact.rs` | dissipation ≥ 0 |
 //! | what acts along z, or differs by row | `model/reduction/symmetry.rs` | a hair of it in `tests/reduction.rs` |
+//! | an approximation | `scene/approximations.rs`, grounds and a reason in `model/reduction/`, an offer in `explain/variants.rs` | `tests/approximations.rs`, a row in `benches/approximations.py` |
 //! | a race profile | `contact/race.rs`, `contact/press.rs` | gap against a closed form |
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
 //! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` | row sums, order of convergence |

@@ -244,7 +244,8 @@ fn mirrored_thrust_exchanges_the_rows() {
         let (one, other) = (under(axial), under(-axial));
         for (a, b) in [(one.inner, other.inner), (one.outer, other.outer)] {
             for (a, b) in [(a[0], -b[0]), (a[1], b[1]), (a[2], -b[2])] {
-                assert!((a - b).abs() < 1e-14, "{a} and {b}");
+                // 1e-10 of the load, to which forces are balanced, on 5e7 N/m.
+                assert!((a - b).abs() < 1e-13, "{a} and {b}");
             }
         }
         let largest = one

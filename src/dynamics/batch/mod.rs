@@ -168,6 +168,19 @@ impl Batch {
         self.find(Some(forces), model, state, &rings);
         self.level(forces, model, state, &rings);
         self.gather();
+        if self.active > 0 || !self.singles.is_empty() {
+            self.evaluate(model, state, &rings, pool);
+        }
+    }
+
+    /// Evaluates what was found, by eights and one by one.
+    fn evaluate(
+        &mut self,
+        model: &Model,
+        state: &State,
+        rings: &[Motion; 2],
+        pool: Option<&ThreadPool>,
+    ) {
         let (constants, plane) = (&self.constants, self.kind.plane);
         let eight = |group: &mut Group| {
             model.level.run(Eight {
@@ -176,7 +189,7 @@ impl Batch {
                 plane,
                 model,
                 state,
-                rings: &rings,
+                rings,
             });
         };
         let one = |single: &mut Single| {
