@@ -7,6 +7,7 @@ or ``{tag: value}`` when it only wraps one value. A field whose name is a Python
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 import types
 import typing
@@ -100,10 +101,13 @@ def encode(value: object, path: str) -> Any:
 
 
 def _encode_fields(part: Part, path: str) -> dict[str, Any]:
-    return {
-        _key(field): encode(getattr(part, field.name), _join(path, _key(field)))
-        for field in dataclasses.fields(part)
-    }
+    return {key: encode(getattr(part, name), _join(path, key)) for name, key in _names(type(part))}
+
+
+@functools.cache
+def _names(kind: type[Part]) -> tuple[tuple[str, str], ...]:
+    """Return the names of the fields of a part and their keys in a document."""
+    return tuple((field.name, _key(field)) for field in dataclasses.fields(kind))
 
 
 def decode(kind: type[T], document: object) -> T:

@@ -1004,8 +1004,14 @@ class Scene(Part):
 
     @classmethod
     def _read(cls, text: str) -> Scene:
-        return decode(Scene, json.loads(text))
+        scene = decode(Scene, json.loads(text))
+        object.__setattr__(scene, "_text", text)
+        return scene
 
     def _document(self) -> str:
-        """JSON, not yet checked."""
-        return json.dumps(encode(self, ""))
+        """JSON, not yet checked; kept, since a scene does not change."""
+        text: str | None = self.__dict__.get("_text")
+        if text is None:
+            text = json.dumps(encode(self, ""))
+            object.__setattr__(self, "_text", text)
+        return text

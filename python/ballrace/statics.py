@@ -107,7 +107,7 @@ def equilibrium(scene: Scene) -> Equilibrium:
     EquilibriumError
         There is no stable equilibrium: the load cannot be carried.
     """
-    return _equilibrium(json.loads(_core.equilibrium(scene.to_json())))
+    return _equilibrium(json.loads(_core.equilibrium(scene._document())))
 
 
 def _equilibrium(solution: dict[str, Any]) -> Equilibrium:
@@ -194,7 +194,7 @@ def stiffness(scene: Scene) -> Stiffness:
     >>> loaded.inner.shape, bool(loaded.radial[1] > loaded.axial)
     ((3, 3), True)
     """
-    found = json.loads(_core.stiffness(scene.to_json()))
+    found = json.loads(_core.stiffness(scene._document()))
     return Stiffness(
         inner=np.array(found["inner"], dtype=np.float64),
         rings=np.array(found["rings"], dtype=np.float64),
@@ -294,7 +294,7 @@ def load_distribution(scene: Scene, *, positions: int = 16) -> LoadDistribution:
     """
     if isinstance(positions, bool) or not isinstance(positions, int) or positions < 1:
         raise SceneError("positions", repr(positions), "a whole number, at least 1 per ball pitch")
-    found = json.loads(_core.load_distribution(scene.to_json(), positions))
+    found = json.loads(_core.load_distribution(scene._document(), positions))
     solved = [_equilibrium(solution) for solution in found["equilibria"]]
     columns = {
         name: np.stack([getattr(eq, name) for eq in solved])

@@ -38,7 +38,7 @@ const STALLED: f64 = 1e-3;
 /// Solves with the cage's pull renewed, at most.
 const CAGE_ROUNDS: usize = 12;
 /// Change of the cage's pull on any ball, over the sum of the acting forces, at which the cage counts as engaged.
-const ENGAGED: f64 = 1e-6;
+const ENGAGED: f64 = 1e-7;
 
 /// Static state of a bearing.
 #[derive(Debug, Clone, PartialEq, Serialize)]

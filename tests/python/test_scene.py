@@ -138,6 +138,10 @@ def scenes() -> list[s.Scene]:
         br.presets.deep_groove_6205(),
         full,
         full.replace({"friction": s.Coulomb(coefficient=0.1, slip_speed=0.1)}),
+        dataclasses.replace(
+            br.presets.wheel_bearing(),
+            approximations=s.Approximations(rolling=True, plane=True, one_row=True),
+        ),
         full.replace(
             {
                 "friction": s.Stribeck(
