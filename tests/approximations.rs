@@ -94,12 +94,12 @@ impl<'m> Shaken<'m> {
         self.model.rhs(self.t, &self.full, &mut rates);
         rates
     }
+}
 
-    /// Accelerations of a body along x, y, z and about z.
-    fn acceleration<'a>(&self, rates: &'a [f64], body: usize) -> &'a [f64] {
-        let half = rates.len() / 2;
-        &rates[half + 4 * body..half + 4 * body + 4]
-    }
+/// Accelerations of a body along x, y, z and about z.
+fn acceleration(rates: &[f64], body: usize) -> &[f64] {
+    let half = rates.len() / 2;
+    &rates[half + 4 * body..half + 4 * body + 4]
 }
 
 /// Analytic: rings feel what free balls would put on them, and a ball moves along its radius as if it were free.
@@ -110,8 +110,7 @@ fn rolling_balls_feel_their_radial_forces() {
         let shaken = Shaken::new(&model, seed);
         let free = shaken.free();
         for ring in 0..2 {
-            let [found, wanted] =
-                [&shaken.rates, &free].map(|rates| shaken.acceleration(rates, ring));
+            let [found, wanted] = [&shaken.rates, &free].map(|rates| acceleration(rates, ring));
             for i in 0..3 {
                 // A micrometre of approach is worth some 1e4 m/s².
                 assert!(
@@ -121,8 +120,7 @@ fn rolling_balls_feel_their_radial_forces() {
             }
         }
         for body in 2..model.body_count() {
-            let [found, wanted] =
-                [&shaken.rates, &free].map(|rates| shaken.acceleration(rates, body));
+            let [found, wanted] = [&shaken.rates, &free].map(|rates| acceleration(rates, body));
             let place = &shaken.full[4 * body..4 * body + 2];
             let radial = |a: &[f64]| (a[0] * place[0] + a[1] * place[1]) / place[0].hypot(place[1]);
             let (a, b) = (radial(found), radial(wanted));
@@ -210,7 +208,7 @@ fn contacts_in_the_plane_have_a_closed_form() {
             let bodies = closed.model.body_count();
             let worst = (0..bodies)
                 .flat_map(|body| {
-                    let [a, b] = [&closed, &each].map(|of| of.acceleration(&of.rates, body));
+                    let [a, b] = [&closed, &each].map(|of| acceleration(&of.rates, body));
                     // Forces, over the load of the contacts.
                     [0, 1].map(|i| (a[i] - b[i]).abs() * if body < 2 { 0.6 } else { 7e-3 } / 7e3)
                 })
@@ -229,8 +227,7 @@ fn axial_places_are_kept_and_nothing_else() {
         let shaken = Shaken::new(&model, 3);
         let free = shaken.free();
         for ring in 0..2 {
-            let [found, wanted] =
-                [&shaken.rates, &free].map(|rates| shaken.acceleration(rates, ring));
+            let [found, wanted] = [&shaken.rates, &free].map(|rates| acceleration(rates, ring));
             for i in 0..2 {
                 assert!((found[i] - wanted[i]).abs() < 1e-5, "{found:?} {wanted:?}");
             }
@@ -267,7 +264,7 @@ fn an_unloaded_row_goes() {
     };
     let idle = usize::from(loads(1) < loads(0));
     // What the idle row puts on the rings is all that differs: a few newtons of its centrifugal forces.
-    let [found, wanted] = [&shaken.rates, &free].map(|rates| shaken.acceleration(rates, 1));
+    let [found, wanted] = [&shaken.rates, &free].map(|rates| acceleration(rates, 1));
     let apart: f64 = (0..3)
         .map(|i| (found[i] - wanted[i]).powi(2))
         .sum::<f64>()

@@ -7,7 +7,6 @@ or ``{tag: value}`` when it only wraps one value. A field whose name is a Python
 from __future__ import annotations
 
 import dataclasses
-import functools
 import math
 import types
 import typing
@@ -104,10 +103,14 @@ def _encode_fields(part: Part, path: str) -> dict[str, Any]:
     return {key: encode(getattr(part, name), _join(path, key)) for name, key in _names(type(part))}
 
 
-@functools.cache
-def _names(kind: type[Part]) -> tuple[tuple[str, str], ...]:
+_NAMES: dict[type, list[tuple[str, str]]] = {}
+
+
+def _names(kind: type[Part]) -> list[tuple[str, str]]:
     """Return the names of the fields of a part and their keys in a document."""
-    return tuple((field.name, _key(field)) for field in dataclasses.fields(kind))
+    if kind not in _NAMES:
+        _NAMES[kind] = [(field.name, _key(field)) for field in dataclasses.fields(kind)]
+    return _NAMES[kind]
 
 
 def decode(kind: type[T], document: object) -> T:

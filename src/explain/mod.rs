@@ -91,7 +91,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         evaluated: of(crate::dynamics::Use::Evaluated),
         constant: of(crate::dynamics::Use::Constant),
         absent: of(crate::dynamics::Use::Absent),
-        variants: variants::of(&model, &y0, &cost)?,
+        variants: variants::of(&model, &y0, &cost),
         cost,
     })
 }

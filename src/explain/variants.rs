@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use super::cost::{self, Cost};
-use crate::error::Result;
 use crate::model::{Model, Reduction};
 use crate::scene::{Friction, Load, Scene, Slices, Surface};
 
@@ -111,7 +110,7 @@ const CHANGES: [(&str, &str, Change); 11] = [
 ];
 
 /// All that help, the cheapest first. They are timed at the scene's own start, and take its steps.
-pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Result<Vec<Variant>> {
+pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Vec<Variant> {
     let mut variants = Vec::new();
     let reduction_now = model.reduction(y0);
     let own = reduction_now.as_ref().map_or(model.dim(), Reduction::dim);
@@ -146,7 +145,7 @@ pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Result<Vec<Variant>>
         seconds: 0.5 * cost.seconds,
     });
     variants.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
-    Ok(variants)
+    variants
 }
 
 fn obstacles(reduction: Option<&Reduction>) -> usize {

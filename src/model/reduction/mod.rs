@@ -122,7 +122,6 @@ struct Grounds {
     exact: bool,
     plane: bool,
     mirrored: bool,
-    rolling: bool,
     /// Axial places of rings and rows.
     levels: Option<Vec<f64>>,
     idle: Option<usize>,
@@ -146,7 +145,7 @@ impl Grounds {
                 // The image pulls the rings the other way.
                 (2, None) if self.mirrored => Some(Reason::Mirror),
                 (2, _) if self.levels.is_some() => Some(Reason::Level),
-                (1 | 3, Some(_)) if self.rolling => Some(Reason::Rolling),
+                (1 | 3, Some(_)) if model.scene.approximations.rolling => Some(Reason::Rolling),
                 (3, Some(ball)) if self.exact => {
                     let smooth = model.rows[ball.row].pairs[0].friction.is_none();
                     let whole = ball.side.faults.is_empty();
@@ -221,7 +220,6 @@ impl Reduction {
         let wanted = model.scene.approximations;
         let mut grounds = Grounds {
             exact,
-            rolling: wanted.rolling,
             ..Grounds::default()
         };
         if exact {
@@ -296,7 +294,7 @@ impl Reduction {
         for row in 0..model.rows.len() {
             let idle = grounds.idle == Some(row);
             let copy = grounds.mirrored && row == 1;
-            if idle || grounds.rolling && !copy {
+            if idle || model.scene.approximations.rolling && !copy {
                 let at = (!idle).then(|| self.at(2 + model.rows[row].first, 0));
                 self.orbits.push(Orbit::of(model, row, start, at));
             }
