@@ -787,8 +787,8 @@ class Approximations(Part):
     ----------
     rolling : bool
         Balls and cage are kinematic: every row orbits in proportion to the inner ring as it rolls at the start,
-        its balls evenly spaced, and moves along its radii and z only. Friction and cage are left out. Needs a
-        driven speed.
+        its balls evenly spaced, and moves along its radii and z only. Friction and cage are left out, of
+        :meth:`Model.rhs` and :meth:`Model.forces` too, which else are those of free balls. Needs a driven speed.
     plane : bool
         Rings and balls keep their axial places from the start, the balls of a row all the same one: the plane
         model of a bearing with a contact angle, where loads along z do not change.

@@ -5,14 +5,16 @@
 //! ([`crate::scene::Approximations`]).
 
 mod course;
+mod grounds;
 mod request;
 mod symmetry;
 
 use std::ops::Range;
 
-use super::{Degree, Model};
+use super::Model;
 
-use course::{Coast, Course, Orbit};
+use course::{Coast, Orbit};
+use grounds::{Grounds, Reason, is_felt};
 
 /// The degrees of freedom that a run integrates, and what becomes of the others.
 ///
@@ -69,123 +71,6 @@ pub(crate) struct Stretch {
     pub count: usize,
     /// Place of the first among the states.
     pub at: usize,
-}
-
-/// Why a degree of freedom is not integrated.
-#[derive(Clone, Copy, PartialEq)]
-enum Reason {
-    Held,
-    Driven,
-    NoMoment,
-    Mirror,
-    Copy,
-    Rolling,
-    Level,
-    Idle,
-}
-
-impl Reason {
-    const ALL: [Self; 8] = [
-        Self::Held,
-        Self::Driven,
-        Self::NoMoment,
-        Self::Mirror,
-        Self::Copy,
-        Self::Rolling,
-        Self::Level,
-        Self::Idle,
-    ];
-
-    fn describe(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Held => ("held directions", "they do not move"),
-            Self::Driven => ("rotation of the inner ring", "the drive prescribes it"),
-            Self::NoMoment => ("spin of balls", "no friction: nothing turns them"),
-            Self::Mirror => ("z", "mirror symmetry"),
-            Self::Copy => ("balls of row 1", "mirror image of row 0"),
-            Self::Rolling => (
-                "orbit and spin of balls",
-                "by request: they roll, without friction and cage",
-            ),
-            Self::Level => ("z", "by request: axial places are kept"),
-            Self::Idle => (
-                "balls of the unloaded row",
-                "by request: they carry less than 2 % of the load",
-            ),
-        }
-    }
-}
-
-/// What may go, found before it is sorted out who goes.
-#[derive(Default)]
-struct Grounds {
-    exact: bool,
-    plane: bool,
-    mirrored: bool,
-    /// Axial places of rings and rows.
-    levels: Option<Vec<f64>>,
-    idle: Option<usize>,
-}
-
-impl Grounds {
-    /// Why a degree of freedom can be left out.
-    fn reason(&self, model: &Model, body: usize, direction: usize) -> Option<Reason> {
-        let ball = body.checked_sub(2).map(|j| &model.balls[j]);
-        if self.mirrored && ball.is_some_and(|ball| ball.row == 1) {
-            return Some(Reason::Copy);
-        }
-        if ball.is_some_and(|ball| self.idle == Some(ball.row)) {
-            return Some(Reason::Idle);
-        }
-        match model.bodies[body].degrees[direction] {
-            Degree::Fixed => self.exact.then_some(Reason::Held),
-            Degree::Driven => self.exact.then_some(Reason::Driven),
-            Degree::Free { stiffness, damping } => match (direction, ball) {
-                (2, _) if self.plane => Some(Reason::Mirror),
-                // The image pulls the rings the other way.
-                (2, None) if self.mirrored => Some(Reason::Mirror),
-                (2, _) if self.levels.is_some() => Some(Reason::Level),
-                (1 | 3, Some(_)) if model.scene.approximations.rolling => Some(Reason::Rolling),
-                (3, Some(ball)) if self.exact => {
-                    let smooth = model.rows[ball.row].pairs[0].friction.is_none();
-                    let whole = ball.side.faults.is_empty();
-                    let loose = stiffness == 0.0 && damping == 0.0;
-                    (smooth && whole && loose).then_some(Reason::NoMoment)
-                }
-                _ => None,
-            },
-        }
-    }
-
-    /// How what is left out moves by itself, from a start; none where others tell.
-    fn course(&self, model: &Model, start: &[f64], state: usize, reason: Reason) -> Option<Course> {
-        let (body, direction) = (state / 4, state % 4);
-        let (place, speed) = (start[state], start[start.len() / 2 + state]);
-        let drive = &model.scene.drive;
-        match (reason, direction) {
-            (Reason::Copy, _) | (Reason::Rolling, 1) | (Reason::Idle, 0 | 1) => None,
-            (Reason::Mirror, _) => Some(Course::steady(model.bodies[body].nominal[direction], 0.0)),
-            (Reason::Level, _) => {
-                let at = match body.checked_sub(2) {
-                    Some(j) => 2 + model.balls[j].row,
-                    None => body,
-                };
-                self.levels
-                    .as_ref()
-                    .map(|levels| Course::steady(levels[at], 0.0))
-            }
-            (Reason::Idle, 2) => Some(Course::steady(place, 0.0)),
-            (Reason::Driven, _) => Some(Course::driven(place, speed, 1.0, drive)),
-            (Reason::Rolling, _) => {
-                let share = match drive.initial_speed() {
-                    0.0 => model.rolling_shares(model.balls[body - 2].row).1,
-                    of => speed / of,
-                };
-                Some(Course::driven(place, speed, share, drive))
-            }
-            _ => Some(Course::steady(place, speed)),
-        }
-    }
 }
 
 impl Reduction {
@@ -457,15 +342,5 @@ fn copy_row(model: &Model, full: &mut [f64], sum: f64) {
             full.copy_within(from..from + 4, to);
             full[to + 2] = sum - full[from + 2];
         }
-    }
-}
-
-/// Whether forces depend on a degree of freedom that runs its course.
-fn is_felt(model: &Model, coast: &Coast, reason: Reason) -> bool {
-    match reason {
-        Reason::NoMoment | Reason::Idle => false,
-        // Only a defect tells how far a ball has turned.
-        Reason::Rolling => !model.balls[coast.body - 2].side.faults.is_empty(),
-        _ => true,
     }
 }
