@@ -37,7 +37,7 @@ pub(crate) struct LevelForces<S: Simd> {
     pub pulls: Choice<S>,
     /// Which touch but are left out here: the form does not hold, or they are not whole.
     pub careful: Choice<S>,
-    /// Pressed deeper than half the radius, or beside the groove; what is not a number counts as lost.
+    /// Pressed deeper than half the radius; what is not a number counts as lost.
     pub lost: Choice<S>,
 }
 

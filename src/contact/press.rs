@@ -111,7 +111,8 @@ struct Sums {
 
 impl Pair {
     /// Forces of eight contacts of this or another row: what their constants do not say (the kind of law, where
-    /// the ball is cut, damping, friction) is the same for all rows. Contacts in `skip` are left out, and told.
+    /// the ball is cut, damping, friction) is the same for all rows. Contacts in `skip` are left out, and told. With a
+    /// `stiffness` they follow Hertz's law as a whole.
     #[inline(always)]
     pub(crate) fn press<const FMA: bool, const PLANE: bool>(
         &self,
