@@ -62,13 +62,12 @@ impl Cost {
 
 /// Times some steps from a state of all bodies, at several places of the cage.
 pub(super) fn of(model: &Model, y0: &[f64]) -> Result<Cost> {
-    let (mut sum, mut evaluations) = (0.0, 0.0);
+    // Only the scene's own start is at rest and takes the steps of a run.
+    let (_, evaluations) = steps(model, y0, PLACES * STEPS)?;
+    let mut evaluation = 0.0;
     for start in places(model, y0) {
-        let (evaluation, rate) = steps(model, &start)?;
-        sum += evaluation;
-        evaluations += rate / PLACES as f64;
+        evaluation += steps(model, &start, STEPS)?.0 / PLACES as f64;
     }
-    let evaluation = sum / PLACES as f64;
     Ok(Cost {
         evaluations,
         evaluation,
@@ -80,7 +79,7 @@ pub(super) fn of(model: &Model, y0: &[f64]) -> Result<Cost> {
 }
 
 /// Time for an evaluation in some steps, and evaluations for a simulated second.
-fn steps(model: &Model, start: &[f64]) -> Result<(f64, f64)> {
+fn steps(model: &Model, start: &[f64], count: usize) -> Result<(f64, f64)> {
     let options = options(model)?;
     let reduction = model.reduction(start);
     let mut best = f64::INFINITY;
@@ -96,7 +95,7 @@ fn steps(model: &Model, start: &[f64]) -> Result<(f64, f64)> {
                 reached[0] = now;
             }
             reached[1] = now;
-            if stats.accepted >= STEPS {
+            if stats.accepted >= count {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
