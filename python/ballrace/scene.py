@@ -787,7 +787,7 @@ class Approximations(Part):
     ----------
     rolling : bool
         Balls and cage are kinematic: every row orbits in proportion to the inner ring as it rolls at the start,
-        its balls evenly spaced, and moves along its radii and z only. Friction and cage are left out, of
+        its balls spaced as there, and moves along its radii and z only. Friction and cage are left out, of
         :meth:`Model.rhs` and :meth:`Model.forces` too, which else are those of free balls. Needs a driven speed.
     plane : bool
         Rings and balls keep their axial places from the start, the balls of a row all the same one: the plane

@@ -111,32 +111,23 @@ const CHANGES: [(&str, &str, Change); 11] = [
 
 /// All that help, the cheapest first. They are timed at the scene's own start, and take its steps.
 pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Vec<Variant> {
-    let mut variants = Vec::new();
-    let reduction_now = model.reduction(y0);
-    let own = reduction_now.as_ref().map_or(model.dim(), Reduction::dim);
-    for (change, note, apply) in CHANGES {
-        let Some(scene) = apply(model.scene()) else {
-            continue;
-        };
-        // What the scene does not allow, or what would not hold, is no offer.
-        let Ok(changed) = Model::new(&scene) else {
-            continue;
-        };
-        let reduction = changed.reduction(y0);
-        if obstacles(reduction.as_ref()) > obstacles(reduction_now.as_ref()) {
-            continue;
-        }
-        let kept = reduction.map_or(changed.dim(), |r| r.dim());
-        // The integrator's share goes with the states.
-        let share = (cost.evaluation - cost.right_hand_side).max(0.0) * kept as f64 / own as f64;
-        let evaluation = cost::right_hand_side(&changed, y0) + share;
-        variants.push(Variant {
-            change: change.to_owned(),
-            note: note.to_owned(),
-            kept,
-            seconds: cost.evaluations * evaluation,
-        });
-    }
+    let own = model.reduction(y0).map_or(model.dim(), |r| r.dim());
+    let mut variants: Vec<Variant> = offers(model, y0)
+        .into_iter()
+        .map(|(change, note, changed)| {
+            let kept = changed.reduction(y0).map_or(changed.dim(), |r| r.dim());
+            // The integrator's share goes with the states.
+            let share =
+                (cost.evaluation - cost.right_hand_side).max(0.0) * kept as f64 / own as f64;
+            let evaluation = cost::right_hand_side(&changed, y0) + share;
+            Variant {
+                change: change.to_owned(),
+                note: note.to_owned(),
+                kept,
+                seconds: cost.evaluations * evaluation,
+            }
+        })
+        .collect();
     variants.retain(|variant| variant.seconds < HELPS * cost.seconds);
     variants.push(Variant {
         change: "with twice the largest step at rtol 1e-3".to_owned(),
@@ -146,6 +137,20 @@ pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Vec<Variant> {
     });
     variants.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
     variants
+}
+
+/// Changes that apply to a scene and hold at its start, with their notes and models. What the scene does not allow, or
+/// what meets an obstacle that was not there, is no offer.
+fn offers(model: &Model, y0: &[f64]) -> Vec<(&'static str, &'static str, Model)> {
+    let now = obstacles(model.reduction(y0).as_ref());
+    CHANGES
+        .into_iter()
+        .filter_map(|(change, note, apply)| {
+            let changed = Model::new(&apply(model.scene())?).ok()?;
+            let holds = obstacles(changed.reduction(y0).as_ref()) <= now;
+            holds.then_some((change, note, changed))
+        })
+        .collect()
 }
 
 fn obstacles(reduction: Option<&Reduction>) -> usize {
@@ -164,4 +169,56 @@ fn has_thrust(scene: &Scene) -> bool {
 fn has_impacts(scene: &Scene) -> bool {
     let mut defects = scene.defects.values();
     defects.any(|defect| defect.on != Surface::Ball)
+}
+
+/// The truth is what the scenes have; no clock has a part in it.
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Method, presets};
+    use crate::start::{Start, start};
+
+    fn offered(scene: &Scene) -> Vec<&'static str> {
+        let model = Model::new(scene).unwrap();
+        let y0 = start(&model, &Start::Equilibrium).unwrap();
+        let offers = offers(&model, &y0);
+        offers.into_iter().map(|(change, _, _)| change).collect()
+    }
+
+    #[test]
+    fn approximations_are_offered_where_they_hold() {
+        const ROLLING: &str = "with approximations.rolling";
+        const FLAT: &str = "with approximations.rolling and plane";
+        const ONE_ROW: &str = "with approximations.one_row";
+        let of = |scene: &Scene| {
+            let mut found = offered(scene);
+            found.retain(|change| change.starts_with("with approximations"));
+            found
+        };
+        let faulted = presets::wheel_bearing(3000.0);
+        assert_eq!(of(&faulted), [ROLLING, FLAT]);
+        // No thrust: nothing for a plane to keep.
+        assert_eq!(of(&presets::wheel_bearing(0.0)), [ROLLING]);
+        let mut healthy = faulted.clone();
+        healthy.defects.clear();
+        assert!(of(&healthy).is_empty());
+        // One row carries it all.
+        let mut lifted = presets::wheel_bearing(20e3);
+        lifted.loads.get_mut("radial").unwrap().force = 500.0.into();
+        assert_eq!(of(&lifted), [ROLLING, FLAT, ONE_ROW]);
+        let mut implicit = faulted.clone();
+        implicit.solver.method = Method::ImplicitFriction;
+        assert!(of(&implicit).is_empty());
+    }
+
+    #[test]
+    fn what_a_scene_has_can_be_taken_away() {
+        let found = offered(&presets::deep_groove_6205(500.0, 0.0, 1800.0));
+        for change in ["without friction", "without the cage", "on 4 nodes"] {
+            assert!(found.contains(&change), "{change}");
+        }
+        for change in ["without defects", "without thrust", "without waviness"] {
+            assert!(!found.contains(&change), "{change}");
+        }
+    }
 }

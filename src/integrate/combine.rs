@@ -84,23 +84,17 @@ impl Combination<'_> {
         let weights: [Vector<S>; N] = from_fn(|j| Vector::all(simd, terms[j].0));
         let registers: [&[S::f64s]; N] = from_fn(|j| Vector::<S>::registers(k[j], whole));
         let out = Vector::<S>::registers_mut(self.out, whole);
-        if let Some(base) = base {
-            let base = Vector::<S>::registers(base, whole);
-            for i in 0..whole {
-                let mut sum = zero;
-                for j in 0..N {
-                    sum = weights[j].mul_add(Vector::of(simd, registers[j][i]), sum);
-                }
-                h.mul_add(sum, Vector::of(simd, base[i])).put(&mut out[i]);
+        let bases = base.map(|base| Vector::<S>::registers(base, whole));
+        for i in 0..whole {
+            let mut sum = zero;
+            for j in 0..N {
+                sum = weights[j].mul_add(Vector::of(simd, registers[j][i]), sum);
             }
-        } else {
-            for i in 0..whole {
-                let mut sum = zero;
-                for j in 0..N {
-                    sum = weights[j].mul_add(Vector::of(simd, registers[j][i]), sum);
-                }
-                h.mul_add(sum, zero).put(&mut out[i]);
-            }
+            let base = match bases {
+                Some(bases) => Vector::of(simd, bases[i]),
+                None => zero,
+            };
+            h.mul_add(sum, base).put(&mut out[i]);
         }
         for i in whole * lanes..len {
             let mut sum = zero;

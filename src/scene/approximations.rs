@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 #[serde(deny_unknown_fields, default)]
 pub struct Approximations {
     /// Balls and cage are kinematic: every row orbits in proportion to the inner ring as it rolls at the start, its
-    /// balls evenly spaced, and moves along its radii and z only. Friction and cage are left out, of
+    /// balls spaced as there, and moves along its radii and z only. Friction and cage are left out, of
     /// [`crate::Model::rhs`] too, which else is that of free balls.
     pub rolling: bool,
     /// Rings and balls keep their axial places from the start, the balls of a row all the same one: the plane model

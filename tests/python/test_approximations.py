@@ -64,14 +64,8 @@ def test_what_cannot_be_is_refused() -> None:
         )
 
 
-def test_they_are_offered_where_they_would_hold() -> None:
-    """Rolling hides what a healthy bearing does, and only thrust asks for a plane."""
-    offers = "with approximations.rolling", "with approximations.rolling and plane"
-
-    def offered(scene: br.Scene) -> set[str]:
-        return {v["change"] for v in br.explain(scene).variants} & set(offers)
-
-    assert offered(spalled()) == set(offers)
-    assert offered(spalled().replace({"loads.axial.force": 0.0})) <= {offers[0]}
-    assert not offered(br.presets.deep_groove_6205())
-    assert not offered(spalled().replace({"solver.method": "implicit-friction"}))
+def test_a_healthy_bearing_is_offered_none() -> None:
+    """Rolling hides what it does; that faulted ones are offered it is tested in the crate, without a clock."""
+    for scene in (br.presets.deep_groove_6205(), replace(spalled(), defects={})):
+        changes = {v["change"] for v in br.explain(scene).variants}
+        assert not any("approximations" in change for change in changes)

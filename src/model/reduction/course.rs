@@ -34,6 +34,15 @@ impl Course {
         }
     }
 
+    /// In proportion to the drive: as at the start, or by a given share where the drive begins at rest.
+    pub fn geared(place: f64, speed: f64, at_rest: f64, drive: &Drive) -> Self {
+        let share = match drive.initial_speed() {
+            0.0 => at_rest,
+            of => speed / of,
+        };
+        Self::driven(place, speed, share, drive)
+    }
+
     /// Whether it ever leaves its place.
     pub fn moves(&self) -> bool {
         self.speed != 0.0 || self.drive.is_some()
@@ -117,16 +126,12 @@ impl Orbit {
                 [x / scale, y / scale]
             })
             .collect();
-        let drive = &model.scene.drive;
-        let share = match drive.initial_speed() {
-            0.0 => model.rolling_shares(row).0,
-            of => speed / of,
-        };
+        let (at_rest, _) = model.rolling_shares(row);
         Self {
             first,
             starts,
             at,
-            course: Course::driven(0.0, speed, share, drive),
+            course: Course::geared(0.0, speed, at_rest, &model.scene.drive),
         }
     }
 

@@ -117,11 +117,8 @@ impl Grounds {
             (Reason::Idle, 2) => Some(Course::steady(place, 0.0)),
             (Reason::Driven, _) => Some(Course::driven(place, speed, 1.0, drive)),
             (Reason::Rolling, _) => {
-                let share = match drive.initial_speed() {
-                    0.0 => model.rolling_shares(model.balls[body - 2].row).1,
-                    of => speed / of,
-                };
-                Some(Course::driven(place, speed, share, drive))
+                let (_, at_rest) = model.rolling_shares(model.balls[body - 2].row);
+                Some(Course::geared(place, speed, at_rest, drive))
             }
             _ => Some(Course::steady(place, speed)),
         }
