@@ -271,6 +271,10 @@ fn an_unloaded_row_goes() {
         .sqrt();
     assert!(loads(idle) < 0.02 * loads(1 - idle));
     assert!(apart * 0.6 <= loads(idle) + 1e-6, "{apart}");
+    // Nor does the outer ring feel what its balls press on it: some newtons on 0.8 kg.
+    let [found, wanted] = [&shaken.rates, &free].map(|rates| acceleration(rates, 0));
+    let felt = (0..3).any(|i| (found[i] - wanted[i]).abs() > 0.1);
+    assert!(felt, "{found:?} {wanted:?}");
     // Its balls go round with the cage.
     let turned = |body: usize| {
         let at = 4 * body;
