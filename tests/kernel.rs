@@ -6,7 +6,6 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::dynamics::Dynamics;
-use ballrace::integrate::System;
 use ballrace::scene::{Defect, Friction, NormalLaw, Scene, Slices, Surface, Waviness, presets};
 use ballrace::simd::Level;
 use ballrace::{Model, Start, start};
@@ -19,7 +18,7 @@ fn difference(scene: &Scene, level: Level) -> f64 {
     let model = Model::new(scene).unwrap().with_level(level);
     let calm = start(&model, &Start::Equilibrium).unwrap();
     let mut dynamics = Dynamics::new(&model);
-    let (mut noise, mut dy, mut worst) = (Noise(1), vec![0.0; model.dim()], 0.0_f64);
+    let (mut noise, mut worst) = (Noise(1), 0.0_f64);
     for _ in 0..20 {
         let half = calm.len() / 2;
         let mut y = calm.clone();
@@ -28,11 +27,11 @@ fn difference(scene: &Scene, level: Level) -> f64 {
             y[i] += place * noise.next();
             y[half + i] += speed * noise.next();
         }
-        dynamics.rhs(0.0, &y, &mut dy);
+        let found = dynamics.forces(0.0, &y);
         let parts = model.forces(0.0, &y);
         let loads = |j: usize| [0, 1].map(|race| model.contact(&y, j, race).load);
         let balls: Vec<[f64; 2]> = (0..model.body_count() - 2).map(loads).collect();
-        for (b, force) in dynamics.last_forces().iter().enumerate() {
+        for (b, force) in found.iter().enumerate() {
             let size: f64 = if b < 2 {
                 balls.iter().map(|load| load[b]).sum()
             } else {

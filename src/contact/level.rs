@@ -8,11 +8,29 @@ use super::{Motion, Pair, Torus};
 use crate::simd::{Choice, Simd, Vector};
 
 /// A race and how its ring moves.
+#[derive(Clone, Copy)]
 pub(crate) struct LevelRace<'a, S: Simd> {
-    pair: &'a Pair,
-    of: &'a InPlane,
-    ring: &'a Motion,
-    simd: S,
+    law: &'a LawInPlane,
+    /// Whether the balls are in the middle of the groove.
+    middle: bool,
+    /// Whether damping may pull.
+    clamp: bool,
+    /// +1 for the outer, −1 for the inner race.
+    sigma: Vector<S>,
+    /// Radius of the circle of groove centres \[m\].
+    a: Vector<S>,
+    /// The balls' axial place from the groove's centre, squared \[m²\].
+    offset_squared: Vector<S>,
+    /// Ball radius less groove radius \[m\].
+    margin: Vector<S>,
+    /// Approach up to which the form holds \[m\].
+    limit: Vector<S>,
+    /// Half the ball's radius \[m\].
+    deepest: Vector<S>,
+    /// 3/2 of the damping \[s/m\].
+    damping: Vector<S>,
+    centre: [Vector<S>; 2],
+    velocity: [Vector<S>; 2],
 }
 
 /// Balls in the plane of the scene.
@@ -24,11 +42,12 @@ pub(crate) struct LevelBalls<S: Simd> {
     pub vy: Vector<S>,
     /// Raise of the race under them \[m\].
     pub raise: Vector<S>,
-    /// Where there is a ball, whose contact sees no defect.
-    pub whole: Choice<S>,
+    /// Where there is a ball, whose contact sees no defect; everywhere if there is no telling.
+    pub whole: Option<Choice<S>>,
 }
 
 /// What a race puts on balls: the ring gets the opposite.
+#[derive(Clone, Copy)]
 pub(crate) struct LevelForces<S: Simd> {
     /// Along x and y \[N\].
     pub x: Vector<S>,
@@ -37,71 +56,88 @@ pub(crate) struct LevelForces<S: Simd> {
     pub pulls: Choice<S>,
     /// Which touch but are left out here: the form does not hold, or they are not whole.
     pub careful: Choice<S>,
-    /// Pressed deeper than half the radius; what is not a number counts as lost.
-    pub lost: Choice<S>,
+    /// \[m\]
+    approach: Vector<S>,
 }
 
 impl<'a, S: Simd> LevelRace<'a, S> {
-    pub fn new(simd: S, pair: &'a Pair, of: &'a InPlane, ring: &'a Motion) -> Self {
+    #[inline(always)]
+    pub fn new(simd: S, pair: &'a Pair, of: &'a InPlane, ring: &Motion) -> Self {
+        let all = |x: f64| Vector::all(simd, x);
+        let Torus { sigma, a, r, .. } = pair.race;
         Self {
-            pair,
-            of,
-            ring,
-            simd,
+            law: &of.law,
+            middle: of.offset == 0.0,
+            clamp: pair.clamp_pull,
+            sigma: all(sigma),
+            a: all(a),
+            offset_squared: all(of.offset * of.offset),
+            margin: all(of.radius - r),
+            limit: all(of.limit),
+            deepest: all(0.5 * of.radius),
+            damping: all(1.5 * pair.damping),
+            centre: [all(ring.centre.x), all(ring.centre.y)],
+            velocity: [all(ring.velocity.x), all(ring.velocity.y)],
         }
     }
 
     #[inline(always)]
     pub fn press(&self, balls: &LevelBalls<S>) -> LevelForces<S> {
-        let all = |x: f64| Vector::all(self.simd, x);
+        let all = |x: f64| self.a.same(x);
         let (zero, one) = (all(0.0), all(1.0));
-        let Torus { sigma, a, r, .. } = self.pair.race;
-        let ring = self.ring;
-        let (x, y) = (balls.x - all(ring.centre.x), balls.y - all(ring.centre.y));
+        let (x, y) = (balls.x - self.centre[0], balls.y - self.centre[1]);
         let d = x.mul_add(x, y * y).sqrt();
-        let over = all(sigma) / d;
+        let over = self.sigma / d;
         let n = (x * over, y * over);
-        let e = (d - balls.raise - all(a)) * all(sigma);
-        let l = if self.of.offset == 0.0 {
+        let e = (d - balls.raise - self.a) * self.sigma;
+        let l = if self.middle {
             e
         } else {
-            e.mul_add(e, all(self.of.offset * self.of.offset)).sqrt()
+            e.mul_add(e, self.offset_squared).sqrt()
         };
-        let approach = l + all(self.of.radius - r);
-        let speed =
-            (balls.vx - all(ring.velocity.x)).mul_add(n.0, (balls.vy - all(ring.velocity.y)) * n.1);
+        let approach = l + self.margin;
+        let (vx, vy) = (balls.vx - self.velocity[0], balls.vy - self.velocity[1]);
+        let speed = vx.mul_add(n.0, vy * n.1);
         let pressed = approach.or_more(zero);
-        let (elastic, tilt) = match &self.of.law {
-            // Force and rate of the approach lie along the common normal.
+        // Of Hertz's law force and rate of the approach lie along the common normal.
+        let (elastic, tilt) = match self.law {
             LawInPlane::Hertz(stiffness) => {
-                let tilt = (self.of.offset != 0.0).then(|| e / l);
+                let tilt = (!self.middle).then(|| e / l);
                 (pressed * pressed.sqrt() * all(*stiffness), tilt)
             }
             LawInPlane::Iso(series) => (series.forces(pressed), None),
         };
         let rate = tilt.map_or(speed, |tilt| speed * tilt);
-        let damped = elastic * rate.mul_add(all(1.5 * self.pair.damping), one);
-        // Negated, so that what is not a number counts as touching and stays one.
-        let in_front = zero.below(e);
-        let touching = in_front.and(approach.below(zero)).not();
-        let simple = all(self.of.limit)
-            .below(approach)
-            .or(e.below(zero))
-            .not()
-            .and(balls.whole);
+        let damped = elastic * rate.mul_add(self.damping, one);
+        // What is not a number is simple and stays one.
+        let apart = zero.below(e).and(approach.below(zero));
+        let beyond = self.limit.below(approach).or(e.below(zero));
+        let mut simple = beyond.not();
+        if let Some(whole) = balls.whole {
+            simple = simple.and(whole);
+        }
         let damped = simple.choose(damped, zero);
-        let normal = if self.pair.clamp_pull {
+        let normal = if self.clamp {
             damped.or_more(zero)
         } else {
             damped
         };
         let normal = tilt.map_or(normal, |tilt| normal * tilt);
+        let push = zero - normal;
         LevelForces {
-            x: -(normal * n.0),
-            y: -(normal * n.1),
+            x: push * n.0,
+            y: push * n.1,
             pulls: damped.below(zero),
-            careful: touching.and(simple.not()),
-            lost: approach.below(all(0.5 * self.of.radius)).not(),
+            careful: apart.or(simple).not(),
+            approach,
         }
+    }
+
+    /// Which balls are pressed deeper than half their radius, among those that need care.
+    #[inline(always)]
+    pub fn lost(&self, forces: &LevelForces<S>) -> Choice<S> {
+        forces
+            .careful
+            .and(forces.approach.below(self.deepest).not())
     }
 }

@@ -7,6 +7,7 @@ mod energy;
 mod grip;
 mod implicit;
 mod others;
+mod plane;
 mod rolling;
 mod stage;
 mod state;
@@ -21,12 +22,14 @@ use crate::contact::{Motion, Pair, Slices};
 use crate::integrate::System;
 use crate::model::{Degree, Model, Reduction, RowModel, Spring};
 use crate::scene::Drive;
+use crate::simd::Level;
 
 pub use contacts::{ContactSummary, SliceForce};
 pub use energy::Energy;
 pub(crate) use uses::Use;
 
 use batch::{Batch, Kind};
+use plane::{Ground, Plane, Rates};
 use rolling::Rolling;
 use stage::Stage;
 use state::{State, Table};
@@ -67,6 +70,8 @@ struct Kept {
     /// Place of the driven rotation, if it is among the states.
     driven: Option<usize>,
     rolling: Rolling,
+    /// Where one loop is all.
+    plane: Option<(Level, Plane)>,
 }
 
 /// Names of the contributions of [`Model::forces`], in their order.
@@ -103,6 +108,7 @@ impl<'m> Dynamics<'m> {
             reduction,
             driven,
             rolling,
+            plane: None,
         }));
         let mut dynamics = Self::with(model, order, kind);
         let kept = dynamics.degrees();
@@ -113,7 +119,22 @@ impl<'m> Dynamics<'m> {
         let kept = dynamics.compress(start);
         dynamics.expand(0.0, &kept, &mut places);
         dynamics.state.read(&places);
+        dynamics.find_plane();
         dynamics
+    }
+
+    fn find_plane(&mut self) {
+        let (Order::Kept(kept), Some(forms)) = (&mut self.order, self.contacts.forms()) else {
+            return;
+        };
+        let ground = Ground {
+            model: self.model,
+            reduction: &kept.reduction,
+            state: &self.state,
+            steady: &self.constant,
+            springs: &self.springs,
+        };
+        kept.plane = Plane::new(&ground, &forms);
     }
 
     /// For a run from a state of all bodies, with what it leaves out.
@@ -177,9 +198,14 @@ impl<'m> Dynamics<'m> {
         self.contacts.lost().map(|ball| 2 + ball)
     }
 
-    /// The forces of the last evaluation on every body: x, y, z \[N\] and about z \[N m\]. For a direction
-    /// that is fixed or driven their negative is what holds it. Bodies that a reduction leaves out have none.
-    pub fn last_forces(&self) -> Vec<[f64; 4]> {
+    /// The forces on every body at a state of the run: x, y, z \[N\] and about z \[N m\]. For a direction that is fixed
+    /// or driven their negative is what holds it. Bodies that a reduction leaves out have none.
+    ///
+    /// # Panics
+    /// If the length of `y` is not [`System::dim`].
+    pub fn forces(&mut self, t: f64, y: &[f64]) -> Vec<[f64; 4]> {
+        self.read(t, y);
+        self.sum(t);
         (0..self.model.bodies.len())
             .map(|body| self.forces.of(body))
             .collect()
@@ -257,6 +283,28 @@ impl<'m> Dynamics<'m> {
                 kept.rolling.place(reduction, t, &mut self.state);
             }
         }
+    }
+
+    /// The rates by one loop, where that is all.
+    fn in_plane(&mut self, y: &[f64], dy: &mut [f64]) -> bool {
+        let Order::Kept(kept) = &mut self.order else {
+            return false;
+        };
+        let Some((level, plane)) = &mut kept.plane else {
+            return false;
+        };
+        let model = self.model;
+        let done = level.run_wide(Rates {
+            plane,
+            model,
+            y,
+            dy,
+        });
+        if done {
+            self.contacts.settle();
+            self.contact_torques = [0.0; 2];
+        }
+        done
     }
 
     fn sum(&mut self, t: f64) {
@@ -346,6 +394,9 @@ impl System for Dynamics<'_> {
 
     /// M q̈ = F(t, q, q̇) in state space (model section 1).
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        if self.in_plane(y, dy) {
+            return;
+        }
         self.read(t, y);
         self.sum(t);
         let half = y.len() / 2;

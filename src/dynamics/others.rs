@@ -72,51 +72,66 @@ impl Wide for Links<'_> {
             forces,
         } = self;
         let all = |x: f64| Vector::all(simd, x);
-        let (zero, half) = (all(0.0), all(0.5 * cage.play));
-        let (from, links) = (2 + row.first, row.count - 1);
-        let count = links.div_ceil(Vector::<S>::LANES);
-        let all_of = |of| Vector::<S>::registers(of, count);
+        let (from, balls) = (2 + row.first, row.count);
         let [x, y, ..] = state.q.directions();
         let [vx, vy, ..] = state.v.directions();
-        let balls = [x, y, vx, vy].map(|of| all_of(&of[from..]));
-        let next = [x, y, vx, vy].map(|of| all_of(&of[from + 1..]));
-        let [fx, fy, ..] = forces.directions_mut().map(|of| &mut of[from..]);
-        for i in 0..count {
-            let apart = [0, 1, 2, 3]
-                .map(|k: usize| Vector::of(simd, next[k][i]) - Vector::of(simd, balls[k][i]));
-            let [dx, dy, dvx, dvy] = apart;
-            let over = all(1.0) / dx.mul_add(dx, dy * dy).sqrt();
-            let n = (dx * over, dy * over);
-            let extension = dx.mul_add(n.0, dy * n.1) - all(row.cage_distance);
-            let slack = extension.or_more(-half).or_less(half);
-            let rate = dvx.mul_add(n.0, dvy * n.1);
-            let beyond = extension - slack;
-            let force = beyond.mul_add(all(cage.stiffness), rate * all(cage.damping));
-            let at = i * Vector::<S>::LANES;
-            let there = Vector::count(simd).below(all((links - at) as f64));
-            let engaged = if cage.play > 0.0 {
-                half.below(extension).or(extension.below(-half)).and(there)
-            } else {
-                there
-            };
-            for (along, n) in [(&mut *fx, n.0), (&mut *fy, n.1)] {
-                let pull = engaged.choose(force * n, zero);
-                let first = &mut along[at..];
-                (Vector::load(simd, first) + pull).store(first);
-                let next = &mut along[at + 1..];
-                (Vector::load(simd, next) - pull).store(next);
+        let of = [x, y, vx, vy];
+        let zero = all(0.0);
+        // Two balls have one link.
+        let mut closing = [zero; 2];
+        if balls > 2 {
+            let mut apart = [zero; 4];
+            for (apart, of) in apart.iter_mut().zip(of) {
+                *apart = all(of[from] - of[from + balls - 1]);
+            }
+            closing = pull((cage, row.cage_distance), apart);
+        }
+        let mut before = closing;
+        let [fx, fy, ..] = forces.directions_mut();
+        for at in (0..balls).step_by(Vector::<S>::LANES) {
+            let body = from + at;
+            let mut apart = [zero; 4];
+            for (apart, of) in apart.iter_mut().zip(of) {
+                *apart = Vector::load(simd, &of[body + 1..]) - Vector::load(simd, &of[body..]);
+            }
+            let linked = pull((cage, row.cage_distance), apart);
+            let lane = Vector::count(simd);
+            let left = (balls - at) as f64;
+            let (open, there) = (lane.below(all(left - 1.5)), lane.below(all(left - 0.5)));
+            for (i, along) in [&mut *fx, &mut *fy].into_iter().enumerate() {
+                let next = there.choose(open.choose(linked[i], closing[i]), zero);
+                let force = next - there.choose(next.after(before[i]), zero);
+                before[i] = next;
+                let to = &mut along[body..];
+                (Vector::load(simd, to) + force).store(to);
             }
         }
-        // Two balls have one link, which is done.
-        if links > 1 {
-            let (last, first) = (from + links, from);
-            let [a, b] = [last, first].map(|body| state.motion(body));
-            let apart = b.centre - a.centre;
-            let pull = apart * (link(cage, row.cage_distance, &a, &b).force / apart.norm());
-            forces.add(last, &[pull.x, pull.y, 0.0, 0.0]);
-            forces.add(first, &[-pull.x, -pull.y, 0.0, 0.0]);
-        }
     }
+}
+
+/// What [`link`] puts on the first of two balls along x and y, from how far the second is apart and how fast it departs.
+#[allow(clippy::inline_always)]
+#[inline(always)]
+pub(super) fn pull<S: Simd>(
+    (cage, nominal): (&Cage, f64),
+    [dx, dy, dvx, dvy]: [Vector<S>; 4],
+) -> [Vector<S>; 2] {
+    let all = |x: f64| dx.same(x);
+    let half = all(0.5 * cage.play);
+    let over = all(1.0) / dx.mul_add(dx, dy * dy).sqrt();
+    let (nx, ny) = (dx * over, dy * over);
+    let extension = dx.mul_add(nx, dy * ny) - all(nominal);
+    let rate = dvx.mul_add(nx, dvy * ny);
+    let mut beyond = extension;
+    if cage.play > 0.0 {
+        beyond = extension - extension.or_more(-half).or_less(half);
+    }
+    let mut tension = beyond.mul_add(all(cage.stiffness), rate * all(cage.damping));
+    if cage.play > 0.0 {
+        let engaged = half.below(extension).or(extension.below(-half));
+        tension = engaged.choose(tension, all(0.0));
+    }
+    [tension * nx, tension * ny]
 }
 
 pub(super) fn supports(springs: &[Spring], state: &State, forces: &mut Table) {

@@ -1,13 +1,9 @@
 //! The one inner loop: a base plus a weighted sum of stages.
 
-use std::array::from_fn;
-
 use crate::simd::{Level, Simd, Vector, Wide};
 
 /// Most nonzero weights a row may have; one arm of the match below for each.
 const MAX_TERMS: usize = 8;
-
-type Term<'a> = (f64, &'a [f64]);
 
 /// Writes `out[i] = base[i] + h Σⱼ weights[j] · k[j][i]` in a single pass.
 ///
@@ -47,61 +43,95 @@ impl Wide for Combination<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let mut terms: [Term; MAX_TERMS] = [(0.0, &[]); MAX_TERMS];
+        let mut weights = [0.0; MAX_TERMS];
+        let mut stages = [0; MAX_TERMS];
         let mut count = 0;
-        for (&weight, k) in self.weights.iter().zip(self.k) {
+        for (stage, &weight) in self.weights[..self.weights.len().min(self.k.len())]
+            .iter()
+            .enumerate()
+        {
             if weight != 0.0 {
-                terms[count] = (weight, k);
+                (weights[count], stages[count]) = (weight, stage);
                 count += 1;
             }
         }
-        match count {
-            0 => self.fused::<0, S>(simd, &terms),
-            1 => self.fused::<1, S>(simd, &terms),
-            2 => self.fused::<2, S>(simd, &terms),
-            3 => self.fused::<3, S>(simd, &terms),
-            4 => self.fused::<4, S>(simd, &terms),
-            5 => self.fused::<5, S>(simd, &terms),
-            6 => self.fused::<6, S>(simd, &terms),
-            7 => self.fused::<7, S>(simd, &terms),
-            _ => self.fused::<8, S>(simd, &terms),
+        let Self {
+            out, base, h, k, ..
+        } = self;
+        let fused = Fused {
+            out,
+            h,
+            weights: &weights,
+            stages: &stages,
+            k,
+        };
+        match base {
+            Some(base) => fused.onto::<S, true>(simd, base, count),
+            None => fused.onto::<S, false>(simd, &[], count),
         }
     }
 }
 
-impl Combination<'_> {
+/// The same with the zeros gone.
+struct Fused<'a> {
+    out: &'a mut [f64],
+    h: f64,
+    weights: &'a [f64; MAX_TERMS],
+    stages: &'a [usize; MAX_TERMS],
+    k: &'a [Vec<f64>],
+}
+
+impl Fused<'_> {
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn onto<S: Simd, const BASE: bool>(self, simd: S, base: &[f64], terms: usize) {
+        match terms {
+            0 => self.sum::<0, BASE, S>(simd, base),
+            1 => self.sum::<1, BASE, S>(simd, base),
+            2 => self.sum::<2, BASE, S>(simd, base),
+            3 => self.sum::<3, BASE, S>(simd, base),
+            4 => self.sum::<4, BASE, S>(simd, base),
+            5 => self.sum::<5, BASE, S>(simd, base),
+            6 => self.sum::<6, BASE, S>(simd, base),
+            7 => self.sum::<7, BASE, S>(simd, base),
+            _ => self.sum::<8, BASE, S>(simd, base),
+        }
+    }
+
     /// The loop with the number of terms known, so that it is unrolled over the terms.
     #[allow(clippy::inline_always)]
     #[inline(always)]
-    fn fused<const N: usize, S: Simd>(self, simd: S, terms: &[Term; MAX_TERMS]) {
+    fn sum<const N: usize, const BASE: bool, S: Simd>(self, simd: S, base: &[f64]) {
         let len = self.out.len();
-        let k: [&[f64]; N] = from_fn(|j| &terms[j].1[..len]);
-        let base = self.base.map(|base| &base[..len]);
-        let lanes = Vector::<S>::LANES;
-        let whole = len / lanes;
+        let whole = len / Vector::<S>::LANES;
         let zero = Vector::all(simd, 0.0);
         let h = Vector::all(simd, self.h);
-        let weights: [Vector<S>; N] = from_fn(|j| Vector::all(simd, terms[j].0));
-        let registers: [&[S::f64s]; N] = from_fn(|j| Vector::<S>::registers(k[j], whole));
+        let mut weights = [zero; N];
+        let mut registers: [&[S::f64s]; N] = [&[]; N];
+        for j in 0..N {
+            weights[j] = Vector::all(simd, self.weights[j]);
+            registers[j] = Vector::<S>::registers(&self.k[self.stages[j]], whole);
+        }
+        let bases = Vector::<S>::registers(base, if BASE { whole } else { 0 });
         let out = Vector::<S>::registers_mut(self.out, whole);
-        let bases = base.map(|base| Vector::<S>::registers(base, whole));
         for i in 0..whole {
             let mut sum = zero;
-            for j in 0..N {
-                sum = weights[j].mul_add(Vector::of(simd, registers[j][i]), sum);
+            for (weight, of) in weights.iter().zip(&registers) {
+                sum = weight.mul_add(Vector::of(simd, of[i]), sum);
             }
-            let base = match bases {
-                Some(bases) => Vector::of(simd, bases[i]),
-                None => zero,
+            let base = if BASE {
+                Vector::of(simd, bases[i])
+            } else {
+                zero
             };
             h.mul_add(sum, base).put(&mut out[i]);
         }
-        for i in whole * lanes..len {
+        for i in whole * Vector::<S>::LANES..len {
             let mut sum = zero;
-            for j in 0..N {
-                sum = weights[j].mul_add(Vector::all(simd, k[j][i]), sum);
+            for (weight, stage) in weights.iter().zip(self.stages) {
+                sum = weight.mul_add(Vector::all(simd, self.k[*stage][i]), sum);
             }
-            let base = base.map_or(0.0, |base| base[i]);
+            let base = if BASE { base[i] } else { 0.0 };
             self.out[i] = h.mul_add(sum, Vector::all(simd, base)).first();
         }
     }

@@ -109,6 +109,23 @@ impl Level {
 }
 
 impl Level {
+    /// This level, or one whose registers so many numbers fill.
+    pub(crate) fn filled_by(self, count: usize) -> Option<Self> {
+        let lanes = |level: &Self| match level {
+            #[cfg(target_arch = "x86_64")]
+            Self::V4(_) => 8,
+            _ => 4,
+        };
+        let narrower = match self {
+            #[cfg(target_arch = "x86_64")]
+            Self::V4(level) => Self::V3(*level),
+            other => other,
+        };
+        [self, narrower]
+            .into_iter()
+            .find(|level| lanes(level) <= count)
+    }
+
     /// Does a task that is written for registers of any width.
     #[inline]
     pub(crate) fn run_wide<T: Wide>(self, task: T) -> T::Output {

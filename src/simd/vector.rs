@@ -95,6 +95,16 @@ impl<S: Simd> Vector<S> {
         &mut S::as_mut_simd_f64s(of).0[..count]
     }
 
+    /// Where registers begin that cover so many numbers, which fill at least one, and how many of its numbers each has
+    /// in common with that before it.
+    #[inline(always)]
+    pub(crate) fn cover(count: usize) -> impl Iterator<Item = (usize, usize)> {
+        (0..count.div_ceil(Self::LANES)).map(move |i| {
+            let at = (i * Self::LANES).min(count - Self::LANES);
+            (at, i * Self::LANES - at)
+        })
+    }
+
     #[inline(always)]
     fn with(self, numbers: S::f64s) -> Self {
         Self { numbers, ..self }
@@ -160,6 +170,14 @@ impl<S: Simd> Vector<S> {
         Self::load(self.simd, &numbers)
     }
 
+    /// The last number of `before`, and all but the last of these.
+    #[inline(always)]
+    pub(crate) fn after(self, before: Self) -> Self {
+        let turned = |of: Self| self.with(self.simd.rotate_right_f64s(of.numbers, 1));
+        let first = Self::count(self.simd).below(self.same(0.5));
+        first.choose(turned(before), turned(self))
+    }
+
     /// The first number.
     #[inline(always)]
     pub(crate) fn first(self) -> f64 {
@@ -195,7 +213,7 @@ impl<S: Simd> Neg for Vector<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        self.with(self.simd.neg_f64s(self.numbers))
+        self.same(0.0) - self
     }
 }
 

@@ -1,7 +1,5 @@
 //! Rows whose balls keep their axial places and touch both races in closed form: one loop along the balls.
 
-use std::array::from_fn;
-
 use super::{Kind, Single};
 use crate::contact::{InPlane, LevelBalls, LevelRace, Motion, Pair, Sight};
 use crate::dynamics::state::{State, Table};
@@ -15,8 +13,6 @@ pub(super) struct LevelRow {
     /// Its first ball among all.
     first: usize,
     count: usize,
-    /// 1 for a ball, 0 for what is left of the last register.
-    there: Vec<f64>,
     races: [LevelSide; 2],
     must_look: bool,
 }
@@ -24,9 +20,9 @@ pub(super) struct LevelRow {
 #[derive(Debug, Clone)]
 struct LevelSide {
     form: InPlane,
-    /// 1 where ball and race are whole.
+    /// 1 where ball and race are whole; all are where there is nothing to look for.
     whole: Vec<f64>,
-    /// Raise of the race under the balls \[m\].
+    /// Raise of the race under the balls \[m\], likewise.
     raise: Vec<f64>,
 }
 
@@ -41,16 +37,11 @@ impl LevelRow {
             return None;
         }
         let padded = compiled.count.next_multiple_of(LANES);
-        let of = |value: fn(&Model, usize) -> bool| -> Vec<f64> {
-            (0..padded)
-                .map(|k| f64::from(k < compiled.count && value(model, compiled.first + k)))
-                .collect()
-        };
         let side = |side: usize| {
             let offset = kind.offset(model, row, side)?;
             Some(LevelSide {
                 form: InPlane::new(&compiled.pairs[side], radius, offset)?,
-                whole: of(|model, j| model.balls[j].side.faults.is_empty()),
+                whole: vec![1.0; padded],
                 raise: vec![0.0; padded],
             })
         };
@@ -58,12 +49,14 @@ impl LevelRow {
             row,
             first: compiled.first,
             count: compiled.count,
-            there: of(|_, _| true),
             races: [side(0)?, side(1)?],
             must_look: compiled
                 .pairs
                 .iter()
-                .any(|pair| !pair.waves.is_round() || !pair.faults.is_empty()),
+                .any(|pair| !pair.waves.is_round() || !pair.faults.is_empty())
+                || balls
+                    .clone()
+                    .any(|j| !model.balls[j].side.faults.is_empty()),
         })
     }
 
@@ -71,7 +64,13 @@ impl LevelRow {
         self.row
     }
 
-    /// Whether its races are anywhere raised by waves, or have defects.
+    /// Its number and the forms for both races, if these are round and nothing has a defect.
+    pub fn plain(&self) -> Option<(usize, [InPlane; 2])> {
+        let forms = || self.races.each_ref().map(|side| side.form.clone());
+        (!self.must_look).then(|| (self.row, forms()))
+    }
+
+    /// Whether its races are anywhere raised by waves, or something has defects.
     pub fn must_look(&self) -> bool {
         self.must_look
     }
@@ -133,6 +132,19 @@ impl Wide for EvaluateLevel<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
+        if self.row.must_look {
+            self.all::<S, true>(simd);
+        } else {
+            self.all::<S, false>(simd);
+        }
+    }
+}
+
+impl EvaluateLevel<'_> {
+    /// All balls; `LOOK` where one of their races is raised, or a surface not whole.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn all<S: Simd, const LOOK: bool>(self, simd: S) {
         let Self {
             row,
             pairs,
@@ -141,51 +153,57 @@ impl Wide for EvaluateLevel<'_> {
             forces,
             sums,
         } = self;
-        let zero = Vector::all(simd, 0.0);
-        let races: [LevelRace<'_, S>; 2] =
-            from_fn(|side| LevelRace::new(simd, &pairs[side], &row.races[side].form, &rings[side]));
+        let (zero, one) = (Vector::all(simd, 0.0), Vector::all(simd, 1.0));
+        let [outer, inner] = &row.races;
+        let races = [
+            LevelRace::new(simd, &pairs[0], &outer.form, &rings[0]),
+            LevelRace::new(simd, &pairs[1], &inner.form, &rings[1]),
+        ];
         let mut on_rings = [[zero; 2]; 2];
         let mut pulls = [zero; 2];
-        let from = 2 + row.first;
-        let count = row.count.div_ceil(Vector::<S>::LANES);
-        let all = |of| Vector::<S>::registers(of, count);
-        let [x, y, ..] = state.q.directions().map(|of| all(&of[from..]));
-        let [vx, vy, ..] = state.v.directions().map(|of| all(&of[from..]));
-        let [fx, fy, ..] = forces
-            .directions_mut()
-            .map(|of| Vector::<S>::registers_mut(&mut of[from..], count));
-        let there = all(&row.there);
-        let raise = [0, 1].map(|side: usize| all(&row.races[side].raise));
-        let whole = [0, 1].map(|side: usize| all(&row.races[side].whole));
-        for i in 0..count {
-            let load = |of: &[S::f64s]| Vector::of(simd, of[i]);
-            let [x, y, vx, vy] = [load(x), load(y), load(vx), load(vy)];
-            let there = zero.below(load(there));
-            let mut on_balls = [zero; 2];
-            for (side, race) in races.iter().enumerate() {
-                let found = race.press(&LevelBalls {
-                    x,
-                    y,
-                    vx,
-                    vy,
-                    raise: load(raise[side]),
-                    whole: zero.below(load(whole[side])),
-                });
-                for (i, force) in [found.x, found.y].into_iter().enumerate() {
-                    on_balls[i] += force;
-                    on_rings[side][i] += force;
-                }
-                pulls[side] += found.pulls.choose(Vector::all(simd, 1.0), zero);
-                let (careful, lost) = (found.careful.and(there), found.lost.and(there));
-                if careful.or(lost).any() {
-                    let ball = |lane: usize| row.first + i * Vector::<S>::LANES + lane;
-                    let singles = careful.lanes().map(|lane| Single::new(side, ball(lane)));
-                    sums.singles.extend(singles);
-                    *sums.lost = sums.lost.or_else(|| lost.lanes().next().map(ball));
+        let [x, y, ..] = state.q.directions();
+        let [vx, vy, ..] = state.v.directions();
+        let [fx, fy, ..] = forces.directions_mut();
+        for at in (0..row.count).step_by(Vector::<S>::LANES) {
+            let body = 2 + row.first + at;
+            let there = Vector::count(simd).below(Vector::all(simd, (row.count - at) as f64));
+            let balls = LevelBalls {
+                x: Vector::load(simd, &x[body..]),
+                y: Vector::load(simd, &y[body..]),
+                vx: Vector::load(simd, &vx[body..]),
+                vy: Vector::load(simd, &vy[body..]),
+                raise: zero,
+                whole: Some(there),
+            };
+            let mut sides = [balls; 2];
+            if LOOK {
+                for (balls, LevelSide { raise, whole, .. }) in sides.iter_mut().zip(&row.races) {
+                    balls.raise = Vector::load(simd, &raise[at..]);
+                    let whole = zero.below(Vector::load(simd, &whole[at..]));
+                    balls.whole = Some(whole.and(there));
                 }
             }
-            (load(fx) + on_balls[0]).put(&mut fx[i]);
-            (load(fy) + on_balls[1]).put(&mut fy[i]);
+            let found = [races[0].press(&sides[0]), races[1].press(&sides[1])];
+            let [outer, inner] = &found;
+            for (along, force) in [(&mut *fx, outer.x + inner.x), (&mut *fy, outer.y + inner.y)] {
+                let to = &mut along[body..];
+                (Vector::load(simd, to) + force).store(to);
+            }
+            for side in 0..2 {
+                on_rings[side][0] += found[side].x;
+                on_rings[side][1] += found[side].y;
+                pulls[side] += found[side].pulls.choose(one, zero);
+            }
+            if outer.careful.or(inner.careful).and(there).any() {
+                let ball = |lane: usize| row.first + at + lane;
+                for (side, of) in found.iter().enumerate() {
+                    let careful = of.careful.and(there).lanes();
+                    let singles = careful.map(|lane| Single::new(side, ball(lane)));
+                    sums.singles.extend(singles);
+                    let lost = races[side].lost(of).and(there).lanes().next();
+                    *sums.lost = sums.lost.or(lost.map(ball));
+                }
+            }
         }
         for (side, [x, y]) in on_rings.into_iter().enumerate() {
             sums.rings[side][0] -= x.sum();

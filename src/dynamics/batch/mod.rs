@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 use super::state::{State, Table};
 use super::sums::Sum;
-use crate::contact::{self, Motion, Press};
+use crate::contact::{self, InPlane, Motion, Press};
 use crate::model::{Degree, Model};
 use crate::simd::{LANES, Lanes};
 
@@ -309,6 +309,23 @@ impl Batch {
             forces.add(ring, &sum);
         }
         rings.map(|sum| sum[3] * self.times())
+    }
+
+    /// What the contacts of all rows are evaluated by, if that is a closed form everywhere and there is nothing else to
+    /// look for.
+    pub fn forms(&self) -> Option<Vec<(usize, [InPlane; 2])>> {
+        let forms = self.levels.iter().map(LevelRow::plain).collect();
+        if self.stretches.is_empty() {
+            forms
+        } else {
+            None
+        }
+    }
+
+    /// Takes over that others have found nothing in their way.
+    pub fn settle(&mut self) {
+        self.singles.clear();
+        (self.active, self.lost, self.pulls) = (0, None, 0);
     }
 
     /// Rows that are evaluated.

@@ -1,6 +1,7 @@
 //! Who is left out, for which reason, and how it moves all the same.
 
 use super::course::{Coast, Course};
+use crate::contact::Pair;
 use crate::model::{Degree, Model};
 
 /// Why a degree of freedom is not integrated.
@@ -129,6 +130,14 @@ impl Grounds {
 pub(super) fn is_felt(model: &Model, coast: &Coast, reason: Reason) -> bool {
     match reason {
         Reason::NoMoment | Reason::Idle => false,
+        // A smooth, round and balanced ring may turn as it likes.
+        Reason::Driven => {
+            let told = |pair: &Pair| {
+                pair.friction.is_some() || !pair.faults.is_empty() || !pair.waves.is_round()
+            };
+            let inner = model.rows.iter().any(|row| told(&row.pairs[coast.body]));
+            inner || !model.unbalances.is_empty()
+        }
         // Only a defect tells how far a ball has turned.
         Reason::Rolling => !model.balls[coast.body - 2].side.faults.is_empty(),
         _ => true,

@@ -180,19 +180,18 @@ impl Reduction {
             let idle = grounds.idle == Some(row);
             let copy = grounds.mirrored && row == 1;
             if idle || model.scene.approximations.rolling && !copy {
-                let at = (!idle).then(|| self.at(2 + model.rows[row].first, 0));
+                let at = self.place(2 + model.rows[row].first, 0);
                 self.orbits.push(Orbit::of(model, row, start, at));
             }
         }
     }
 
-    /// Place of a degree of freedom among those that are kept.
-    fn at(&self, body: usize, direction: usize) -> usize {
+    /// Place of a degree of freedom among the states, if it is kept.
+    pub(crate) fn place(&self, body: usize, direction: usize) -> Option<usize> {
         let holds =
             |s: &&Stretch| s.direction == direction && (s.first..s.first + s.count).contains(&body);
-        let stretch = self.stretches.iter().find(holds);
-        let stretch = stretch.expect("a degree of freedom that is kept");
-        stretch.at + body - stretch.first
+        let stretch = self.stretches.iter().find(holds)?;
+        Some(stretch.at + body - stretch.first)
     }
 
     /// Lists what is kept, direction by direction.
