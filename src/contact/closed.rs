@@ -74,6 +74,11 @@ pub(crate) enum LawInPlane {
 }
 
 impl InPlane {
+    /// Whether the balls are in the middle of the groove.
+    pub fn is_middle(&self) -> bool {
+        self.offset == 0.0
+    }
+
     /// For balls of a radius; none where there is friction, where slices are fixed, or where no polynomial reaches the
     /// bound.
     pub fn new(pair: &Pair, radius: f64, offset: f64) -> Option<Self> {

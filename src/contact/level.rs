@@ -11,8 +11,6 @@ use crate::simd::{Choice, Simd, Vector};
 #[derive(Clone, Copy)]
 pub(crate) struct LevelRace<'a, S: Simd> {
     law: &'a LawInPlane,
-    /// Whether the balls are in the middle of the groove.
-    middle: bool,
     /// Whether damping may pull.
     clamp: bool,
     /// +1 for the outer, −1 for the inner race.
@@ -42,7 +40,8 @@ pub(crate) struct LevelBalls<S: Simd> {
     pub vy: Vector<S>,
     /// Raise of the race under them \[m\].
     pub raise: Vector<S>,
-    /// Where there is a ball, whose contact sees no defect; everywhere if there is no telling.
+    /// Where there is a ball, whose contact sees no defect. If there is no telling, all are to be left out as soon as
+    /// one needs care.
     pub whole: Option<Choice<S>>,
 }
 
@@ -67,7 +66,6 @@ impl<'a, S: Simd> LevelRace<'a, S> {
         let Torus { sigma, a, r, .. } = pair.race;
         Self {
             law: &of.law,
-            middle: of.offset == 0.0,
             clamp: pair.clamp_pull,
             sigma: all(sigma),
             a: all(a),
@@ -81,8 +79,9 @@ impl<'a, S: Simd> LevelRace<'a, S> {
         }
     }
 
+    /// `MIDDLE` where the balls are in the middle of the groove: a branch in the loop would take the root all the same.
     #[inline(always)]
-    pub fn press(&self, balls: &LevelBalls<S>) -> LevelForces<S> {
+    pub fn press<const MIDDLE: bool>(&self, balls: &LevelBalls<S>) -> LevelForces<S> {
         let all = |x: f64| self.a.same(x);
         let (zero, one) = (all(0.0), all(1.0));
         let (x, y) = (balls.x - self.centre[0], balls.y - self.centre[1]);
@@ -90,7 +89,7 @@ impl<'a, S: Simd> LevelRace<'a, S> {
         let over = self.sigma / d;
         let n = (x * over, y * over);
         let e = (d - balls.raise - self.a) * self.sigma;
-        let l = if self.middle {
+        let l = if MIDDLE {
             e
         } else {
             e.mul_add(e, self.offset_squared).sqrt()
@@ -102,21 +101,22 @@ impl<'a, S: Simd> LevelRace<'a, S> {
         // Of Hertz's law force and rate of the approach lie along the common normal.
         let (elastic, tilt) = match self.law {
             LawInPlane::Hertz(stiffness) => {
-                let tilt = (!self.middle).then(|| e / l);
+                let tilt = (!MIDDLE).then(|| e / l);
                 (pressed * pressed.sqrt() * all(*stiffness), tilt)
             }
             LawInPlane::Iso(series) => (series.forces(pressed), None),
         };
         let rate = tilt.map_or(speed, |tilt| speed * tilt);
         let damped = elastic * rate.mul_add(self.damping, one);
-        // What is not a number is simple and stays one.
-        let apart = zero.below(e).and(approach.below(zero));
+        // What is not a number is not beyond and stays one.
         let beyond = self.limit.below(approach).or(e.below(zero));
-        let mut simple = beyond.not();
-        if let Some(whole) = balls.whole {
-            simple = simple.and(whole);
-        }
-        let damped = simple.choose(damped, zero);
+        let (damped, careful) = if let Some(whole) = balls.whole {
+            let apart = zero.below(e).and(approach.below(zero));
+            let simple = beyond.not().and(whole);
+            (simple.choose(damped, zero), apart.or(simple).not())
+        } else {
+            (damped, beyond)
+        };
         let normal = if self.clamp {
             damped.or_more(zero)
         } else {
@@ -128,7 +128,7 @@ impl<'a, S: Simd> LevelRace<'a, S> {
             x: push * n.0,
             y: push * n.1,
             pulls: damped.below(zero),
-            careful: apart.or(simple).not(),
+            careful,
             approach,
         }
     }

@@ -175,7 +175,13 @@ impl Wide for Rates<'_> {
                 row.link(simd, (cage, compiled.cage_distance), q, v);
             }
             let contacts = (&compiled.pairs, &rings);
-            if !row.press(simd, contacts, (q, v, accelerations), &mut on_rings) {
+            let states = (q, v, &mut *accelerations);
+            let plain = if row.forms.iter().all(InPlane::is_middle) {
+                row.press::<S, true>(simd, contacts, states, &mut on_rings)
+            } else {
+                row.press::<S, false>(simd, contacts, states, &mut on_rings)
+            };
+            if !plain {
                 return false;
             }
         }
@@ -248,7 +254,7 @@ impl Balls {
 
     /// The contacts, and what all forces on the balls do; false where a contact is not plain.
     #[inline(always)]
-    fn press<S: Simd>(
+    fn press<S: Simd, const MIDDLE: bool>(
         &self,
         simd: S,
         (pairs, rings): (&[Pair; 2], &[Motion; 2]),
@@ -275,7 +281,8 @@ impl Balls {
                 raise: zero,
                 whole: None,
             };
-            let [outer, inner] = [races[0].press(&balls), races[1].press(&balls)];
+            let outer = races[0].press::<MIDDLE>(&balls);
+            let inner = races[1].press::<MIDDLE>(&balls);
             let odd = [outer, inner].map(|of| of.careful.or(of.pulls));
             if odd[0].or(odd[1]).any() {
                 return false;

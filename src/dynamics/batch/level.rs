@@ -132,19 +132,22 @@ impl Wide for EvaluateLevel<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        if self.row.must_look {
-            self.all::<S, true>(simd);
-        } else {
-            self.all::<S, false>(simd);
+        let middle = self.row.races.iter().all(|side| side.form.is_middle());
+        match (self.row.must_look, middle) {
+            (false, false) => self.all::<S, false, false>(simd),
+            (false, true) => self.all::<S, false, true>(simd),
+            (true, false) => self.all::<S, true, false>(simd),
+            (true, true) => self.all::<S, true, true>(simd),
         }
     }
 }
 
 impl EvaluateLevel<'_> {
-    /// All balls; `LOOK` where one of their races is raised, or a surface not whole.
+    /// All balls; `LOOK` where one of their races is raised, or a surface not whole; `MIDDLE` where they are in the
+    /// middle of both grooves.
     #[allow(clippy::inline_always)]
     #[inline(always)]
-    fn all<S: Simd, const LOOK: bool>(self, simd: S) {
+    fn all<S: Simd, const LOOK: bool, const MIDDLE: bool>(self, simd: S) {
         let Self {
             row,
             pairs,
@@ -183,7 +186,10 @@ impl EvaluateLevel<'_> {
                     balls.whole = Some(whole.and(there));
                 }
             }
-            let found = [races[0].press(&sides[0]), races[1].press(&sides[1])];
+            let found = [
+                races[0].press::<MIDDLE>(&sides[0]),
+                races[1].press::<MIDDLE>(&sides[1]),
+            ];
             let [outer, inner] = &found;
             for (along, force) in [(&mut *fx, outer.x + inner.x), (&mut *fy, outer.y + inner.y)] {
                 let to = &mut along[body..];
