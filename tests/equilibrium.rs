@@ -28,6 +28,32 @@ fn ordinary_loads_are_carried() {
     }
 }
 
+/// Analytic: on the lowest ball alone a ring would topple; it leans on the next one, and both carry its weight.
+#[test]
+fn an_unloaded_ring_leans_on_two_balls() {
+    let scene = presets::deep_groove_6205(0.0, 0.0, 1800.0);
+    let found = equilibrium(&scene).unwrap();
+    let [mut aside, mut up] = [0.0, 0.0];
+    for ball in &found.balls {
+        // From the ring's centre: a micrometre aside matters for what leans.
+        let (sin, cos) = ball.angle.sin_cos();
+        let x = ball.radius * cos - found.inner[0];
+        let y = ball.radius * sin - found.inner[1];
+        aside -= ball.inner.load * x / x.hypot(y);
+        up -= ball.inner.load * y / x.hypot(y);
+    }
+    let weight = scene.inner_ring.mass.unwrap() * 9.81;
+    assert!((up / weight - 1.0).abs() < 1e-9, "{up} of {weight}");
+    assert!((aside / weight).abs() < 1e-9, "{aside}");
+    let carry: Vec<_> = found
+        .balls
+        .iter()
+        .filter(|ball| ball.inner.load > 0.0)
+        .collect();
+    assert_eq!(carry.len(), 2);
+    assert!(carry.iter().any(|ball| ball.ball == 0));
+}
+
 /// Analytic: a ball that has sunk into a spall leaves its load to the others.
 #[test]
 fn a_ball_over_a_spall_is_found() {

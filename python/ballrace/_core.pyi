@@ -23,6 +23,7 @@ __all__ = [
 ]
 
 _Array: TypeAlias = NDArray[np.float64]
+_Integers: TypeAlias = NDArray[np.int64]
 
 @final
 class Model:
@@ -47,6 +48,36 @@ class _Signals(TypedDict):
     provenance: str
     scene: str
 
+class _Turning(TypedDict):
+    row: _Integers
+    ball: _Integers
+    angle: _Array
+    outer_load: _Array
+    outer_angle: _Array
+    inner_load: _Array
+    inner_angle: _Array
+
+class _Equilibrium(_Turning):
+    outer: _Array
+    inner: _Array
+    radius: _Array
+    z: _Array
+    outer_deflection: _Array
+    outer_zone_centre: _Array
+    inner_deflection: _Array
+    inner_zone_centre: _Array
+    iterations: int
+
+class _Stiffness(TypedDict):
+    inner: _Array
+    rings: _Array
+    equilibrium: _Equilibrium
+
+class _LoadDistribution(_Turning):
+    turn: _Array
+    outer_equivalent: _Array
+    inner_equivalent: _Array
+
 def simulate(
     scene: str,
     duration: float,
@@ -68,10 +99,10 @@ def campaign(
 ) -> None: ...
 def feature_columns(scene: str, options: str) -> list[str]: ...
 def available_threads() -> int: ...
-def equilibrium(scene: str) -> str: ...
+def equilibrium(scene: str) -> _Equilibrium: ...
 def explain(scene: str) -> tuple[str, str]: ...
-def stiffness(scene: str) -> str: ...
-def load_distribution(scene: str, positions: int) -> str: ...
+def stiffness(scene: str) -> _Stiffness: ...
+def load_distribution(scene: str, positions: int) -> _LoadDistribution: ...
 def scene_from_toml(text: str) -> str: ...
 def scene_from_json(text: str) -> str: ...
 def scene_to_toml(text: str) -> str: ...

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -107,25 +106,7 @@ def equilibrium(scene: Scene) -> Equilibrium:
     EquilibriumError
         There is no stable equilibrium: the load cannot be carried.
     """
-    return _equilibrium(json.loads(_core.equilibrium(scene._document())))
-
-
-def _equilibrium(solution: dict[str, Any]) -> Equilibrium:
-    balls = solution["balls"]
-    columns = {name: np.array([ball[name] for ball in balls], dtype=np.float64) for name in _BALL}
-    for race in ("outer", "inner"):
-        for quantity in _CONTACT:
-            # What is not a number crosses as null.
-            values = [ball[race][quantity] for ball in balls]
-            columns[f"{race}_{quantity}"] = np.array(values, dtype=np.float64)
-    return Equilibrium(
-        outer=np.array(solution["outer"], dtype=np.float64),
-        inner=np.array(solution["inner"], dtype=np.float64),
-        row=np.array([ball["row"] for ball in balls], dtype=np.int64),
-        ball=np.array([ball["ball"] for ball in balls], dtype=np.int64),
-        iterations=solution["iterations"],
-        **columns,
-    )
+    return Equilibrium(**_core.equilibrium(scene._document()))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -194,11 +175,11 @@ def stiffness(scene: Scene) -> Stiffness:
     >>> loaded.inner.shape, bool(loaded.radial[1] > loaded.axial)
     ((3, 3), True)
     """
-    found = json.loads(_core.stiffness(scene._document()))
+    found = _core.stiffness(scene._document())
     return Stiffness(
-        inner=np.array(found["inner"], dtype=np.float64),
-        rings=np.array(found["rings"], dtype=np.float64),
-        equilibrium=_equilibrium(found["equilibrium"]),
+        inner=found["inner"],
+        rings=found["rings"],
+        equilibrium=Equilibrium(**found["equilibrium"]),
     )
 
 
@@ -294,18 +275,4 @@ def load_distribution(scene: Scene, *, positions: int = 16) -> LoadDistribution:
     """
     if isinstance(positions, bool) or not isinstance(positions, int) or positions < 1:
         raise SceneError("positions", repr(positions), "a whole number, at least 1 per ball pitch")
-    found = json.loads(_core.load_distribution(scene._document(), positions))
-    solved = [_equilibrium(solution) for solution in found["equilibria"]]
-    columns = {
-        name: np.stack([getattr(eq, name) for eq in solved])
-        for name in ("angle", "outer_load", "inner_load", "outer_angle", "inner_angle")
-    }
-    for race in ("outer", "inner"):
-        values = [row[race] for row in found["equivalent"]]
-        columns[f"{race}_equivalent"] = np.array(values, dtype=np.float64)
-    return LoadDistribution(
-        turn=np.array(found["turn"], dtype=np.float64),
-        row=solved[0].row,
-        ball=solved[0].ball,
-        **columns,
-    )
+    return LoadDistribution(**_core.load_distribution(scene._document(), positions))

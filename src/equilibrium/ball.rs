@@ -2,38 +2,41 @@
 
 use nalgebra::{Matrix2, SVector, Vector2};
 
+use super::guess::RowSpring;
 use super::problem::{BallState, Problem};
 use super::search::search;
+use super::{FINE, TOLERANCE};
 use crate::contact::V2;
 use crate::error::{Error, Result};
 
 /// Newton iterations of a ball before giving up.
 const BALL_ITERATIONS: usize = 100;
 /// Step over the approach that needs no look at the force any more.
-const LAST: f64 = 1e-3;
+const LAST: f64 = 1e-2;
+/// Residual of a ball over what presses it above which it has not settled, however little that is of the whole load.
+const ROUGH: f64 = 0.1;
+/// The highest precision that is asked for.
+const FINEST: f64 = FINE * TOLERANCE;
 /// Residual of a ball, over its share of the load, that is accepted where a slice that enters a defect makes
 /// the force jump.
 const BALL_STALLED: f64 = 1e-2;
 
 impl Problem<'_> {
-    /// A ball on the line of the groove centres, sharing the approach or the gap; a loose ball as far out as its own
-    /// load presses it, or as far in if it falls.
+    /// A ball on the line of the groove centres, where both races press it alike, or in the gap; a loose ball where its
+    /// own load presses it, as far as the other race lets it.
     pub(super) fn seed(&self, j: usize, rings: &SVector<f64, 6>) -> Vector2<f64> {
-        let load = self.own_load(j);
         match self.loose(j, rings) {
-            Some([outmost, inmost]) if load.norm() > 0.0 => {
-                if load.x < 0.0 {
-                    inmost
-                } else {
-                    outmost
-                }
+            Some(ends) if self.own_load(j).norm() > 0.0 => {
+                let seat = self.seat(j, rings);
+                let race = self.towards(j);
+                let (centres, reach) = self.grooves(j, rings);
+                let is_free = (seat - centres[1 - race]).norm() <= reach[1 - race];
+                if is_free { seat } else { ends[race] }
             }
             _ => {
-                let (centres, reach) = self.grooves(j, rings);
-                let apart = centres[1] - centres[0];
-                let length = apart.norm();
-                let approach = (length - reach[0] - reach[1]) / 2.0;
-                centres[0] + apart * ((reach[0] + approach) / length)
+                let line = self.line(j, rings);
+                let share = self.spring(j).outer_share();
+                line.from + line.unit * (line.reach + share * line.approach)
             }
         }
     }
@@ -42,9 +45,34 @@ impl Problem<'_> {
     fn seat(&self, j: usize, rings: &SVector<f64, 6>) -> Vector2<f64> {
         let (centres, reach) = self.grooves(j, rings);
         let load = self.own_load(j);
-        let race = usize::from(load.x < 0.0);
+        let race = self.towards(j);
         let normal = load.try_normalize(0.0).unwrap_or_else(Vector2::x);
-        centres[race] + normal * (reach[race] + 1e-3 * self.model.scales.approach)
+        let depth = self.spring(j).approach(race, load.norm());
+        let depth = depth.max(1e-3 * self.model.scales.approach);
+        centres[race] + normal * (reach[race] + depth)
+    }
+
+    /// The race that a loose ball's own load presses it against.
+    pub(super) fn towards(&self, j: usize) -> usize {
+        usize::from(self.own_load(j).x < 0.0)
+    }
+
+    fn spring(&self, j: usize) -> &RowSpring {
+        &self.springs[self.model.balls[j].row]
+    }
+
+    /// The line of the groove centres.
+    pub(super) fn line(&self, j: usize, rings: &SVector<f64, 6>) -> Line {
+        let (centres, reach) = self.grooves(j, rings);
+        let apart = centres[1] - centres[0];
+        let length = apart.norm();
+        Line {
+            from: centres[0],
+            unit: apart / length,
+            length,
+            reach: reach[0],
+            approach: length - reach[0] - reach[1],
+        }
     }
 
     /// How far out and in a ball between whole races can be; none for a ball that both press.
@@ -147,7 +175,8 @@ impl Problem<'_> {
         start: Vector2<f64>,
         precision: f64,
     ) -> BallState {
-        let tolerance = precision * self.share();
+        let (tolerance, finest) = (precision * self.share(), FINEST * self.share());
+        let own = self.own_load(j).norm();
         let longest = 0.02 * self.model.balls[j].side.radius;
         let mut state = self.ball_at(j, rings, start);
         let mut best = (state.force.norm(), 0);
@@ -156,7 +185,8 @@ impl Problem<'_> {
             if left < 0.5 * best.0 {
                 best = (left, iteration);
             }
-            if left <= tolerance || iteration > best.1 + 20 {
+            let settled = left <= (ROUGH * (own + state.pressed())).clamp(finest, tolerance);
+            if settled || iteration > best.1 + 20 {
                 break;
             }
             // Not quite symmetric: the law's sums derive from a potential only as far as their nodes are exact, and
@@ -183,6 +213,17 @@ impl Problem<'_> {
         }
         state
     }
+}
+
+/// The line of a ball's groove centres in its meridional plane, from the outer to the inner one.
+pub(super) struct Line {
+    from: Vector2<f64>,
+    pub(super) unit: Vector2<f64>,
+    pub(super) length: f64,
+    /// How far from the outer one a ball that just touches has its centre.
+    reach: f64,
+    /// Approach of both contacts of a ball on the line; negative: a gap.
+    pub(super) approach: f64,
 }
 
 /// Least eigenvalue of a matrix's symmetric part.

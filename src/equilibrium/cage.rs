@@ -102,12 +102,11 @@ impl Chain {
     /// What a newton of tension pulls a ball outwards, less than nothing: a link of length ℓ from radius a to b points
     /// by (b² − a² − ℓ²)/(2aℓ) outwards.
     fn pull(&self, k: usize, radii: &[f64]) -> f64 {
-        let count = radii.len();
-        let a = radii[k];
-        [radii[(k + 1) % count], radii[(k + count - 1) % count]]
-            .map(|b| (b * b - a * a - self.length * self.length) / (2.0 * a * self.length))
-            .iter()
-            .sum()
+        let last = radii.len() - 1;
+        let before = radii[if k == 0 { last } else { k - 1 }];
+        let after = radii[if k == last { 0 } else { k + 1 }];
+        let (a, length) = (radii[k], self.length);
+        (0.5 * (before * before + after * after) - a * a - length * length) / (a * length)
     }
 
     /// Where the balls are under a tension, one after the other.
@@ -133,13 +132,14 @@ impl Chain {
         cage.stiffness * beyond.copysign(extension)
     }
 
-    /// The tension under which the balls are where it needs them, to a precision.
-    fn tension(&self, cage: &Cage, precision: f64) -> f64 {
+    /// The tension under which the balls are where it needs them, to a precision, sought from another.
+    fn tension(&self, cage: &Cage, from: f64, precision: f64) -> f64 {
         let excess = |tension: f64| self.stretched(cage, &self.hang(tension)) - tension;
-        // The higher, the further in the balls and the less stretched the links: regula falsi (Illinois) between none,
-        // and as much as the links have where none acts on the balls.
-        let (mut a, mut at_a) = (0.0, excess(0.0));
-        let (mut b, mut at_b) = (at_a, excess(at_a));
+        // The higher, the further in the balls and the less stretched the links: regula falsi (Illinois) between one, and
+        // as much as the links have where that acts on the balls.
+        let (mut a, mut at_a) = (from, excess(from));
+        let mut b = a + at_a;
+        let mut at_b = excess(b);
         for _ in 0..TENSION_ITERATIONS {
             if at_b.abs() <= precision || (a - b).abs() <= precision {
                 break;
@@ -191,7 +191,7 @@ impl Problem<'_> {
             for (k, ball) in chain.balls.iter().enumerate() {
                 left = left.max((tension * chain.pull(k, &radii) - ball.pull).abs());
             }
-            let tension = chain.tension(cage, TENSION * self.magnitude);
+            let tension = chain.tension(cage, tension, TENSION * self.magnitude);
             let radii = chain.hang(tension);
             for (k, &radius) in radii.iter().enumerate() {
                 // What the row's cage has against all balls moving out together.

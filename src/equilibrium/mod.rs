@@ -1,9 +1,10 @@
 //! Static equilibrium in the cage's frame: loads, gravity and the balls' centrifugal force.
 //!
 //! Two nested Newton solves. Each ball, held at its angle, finds its radius and axial place between the
-//! rings; the rings then see every ball as a nonlinear spring, the Schur complement of its stiffness. The
-//! balls are seeded on the line of the groove centres, and only a positive definite tangent stiffness is
-//! accepted: Newton's method alone also finds balls that balance on a shoulder.
+//! rings; the rings then see every ball as a nonlinear spring, the Schur complement of its stiffness. They start
+//! where springs between the groove centres would carry the load; the balls are seeded on the line of these
+//! centres, and only a positive definite tangent stiffness is accepted: Newton's method alone also finds balls
+//! that balance on a shoulder.
 //!
 //! The cage pulls at all balls of a row with one tension. It is found between two solves of the rings, with the rings
 //! held: loose balls leave the race that no longer presses them, and often hang between the races on the cage.
@@ -14,6 +15,7 @@
 mod ball;
 mod cage;
 mod distribution;
+mod guess;
 mod problem;
 mod rings;
 mod search;
@@ -33,6 +35,8 @@ pub use stiffness::{Stiffness, stiffness};
 const TOLERANCE: f64 = 1e-10;
 /// The same as long as the cage's pull is not yet known.
 const ON_THE_WAY: f64 = 1e-5;
+/// Precision of the balls over that of the rings.
+const FINE: f64 = 1e-2;
 /// Residual that is still accepted where a slice that enters a defect makes the force jump.
 const STALLED: f64 = 1e-3;
 /// Solves with the cage's pull renewed, at most.
@@ -159,19 +163,32 @@ fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibrium {
     }
 }
 
-/// Solves with the balls at their nominal angles; then lets the cage shift them and pull, and solves again.
+/// Solves from the first guess; from the nominal places where there is none, or where it leads to no stable place, such
+/// as one on top of a single ball.
 fn solve(model: &Model) -> Result<Solved> {
-    let mut problem = Problem::new(model);
-    let mut rings = SVector::<f64, 6>::zeros();
+    let problem = Problem::new(model);
+    if let Some(rings) = problem.guess()
+        && let Ok(solved) = solve_from(problem, rings)
+    {
+        return Ok(solved);
+    }
+    solve_from(Problem::new(model), SVector::zeros())
+}
+
+/// Solves with the balls at their nominal angles; then lets the cage shift them and pull, and solves again.
+fn solve_from(mut problem: Problem, mut rings: SVector<f64, 6>) -> Result<Solved> {
+    let model = problem.model;
     let seeds: Vec<_> = (0..model.balls.len())
         .map(|j| problem.seed(j, &rings))
         .collect();
-    let (mut state, mut iterations) = problem.balance(&mut rings, &seeds, ON_THE_WAY)?;
+    let (mut state, mut iterations) = problem.balance(&mut rings, &seeds, 1.0, ON_THE_WAY)?;
+    let mut unbalanced = ON_THE_WAY;
     if let Some(cage) = &model.scene.cage {
         let mut last = f64::INFINITY;
         for _ in 0..CAGE_ROUNDS {
             let left = problem.engage(cage, &rings, &mut state.balls, &state.holds);
-            if left <= ENGAGED * problem.magnitude {
+            unbalanced = left / problem.magnitude;
+            if unbalanced <= ENGAGED {
                 break;
             }
             // Where a stiff cage makes it worse, with a firmer hold.
@@ -179,12 +196,13 @@ fn solve(model: &Model) -> Result<Solved> {
                 problem.cage_share = (4.0 * problem.cage_share).clamp(0.25, 1.0);
             }
             last = left;
-            let (found, more) = problem.balance(&mut rings, &state.balls, ON_THE_WAY)?;
+            let (found, more) =
+                problem.balance(&mut rings, &state.balls, unbalanced, ON_THE_WAY)?;
             state = found;
             iterations += more;
         }
     }
-    let (state, more) = problem.balance(&mut rings, &state.balls, TOLERANCE)?;
+    let (state, more) = problem.balance(&mut rings, &state.balls, unbalanced, TOLERANCE)?;
     iterations += more;
     problem.check(&state, &rings)?;
     Ok(Solved {

@@ -3,6 +3,7 @@
 use nalgebra::{DVector, Matrix2, Matrix3, SMatrix, SVector, Vector2, Vector3};
 
 use super::cage::CageSpring;
+use super::guess::RowSpring;
 use crate::contact::{Tangent, V2};
 use crate::model::{Degree, Model};
 
@@ -22,6 +23,8 @@ pub(super) struct Problem<'m> {
     pub(super) loads: SVector<f64, 6>,
     /// Sum of the magnitudes of what acts.
     pub(super) magnitude: f64,
+    /// How far the contacts of each row's balls give.
+    pub(super) springs: Vec<RowSpring>,
 }
 
 impl<'m> Problem<'m> {
@@ -80,6 +83,11 @@ impl<'m> Problem<'m> {
             free,
             loads,
             magnitude,
+            springs: model
+                .rows
+                .iter()
+                .map(|row| RowSpring::of(model, row))
+                .collect(),
         }
     }
 
@@ -175,15 +183,15 @@ impl<'m> Problem<'m> {
         contacts: &[Matrix3<f64>; 2],
     ) -> (SMatrix<f64, 2, 6>, SMatrix<f64, 6, 2>) {
         let (x, y) = (self.directions[j].x, self.directions[j].y);
-        let at = |a: usize| (&contacts[a / 3], a % 3);
-        let pulled = SMatrix::from_fn(|a, b| match at(b) {
-            (k, i) if a == 0 => x * k[(0, i)] + y * k[(1, i)],
-            (k, i) => k[(2, i)],
-        });
-        let pulling = SMatrix::from_fn(|a, b| match at(a) {
-            (k, i) if b == 0 => x * k[(i, 0)] + y * k[(i, 1)],
-            (k, i) => k[(i, 2)],
-        });
+        let mut pulled = SMatrix::<f64, 2, 6>::zeros();
+        let mut pulling = SMatrix::<f64, 6, 2>::zeros();
+        for (race, k) in contacts.iter().enumerate() {
+            for i in 0..3 {
+                let a = 3 * race + i;
+                (pulled[(0, a)], pulled[(1, a)]) = (x * k[(0, i)] + y * k[(1, i)], k[(2, i)]);
+                (pulling[(a, 0)], pulling[(a, 1)]) = (x * k[(i, 0)] + y * k[(i, 1)], k[(i, 2)]);
+            }
+        }
         (pulled, pulling)
     }
 

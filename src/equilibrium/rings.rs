@@ -2,11 +2,11 @@
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector2};
 
-use super::STALLED;
 use super::ball::least;
 use super::cage::Hold;
 use super::problem::Problem;
 use super::search::search;
+use super::{FINE, STALLED};
 use crate::contact::V2;
 use crate::error::{Error, Result};
 
@@ -18,11 +18,8 @@ const STALL: usize = 8;
 const GIVE_UP: usize = 40;
 /// Stiffness of a ball, over that of a typical contact, below which no race holds it.
 const SOFT: f64 = 1e-4;
-/// Precision to which balls settle at first. On the way each need not settle much better than the rings themselves will
-/// after their next step.
+/// Precision to which balls settle at least.
 const ROUGH: f64 = 1e-2;
-/// Precision of the balls over that of the rings.
-const FINE: f64 = 1e-2;
 
 /// The rings at some place, every ball in its own equilibrium.
 pub(super) struct RingState {
@@ -53,15 +50,18 @@ impl RingState {
 
 impl Problem<'_> {
     /// Newton's method on the rings' places, to a residual over the sum of the acting forces; returns the number of
-    /// iterations.
+    /// iterations. Balls that are out of balance by some share of these forces settle much closer than that at once:
+    /// what they left would look like a residual of the rings.
     pub(super) fn balance(
         &self,
         rings: &mut SVector<f64, 6>,
         starts: &[Vector2<f64>],
+        unbalanced: f64,
         tolerance: f64,
     ) -> Result<(RingState, usize)> {
         let fine = FINE * tolerance;
-        let mut state = self.rings(rings, starts, 0.0, ROUGH)?;
+        let first = (FINE * unbalanced).clamp(fine, ROUGH);
+        let mut state = self.rings(rings, starts, 0.0, first)?;
         let mut best = (f64::INFINITY, 0);
         // As far as the balls can follow; further where nothing touches.
         let shortest = 0.02 * self.model.balls[0].side.radius;
@@ -82,7 +82,7 @@ impl Problem<'_> {
             if stalled && iteration > best.1 + GIVE_UP {
                 break;
             }
-            let step = self.newton_step(&state, longest);
+            let step = self.newton_step(&state.stiffness, &state.residual, longest);
             let force = |state: &RingState| -> f64 {
                 self.free
                     .iter()
@@ -90,7 +90,12 @@ impl Problem<'_> {
                     .map(|(&i, r)| r * step[i])
                     .sum()
             };
-            let precision = (FINE * error * error).clamp(fine, ROUGH);
+            // What a ball leaves is of second order, as is what the step leaves: fine where the next should be the last.
+            let precision = if error * error <= tolerance {
+                fine
+            } else {
+                error.clamp(fine, ROUGH)
+            };
             let clipped = step.norm() > 0.99 * longest;
             let found = search(force(&state), |t| {
                 let moved = step * t;
@@ -220,7 +225,13 @@ impl Problem<'_> {
         }
     }
 
-    fn newton_step(&self, state: &RingState, longest: f64) -> SVector<f64, 6> {
+    /// Newton's step along the free directions, at most so long.
+    pub(super) fn newton_step(
+        &self,
+        stiffness: &DMatrix<f64>,
+        residual: &DVector<f64>,
+        longest: f64,
+    ) -> SVector<f64, 6> {
         let n = self.free.len();
         let mut step = SVector::<f64, 6>::zeros();
         if n == 0 {
@@ -228,15 +239,15 @@ impl Problem<'_> {
         }
         // Positive definite by some margin: as it is. Else shifted until it is.
         let margin = 1e-6 * self.stiffness();
-        let shifted = |by: f64| &state.stiffness + DMatrix::identity(n, n) * by;
+        let shifted = |by: f64| stiffness + DMatrix::identity(n, n) * by;
         let shift = if shifted(-margin).cholesky().is_some() {
             0.0
         } else {
-            (margin - state.stiffness.symmetric_eigenvalues().min()).max(0.0)
+            (margin - stiffness.symmetric_eigenvalues().min()).max(0.0)
         };
         let solved = shifted(shift)
             .lu()
-            .solve(&state.residual)
+            .solve(residual)
             .unwrap_or_else(|| DVector::zeros(n));
         let scale = (longest / solved.norm()).min(1.0);
         for (a, &i) in self.free.iter().enumerate() {

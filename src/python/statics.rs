@@ -1,30 +1,117 @@
-//! Equilibria, and what follows from them; each crosses as JSON.
+//! Equilibria, and what follows from them; each crosses as a dict of the arrays of its class in `ballrace.statics`.
 
+use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
-use super::errors::{OrRaise, to_json};
-use crate::Scene;
+use super::errors::OrRaise;
+use crate::equilibrium::{BallEquilibrium, EquivalentLoads};
+use crate::{Equilibrium, Scene};
+
+/// A column of a table of balls: its name, and its value of a ball.
+type Column = (&'static str, fn(&BallEquilibrium) -> f64);
+
+/// What is told of the balls at every position of the cage.
+const TURNING: [Column; 5] = [
+    ("angle", |ball| ball.angle),
+    ("outer_load", |ball| ball.outer.load),
+    ("outer_angle", |ball| ball.outer.angle.unwrap_or(f64::NAN)),
+    ("inner_load", |ball| ball.inner.load),
+    ("inner_angle", |ball| ball.inner.angle.unwrap_or(f64::NAN)),
+];
+/// What is told besides at one.
+const STANDING: [Column; 6] = [
+    ("radius", |ball| ball.radius),
+    ("z", |ball| ball.z),
+    ("outer_deflection", |ball| ball.outer.deflection),
+    ("outer_zone_centre", |ball| {
+        ball.outer.zone_centre.unwrap_or(f64::NAN)
+    }),
+    ("inner_deflection", |ball| ball.inner.deflection),
+    ("inner_zone_centre", |ball| {
+        ball.inner.zone_centre.unwrap_or(f64::NAN)
+    }),
+];
 
 /// Static equilibrium.
 #[pyfunction]
-pub(super) fn equilibrium(py: Python<'_>, scene: &str) -> PyResult<String> {
-    let scene = Scene::from_json(scene).or_raise(py)?;
-    to_json(&py.detach(|| crate::equilibrium(&scene)).or_raise(py)?)
+pub(super) fn equilibrium<'py>(py: Python<'py>, scene: &str) -> PyResult<Bound<'py, PyDict>> {
+    let found = py.detach(|| crate::equilibrium(&Scene::from_json_unchecked(scene)?));
+    arrays(py, &found.or_raise(py)?)
 }
 
 /// Tangent stiffness there.
 #[pyfunction]
-pub(super) fn stiffness(py: Python<'_>, scene: &str) -> PyResult<String> {
-    let scene = Scene::from_json(scene).or_raise(py)?;
-    to_json(&py.detach(|| crate::stiffness(&scene)).or_raise(py)?)
+pub(super) fn stiffness<'py>(py: Python<'py>, scene: &str) -> PyResult<Bound<'py, PyDict>> {
+    let found = py.detach(|| crate::stiffness(&Scene::from_json_unchecked(scene)?));
+    let found = found.or_raise(py)?;
+    let all = PyDict::new(py);
+    set(&all, "inner", found.inner.concat(), &[3, 3])?;
+    set(&all, "rings", found.rings.concat(), &[6, 6])?;
+    all.set_item("equilibrium", arrays(py, &found.equilibrium)?)?;
+    Ok(all)
 }
 
 /// Loads at so many positions of the cage per pitch.
 #[pyfunction]
-pub(super) fn load_distribution(py: Python<'_>, scene: &str, positions: usize) -> PyResult<String> {
-    let scene = Scene::from_json(scene).or_raise(py)?;
-    to_json(
-        &py.detach(|| crate::load_distribution(&scene, positions))
-            .or_raise(py)?,
-    )
+pub(super) fn load_distribution<'py>(
+    py: Python<'py>,
+    scene: &str,
+    positions: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let found =
+        py.detach(|| crate::load_distribution(&Scene::from_json_unchecked(scene)?, positions));
+    let found = found.or_raise(py)?;
+    let all = PyDict::new(py);
+    name(&all, &found.equilibria[0])?;
+    let shape = [found.turn.len(), found.equilibria[0].balls.len()];
+    let balls = || found.equilibria.iter().flat_map(|at| &at.balls);
+    for (name, of) in TURNING {
+        set(&all, name, balls().map(of).collect(), &shape)?;
+    }
+    let equivalent = |of: fn(&EquivalentLoads) -> f64| found.equivalent.iter().map(of).collect();
+    let rows = [found.equivalent.len()];
+    set(&all, "outer_equivalent", equivalent(|row| row.outer), &rows)?;
+    set(&all, "inner_equivalent", equivalent(|row| row.inner), &rows)?;
+    set(&all, "turn", found.turn, &shape[..1])?;
+    Ok(all)
+}
+
+fn arrays<'py>(py: Python<'py>, found: &Equilibrium) -> PyResult<Bound<'py, PyDict>> {
+    let all = PyDict::new(py);
+    name(&all, found)?;
+    set(&all, "outer", found.outer.to_vec(), &[3])?;
+    set(&all, "inner", found.inner.to_vec(), &[3])?;
+    for (name, of) in TURNING.into_iter().chain(STANDING) {
+        let values = found.balls.iter().map(of).collect();
+        set(&all, name, values, &[found.balls.len()])?;
+    }
+    all.set_item("iterations", found.iterations)?;
+    Ok(all)
+}
+
+/// Enters which balls of which rows they are.
+// At most thousands.
+#[allow(clippy::cast_possible_wrap)]
+fn name(to: &Bound<'_, PyDict>, found: &Equilibrium) -> PyResult<()> {
+    let column = |of: fn(&BallEquilibrium) -> usize| -> Vec<i64> {
+        found.balls.iter().map(|ball| of(ball) as i64).collect()
+    };
+    let shape = [found.balls.len()];
+    set(to, "row", column(|ball| ball.row), &shape)?;
+    set(to, "ball", column(|ball| ball.ball), &shape)
+}
+
+/// Enters an array, which takes over the vector's memory.
+fn set<T: Element>(
+    to: &Bound<'_, PyDict>,
+    name: &str,
+    values: Vec<T>,
+    shape: &[usize],
+) -> PyResult<()> {
+    let array = values.into_pyarray(to.py());
+    match shape {
+        [_] => to.set_item(name, array),
+        _ => to.set_item(name, array.reshape(shape)?),
+    }
 }

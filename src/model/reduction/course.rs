@@ -8,7 +8,7 @@ use crate::scene::{Drive, TimeFunction};
 pub(crate) struct Course {
     place: f64,
     speed: f64,
-    /// The drive and the share of it that this speed changes by.
+    /// The drive, if it changes, and the share of it that this speed changes by.
     drive: Option<(f64, TimeFunction)>,
 }
 
@@ -28,8 +28,8 @@ impl Course {
             place,
             speed,
             drive: match drive {
+                Drive::Speed(TimeFunction::Constant(_)) | Drive::Torque { .. } => None,
                 Drive::Speed(of) => Some((share, of.clone())),
-                Drive::Torque { .. } => None,
             },
         }
     }

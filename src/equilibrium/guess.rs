@@ -1,0 +1,122 @@
+//! A first guess of the rings' places: every ball a spring between the centres of its grooves.
+//!
+//! The usual model of a bearing at rest (T. A. Harris, *Rolling Bearing Analysis*, ch. 7): no centrifugal force turns
+//! a ball's two contacts against each other. It costs a hundredth of the contacts themselves.
+
+use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, SVector, Vector2, Vector3};
+
+use super::problem::Problem;
+use super::search::search;
+use crate::model::{Model, RowModel};
+
+/// Newton iterations at most, and the residual over the sum of the acting forces that is good enough.
+const ITERATIONS: usize = 40;
+const GOOD: f64 = 1e-3;
+
+/// How far the contacts of a row's balls give: a power law through the force at the scene's typical approach.
+pub(super) struct RowSpring {
+    /// Approach at the outer and at the inner race over the force to the power 1/exponent.
+    give: [f64; 2],
+    exponent: f64,
+}
+
+impl RowSpring {
+    pub(super) fn of(model: &Model, row: &RowModel) -> Self {
+        let scales = &model.scales;
+        let side = &model.balls[row.first].side;
+        // A slice's own power, and the zone's length goes with the root.
+        let exponent = row.pairs[0].law.exponent() + 0.5;
+        let give = row.pairs.each_ref().map(|pair| {
+            let race = &pair.race;
+            let distance = race.a + race.sigma * (race.r - side.radius + scales.approach);
+            let place = Vector3::new(distance, 0.0, race.centre);
+            let force = pair.tangent(side, &place).force.norm();
+            // A defect may lie there.
+            let force = if force > 0.0 { force } else { scales.load };
+            scales.approach / force.powf(1.0 / exponent)
+        });
+        Self { give, exponent }
+    }
+
+    /// Approach at a race under a force.
+    pub(super) fn approach(&self, race: usize, force: f64) -> f64 {
+        self.give[race] * force.powf(1.0 / self.exponent)
+    }
+
+    /// The outer race's share of the approach of both.
+    pub(super) fn outer_share(&self) -> f64 {
+        self.give[0] / (self.give[0] + self.give[1])
+    }
+
+    /// Force at an approach of both races together, above 0, and its slope.
+    fn force(&self, approach: f64) -> (f64, f64) {
+        let force = (approach / (self.give[0] + self.give[1])).powf(self.exponent);
+        (force, self.exponent * force / approach)
+    }
+}
+
+impl Problem<'_> {
+    /// Places of the rings where such springs carry the load.
+    pub(super) fn guess(&self) -> Option<SVector<f64, 6>> {
+        let longest = 0.02 * self.model.balls[0].side.radius;
+        let mut rings = SVector::zeros();
+        let mut state = self.sprung(&rings);
+        for _ in 0..ITERATIONS {
+            let (forces, stiffness) = &state;
+            let residual = DVector::from_fn(self.free.len(), |a, _| forces[self.free[a]]);
+            if self.error(&residual) <= GOOD {
+                return Some(rings);
+            }
+            let stiffness = DMatrix::from_fn(residual.len(), residual.len(), |a, b| {
+                stiffness[(self.free[a], self.free[b])]
+            });
+            let step = self.newton_step(&stiffness, &residual, longest);
+            let found = search(forces.dot(&step), |t| {
+                let moved = rings + step * t;
+                let trial = self.sprung(&moved);
+                Some((trial.0.dot(&step), (moved, trial)))
+            });
+            (rings, state) = found?;
+        }
+        None
+    }
+
+    /// Forces on the rings, and the stiffness against them.
+    fn sprung(&self, rings: &SVector<f64, 6>) -> (SVector<f64, 6>, SMatrix<f64, 6, 6>) {
+        let mut forces = self.loads;
+        let mut tied = Matrix3::zeros();
+        for (j, ball) in self.model.balls.iter().enumerate() {
+            let (x, y) = (self.directions[j].x, self.directions[j].y);
+            let in_space = |v: Vector2<f64>| Vector3::new(v.x * x, v.x * y, v.y);
+            let mut pressed = forces.fixed_rows_mut::<3>(3 * self.towards(j));
+            pressed += in_space(self.own_load(j));
+            let line = self.line(j, rings);
+            if line.approach <= 0.0 {
+                continue;
+            }
+            let (force, slope) = self.springs[ball.row].force(line.approach);
+            let unit = in_space(line.unit);
+            for (ring, sign) in [(0, 1.0), (3, -1.0)] {
+                let mut pulled = forces.fixed_rows_mut::<3>(ring);
+                pulled += unit * (sign * force);
+            }
+            // Stiff along the line; aside, in the meridional plane, the force turns with it.
+            let aside = force / line.length;
+            let plane = Matrix3::new(x * x, x * y, 0.0, x * y, y * y, 0.0, 0.0, 0.0, 1.0);
+            tied += unit * unit.transpose() * (slope - aside) + plane * aside;
+        }
+        let mut stiffness = SMatrix::<f64, 6, 6>::zeros();
+        for (a, b, sign) in [(0, 0, 1.0), (3, 3, 1.0), (0, 3, -1.0), (3, 0, -1.0)] {
+            let mut part = stiffness.fixed_view_mut::<3, 3>(a, b);
+            part += tied * sign;
+        }
+        for (b, body) in self.model.bodies[..2].iter().enumerate() {
+            for i in 0..3 {
+                let (a, k) = (3 * b + i, body.degrees[i].stiffness());
+                forces[a] -= k * rings[a];
+                stiffness[(a, a)] += k;
+            }
+        }
+        (forces, stiffness)
+    }
+}
