@@ -104,11 +104,17 @@ pub(super) struct Norm<'a> {
     weight: Vec<f64>,
     square: Vec<f64>,
     sum: Vec<f64>,
+    /// Whether the states run through the groups time and again, so that neighbours are of different ones.
+    by_layers: bool,
 }
 
 impl<'a> Norm<'a> {
     pub(super) fn new(tolerance: &'a Tolerance) -> Self {
+        let groups = tolerance.share.len();
+        let mut in_turn = tolerance.group.iter().enumerate();
         Self {
+            by_layers: tolerance.dim().is_multiple_of(groups)
+                && in_turn.all(|(state, group)| *group == state % groups),
             tolerance,
             weight: vec![0.0; tolerance.dim()],
             square: vec![0.0; tolerance.dim()],
@@ -127,10 +133,7 @@ impl<'a> Norm<'a> {
             y1,
             x,
         });
-        self.sum.fill(0.0);
-        for (square, group) in self.square.iter().zip(&self.tolerance.group) {
-            self.sum[*group] += square;
-        }
+        self.add_up();
         let mut worst = Worst {
             value: 0.0,
             group: 0,
@@ -149,6 +152,22 @@ impl<'a> Norm<'a> {
         }
         worst.value = worst.value.sqrt();
         worst
+    }
+
+    /// Sums the squares by group.
+    fn add_up(&mut self) {
+        self.sum.fill(0.0);
+        if self.by_layers {
+            for layer in self.square.chunks_exact(self.sum.len()) {
+                for (sum, square) in self.sum.iter_mut().zip(layer) {
+                    *sum += square;
+                }
+            }
+            return;
+        }
+        for (square, group) in self.square.iter().zip(&self.tolerance.group) {
+            self.sum[*group] += square;
+        }
     }
 
     /// One over the scale of each state, as of the last measurement.
@@ -246,6 +265,16 @@ mod tests {
         let worst = norm.measure(&y0, &y1, &[6.0, 0.0, 0.0, 4.0]);
         assert_eq!(worst.group, 0);
         assert!((worst.value - 12.5_f64.sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn groups_in_turn_are_summed_the_same() {
+        let tolerance = Tolerance::new(0.0, vec![1.0; 4], &[false; 4], vec![0, 1, 0, 1]).unwrap();
+        let mut norm = Norm::new(&tolerance);
+        assert!(norm.by_layers && !Norm::new(&two_bodies()).by_layers);
+        let worst = norm.measure(&[0.0; 4], &[0.0; 4], &[3.0, 1.0, 5.0, 7.0]);
+        let value = 25.0_f64.sqrt();
+        assert_eq!(worst, Worst { value, group: 1 });
     }
 
     #[test]
