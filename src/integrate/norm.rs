@@ -1,5 +1,7 @@
 //! Tolerances, and the norm that weighs an error against them.
 
+use std::ops::Range;
+
 use super::failure::Invalid;
 use crate::simd::{Level, Simd, Vector, Wide};
 
@@ -104,17 +106,21 @@ pub(super) struct Norm<'a> {
     weight: Vec<f64>,
     square: Vec<f64>,
     sum: Vec<f64>,
-    /// Whether the states run through the groups time and again, so that neighbours are of different ones.
-    by_layers: bool,
+    /// Groups of the states as far as each belongs to the one after that of its neighbour.
+    stretches: Vec<Range<usize>>,
 }
 
 impl<'a> Norm<'a> {
     pub(super) fn new(tolerance: &'a Tolerance) -> Self {
-        let groups = tolerance.share.len();
-        let mut in_turn = tolerance.group.iter().enumerate();
+        let mut stretches: Vec<Range<usize>> = Vec::new();
+        for &group in &tolerance.group {
+            match stretches.last_mut() {
+                Some(last) if last.end == group => last.end += 1,
+                _ => stretches.push(group..group + 1),
+            }
+        }
         Self {
-            by_layers: tolerance.dim().is_multiple_of(groups)
-                && in_turn.all(|(state, group)| *group == state % groups),
+            stretches,
             tolerance,
             weight: vec![0.0; tolerance.dim()],
             square: vec![0.0; tolerance.dim()],
@@ -157,16 +163,13 @@ impl<'a> Norm<'a> {
     /// Sums the squares by group.
     fn add_up(&mut self) {
         self.sum.fill(0.0);
-        if self.by_layers {
-            for layer in self.square.chunks_exact(self.sum.len()) {
-                for (sum, square) in self.sum.iter_mut().zip(layer) {
-                    *sum += square;
-                }
+        let mut squares = &self.square[..];
+        for groups in &self.stretches {
+            let (here, rest) = squares.split_at(groups.len());
+            for (sum, square) in self.sum[groups.clone()].iter_mut().zip(here) {
+                *sum += square;
             }
-            return;
-        }
-        for (square, group) in self.square.iter().zip(&self.tolerance.group) {
-            self.sum[*group] += square;
+            squares = rest;
         }
     }
 
@@ -271,7 +274,8 @@ mod tests {
     fn groups_in_turn_are_summed_the_same() {
         let tolerance = Tolerance::new(0.0, vec![1.0; 4], &[false; 4], vec![0, 1, 0, 1]).unwrap();
         let mut norm = Norm::new(&tolerance);
-        assert!(norm.by_layers && !Norm::new(&two_bodies()).by_layers);
+        assert_eq!(norm.stretches, [0..2, 0..2]);
+        assert_eq!(Norm::new(&two_bodies()).stretches, [0..2, 1..2, 0..1]);
         let worst = norm.measure(&[0.0; 4], &[0.0; 4], &[3.0, 1.0, 5.0, 7.0]);
         let value = 25.0_f64.sqrt();
         assert_eq!(worst, Worst { value, group: 1 });
