@@ -30,7 +30,7 @@
 //! * `model` ([`Model`]) — the scene compiled: bodies, arrays, scales; and what a run leaves out ([`Reduction`]).
 //!   Never changed by a run.
 //! * [`dynamics`] — the right-hand side: touching contacts by eights, or whole rows where each is one formula, summed
-//!   in one order; forces by name, energies.
+//!   in one order; smooth plane rows in one loop, without tables between; forces by name, energies.
 //! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
 //! * `equilibrium` ([`equilibrium()`], [`stiffness()`], [`load_distribution()`]) — the static solve and what follows
 //!   from it; `start` ([`start()`]) — how a run begins.
