@@ -6,6 +6,7 @@ mod contacts;
 mod energy;
 mod grip;
 mod implicit;
+mod kept;
 mod others;
 mod plane;
 mod rolling;
@@ -22,14 +23,14 @@ use crate::contact::{Motion, Pair, Slices};
 use crate::integrate::System;
 use crate::model::{Degree, Model, Reduction, RowModel, Spring};
 use crate::scene::Drive;
-use crate::simd::Level;
 
 pub use contacts::{ContactSummary, SliceForce};
 pub use energy::Energy;
 pub(crate) use uses::Use;
 
 use batch::{Batch, Kind};
-use plane::{Ground, Plane, Rates};
+use kept::Kept;
+use plane::{Ground, Plane};
 use rolling::Rolling;
 use stage::Stage;
 use state::{State, Table};
@@ -62,16 +63,6 @@ enum Order {
     Bodies,
     /// What a reduction keeps, direction by direction.
     Kept(Box<Kept>),
-}
-
-#[derive(Debug)]
-struct Kept {
-    reduction: Reduction,
-    /// Place of the driven rotation, if it is among the states.
-    driven: Option<usize>,
-    rolling: Rolling,
-    /// Where one loop is all.
-    plane: Option<(Level, Plane)>,
 }
 
 /// Names of the contributions of [`Model::forces`], in their order.
@@ -263,43 +254,16 @@ impl<'m> Dynamics<'m> {
     fn read(&mut self, t: f64, y: &[f64]) {
         match &mut self.order {
             Order::Bodies => self.state.read(y),
-            Order::Kept(kept) => {
-                let reduction = &kept.reduction;
-                let (q, v) = y.split_at(y.len() / 2);
-                for s in reduction.stretches() {
-                    let (to, from) = (s.first..s.first + s.count, s.at..s.at + s.count);
-                    let State {
-                        q: places,
-                        v: speeds,
-                    } = &mut self.state;
-                    places.along_mut(s.direction)[to.clone()].copy_from_slice(&q[from.clone()]);
-                    speeds.along_mut(s.direction)[to].copy_from_slice(&v[from]);
-                }
-                for coast in reduction.felt() {
-                    let (place, speed) = coast.course.at(t);
-                    *self.state.q.get_mut(coast.body, coast.direction) = place;
-                    *self.state.v.get_mut(coast.body, coast.direction) = speed;
-                }
-                kept.rolling.place(reduction, t, &mut self.state);
-            }
+            Order::Kept(kept) => kept.read(t, y, &mut self.state),
         }
     }
 
     /// The rates by one loop, where that is all.
     fn in_plane(&mut self, y: &[f64], dy: &mut [f64]) -> bool {
-        let Order::Kept(kept) = &mut self.order else {
-            return false;
+        let done = match &mut self.order {
+            Order::Bodies => false,
+            Order::Kept(kept) => kept.in_plane(self.model, y, dy),
         };
-        let Some((level, plane)) = &mut kept.plane else {
-            return false;
-        };
-        let model = self.model;
-        let done = level.run_wide(Rates {
-            plane,
-            model,
-            y,
-            dy,
-        });
         if done {
             self.contacts.settle();
             self.contact_torques = [0.0; 2];
@@ -409,23 +373,10 @@ impl System for Dynamics<'_> {
                 }
             }
             Order::Kept(kept) => {
-                for s in kept.reduction.stretches() {
-                    let bodies = s.first..s.first + s.count;
-                    let force = &self.forces.along(s.direction)[bodies.clone()];
-                    let mobility = &self.mobility.along(s.direction)[bodies];
-                    let to = &mut accelerations[s.at..s.at + s.count];
-                    for ((a, f), m) in to.iter_mut().zip(force).zip(mobility) {
-                        *a = f * m;
-                    }
-                }
+                kept.accelerate((&self.forces, &self.mobility), accelerations);
                 if let (Some(i), Drive::Speed(speed)) = (kept.driven, &self.model.scene.drive) {
                     accelerations[i] = speed.rate(t);
                 }
-                kept.rolling.accelerate(
-                    &kept.reduction,
-                    (&self.forces, &self.mobility),
-                    accelerations,
-                );
             }
         }
     }

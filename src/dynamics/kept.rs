@@ -1,0 +1,64 @@
+//! States of a run that leaves some out: from their vector to all bodies, and from forces to their rates.
+
+use super::plane::{Plane, Rates};
+use super::rolling::Rolling;
+use super::state::{State, Table};
+use crate::model::{Model, Reduction};
+use crate::simd::Level;
+
+/// What a reduction keeps, and how it is evaluated.
+#[derive(Debug)]
+pub(super) struct Kept {
+    pub reduction: Reduction,
+    /// Place of the driven rotation, if it is among the states.
+    pub driven: Option<usize>,
+    pub rolling: Rolling,
+    /// Where one loop is all.
+    pub plane: Option<(Level, Plane)>,
+}
+
+impl Kept {
+    /// Takes over a state vector.
+    pub fn read(&mut self, t: f64, y: &[f64], state: &mut State) {
+        let (q, v) = y.split_at(y.len() / 2);
+        for s in self.reduction.stretches() {
+            let (to, from) = (s.first..s.first + s.count, s.at..s.at + s.count);
+            state.q.along_mut(s.direction)[to.clone()].copy_from_slice(&q[from.clone()]);
+            state.v.along_mut(s.direction)[to].copy_from_slice(&v[from]);
+        }
+        for coast in self.reduction.felt() {
+            let (place, speed) = coast.course.at(t);
+            *state.q.get_mut(coast.body, coast.direction) = place;
+            *state.v.get_mut(coast.body, coast.direction) = speed;
+        }
+        self.rolling.place(&self.reduction, t, state);
+    }
+
+    /// The rates by one loop, where that is all.
+    pub fn in_plane(&mut self, model: &Model, y: &[f64], dy: &mut [f64]) -> bool {
+        let Some((level, plane)) = &mut self.plane else {
+            return false;
+        };
+        level.run_wide(Rates {
+            plane,
+            model,
+            y,
+            dy,
+        })
+    }
+
+    /// M⁻¹ F, but for a driven rotation.
+    pub fn accelerate(&self, (forces, mobility): (&Table, &Table), accelerations: &mut [f64]) {
+        for s in self.reduction.stretches() {
+            let bodies = s.first..s.first + s.count;
+            let force = &forces.along(s.direction)[bodies.clone()];
+            let mobility = &mobility.along(s.direction)[bodies];
+            let to = &mut accelerations[s.at..s.at + s.count];
+            for ((a, f), m) in to.iter_mut().zip(force).zip(mobility) {
+                *a = f * m;
+            }
+        }
+        self.rolling
+            .accelerate(&self.reduction, (forces, mobility), accelerations);
+    }
+}
