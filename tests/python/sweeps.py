@@ -18,7 +18,7 @@ SCENE = br.presets.deep_groove_6205(500.0, 0.0, 1800.0).replace({"gravity": [0.0
 
 
 def table(count: int) -> pl.DataFrame:
-    """Return radial loads of which the first, none at all, has no equilibrium: not even weight holds the inner ring."""
+    """Return radial loads of which the first, none at all, has no equilibrium: there is no weight either."""
     return br.grid({"loads.radial.force": [100.0 * i for i in range(count)]})
 
 
