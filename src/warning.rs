@@ -34,6 +34,15 @@ pub enum Warning {
     },
 }
 
+impl Warning {
+    /// What it is about: `accuracy` of the signals, or the `scene` that was asked for.
+    pub fn category(&self) -> &'static str {
+        match self {
+            Self::Accelerations { .. } | Self::Shoulders { .. } => "accuracy",
+        }
+    }
+}
+
 impl std::fmt::Display for Warning {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {

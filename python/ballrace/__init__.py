@@ -24,6 +24,7 @@ from .errors import (
     EquilibriumError,
     IntegrationError,
     SceneError,
+    SceneWarning,
 )
 from .explanation import Explanation, explain
 from .model import Model
@@ -54,6 +55,7 @@ __all__ = [
     "Record",
     "Scene",
     "SceneError",
+    "SceneWarning",
     "Signals",
     "Stiffness",
     "campaign",

@@ -44,7 +44,7 @@ class _Signals(TypedDict):
     columns: list[tuple[str, str, _Array]]
     slices: dict[str, list[str] | NDArray[np.uint64] | _Array] | None
     stats: str
-    warnings: list[str]
+    warnings: list[tuple[Literal["accuracy", "scene"], str]]
     provenance: str
     scene: str
 

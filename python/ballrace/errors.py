@@ -15,6 +15,7 @@ __all__ = [
     "EquilibriumError",
     "IntegrationError",
     "SceneError",
+    "SceneWarning",
 ]
 
 
@@ -87,6 +88,13 @@ class AccuracyWarning(UserWarning):
     velocities (``out.stats.acceleration_residual``), so that the steps do not resolve the contacts, and
     where contacts rode over a shoulder (``out.stats.truncated_contacts``). ``out.warnings`` keeps the texts.
     ``warnings.simplefilter("error", ballrace.AccuracyWarning)`` makes it an error.
+    """
+
+
+class SceneWarning(UserWarning):
+    """A scene ran, but it may not be what was meant; the message names the field and what is unusual about it.
+
+    ``out.warnings`` keeps the texts; ``warnings.simplefilter("error", ballrace.SceneWarning)`` makes it an error.
     """
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _core
 from ._progress import Bar
-from .errors import AccuracyWarning, SceneError
+from .errors import AccuracyWarning, SceneError, SceneWarning
 from .signals import Signals
 
 if TYPE_CHECKING:
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from .scene import Method, Scene
 
 __all__ = ["simulate"]
+
+_CATEGORIES = {"accuracy": AccuracyWarning, "scene": SceneWarning}
 
 
 def simulate(
@@ -87,6 +89,8 @@ def simulate(
     -----
     AccuracyWarning
         The steps do not resolve the contacts, or contacts rode over a shoulder.
+    SceneWarning
+        The scene is not what it seems to say.
 
     Examples
     --------
@@ -113,8 +117,8 @@ def simulate(
             document, duration, fs, kind, state, rtol, accuracy, method, threads, callback
         )
     out = Signals._from_core(raw)
-    for text in out.warnings:
-        warnings.warn(text, AccuracyWarning, stacklevel=2)
+    for category, text in raw["warnings"]:
+        warnings.warn(text, _CATEGORIES[category], stacklevel=2)
     return out
 
 

@@ -117,7 +117,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
             scene=raw["scene"],
             stats=json.loads(raw["stats"]),
             provenance=json.loads(raw["provenance"]),
-            warnings=raw["warnings"],
+            warnings=[text for _, text in raw["warnings"]],
             slices=raw["slices"],
         )
 

@@ -200,7 +200,11 @@ fn attend(py: Python<'_>, progress: Option<&Py<PyAny>>, share: f64) -> PyResult<
 }
 
 pub(super) fn hand_over(py: Python<'_>, signals: Signals) -> PyResult<Bound<'_, PyDict>> {
-    let warnings: Vec<String> = signals.warnings().iter().map(ToString::to_string).collect();
+    let warnings: Vec<(&str, String)> = signals
+        .warnings()
+        .iter()
+        .map(|warning| (warning.category(), warning.to_string()))
+        .collect();
     let out = PyDict::new(py);
     out.set_item("fs", signals.fs)?;
     out.set_item("t", signals.t.into_pyarray(py))?;

@@ -253,7 +253,7 @@ impl<S: Simd> Choice<S> {
 
     #[inline(always)]
     pub(crate) fn any(self) -> bool {
-        self.simd.first_true_m64s(self.lanes) < S::M64_LANES
+        self.simd.first_true_m64s(self.lanes) < S::F64_LANES
     }
 
     /// Which ones.
@@ -262,6 +262,6 @@ impl<S: Simd> Choice<S> {
         let mut told = [0.0; 8];
         let all = |x| Vector::all(self.simd, x);
         self.choose(all(1.0), all(0.0)).store(&mut told);
-        (0..S::M64_LANES).filter(move |lane| told[*lane] > 0.0)
+        (0..S::F64_LANES).filter(move |lane| told[*lane] > 0.0)
     }
 }
