@@ -1,5 +1,5 @@
 from collections.abc import Callable, Iterable
-from typing import TypeAlias, TypedDict, final
+from typing import Literal, TypeAlias, TypedDict, final
 
 import numpy as np
 from numpy.typing import NDArray
