@@ -71,6 +71,9 @@ pub struct Statistics {
     pub acceleration_residual: Option<f64>,
     /// Wall time of the integration \[s\].
     pub wall_time: f64,
+    /// Largest Hertz pressure of any contact at the start or at the end of the run \[Pa\], at the zone's centre; that of
+    /// the smooth race where the ball lies in a defect.
+    pub largest_pressure: f64,
 }
 
 /// What produced the signals.
@@ -207,14 +210,7 @@ impl Recorder {
             columns: Vec::new(),
             slices: Vec::new(),
         };
-        let outer = Probe::Motion {
-            body: "outer".to_owned(),
-            components: None,
-        };
-        if model.scene.probes.is_empty() {
-            recorder.add(model, "outer", &outer);
-        }
-        for (name, probe) in &model.scene.probes {
+        for (name, probe) in model.scene.recorded().iter() {
             recorder.add(model, name, probe);
         }
         recorder.listings.sort_by(|a, b| b.time.total_cmp(&a.time));

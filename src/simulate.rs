@@ -283,6 +283,9 @@ fn follow(
         truncated_contacts: truncated,
         acceleration_residual: recorder.residual.value(),
         wall_time: begun.elapsed().as_secs_f64(),
+        largest_pressure: model
+            .largest_pressure(y0)
+            .max(model.largest_pressure(&full)),
     };
     Ok((recorder, statistics, choice))
 }

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::scene::Doubt;
 use crate::signals::Signals;
 
 /// Residual of the accelerations above which a run is warned of. Measured on the faulted wheel bearing in 140 runs
@@ -32,6 +33,8 @@ pub enum Warning {
         /// Accepted steps.
         steps: usize,
     },
+    /// A number of the scene, or what follows from it, that no bearing is likely to have; a column that cannot change.
+    Doubtful(Doubt),
 }
 
 impl Warning {
@@ -39,6 +42,7 @@ impl Warning {
     pub fn category(&self) -> &'static str {
         match self {
             Self::Accelerations { .. } | Self::Shoulders { .. } => "accuracy",
+            Self::Doubtful(_) => "scene",
         }
     }
 }
@@ -64,6 +68,7 @@ impl std::fmt::Display for Warning {
                  nothing, and the pressure at the edge is not modelled. Lower the axial load, raise the \
                  shoulders, or look at the truncated contacts"
             ),
+            Self::Doubtful(doubt) => doubt.fmt(f),
         }
     }
 }
@@ -94,6 +99,12 @@ impl Signals {
             contacts: stats.truncated_contacts,
             steps: stats.accepted,
         });
-        accelerations.into_iter().chain(shoulders).collect()
+        let pressure = Doubt::pressure(stats.largest_pressure);
+        let doubts = self.scene.doubts().into_iter().chain(pressure);
+        accelerations
+            .into_iter()
+            .chain(shoulders)
+            .chain(doubts.map(Warning::Doubtful))
+            .collect()
     }
 }

@@ -873,7 +873,8 @@ class Scene(Part):
     defects : mapping of str to Defect
         Defects by name.
     probes : mapping of str to Probe
-        Probes by name; none: the motion of the outer ring.
+        Probes by name. None: the motion of the outer ring if it can move along x, y or z, else of the inner
+        ring, in the directions that can move; where both are held, the loads of all contacts (``row0`` and so on).
     approximations : Approximations
         What is given up for speed; nothing by default.
     solver : Solver
@@ -966,6 +967,19 @@ class Scene(Part):
             With the path, the value and what is allowed, for the first field that is not usable.
         """
         return self.from_json(self._document())
+
+    def doubts(self) -> tuple[str, ...]:
+        """Check the scene and return what is unusual about its numbers and probes, of an ordinary bearing nothing.
+
+        Runs, static solutions and campaigns warn of the same (:class:`ballrace.SceneWarning`), and of contacts
+        beyond the static load rating.
+
+        Raises
+        ------
+        SceneError
+            A field is not usable.
+        """
+        return tuple(_core.scene_doubts(self._document()))
 
     def to_toml(self) -> str:
         """Check the scene and return it as TOML.
