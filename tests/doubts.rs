@@ -11,7 +11,7 @@ use ballrace::scene::{
     Cage, Component, Contact, ContactQuantity, Drive, Friction, Material, Mount, NormalLaw, Probe,
     Ring, RingName, Scene, Support, Unbalance, presets,
 };
-use ballrace::{Warning, equilibrium, explain};
+use ballrace::{Warning, equilibrium, explain, load_distribution};
 use common::{Noise, run, short};
 
 /// A 6205 as someone writes it who knows its catalogue page.
@@ -282,38 +282,38 @@ const SLIPS: &[Slip] = &[
         s.defects.clear();
     }),
     ("rows[0].inner_conformity", |s| {
-        s.rows[0].inner_conformity = 0.8
+        s.rows[0].inner_conformity = 0.8;
     }),
     ("rows[0].outer_conformity", |s| {
-        s.rows[0].outer_conformity = 0.5001
+        s.rows[0].outer_conformity = 0.5001;
     }),
     ("rows[0].axial_position", |s| {
-        s.rows[0].axial_position = 11.0
+        s.rows[0].axial_position = 11.0;
     }),
     ("rows[0].clearance", |s| s.rows[0].clearance = 1e-3),
     ("rows[0].axial_preload", |s| s.rows[0].axial_preload = 1e-3),
     ("rows[0].start_angle", |s| s.rows[0].start_angle = -90.0),
     ("rows[0].diameter_errors", |s| {
-        s.rows[0].diameter_errors = vec![1e-4; 9]
+        s.rows[0].diameter_errors = vec![1e-4; 9];
     }),
     ("rows[0].ball_mass", |s| s.rows[0].ball_mass = Some(2.06)),
     ("rows[0].ball_inertia", |s| {
-        s.rows[0].ball_inertia = Some(1.3e-2)
+        s.rows[0].ball_inertia = Some(1.3e-2);
     }),
     ("outer_ring.width", |s| s.outer_ring.width = Some(15.0)),
     ("outer_ring.diameter", |s| {
-        s.outer_ring.diameter = Some(52.0)
+        s.outer_ring.diameter = Some(52.0);
     }),
     ("inner_ring.mass", |s| s.inner_ring.mass = Some(1500.0)),
     ("outer_ring.mass", |s| s.outer_ring.mass = Some(60e-6)),
     ("materials.balls.density", |s| {
-        s.materials.balls.density = 7.85
+        s.materials.balls.density = 7.85;
     }),
     ("materials.rings.youngs_modulus", |s| {
-        s.materials.rings.youngs_modulus = 206e3
+        s.materials.rings.youngs_modulus = 206e3;
     }),
     ("defects.a.angle", |s| {
-        s.defects.get_mut("a").unwrap().angle = -90.0
+        s.defects.get_mut("a").unwrap().angle = -90.0;
     }),
     ("friction.coulomb.coefficient", |s| {
         s.friction = Friction::Coulomb {
@@ -341,17 +341,17 @@ const SLIPS: &[Slip] = &[
             stiffness: 1e6,
             damping: 20.0,
             play: 0.1,
-        })
+        });
     }),
     ("drive.speed", |s| {
-        s.drive = Drive::Speed((180_000.0).into())
+        s.drive = Drive::Speed((180_000.0).into());
     }),
     ("gravity", |s| s.gravity = [0.0, -9810.0, 0.0]),
     ("unbalances.a.moment", |s| {
-        s.unbalances.get_mut("a").unwrap().moment = 2.0
+        s.unbalances.get_mut("a").unwrap().moment = 2.0;
     }),
     ("unbalances.a.angle", |s| {
-        s.unbalances.get_mut("a").unwrap().angle = 90.0
+        s.unbalances.get_mut("a").unwrap().angle = 90.0;
     }),
 ];
 
@@ -408,6 +408,17 @@ fn scenes_drawn_within_the_usual_raise_no_doubt() {
         };
         assert_eq!(scene.doubts(), []);
     }
+}
+
+/// Truth: the doubts of statics over a turn of the cage are the scene's own, wherever the turn starts.
+#[test]
+fn a_turn_of_the_cage_raises_no_doubt() {
+    let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    scene.rows[0].start_angle = 1.9 * PI;
+    scene.rows[0].diameter_errors = vec![1e-7, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    let found = load_distribution(&scene, 1).unwrap();
+    assert!(*found.turn.last().unwrap() > PI);
+    assert!(found.equilibria.iter().all(|at| at.doubts.is_empty()));
 }
 
 /// Analytic: pressures of the statics are Hertz's of their own loads, under either law.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
-use super::{Equilibrium, equilibrium};
+use super::{Equilibrium, doubts, equilibrium};
 use crate::error::{Error, Result};
 use crate::scene::{Row, Scene, Surface};
 
@@ -74,7 +74,10 @@ pub fn load_distribution(scene: &Scene, positions: usize) -> Result<LoadDistribu
             for row in &mut turned.rows {
                 row.start_angle += turn;
             }
-            equilibrium(&turned)
+            let mut found = equilibrium(&turned)?;
+            // Those of the scene that was given: the angle of a turned one says nothing.
+            found.doubts = doubts(scene, &found);
+            Ok(found)
         })
         .collect::<Result<Vec<_>>>()?;
     let equivalent = (0..scene.rows.len())

@@ -175,11 +175,16 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
         inner: place(1),
         balls: balls.collect(),
         iterations,
-        doubts: model.scene.doubts(),
+        doubts: Vec::new(),
     };
-    let pressure = Doubt::pressure(found.largest_pressure());
-    found.doubts.extend(pressure);
+    found.doubts = doubts(&model.scene, &found);
     found
+}
+
+/// Of a scene, and of the pressures in its contacts.
+fn doubts(scene: &Scene, found: &Equilibrium) -> Vec<Doubt> {
+    let pressure = Doubt::pressure(found.largest_pressure());
+    scene.doubts().into_iter().chain(pressure).collect()
 }
 
 /// Solves from the first guess; from the nominal places where there is none, or where it leads to no stable place, such

@@ -85,9 +85,12 @@ def test_a_campaign_tells_doubts_once_and_pressures_a_case(
     with pytest.warns(br.SceneWarning, match="start_angle") as told:
         done = br.campaign(table, tmp_path, scene=doubtful, duration=1e-3, progress=False)
     assert len(told) == 1
-    light, heavy = done.manifest["largest_pressure"]
-    # Twice as high under eight times the load, more or less: the load zone changes.
-    assert heavy / light == pytest.approx(2.0, rel=0.03)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", br.SceneWarning)
+        found = [br.equilibrium(done.scene(case)) for case in done.manifest["case_id"]]
+    # A run begins there, and in a millisecond the cage goes on by four degrees.
+    expected = [eq.inner_pressure.max() for eq in found]
+    np.testing.assert_allclose(done.manifest["largest_pressure"], expected, rtol=0.02)
 
 
 def test_the_command_line_tells(
