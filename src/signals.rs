@@ -8,6 +8,7 @@ use crate::integrate::{DenseStep, System};
 use crate::model::{Model, Omission};
 use crate::residual::Residual;
 use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene};
+use crate::simd::Distrust;
 
 /// What a run gives.
 #[derive(Debug, Clone)]
@@ -103,6 +104,8 @@ pub struct Provenance {
     pub left_out: Vec<Omission>,
     /// Level of vector instructions.
     pub simd: &'static str,
+    /// What was wrong with the level that would have been used; absent where nothing was.
+    pub distrust: Option<Distrust>,
     /// Processor architecture.
     pub architecture: &'static str,
 }

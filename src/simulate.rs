@@ -16,6 +16,7 @@ use crate::method::{self, Choice, Task};
 use crate::model::{Model, Reduction};
 use crate::pool::pool;
 use crate::scene::{Drive, Method, SCHEMA, Scene};
+use crate::selftest;
 use crate::signals::{Provenance, Recorder, Signals, Statistics};
 use crate::start::{Start, start};
 
@@ -105,7 +106,7 @@ pub fn simulate(
         )?),
         (None, _) => None,
     };
-    let model = Model::new(&scene)?;
+    let (model, distrust) = selftest::trusted(Model::new(&scene)?);
     let count = samples(run)?;
     let mut recorder = Recorder::new(&model, run.fs, count);
     check_memory(run, count, recorder.width())?;
@@ -149,6 +150,7 @@ pub fn simulate(
             states: reduction.as_ref().map_or(model.dim(), Reduction::dim),
             left_out: reduction.map_or_else(Vec::new, |r| r.omissions().to_vec()),
             simd: model.level().name(),
+            distrust,
             architecture: std::env::consts::ARCH,
         },
         scene,

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::signals::Signals;
+use crate::simd::Distrust;
 
 /// Residual of the accelerations above which a run is warned of. Measured on the faulted wheel bearing in 140 runs
 /// over slip speeds of 1e-4 to 0.1 m/s, damping of 0 to 20 s/m and rtol of 1e-7 to 1e-1: above it the error against
@@ -32,13 +33,17 @@ pub enum Warning {
         /// Accepted steps.
         steps: usize,
     },
+    /// This processor computes wrongly at a level of vector instructions that it says it has; a narrower one was used.
+    Instructions(Distrust),
 }
 
 impl Warning {
     /// What it is about: `accuracy` of the signals, or the `scene` that was asked for.
     pub fn category(&self) -> &'static str {
         match self {
-            Self::Accelerations { .. } | Self::Shoulders { .. } => "accuracy",
+            Self::Accelerations { .. } | Self::Shoulders { .. } | Self::Instructions(_) => {
+                "accuracy"
+            }
         }
     }
 }
@@ -63,6 +68,15 @@ impl std::fmt::Display for Warning {
                 "contacts rode over a shoulder {contacts} times in {steps} steps: the part beyond it carries \
                  nothing, and the pressure at the edge is not modelled. Lower the axial load, raise the \
                  shoulders, or look at the truncated contacts"
+            ),
+            Self::Instructions(Distrust {
+                level,
+                primitive,
+                used,
+            }) => write!(
+                f,
+                "this processor offers vector instructions of level {level}, but its `{primitive}` gives wrong \
+                 results; the run used {used}. Please report it, with the processor's name"
             ),
         }
     }
@@ -94,6 +108,10 @@ impl Signals {
             contacts: stats.truncated_contacts,
             steps: stats.accepted,
         });
-        accelerations.into_iter().chain(shoulders).collect()
+        let instructions = self.provenance.distrust.map(Warning::Instructions);
+        [accelerations, shoulders, instructions]
+            .into_iter()
+            .flatten()
+            .collect()
     }
 }
