@@ -60,8 +60,7 @@ def test_features_are_those_of_the_signals(tmp_path: Path) -> None:
     orders = br.frequencies.of_row(scene.rows[0]).at(30.0)
     envelope = br.spectra.squared_envelope(x, 50e3, (500.0, 20e3))
     width = 1.0 / 0.03
-    for name in ("bpfo", "bpfi", "bsf"):
-        near = getattr(orders, name)
+    for name, near in (("bpfo", orders.bpfo), ("bpfi", orders.bpfi), ("2bsf", 2.0 * orders.bsf)):
         if near < 2.0 * width:
             continue
         for suffix, signal in (("", x), ("_envelope", envelope)):

@@ -117,9 +117,13 @@ def campaign(
     columns : sequence of str, optional
         Signals whose features are computed; by default all accelerations that the probes record. For
         ``outer.ay``: ``outer.ay.rms``, ``.peak``, ``.crest_factor``, ``.kurtosis``, and for every row of balls
-        the lines of the signal at its fault frequencies ``outer.ay.row0.ftf``, ``.bpfo``, ``.bpfi``, ``.bsf``,
-        and those of the squared envelope, ``outer.ay.row0.bpfo_envelope`` and so on. A line that the record
-        is too short for is empty.
+        the lines of the signal at its fault frequencies ``outer.ay.row0.ftf``, ``.bpfo``, ``.bpfi``, ``.2bsf``
+        (a ball's defect meets both races in a turn), the root of the sum of the squares of the first three
+        harmonics (``.bpfo_harmonics``), and of the sidebands a shaft's frequency beside BPFI and a cage's beside
+        2 BSF (``.bpfi_sidebands``, ``.2bsf_sidebands``); and all of these of the squared envelope,
+        ``outer.ay.row0.bpfo_envelope``, ``.bpfo_envelope_harmonics`` and so on. Where the given speed changes by
+        more than 2 %, lines are taken over the shaft's angle. A line that the record is too short for is empty,
+        and so are all under a torque drive.
     skip : float
         Beginning of each run that features leave out [s].
     band : tuple of two floats, optional
