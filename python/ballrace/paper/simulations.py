@@ -12,7 +12,7 @@ from ..run import simulate
 from ..scene import ContactsProbe, FixedSlices, MotionProbe, SlicesProbe
 from ..statics import equilibrium
 from .case import Balls, Case, Dynamic, Snapshot, Static
-from .measures import Array, envelope_line, impacts, orbit, passages, settling_time, zone
+from .measures import Array, clarity, envelope_line, impacts, orbit, passages, settling_time, zone
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -81,6 +81,7 @@ def dynamic(out: Signals, after: float = SETTLED) -> Dynamic:
         impact_count=found.size,
         largest=float(found.max()),
         line=envelope_line(part, out.fs, bpfo),
+        clarity=clarity(part, out.fs, bpfo),
         rms=float(part.std()),
         bpfo=bpfo,
     )
