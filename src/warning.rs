@@ -32,6 +32,15 @@ pub enum Warning {
         /// Accepted steps.
         steps: usize,
     },
+    /// The line of a defect lies above half the sampling rate.
+    SamplingRate {
+        /// Sampling rate \[Hz\].
+        fs: f64,
+        /// The defect.
+        defect: String,
+        /// Its first line at the highest speed of the run: BPFO, BPFI or twice BSF \[Hz\].
+        line: f64,
+    },
 }
 
 impl Warning {
@@ -39,6 +48,7 @@ impl Warning {
     pub fn category(&self) -> &'static str {
         match self {
             Self::Accelerations { .. } | Self::Shoulders { .. } => "accuracy",
+            Self::SamplingRate { .. } => "scene",
         }
     }
 }
@@ -63,6 +73,12 @@ impl std::fmt::Display for Warning {
                 "contacts rode over a shoulder {contacts} times in {steps} steps: the part beyond it carries \
                  nothing, and the pressure at the edge is not modelled. Lower the axial load, raise the \
                  shoulders, or look at the truncated contacts"
+            ),
+            Self::SamplingRate { fs, defect, line } => write!(
+                f,
+                "fs = {fs} Hz shows nothing of defects.{defect}: its line, at {line:.1} Hz, lies above fs/2. Use an \
+                 fs well above {:.0} Hz",
+                2.0 * line
             ),
         }
     }
@@ -94,6 +110,19 @@ impl Signals {
             contacts: stats.truncated_contacts,
             steps: stats.accepted,
         });
-        accelerations.into_iter().chain(shoulders).collect()
+        let unheard = self
+            .scene
+            .highest_fault_line(self.provenance.duration)
+            .filter(|(_, line)| self.fs < 2.0 * line)
+            .map(|(defect, line)| Warning::SamplingRate {
+                fs: self.fs,
+                defect: defect.to_owned(),
+                line,
+            });
+        accelerations
+            .into_iter()
+            .chain(shoulders)
+            .chain(unheard)
+            .collect()
     }
 }

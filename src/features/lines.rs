@@ -6,7 +6,7 @@ use rustfft::FftPlanner;
 
 use super::Feature;
 use super::spectrum::{Spectrum, squared_envelope};
-use crate::scene::{Drive, Row, Scene};
+use crate::scene::{Drive, Scene};
 
 const NAMES: [&str; 4] = ["ftf", "bpfo", "bpfi", "bsf"];
 
@@ -23,7 +23,7 @@ const BINS: f64 = 2.0;
 pub(super) fn fault_frequencies(scene: &Scene, from: f64, to: f64) -> Vec<Option<[f64; 4]>> {
     let shaft = shaft_frequency(scene, from, to);
     let rows = scene.rows.iter();
-    rows.map(|row| shaft.map(|shaft| orders(row).map(|order| order * shaft)))
+    rows.map(|row| shaft.map(|shaft| row.orders().map(|order| order * shaft)))
         .collect()
 }
 
@@ -39,19 +39,6 @@ fn shaft_frequency(scene: &Scene, from: f64, to: f64) -> Option<f64> {
         .iter()
         .all(|s| (s - mean).abs() <= SHARE * mean.abs());
     steady.then_some(mean.abs())
-}
-
-/// Kinematic orders of a row at its nominal contact angle, outer ring at rest, with γ = D cos α / d_m:
-/// FTF (1 − γ)/2, BPFO Z(1 − γ)/2, BPFI Z(1 + γ)/2, BSF d_m/2D (1 − γ²).
-fn orders(row: &Row) -> [f64; 4] {
-    let gamma = row.ball_diameter * row.contact_angle.cos() / row.pitch_diameter;
-    let count = row.ball_count as f64;
-    [
-        (1.0 - gamma) / 2.0,
-        count * (1.0 - gamma) / 2.0,
-        count * (1.0 + gamma) / 2.0,
-        row.pitch_diameter / (2.0 * row.ball_diameter) * (1.0 - gamma * gamma),
-    ]
 }
 
 /// Lines of a signal and of its squared envelope at the frequencies of every row.
@@ -98,7 +85,7 @@ mod tests {
         let mut row = presets::deep_groove_6205(500.0, 0.0, 1800.0).rows[0].clone();
         (row.ball_count, row.contact_angle) = (9, 0.0);
         (row.ball_diameter, row.pitch_diameter) = (7.94e-3, 39.04e-3);
-        let found = orders(&row);
+        let found = row.orders();
         for (found, wanted) in found
             .into_iter()
             .zip([0.3983, 3.5848, 5.4152, 4.7135 / 2.0])
