@@ -34,7 +34,7 @@
 //! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
 //! * `equilibrium` ([`equilibrium()`], [`stiffness()`], [`load_distribution()`]) — the static solve and what follows
 //!   from it; `start` ([`start()`]) — how a run begins.
-//! * `signals` ([`Signals`]) — probes read on a uniform grid from the dense output.
+//! * `signals` ([`Signals`]) — probes read from the dense output on a uniform grid, through a low-pass ([`Bandwidth`]).
 //! * `residual`, `collapse`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
 //! * `selftest` — whether this processor's vector instructions compute what they should, once a process.
 //! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
@@ -56,7 +56,7 @@
 //! | a race profile | `contact/race.rs`, `contact/press.rs` | gap against a closed form |
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
 //! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` | row sums, order of convergence |
-//! | a signal | a variant in `scene/probe.rs`, an arm in `signals.rs` | unit, value at a known state |
+//! | a signal | a variant in `scene/probe.rs`, two arms in `signals/probes.rs` | unit, value at a known state; filtered or a reading of a state |
 //! | a feature | a file in `features/`, a line in its `mod.rs` | value of a synthetic signal |
 //!
 //! # Units and frames
@@ -101,7 +101,7 @@ pub use explain::{ContactKind, Cost, Explanation, Variant, explain};
 pub use features::{Feature, FeatureOptions, feature_columns};
 pub use model::{Body, Degree, Model, Obstacle, Omission, Reduction, Scales};
 pub use scene::Scene;
-pub use signals::{Column, Provenance, Signals, SliceRow, Statistics};
+pub use signals::{Bandwidth, Column, Provenance, Signals, SliceRow, Statistics};
 pub use simulate::{Run, simulate};
 pub use start::{Start, start};
 pub use warning::Warning;

@@ -17,7 +17,7 @@ use crate::model::{Model, Reduction};
 use crate::pool::pool;
 use crate::scene::{Drive, Method, SCHEMA, Scene};
 use crate::selftest;
-use crate::signals::{Provenance, Recorder, Signals, Statistics};
+use crate::signals::{Bandwidth, Provenance, Recorder, Sampling, Signals, Statistics};
 use crate::start::{Start, start};
 
 /// What to run.
@@ -38,6 +38,8 @@ pub struct Run {
     pub method: Option<Method>,
     /// Threads that share the balls of one evaluation; 0: as many as pay. The bits are the same for any.
     pub threads: usize,
+    /// Whether signals are filtered before they are sampled.
+    pub bandwidth: Bandwidth,
 }
 
 impl Default for Run {
@@ -51,6 +53,7 @@ impl Default for Run {
             accuracy: None,
             method: None,
             threads: 0,
+            bandwidth: Bandwidth::Auto,
         }
     }
 }
@@ -108,7 +111,8 @@ pub fn simulate(
     };
     let (model, distrust) = selftest::trusted(Model::new(&scene)?);
     let count = samples(run)?;
-    let mut recorder = Recorder::new(&model, run.fs, count);
+    let sampling = Sampling::new(run.bandwidth, run.fs, model.scales.frequency)?;
+    let mut recorder = Recorder::new(&model, sampling, count);
     check_memory(run, count, recorder.width())?;
     let threads = threads(&model, run.threads)?;
     let options = options(&model)?;
@@ -152,6 +156,8 @@ pub fn simulate(
             simd: model.level().name(),
             distrust,
             architecture: std::env::consts::ARCH,
+            bandwidth: sampling.bandwidth,
+            oversampling: sampling.oversampling,
         },
         scene,
     })
@@ -169,6 +175,7 @@ fn pilot(
         fs: accuracy::FS,
         start: from.clone(),
         accuracy: None,
+        bandwidth: Bandwidth::Raw,
         ..run.clone()
     };
     let mut out = simulate(scene, &first, &mut |_| progress(0.0))?;
@@ -224,7 +231,7 @@ fn follow(
     let tolerance = tolerance(&dynamics)?;
     let own = dynamics.compress(y0);
     let (mut last, mut last_time) = (own.clone(), 0.0);
-    recorder.first(&mut dynamics, &own);
+    recorder.first(&mut dynamics, 0.0, &own);
     let mut observe =
         |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, stats: &integrate::Statistics| {
             // The last evaluation was at the accepted state.
@@ -268,6 +275,15 @@ fn follow(
     if solution.interrupted {
         return Err(Error::Interrupted { time: solution.t });
     }
+    let end = (solution.t, &solution.y[..]);
+    let nfev_past_end = go_on(
+        &mut dynamics,
+        &mut recorder,
+        end,
+        (&tolerance, options),
+        progress,
+    )?;
+    recorder.finish();
     let _ = progress(1.0);
     let stats = solution.stats;
     let statistics = Statistics {
@@ -285,8 +301,53 @@ fn follow(
         truncated_contacts: truncated,
         acceleration_residual: recorder.residual.value(),
         wall_time: begun.elapsed().as_secs_f64(),
+        nfev_past_end,
     };
     Ok((recorder, statistics, choice))
+}
+
+/// Follows the motion beyond the end of the run for what the last samples take from there; returns the evaluations.
+/// Where it cannot go on, the samples make do with what there is.
+fn go_on(
+    dynamics: &mut Dynamics<'_>,
+    recorder: &mut Recorder,
+    (end, y): (f64, &[f64]),
+    (tolerance, options): (&Tolerance, &Options),
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<usize> {
+    let until = recorder.until(end);
+    if until <= end {
+        return Ok(0);
+    }
+    let mut crawl = Crawl::new(dynamics.model(), options.max_step);
+    let (mut told, mut stopped) = (Instant::now(), false);
+    let mut observe =
+        |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &integrate::Statistics| {
+            if dynamics.lost().is_some() || crawl.after(step.h()) {
+                return ControlFlow::Break(());
+            }
+            recorder.step(dynamics, step);
+            if told.elapsed() >= TELL_EVERY {
+                told = Instant::now();
+                stopped = progress(1.0).is_break();
+            }
+            if stopped {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+    let task = Task {
+        span: (end, until),
+        y0: y,
+        tolerance,
+        options,
+    };
+    let beyond = method::run(dynamics, task, &mut observe);
+    if stopped {
+        return Err(Error::Interrupted { time: end });
+    }
+    Ok(beyond.map_or(0, |(solution, _)| solution.stats.nfev))
 }
 
 /// Number of samples k / fs below the duration.

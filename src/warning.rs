@@ -35,6 +35,15 @@ pub enum Warning {
     },
     /// This processor computes wrongly at a level of vector instructions that it says it has; a narrower one was used.
     Instructions(Distrust),
+    /// The line of a defect lies above half the sampling rate.
+    SamplingRate {
+        /// Sampling rate \[Hz\].
+        fs: f64,
+        /// The defect.
+        defect: String,
+        /// Its first line at the highest speed of the run: BPFO, BPFI or twice BSF \[Hz\].
+        line: f64,
+    },
 }
 
 impl Warning {
@@ -44,6 +53,7 @@ impl Warning {
             Self::Accelerations { .. } | Self::Shoulders { .. } | Self::Instructions(_) => {
                 "accuracy"
             }
+            Self::SamplingRate { .. } => "scene",
         }
     }
 }
@@ -78,6 +88,12 @@ impl std::fmt::Display for Warning {
                 "this processor offers vector instructions of level {level}, but its `{primitive}` gives wrong \
                  results; the run used {used}. Please report it, with the processor's name"
             ),
+            Self::SamplingRate { fs, defect, line } => write!(
+                f,
+                "fs = {fs} Hz shows nothing of defects.{defect}: its line, at {line:.1} Hz, lies above fs/2. Use an \
+                 fs well above {:.0} Hz",
+                2.0 * line
+            ),
         }
     }
 }
@@ -108,8 +124,17 @@ impl Signals {
             contacts: stats.truncated_contacts,
             steps: stats.accepted,
         });
+        let unheard = self
+            .scene
+            .highest_fault_line(self.provenance.duration)
+            .filter(|(_, line)| self.fs < 2.0 * line)
+            .map(|(defect, line)| Warning::SamplingRate {
+                fs: self.fs,
+                defect: defect.to_owned(),
+                line,
+            });
         let instructions = self.provenance.distrust.map(Warning::Instructions);
-        [accelerations, shoulders, instructions]
+        [accelerations, shoulders, instructions, unheard]
             .into_iter()
             .flatten()
             .collect()

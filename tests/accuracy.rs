@@ -5,7 +5,7 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use ballrace::scene::{Defect, Friction, Method, Scene, Slices, Surface, presets};
-use ballrace::{Error, Model, Run, Start, simulate, start};
+use ballrace::{Bandwidth, Error, Model, Run, Start, simulate, start};
 use common::{Noise, run};
 
 /// A bearing with a spall on a race that its most loaded ball is about to meet.
@@ -73,6 +73,7 @@ fn error_and_horizon(scene: &Scene, accuracy: f64) -> (f64, f64) {
         fs: 100e3,
         start: Start::State(y),
         threads: 1,
+        bandwidth: Bandwidth::Raw,
         ..Run::default()
     };
     let exact = run(&fine, &from(y0.clone()));
@@ -152,6 +153,7 @@ fn the_choice_is_told() {
         duration: 1e-3,
         threads: 1,
         accuracy,
+        bandwidth: Bandwidth::Raw,
         ..Run::default()
     };
     let (loose, tight) = (

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use ballrace::scene::{
     Defect, Friction, Load, NormalLaw, Probe, RingName, Scene, Slices, Support, Surface, presets,
 };
-use ballrace::{Model, Run, Signals, Start, simulate, start};
+use ballrace::{Bandwidth, Model, Run, Signals, Start, simulate, start};
 
 /// The wheel bearing at +3 kN without its defect.
 fn healthy() -> Scene {
@@ -193,6 +193,7 @@ fn symmetries() {
     let short = Run {
         duration: 1e-3,
         threads: 1,
+        bandwidth: Bandwidth::Raw,
         ..Run::default()
     };
     let (one, two, three) = (
@@ -314,6 +315,7 @@ fn equilibrium_start_is_calm() {
                 duration,
                 start,
                 threads: 1,
+                bandwidth: Bandwidth::Raw,
                 ..Run::default()
             },
         );
@@ -349,6 +351,7 @@ fn torque_turns_the_ring() {
         &Run {
             duration: 5e-3,
             threads: 1,
+            bandwidth: Bandwidth::Raw,
             ..Run::default()
         },
     );

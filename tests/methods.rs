@@ -11,7 +11,7 @@ use ballrace::integrate::{
     Tolerance, VERNER, VelocityVerlet, integrate,
 };
 use ballrace::scene::{Friction, Method, presets};
-use ballrace::{Model, Run, Scene, Signals, simulate};
+use ballrace::{Bandwidth, Model, Run, Scene, Signals, simulate};
 
 /// An oscillator rubbed by regularised Coulomb friction against a belt that moves: q' = v,
 /// v' = −q − rate·s·(v − w)/√((v − w)² + s²), w = cos t. Its fastest rate is `rate`.
@@ -336,6 +336,7 @@ fn run(scene: &Scene, method: Method, rtol: f64) -> Signals {
         rtol: Some(rtol),
         method: Some(method),
         threads: 1,
+        bandwidth: Bandwidth::Raw,
         ..Run::default()
     };
     simulate(scene, &run, &mut |_| ControlFlow::Continue(())).unwrap()
@@ -450,6 +451,7 @@ fn auto_switches_within_a_run() {
         duration: 5e-3,
         method: Some(Method::Auto),
         threads: 1,
+        bandwidth: Bandwidth::Raw,
         ..Run::default()
     };
     let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();

@@ -11,7 +11,7 @@ use ballrace::scene::{
     Defect, Drive, Friction, Mount, NormalLaw, Profile, Scene, Slices, Surface, TimeFunction,
     Waviness, Width, WidthProfile, presets,
 };
-use ballrace::{Model, Reduction, Run, Start, simulate, start};
+use ballrace::{Bandwidth, Model, Reduction, Run, Start, simulate, start};
 use common::Noise;
 
 /// A healthy deep-groove bearing under a radial load.
@@ -282,6 +282,7 @@ fn signal(scene: &Scene, reduce: bool, y0: &[f64]) -> [Vec<f64>; 2] {
     let run = Run {
         duration: 2e-3,
         start: Start::State(y0.to_vec()),
+        bandwidth: Bandwidth::Raw,
         ..Run::default()
     };
     let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();

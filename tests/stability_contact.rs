@@ -10,7 +10,7 @@ use ballrace::contact::iso16281::Iso16281;
 use ballrace::dynamics::Dynamics;
 use ballrace::integrate::{DORMAND_PRINCE, DenseStep, Options, System, Tolerance, integrate};
 use ballrace::scene::{NormalLaw, Scene};
-use ballrace::{Model, Run, Start, start};
+use ballrace::{Bandwidth, Model, Run, Start, start};
 use common::{ball_mass, one_ball, rms, run, slope};
 
 /// A mass that flies against one slice of the ISO law: ẍ = −F(x)/m.
@@ -315,6 +315,7 @@ fn a_torn_contact_does_not_pull_and_is_counted() {
                 duration: 20e-6,
                 fs: 10e6,
                 start: Start::State(y),
+                bandwidth: Bandwidth::Raw,
                 ..Run::default()
             },
         );

@@ -5,7 +5,7 @@
 mod common;
 
 use ballrace::scene::{Drive, Friction, NormalLaw, Probe, Profile, Scene, TimeFunction, presets};
-use ballrace::{Model, Run, Start, start};
+use ballrace::{Bandwidth, Model, Run, Start, start};
 use common::{ball_mass, one_ball, run, short, soon_over_the_spall};
 
 fn with_friction(mut scene: Scene, slip_speed: f64) -> Scene {
@@ -38,6 +38,7 @@ fn sticking_is_a_creep_that_falls_with_the_slip_speed() {
             &Run {
                 duration: 2e-3,
                 start: Start::State(y0),
+                bandwidth: Bandwidth::Raw,
                 ..Run::default()
             },
         );
@@ -92,6 +93,7 @@ fn start_stop_and_reversal_roll_on() {
             &driven(ramp(from, to, 10e-3), 0.01),
             &Run {
                 duration: 15e-3,
+                bandwidth: Bandwidth::Raw,
                 ..Run::default()
             },
         );

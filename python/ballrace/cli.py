@@ -133,6 +133,10 @@ def _parser() -> argparse.ArgumentParser:
         default=0,
         help="threads (default: chosen; no influence on the result)",
     )
+    run.add_argument(
+        "--bandwidth", choices=("auto", "none"), default="auto",
+        help="auto: signals through a low-pass of 0.4 fs; none: point samples (default: %(default)s)",
+    )  # fmt: skip
     run.set_defaults(command=_run)
 
     scene = commands.add_parser("scene", help="print a ready-made scene as TOML, to start from")
@@ -272,6 +276,7 @@ def _paper(options: argparse.Namespace) -> None:
         print(paper.dumps(found), end="")
         return
     _print_table(paper.HEADER, paper.rows(found))
+    print(f"\nSignals: {paper.SIGNALS}.")
     print("\nWritten:", *written, sep="\n  ")
     if importlib.util.find_spec("plotly") is None:
         print('\nFor the figures: pip install "ballrace[plot]"')
@@ -288,6 +293,7 @@ def _run(options: argparse.Namespace) -> None:
         accuracy=options.accuracy,
         threads=options.threads,
         progress=True,
+        bandwidth="auto" if options.bandwidth == "auto" else None,
     )
     out.write_parquet(options.output)
     print(f"{options.output}: {len(out)} columns, {out.t.size} samples")

@@ -36,6 +36,7 @@ def simulate(
     reduce: bool | None = None,
     threads: int = 0,
     progress: bool | Callable[[float], object] | None = None,
+    bandwidth: Literal["auto"] | None = "auto",
 ) -> Signals:
     """Run a scene and record its probes.
 
@@ -70,6 +71,20 @@ def simulate(
     progress : bool or callable, optional
         True shows a bar on a terminal. A callable is given the share done, from 0 to 1, about twenty times
         a second; what it raises stops the run.
+    bandwidth : {"auto"} or None
+        ``"auto"`` reads motion, cage forces and friction torques as finely as the steps go, and decimates them
+        through a linear-phase low-pass: flat within 0.004 dB up to 0.4 `fs`, 83 dB down beyond 0.6 `fs`, without
+        delay. Accelerations are the filtered derivatives of the velocities. Where something jumps, the samples
+        around it ring. For its last samples a run goes on for 14 samples past its end, by a tenth of its
+        duration at most; beyond that, and before t = 0, signals are continued by their odd reflection.
+        Contacts, energies, forces by origin and slices tell a state and are always points.
+
+        None takes point samples of the dense output for all columns, for those who study the integrator. What
+        lies above half the sampling rate is then folded into the band below: of a faulted 6205's acceleration
+        four fifths of the power at 12 kHz.
+
+        ``out.provenance`` tells: ``bandwidth`` [Hz] is 0.4 `fs`, or `fs`/2 where `fs` is so high that no filter
+        was needed, or None; ``oversampling`` is the number of points read a sample.
 
     Returns
     -------
@@ -90,7 +105,7 @@ def simulate(
     AccuracyWarning
         The steps do not resolve the contacts, or contacts rode over a shoulder.
     SceneWarning
-        The scene is not what it seems to say.
+        The scene is not what it seems to say, or `fs` is below twice the line of one of its defects.
 
     Examples
     --------
@@ -109,12 +124,32 @@ def simulate(
     if progress is True:
         with Bar(scene.name or "simulating") as bar:
             raw = _core.simulate(
-                document, duration, fs, kind, state, rtol, accuracy, method, threads, bar.show
+                document,
+                duration,
+                fs,
+                kind,
+                state,
+                rtol,
+                accuracy,
+                method,
+                threads,
+                bar.show,
+                bandwidth,
             )
     else:
         callback = progress or None
         raw = _core.simulate(
-            document, duration, fs, kind, state, rtol, accuracy, method, threads, callback
+            document,
+            duration,
+            fs,
+            kind,
+            state,
+            rtol,
+            accuracy,
+            method,
+            threads,
+            callback,
+            bandwidth,
         )
     out = Signals._from_core(raw)
     for category, text in raw["warnings"]:

@@ -28,27 +28,20 @@ pub(super) struct Fault {
     sidebands: Option<f64>,
 }
 
-/// Kinematic orders of a row at its nominal contact angle, outer ring at rest, with γ = D cos α / d_m: cage FTF (1 − γ)/2, balls
-/// passing a place of the outer race BPFO Z(1 − γ)/2 and of the inner race BPFI Z(1 + γ)/2, and places of a ball passing a race:
-/// it meets both in a turn, so 2 BSF = d_m/D (1 − γ²).
+/// The faults of a row by their kinematic orders: the cage's, those of balls that pass a place of the outer and of the inner
+/// race, and of places of a ball that pass a race: it meets both in a turn, so twice the ball's spin.
 pub(super) fn faults(row: &Row) -> [Fault; 4] {
-    let gamma = row.ball_diameter * row.contact_angle.cos() / row.pitch_diameter;
-    let count = row.ball_count as f64;
-    let cage = (1.0 - gamma) / 2.0;
+    let [ftf, bpfo, bpfi, bsf] = row.orders();
     let fault = |name, order, sidebands| Fault {
         name,
         order,
         sidebands,
     };
     [
-        fault("ftf", cage, None),
-        fault("bpfo", count * cage, None),
-        fault("bpfi", count * (1.0 - cage), Some(1.0)),
-        fault(
-            "2bsf",
-            row.pitch_diameter / row.ball_diameter * (1.0 - gamma * gamma),
-            Some(cage),
-        ),
+        fault("ftf", ftf, None),
+        fault("bpfo", bpfo, None),
+        fault("bpfi", bpfi, Some(1.0)),
+        fault("2bsf", 2.0 * bsf, Some(ftf)),
     ]
 }
 

@@ -22,9 +22,8 @@ use rustfft::FftPlanner;
 use serde::Deserialize;
 
 use crate::error::{Error, Result};
-use crate::model::Model;
 use crate::scene::Scene;
-use crate::signals::{Recorder, Signals};
+use crate::signals::{Signals, columns};
 use crate::simulate::Run;
 use shaft::Shaft;
 
@@ -66,8 +65,7 @@ impl Feature {
 /// # Errors
 /// [`Error::Scene`] for a scene that is not usable, or a column that its probes do not record.
 pub fn feature_columns(scene: &Scene, options: &FeatureOptions) -> Result<Vec<String>> {
-    let model = Model::new(scene)?;
-    let columns = Recorder::new(&model, 1.0, 0).columns;
+    let columns = columns(scene)?;
     let Some(asked) = &options.columns else {
         let accelerations = columns.into_iter().filter(|c| c.unit == "m/s^2");
         return Ok(accelerations.map(|c| c.name).collect());

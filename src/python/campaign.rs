@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::errors::{OrRaise, record};
-use super::run::{hand_over, method, start};
+use super::run::{bandwidth, hand_over, method, start};
 use crate::{Case, Error, FeatureOptions, Finished, Outcome, Run, Scene};
 
 /// How a case is run.
@@ -22,6 +22,7 @@ struct RunDocument {
     rtol: Option<f64>,
     accuracy: Option<f64>,
     method: Option<String>,
+    bandwidth: Option<String>,
 }
 
 /// Run cases on threads of their own, each a pair of scene and run as JSON.
@@ -106,6 +107,7 @@ fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<
         rtol: run.rtol,
         accuracy: run.accuracy,
         method: run.method.as_deref().map(method).transpose().or_raise(py)?,
+        bandwidth: bandwidth(run.bandwidth.as_deref()).or_raise(py)?,
         ..Run::default()
     };
     Ok(Some(Case { scene, run }))

@@ -17,6 +17,7 @@ mod bearing;
 mod contact;
 mod defaults;
 mod defect;
+mod fault_lines;
 mod load;
 mod material;
 mod path;

@@ -17,7 +17,7 @@ from ..scene import Scene
 if TYPE_CHECKING:
     import polars as pl
 
-RUN = ("duration", "fs", "start", "rtol", "accuracy", "method")
+RUN = ("duration", "fs", "start", "rtol", "accuracy", "method", "bandwidth")
 """Columns that say how a case is run, instead of the campaign's own arguments."""
 
 FAULTS = ("outer_race", "inner_race", "ball")
@@ -147,6 +147,7 @@ def run_document(run: Mapping[str, Any]) -> dict[str, Any]:
     if document["start"] not in ("equilibrium", "rolling"):
         raise SceneError("start", repr(document["start"]), "'equilibrium' or 'rolling'")
     document["method"] = run.get("method")
+    document["bandwidth"] = _bandwidth(run["bandwidth"])
     limits = {
         "duration": (0.0, 1e6),
         "fs": (0.0, 1e9),
@@ -166,6 +167,13 @@ def run_document(run: Mapping[str, Any]) -> dict[str, Any]:
             raise SceneError(name, str(value), f"above {low:g} and at most {high:g}")
         document[name] = number
     return document
+
+
+def _bandwidth(value: object) -> str | None:
+    """Return what the core takes; a table, whose empty cells change nothing, and TOML say "none"."""
+    if value not in ("auto", "none", None):
+        raise SceneError("bandwidth", repr(value), "'auto' or None ('none' in tables and sweeps)")
+    return "auto" if value == "auto" else None
 
 
 def _rows(table: object) -> tuple[list[dict[str, Any]], list[str]]:
