@@ -22,7 +22,7 @@ fn wheel(law: NormalLaw, slices: Slices) -> Scene {
 
 /// Two rows of so many balls of the wheel bearing, on a pitch circle as long and under a load as large as they need.
 fn ring_of(balls: usize, slices: Slices) -> Scene {
-    let mut scene = wheel(NormalLaw::default(), slices);
+    let mut scene = wheel(NormalLaw::iso16281(), slices);
     let share = balls as f64 / 13.0;
     for row in &mut scene.rows {
         (row.ball_count, row.pitch_diameter) = (balls, row.pitch_diameter * share);
@@ -45,7 +45,7 @@ fn loaded(scene: &Scene) -> (Model, Vec<f64>) {
 fn contact(c: &mut Criterion) {
     let mut group = c.benchmark_group("contact with its sums, one by one");
     for slices in [Slices::Fitted(6), Slices::Fixed(50), Slices::Fixed(400)] {
-        let (model, y) = loaded(&wheel(NormalLaw::default(), slices));
+        let (model, y) = loaded(&wheel(NormalLaw::iso16281(), slices));
         // Ball 1 of row 0 carries most.
         group.bench_function(format!("{slices:?}"), |b| {
             b.iter(|| model.contact(black_box(&y), 1, 0));
@@ -55,7 +55,7 @@ fn contact(c: &mut Criterion) {
 }
 
 fn right_hand_side(c: &mut Criterion) {
-    let iso = NormalLaw::default;
+    let iso = NormalLaw::iso16281;
     let mut group = c.benchmark_group("rhs");
     let mut add = |id: BenchmarkId, model: &Model, y: &[f64]| {
         let mut dynamics = Dynamics::new(model);

@@ -57,6 +57,7 @@
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
 //! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` | row sums, order of convergence |
 //! | a signal | a variant in `scene/probe.rs`, two arms in `signals/probes.rs` | unit, value at a known state; filtered or a reading of a state |
+//! | a doubt | a check in `scene/doubt/`, with its source | `tests/doubts.rs`: told, and no ordinary bearing is |
 //! | a feature | a file in `features/`, a line in its `mod.rs` | value of a synthetic signal |
 //!
 //! # Units and frames
@@ -97,7 +98,7 @@ pub use equilibrium::{
     equilibrium, load_distribution, stiffness,
 };
 pub use error::{Error, Result};
-pub use explain::{ContactKind, Cost, Explanation, Variant, explain};
+pub use explain::{ContactKind, Cost, Explanation, LawExplanation, Variant, explain};
 pub use features::{Feature, FeatureOptions, feature_columns};
 pub use model::{Body, Degree, Model, Obstacle, Omission, Reduction, Scales};
 pub use scene::Scene;

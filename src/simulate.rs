@@ -302,6 +302,9 @@ fn follow(
         acceleration_residual: recorder.residual.value(),
         wall_time: begun.elapsed().as_secs_f64(),
         nfev_past_end,
+        largest_pressure: model
+            .largest_pressure(y0)
+            .max(model.largest_pressure(&full)),
     };
     Ok((recorder, statistics, choice))
 }

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::scene::Doubt;
 use crate::signals::Signals;
 use crate::simd::Distrust;
 
@@ -44,6 +45,8 @@ pub enum Warning {
         /// Its first line at the highest speed of the run: BPFO, BPFI or twice BSF \[Hz\].
         line: f64,
     },
+    /// A number of the scene, or what follows from it, that no bearing is likely to have; a column that cannot change.
+    Doubtful(Doubt),
 }
 
 impl Warning {
@@ -53,7 +56,7 @@ impl Warning {
             Self::Accelerations { .. } | Self::Shoulders { .. } | Self::Instructions(_) => {
                 "accuracy"
             }
-            Self::SamplingRate { .. } => "scene",
+            Self::SamplingRate { .. } | Self::Doubtful(_) => "scene",
         }
     }
 }
@@ -94,6 +97,7 @@ impl std::fmt::Display for Warning {
                  fs well above {:.0} Hz",
                 2.0 * line
             ),
+            Self::Doubtful(doubt) => doubt.fmt(f),
         }
     }
 }
@@ -134,9 +138,12 @@ impl Signals {
                 line,
             });
         let instructions = self.provenance.distrust.map(Warning::Instructions);
+        let pressure = Doubt::pressure(stats.largest_pressure);
+        let doubts = self.scene.doubts().into_iter().chain(pressure);
         [accelerations, shoulders, instructions, unheard]
             .into_iter()
             .flatten()
+            .chain(doubts.map(Warning::Doubtful))
             .collect()
     }
 }

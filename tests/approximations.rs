@@ -106,7 +106,7 @@ fn acceleration(rates: &[f64], body: usize) -> &[f64] {
 #[test]
 fn rolling_balls_feel_their_radial_forces() {
     for seed in 0..10 {
-        let model = Model::new(&wheel(NormalLaw::default(), ROLLING)).unwrap();
+        let model = Model::new(&wheel(NormalLaw::iso16281(), ROLLING)).unwrap();
         let shaken = Shaken::new(&model, seed);
         let free = shaken.free();
         for ring in 0..2 {
@@ -137,7 +137,7 @@ fn rolling_balls_feel_their_radial_forces() {
 /// its speed and a ball has a defect that shows its spin.
 #[test]
 fn places_speeds_and_rates_belong_together() {
-    let mut scene = wheel(NormalLaw::default(), FLAT);
+    let mut scene = wheel(NormalLaw::iso16281(), FLAT);
     scene.drive = Drive::Speed(TimeFunction::Profile(Profile::Sine {
         mean: 150.0,
         amplitude: 100.0,
@@ -198,7 +198,7 @@ fn places_speeds_and_rates_belong_together() {
 /// Analytic: with axial places kept, a contact's force in the plane is one formula: that of its nodes.
 #[test]
 fn contacts_in_the_plane_have_a_closed_form() {
-    for law in [NormalLaw::default(), NormalLaw::Hertz] {
+    for law in [NormalLaw::iso16281(), NormalLaw::Hertz] {
         let scene = wheel(law, FLAT);
         let mut nodes = scene.clone();
         nodes.solver.reduce = false;
@@ -395,7 +395,7 @@ fn impossible_requests_are_refused() {
 /// A run says what it gave up.
 #[test]
 fn a_run_tells_what_it_gave_up() {
-    let scene = wheel(NormalLaw::default(), FLAT);
+    let scene = wheel(NormalLaw::iso16281(), FLAT);
     let run = Run {
         duration: 1e-4,
         ..Run::default()

@@ -143,6 +143,10 @@ fn contact_loads_have_their_extremes() {
     let ratio = value("row0.inner.load_max") / stribeck;
     assert!((0.9..1.25).contains(&ratio), "{ratio}");
     assert_eq!(value("row0.inner.load_min"), 0.0);
+    // Analytic: Hertz's 2.39 GPa under Stribeck's 971 N on the inner race, and a little more with a clearance.
+    let stats = &found[0].result.as_ref().unwrap().signals.stats;
+    assert_eq!(value("largest_pressure"), stats.largest_pressure);
+    assert!((2.39..2.5).contains(&(1e-9 * stats.largest_pressure)));
     // The columns that were read for it are not left behind.
     let signals = &found[0].result.as_ref().unwrap().signals;
     assert!(signals.columns.iter().all(|c| !c.name.contains("load")));

@@ -49,7 +49,7 @@ fn difference(scene: &Scene, level: Level) -> f64 {
 
 fn scenes() -> Vec<(String, Scene)> {
     let mut scenes = Vec::new();
-    for law in [NormalLaw::default(), NormalLaw::Hertz] {
+    for law in [NormalLaw::iso16281(), NormalLaw::Hertz] {
         for slices in [Slices::Fitted(5), Slices::Fitted(6), Slices::Fixed(70)] {
             let mut scene = presets::wheel_bearing(3000.0);
             scene.contact.law = law.clone();

@@ -7,6 +7,8 @@
 //! | what | source |
 //! |---|---|
 //! | Hertz's constants | H. Hertz, J. reine angew. Math. 92 (1881) 156, exact elliptic integrals, computed |
+//! | pressure | T. A. Harris, *Rolling Bearing Analysis*, ch. 6, computed; K. L. Johnson, *Contact Mechanics*, (4.24) |
+//! | pressure at the static rating | ISO 76, and ratings printed in SKF's catalogue |
 //! | their approximation | D. Brewe, B. Hamrock, J. Lubr. Technol. 99 (1977) 485 |
 //! | slice of a roller, load exponent 10/9 | ISO/TS 16281 |
 //! | ball over a slot | geometry |
@@ -70,6 +72,72 @@ fn hertz_constants_of_the_218_and_the_209() {
         meets(&format!("{name} K outer"), outer, k_o, digits);
         let both = (k_i.powf(-2.0 / 3.0) + k_o.powf(-2.0 / 3.0)).powf(-1.5);
         meets(&format!("{name} K series"), series, both, series_digits);
+    }
+}
+
+/// Truth: computed by Harris' formulas for a and b from the curvature difference, 209 under 4526.7 N.
+#[test]
+fn pressure_of_the_209() {
+    let [inner, outer] = hertz(12.7, 65.0, 6.6 / 12.7, 0.0);
+    let load = 4526.7_f64;
+    let semi_axes = [inner.half_length, inner.half_width].map(|c| 1e3 * c * load.cbrt());
+    meets("209 inner a, mm", 2.567_530, semi_axes[0], 1e-6);
+    meets("209 inner b, mm", 0.273_983, semi_axes[1], 2e-6);
+    meets(
+        "209 inner p0, MPa",
+        3072.440,
+        1e-6 * inner.pressure(load),
+        1e-6,
+    );
+    meets(
+        "209 outer p0, MPa",
+        2566.741,
+        1e-6 * outer.pressure(load),
+        1e-6,
+    );
+}
+
+/// Truth: analytic, a ball on a plane: a = (3 F R / 4 E*)^{1/3}, p₀ = (6 F E*² / π³ R²)^{1/3}, δ = a²/R.
+#[test]
+fn pressure_of_a_ball_on_a_plane() {
+    let (d, load): (f64, f64) = (10e-3, 300.0);
+    let steel = Material::default();
+    let plane = Hertz::new(1.0, d, 1e9 * d, 1e9, 0.0, &steel, &steel);
+    let (radius, modulus) = (0.5 * d, 0.5 * 206e9 / (1.0 - 0.09));
+    let a = (0.75 * load * radius / modulus).cbrt();
+    let pressure = (6.0 * load * modulus * modulus / (PI.powi(3) * radius * radius)).cbrt();
+    meets(
+        "a, µm",
+        1e6 * a,
+        1e6 * plane.half_length * load.cbrt(),
+        1e-6,
+    );
+    meets(
+        "p0, MPa",
+        1e-6 * pressure,
+        1e-6 * plane.pressure(load),
+        1e-6,
+    );
+    meets(
+        "approach, µm",
+        1e6 * a * a / radius,
+        1e6 * plane.approach(load),
+        1e-6,
+    );
+}
+
+/// Truth: printed. ISO 76 rates a bearing by the pressure at the *centre* of the heaviest contact, 4200 MPa under
+/// 5 C₀/Z on grooves of 0.52: catalogue ratings of a 6205 (7.8 kN) and a 6310 (38 kN) stand for that largest pressure,
+/// their mean being 2800 MPa.
+#[test]
+fn static_ratings_are_largest_pressures() {
+    for (name, z, d, pitch, rating) in [
+        ("6205", 9.0, 7.94, 39.04, 7800.0),
+        ("6310", 8.0, 19.05, 80.0, 38e3),
+    ] {
+        let [inner, _] = hertz(d, pitch, 0.52, 0.0);
+        let pressure = 1e-6 * inner.pressure(5.0 * rating / z);
+        meets(&format!("{name} p0 at C0, MPa"), 4200.0, pressure, 0.01);
     }
 }
 

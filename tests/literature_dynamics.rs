@@ -242,7 +242,7 @@ fn thrown(law: &NormalLaw, outer: bool, damping: f64, speed: f64, fs: f64) -> (V
 /// b v_i − ln(1 + b v_i) = −b v_o − ln(1 − b v_o); for small speeds v_o/v_i = 1 − α_d v_i + O((α_d v_i)²).
 #[test]
 fn restitution() {
-    for law in [NormalLaw::default(), NormalLaw::Hertz] {
+    for law in [NormalLaw::iso16281(), NormalLaw::Hertz] {
         for outer in [true, false] {
             for (damping, speed) in [(0.2, 0.01), (0.2, 0.1), (0.2, 1.0), (2.0, 0.5), (10.0, 1.0)] {
                 let (v, _) = thrown(&law, outer, damping, speed, 1e6);

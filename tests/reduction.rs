@@ -118,7 +118,7 @@ fn whats(reduction: &Reduction) -> Vec<&str> {
 /// Scenes by name, with the states that a run keeps of them.
 fn scenes() -> Vec<(&'static str, Scene, usize)> {
     let hertz = || NormalLaw::Hertz;
-    let iso = NormalLaw::default;
+    let iso = NormalLaw::iso16281;
     let mut scenes = Vec::new();
     // 9 balls and two rings in x and y.
     scenes.push(("plane, Hertz", plane(hertz(), false), 44));
@@ -246,7 +246,7 @@ fn random_scenes_agree() {
             scene.friction = Friction::None;
         }
         if noise.yes() {
-            scene.contact.law = NormalLaw::default();
+            scene.contact.law = NormalLaw::iso16281();
         }
         if noise.yes() {
             scene.contact.slices = Slices::Fixed(50);

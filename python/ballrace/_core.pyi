@@ -14,6 +14,7 @@ __all__ = [
     "load_distribution",
     "preset_deep_groove_6205",
     "preset_wheel_bearing",
+    "scene_doubts",
     "scene_from_json",
     "scene_from_toml",
     "scene_replace",
@@ -56,6 +57,7 @@ class _Turning(TypedDict):
     outer_angle: _Array
     inner_load: _Array
     inner_angle: _Array
+    warnings: list[str]
 
 class _Equilibrium(_Turning):
     outer: _Array
@@ -66,6 +68,8 @@ class _Equilibrium(_Turning):
     outer_zone_centre: _Array
     inner_deflection: _Array
     inner_zone_centre: _Array
+    outer_pressure: _Array
+    inner_pressure: _Array
     iterations: int
 
 class _Stiffness(TypedDict):
@@ -104,6 +108,7 @@ def equilibrium(scene: str) -> _Equilibrium: ...
 def explain(scene: str) -> tuple[str, str]: ...
 def stiffness(scene: str) -> _Stiffness: ...
 def load_distribution(scene: str, positions: int) -> _LoadDistribution: ...
+def scene_doubts(text: str) -> list[str]: ...
 def scene_from_toml(text: str) -> str: ...
 def scene_from_json(text: str) -> str: ...
 def scene_to_toml(text: str) -> str: ...

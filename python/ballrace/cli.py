@@ -157,6 +157,9 @@ def _parser() -> argparse.ArgumentParser:
         "--life", action="store_true",
         help="print the races' equivalent loads over a turn of the cage, too",
     )  # fmt: skip
+    static.add_argument(
+        "--json", action="store_true", help="print the solution as JSON, in SI units"
+    )
     static.set_defaults(command=_equilibrium)
 
     told = commands.add_parser(
@@ -310,6 +313,9 @@ def _scene(options: argparse.Namespace) -> None:
 def _equilibrium(options: argparse.Namespace) -> None:
     scene = Scene.load(options.scene)
     eq = equilibrium(scene)
+    if options.json:
+        _equilibrium_json(options, scene, eq)
+        return
     for ring in ("outer", "inner"):
         x, y, z = 1e6 * getattr(eq, ring)
         print(f"{ring} ring: x {x:.3f} µm, y {y:.3f} µm, z {z:.3f} µm")
@@ -320,11 +326,13 @@ def _equilibrium(options: argparse.Namespace) -> None:
         _numbers(eq.outer_load, 1),
         _numbers(np.degrees(eq.outer_angle), 2),
         _numbers(1e6 * eq.outer_deflection, 3),
+        _numbers(1e-6 * eq.outer_pressure, 0),
         _numbers(eq.inner_load, 1),
         _numbers(np.degrees(eq.inner_angle), 2),
         _numbers(1e6 * eq.inner_deflection, 3),
+        _numbers(1e-6 * eq.inner_pressure, 0),
     ]
-    contact = ["load N", "angle °", "defl. µm"]
+    contact = ["load N", "angle °", "defl. µm", "p MPa"]
     header = ["ball", "at °", *(f"{race} {q}" for race in ("outer", "inner") for q in contact)]
     _print_table(header, [list(line) for line in zip(*columns, strict=True)])
     if options.stiffness:
@@ -340,6 +348,22 @@ def _equilibrium(options: argparse.Namespace) -> None:
             [f"row{i}", f"{outer:.1f}", f"{inner:.1f}"] for i, (outer, inner) in enumerate(races)
         ]
         _print_table(["equivalent load", "outer N", "inner N"], lines)
+
+
+def _equilibrium_json(options: argparse.Namespace, scene: Scene, eq: Equilibrium) -> None:
+    told: dict[str, object] = {
+        "outer": eq.outer.tolist(),
+        "inner": eq.inner.tolist(),
+        "balls": eq.to_polars().fill_nan(None).to_dicts(),
+        "warnings": eq.warnings,
+    }
+    if options.stiffness:
+        told["stiffness"] = stiffness(scene).inner.tolist()
+    if options.life:
+        loads = load_distribution(scene)
+        told["outer_equivalent"] = loads.outer_equivalent.tolist()
+        told["inner_equivalent"] = loads.inner_equivalent.tolist()
+    print(json.dumps(told, indent=2))
 
 
 def _explain(options: argparse.Namespace) -> None:

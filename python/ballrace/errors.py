@@ -94,6 +94,8 @@ class AccuracyWarning(UserWarning):
 class SceneWarning(UserWarning):
     """A scene ran, but it may not be what was meant; the message names the field and what is unusual about it.
 
+    Given where a number is one that no bearing is likely to have, as in another unit, where a contact's largest
+    Hertz pressure exceeds that of the static load rating, and where a probe records what cannot move.
     ``out.warnings`` keeps the texts; ``warnings.simplefilter("error", ballrace.SceneWarning)`` makes it an error.
     """
 

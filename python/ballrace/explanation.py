@@ -38,6 +38,12 @@ class Explanation(Record):
     variants : list of dict
         Changes of the scene that would help, the cheapest first: ``change``, ``note`` on what it does to the
         answer, states ``kept``, estimated ``seconds`` for a simulated second.
+    law : Record or None
+        What the ``law`` of the contacts implies at the start: the heaviest ``contact``, its ``load`` [N], its
+        ``approach`` and ``hertz_approach``, that of Hertz's theory [m], and its largest Hertz ``pressure`` [Pa];
+        None where no contact is loaded.
+    doubts : list of dict
+        Numbers that no bearing is likely to have, and columns that cannot change: ``path``, ``value``, ``usual``.
     """
 
     def __init__(self, entries: Mapping[str, Any], text: str) -> None:
@@ -79,6 +85,8 @@ def explain(scene: Scene) -> Explanation:
     (88, 62)
     >>> [omission["what"] for omission in told.omissions]
     ['held directions', 'rotation of the inner ring', 'z']
+    >>> told.law.law, round(told.law.approach / told.law.hertz_approach, 2)
+    ('hertz', 1.0)
     """
     entries, text = _core.explain(scene.to_json())
     return Explanation(json.loads(entries), text)

@@ -105,7 +105,9 @@ def simulate(
     AccuracyWarning
         The steps do not resolve the contacts, or contacts rode over a shoulder.
     SceneWarning
-        The scene is not what it seems to say, or `fs` is below twice the line of one of its defects.
+        The scene is not what it seems to say: a number that no bearing is likely to have, contacts beyond the
+        static load rating (``out.stats.largest_pressure``), columns that cannot change, `fs` below
+        twice the line of a defect.
 
     Examples
     --------

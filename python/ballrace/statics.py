@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from .errors import SceneError
+from .errors import SceneError, SceneWarning
 
 if TYPE_CHECKING:
     import polars as pl
@@ -26,7 +27,7 @@ __all__ = [
 ]
 
 _BALL = ("angle", "radius", "z")
-_CONTACT = ("load", "angle", "deflection", "zone_centre")
+_CONTACT = ("load", "angle", "deflection", "zone_centre", "pressure")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -49,8 +50,14 @@ class Equilibrium:
         Elastic deflections [m]; negative: a gap.
     outer_zone_centre, inner_zone_centre : ndarray, shape (n_balls,)
         Axial place of the zone's middle of force, in the ring's frame [m]; not a number without load.
+    outer_pressure, inner_pressure : ndarray, shape (n_balls,)
+        Largest Hertz pressures, at the centres of the contacts, whatever the law [Pa]; 0 without load. Of the
+        smooth race where a ball lies in a defect. The static load rating of ball bearings (ISO 76) stands for
+        4.2 GPa.
     iterations : int
         Iterations of the solver.
+    warnings : tuple of str
+        What was warned of.
     """
 
     outer: NDArray[np.float64]
@@ -68,7 +75,10 @@ class Equilibrium:
     inner_angle: NDArray[np.float64]
     inner_deflection: NDArray[np.float64]
     inner_zone_centre: NDArray[np.float64]
+    outer_pressure: NDArray[np.float64]
+    inner_pressure: NDArray[np.float64]
     iterations: int
+    warnings: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         loaded = int(np.count_nonzero(self.outer_load > 0.0))
@@ -105,8 +115,22 @@ def equilibrium(scene: Scene) -> Equilibrium:
         A field of the scene is not usable.
     EquilibriumError
         There is no stable equilibrium: the load cannot be carried.
+
+    Warns
+    -----
+    SceneWarning
+        A number of the scene is one that no bearing is likely to have, or a contact's pressure exceeds the static
+        rating.
     """
-    return Equilibrium(**_core.equilibrium(scene._document()))
+    return Equilibrium(**_warned(dict(_core.equilibrium(scene._document()))))
+
+
+def _warned(found: dict[str, Any]) -> dict[str, Any]:
+    """Warn the caller of a public function of what the core doubts."""
+    found["warnings"] = tuple(found["warnings"])
+    for text in found["warnings"]:
+        warnings.warn(text, SceneWarning, stacklevel=3)
+    return found
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -168,6 +192,11 @@ def stiffness(scene: Scene) -> Stiffness:
     EquilibriumError
         There is no stable equilibrium: the load cannot be carried.
 
+    Warns
+    -----
+    SceneWarning
+        As for :func:`equilibrium`.
+
     Examples
     --------
     >>> import ballrace as br
@@ -179,7 +208,7 @@ def stiffness(scene: Scene) -> Stiffness:
     return Stiffness(
         inner=found["inner"],
         rings=found["rings"],
-        equilibrium=Equilibrium(**found["equilibrium"]),
+        equilibrium=Equilibrium(**_warned(dict(found["equilibrium"]))),
     )
 
 
@@ -202,6 +231,8 @@ class LoadDistribution:
     outer_equivalent, inner_equivalent : ndarray, shape (n_rows,)
         Equivalent loads of the races [N]: the load that, on every ball all the time, tires the race as much. The
         inner ring turns, (mean of Q³)^(1/3); the outer ring stands, (mean of Q^(10/3))^(3/10), after ISO/TS 16281.
+    warnings : tuple of str
+        What was warned of.
     """
 
     turn: NDArray[np.float64]
@@ -214,6 +245,7 @@ class LoadDistribution:
     inner_angle: NDArray[np.float64]
     outer_equivalent: NDArray[np.float64]
     inner_equivalent: NDArray[np.float64]
+    warnings: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         equivalents = zip(self.outer_equivalent, self.inner_equivalent, strict=True)
@@ -265,6 +297,11 @@ def load_distribution(scene: Scene, *, positions: int = 16) -> LoadDistribution:
     EquilibriumError
         There is no stable equilibrium at some position.
 
+    Warns
+    -----
+    SceneWarning
+        As for :func:`equilibrium`.
+
     Examples
     --------
     >>> import ballrace as br
@@ -275,4 +312,4 @@ def load_distribution(scene: Scene, *, positions: int = 16) -> LoadDistribution:
     """
     if isinstance(positions, bool) or not isinstance(positions, int) or positions < 1:
         raise SceneError("positions", repr(positions), "a whole number, at least 1 per ball pitch")
-    return LoadDistribution(**_core.load_distribution(scene._document(), positions))
+    return LoadDistribution(**_warned(dict(_core.load_distribution(scene._document(), positions))))

@@ -15,6 +15,7 @@ pub const EXPONENT: f64 = 1.0;
 /// | c_a | half-length along the groove over F^{1/3} | m/N^{1/3} |
 /// | k' = 3 K^{2/3} / (4 c_a) | stiffness a length | N/m² |
 /// | κ = 2 / (c_a² K^{2/3}) | curvature of the gap that the zone sees | 1/m |
+/// | c_b | half-width along the race over F^{1/3} | m/N^{1/3} |
 ///
 /// Source: H. Hertz 1881; exact elliptic integrals as in T. A. Harris, *Rolling Bearing Analysis*, ch. 6.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,6 +28,8 @@ pub struct Hertz {
     pub slope: f64,
     /// κ \[1/m\].
     pub curvature: f64,
+    /// c_b \[m/N^{1/3}\].
+    pub half_width: f64,
 }
 
 impl Hertz {
@@ -83,6 +86,7 @@ impl Hertz {
             half_length: a,
             slope: 3.0 * root / (4.0 * a),
             curvature: 2.0 / (a * a * root),
+            half_width: b_over_a * a,
         }
     }
 
@@ -94,6 +98,17 @@ impl Hertz {
         }
         let (k, e) = elliptic::complete(m);
         (e / (1.0 - m) - k) / (k - e)
+    }
+
+    /// Approach \[m\] under a force ≥ 0 \[N\].
+    pub fn approach(&self, force: f64) -> f64 {
+        (force / self.stiffness).powf(2.0 / 3.0)
+    }
+
+    /// Largest pressure \[Pa\] under a force ≥ 0 \[N\], at the zone's centre: p₀ = 3 F / (2π a b), half as much again as
+    /// the mean.
+    pub fn pressure(&self, force: f64) -> f64 {
+        1.5 * force.cbrt() / (std::f64::consts::PI * self.half_length * self.half_width)
     }
 
     /// Half-length of the zone along the common tangent at an approach δ ≥ 0 \[m\].

@@ -99,6 +99,20 @@ impl Model {
         }
     }
 
+    /// Largest Hertz pressure of any contact \[Pa\], at the zone's centre; of the smooth race where there is a defect.
+    pub(crate) fn largest_pressure(&self, y: &[f64]) -> f64 {
+        let balls = 0..self.balls.len();
+        let contacts = balls.flat_map(|j| [(j, 0), (j, 1)]);
+        contacts
+            .map(|(j, race)| self.pressure(j, race, self.contact(y, j, race).load))
+            .fold(0.0, f64::max)
+    }
+
+    /// Hertz pressure \[Pa\] of a ball on a race under a load \[N\].
+    pub(crate) fn pressure(&self, j: usize, race: usize, load: f64) -> f64 {
+        self.rows[self.balls[j].row].hertz[race].pressure(load)
+    }
+
     /// The forces of the slices of one contact, in order of ζ; on a fault a slice may appear more than once.
     pub fn slice_forces(&self, y: &[f64], j: usize, race: usize) -> Vec<SliceForce> {
         let mut list = List(Vec::new());

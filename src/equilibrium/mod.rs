@@ -26,7 +26,7 @@ use serde::Serialize;
 
 use crate::error::Result;
 use crate::model::Model;
-use crate::scene::Scene;
+use crate::scene::{Doubt, Scene};
 pub use distribution::{EquivalentLoads, LoadDistribution, load_distribution};
 use problem::Problem;
 pub use stiffness::{Stiffness, stiffness};
@@ -55,6 +55,16 @@ pub struct Equilibrium {
     pub balls: Vec<BallEquilibrium>,
     /// Newton iterations of the rings.
     pub iterations: usize,
+    /// What is unusual about the scene, and about the pressure in its contacts.
+    pub doubts: Vec<Doubt>,
+}
+
+impl Equilibrium {
+    /// Largest Hertz pressure of any contact \[Pa\].
+    pub fn largest_pressure(&self) -> f64 {
+        let contacts = self.balls.iter().flat_map(|b| [&b.outer, &b.inner]);
+        contacts.map(|c| c.pressure).fold(0.0, f64::max)
+    }
 }
 
 /// Static state of a ball.
@@ -87,6 +97,9 @@ pub struct ContactEquilibrium {
     pub deflection: f64,
     /// Axial place of the zone's middle of force, in the ring's frame \[m\]; null without load.
     pub zone_centre: Option<f64>,
+    /// Largest pressure, at the zone's centre, by Hertz's theory whatever the law \[Pa\]; 0 without load. Of the smooth
+    /// race where the ball lies in a defect.
+    pub pressure: f64,
 }
 
 /// Solves for the static equilibrium at t = 0.
@@ -125,7 +138,8 @@ impl Solved {
     }
 }
 
-fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibrium {
+/// The contacts in a state vector, and what is doubtful there.
+pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibrium {
     let place = |body: usize| [y[4 * body], y[4 * body + 1], y[4 * body + 2]];
     let contact = |j: usize, race: usize| {
         let summary = model.contact(y, j, race);
@@ -141,6 +155,7 @@ fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibrium {
             angle: loaded.then_some(summary.angle),
             deflection: meridian.approach(ball.side.radius),
             zone_centre: loaded.then_some(summary.zone_centre),
+            pressure: model.pressure(j, race, summary.load),
         }
     };
     let balls = model.balls.iter().enumerate().map(|(j, ball)| {
@@ -155,12 +170,16 @@ fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibrium {
             inner: contact(j, 1),
         }
     });
-    Equilibrium {
+    let mut found = Equilibrium {
         outer: place(0),
         inner: place(1),
         balls: balls.collect(),
         iterations,
-    }
+        doubts: model.scene.doubts(),
+    };
+    let pressure = Doubt::pressure(found.largest_pressure());
+    found.doubts.extend(pressure);
+    found
 }
 
 /// Solves from the first guess; from the nominal places where there is none, or where it leads to no stable place, such

@@ -1,6 +1,7 @@
 //! What a scene is compiled to: what a run integrates and leaves out, what that costs, and what would make it cheaper.
 
 mod cost;
+mod law;
 mod variants;
 
 use std::fmt;
@@ -8,12 +9,14 @@ use std::fmt;
 use serde::Serialize;
 
 use crate::dynamics::Dynamics;
+use crate::equilibrium::describe;
 use crate::error::Result;
 use crate::model::{Model, Obstacle, Omission, Reduction};
-use crate::scene::Scene;
+use crate::scene::{Doubt, Scene};
 use crate::start::{Start, start};
 
 pub use cost::Cost;
+pub use law::LawExplanation;
 pub use variants::Variant;
 
 /// What a run of a scene does.
@@ -43,6 +46,10 @@ pub struct Explanation {
     pub cost: Cost,
     /// Changes that would make it cheaper, the cheapest first.
     pub variants: Vec<Variant>,
+    /// What the law of the contacts implies; absent where none is loaded.
+    pub law: Option<LawExplanation>,
+    /// What is unusual about the scene, and about the pressure in its contacts.
+    pub doubts: Vec<Doubt>,
 }
 
 /// How the contacts of a race are evaluated.
@@ -80,6 +87,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         named.map(|(name, _)| *name).collect()
     };
     let cost = cost::of(&model, &y0)?;
+    let at_start = describe(&model, &y0, 0);
     Ok(Explanation {
         name: scene.name.clone(),
         bodies: model.body_count(),
@@ -93,6 +101,8 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         absent: of(crate::dynamics::Use::Absent),
         variants: variants::of(&model, &y0, &cost),
         cost,
+        law: law::of(&model, &at_start),
+        doubts: at_start.doubts,
     })
 }
 
@@ -139,6 +149,9 @@ impl fmt::Display for Explanation {
                 kind.race, kind.contacts, kind.evaluation
             )?;
         }
+        if let Some(law) = &self.law {
+            writeln!(f, "law        {law}")?;
+        }
         for (name, forces) in [
             ("evaluated", &self.evaluated),
             ("set once", &self.constant),
@@ -147,6 +160,9 @@ impl fmt::Display for Explanation {
             if !forces.is_empty() {
                 writeln!(f, "{name:<11}{}", forces.join(", "))?;
             }
+        }
+        for doubt in &self.doubts {
+            writeln!(f, "doubtful   {doubt}")?;
         }
         let cost = &self.cost;
         writeln!(

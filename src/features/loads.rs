@@ -14,13 +14,7 @@ fn probe_name(row: usize) -> String {
 /// The scene with a probe of all contact loads of every row.
 pub(crate) fn with_load_probes(scene: &Scene) -> Scene {
     let mut probed = scene.clone();
-    if probed.probes.is_empty() {
-        // What is recorded without any probe.
-        let body = "outer".to_owned();
-        let components = None;
-        let motion = Probe::Motion { body, components };
-        probed.probes.insert("outer".to_owned(), motion);
-    }
+    probed.probes = scene.recorded().into_owned();
     for row in 0..scene.rows.len() {
         let probe = Probe::Contacts {
             row,

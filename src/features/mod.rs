@@ -8,6 +8,7 @@
 //! | `….bpfi_sidebands`, `….2bsf_sidebands` | the same of the lines a shaft's, a cage's frequency beside it | `lines.rs` |
 //! | `….bpfo_envelope`, `….bpfo_envelope_harmonics`, … | the same lines of its squared envelope | `lines.rs` |
 //! | `row0.outer.load_max`, `.load_min` | extremes of the contact loads of a row \[N\] | `loads.rs` |
+//! | `largest_pressure` | largest Hertz pressure of any contact at the start or the end of the run \[Pa\] | |
 //!
 //! A feature that a run cannot give (a line below the resolution of its record, a crest factor of silence) is
 //! there without a value, so that a table of cases has the same columns throughout.
@@ -98,7 +99,7 @@ pub(crate) fn check(options: &FeatureOptions, run: &Run) -> Result<()> {
     }
 }
 
-/// The features of the given columns, then the extremes of the contact loads if they were read.
+/// The features of the given columns, then the extremes of the contact loads if they were read, and the largest pressure.
 pub(crate) fn features(
     signals: &Signals,
     columns: &[String],
@@ -126,5 +127,7 @@ pub(crate) fn features(
         ));
     }
     found.extend(loads::extremes(signals, first));
+    let pressure = signals.stats.largest_pressure;
+    found.push(Feature::new("largest_pressure".to_owned(), pressure));
     found
 }

@@ -24,10 +24,15 @@ pub(super) fn compile(scene: &Scene) -> Result<Model> {
     let mut rows = Vec::new();
     let mut balls = Vec::new();
     for (i, row) in scene.rows.iter().enumerate() {
+        let hertz = [1.0, -1.0].map(|sigma| hertz(scene, row, sigma));
         rows.push(RowModel {
             first: balls.len(),
             count: row.ball_count,
-            pairs: [pair(scene, i, row, 1.0), pair(scene, i, row, -1.0)],
+            pairs: [
+                pair(scene, i, row, 1.0, hertz[0]),
+                pair(scene, i, row, -1.0, hertz[1]),
+            ],
+            hertz,
             cage_distance: row.pitch_diameter * (PI / row.ball_count as f64).sin(),
             side: f64::from(row.side),
         });
@@ -127,8 +132,27 @@ fn ring(scene: &Scene, ring: &scene::Ring, name: RingName) -> Result<Body> {
     })
 }
 
+/// Hertz's contact of a ball and one race, σ = +1 for the outer.
+fn hertz(scene: &Scene, row: &Row, sigma: f64) -> Hertz {
+    let materials = &scene.materials;
+    let conformity = if sigma > 0.0 {
+        row.outer_conformity
+    } else {
+        row.inner_conformity
+    };
+    Hertz::new(
+        sigma,
+        row.ball_diameter,
+        row.pitch_diameter,
+        conformity,
+        row.contact_angle,
+        &materials.balls,
+        &materials.rings,
+    )
+}
+
 /// Geometry and laws of one race (model section 2), σ = +1 for the outer.
-fn pair(scene: &Scene, index: usize, row: &Row, sigma: f64) -> Pair {
+fn pair(scene: &Scene, index: usize, row: &Row, sigma: f64, hertz: Hertz) -> Pair {
     let radius = row.ball_diameter / 2.0;
     let r = groove_radius(row, sigma);
     let (sin, cos) = row.contact_angle.sin_cos();
@@ -138,20 +162,10 @@ fn pair(scene: &Scene, index: usize, row: &Row, sigma: f64) -> Pair {
     } else {
         side * row.axial_preload
     };
-    let (shoulders, waviness, surface, conformity) = if sigma > 0.0 {
-        (
-            row.outer_shoulders,
-            &row.outer_waviness,
-            Surface::OuterRace,
-            row.outer_conformity,
-        )
+    let (shoulders, waviness, surface) = if sigma > 0.0 {
+        (row.outer_shoulders, &row.outer_waviness, Surface::OuterRace)
     } else {
-        (
-            row.inner_shoulders,
-            &row.inner_waviness,
-            Surface::InnerRace,
-            row.inner_conformity,
-        )
+        (row.inner_shoulders, &row.inner_waviness, Surface::InnerRace)
     };
     let [low, high] = shoulders.map_or([r, r], |angles| angles.map(|angle| r * angle.sin()));
     let race = Torus {
@@ -178,15 +192,7 @@ fn pair(scene: &Scene, index: usize, row: &Row, sigma: f64) -> Pair {
             constant,
             length_ratio,
         } => Law::Iso16281(Iso16281::new(constant, length_ratio, row.ball_diameter)),
-        NormalLaw::Hertz => Law::Hertz(Hertz::new(
-            sigma,
-            row.ball_diameter,
-            row.pitch_diameter,
-            conformity,
-            row.contact_angle,
-            &scene.materials.balls,
-            &scene.materials.rings,
-        )),
+        NormalLaw::Hertz => Law::Hertz(hertz),
     };
     let exponent = law.exponent();
     let slices = match contact.slices {

@@ -9,6 +9,7 @@ mod nodes;
 mod reduction;
 mod scales;
 
+use crate::contact::hertz::Hertz;
 use crate::contact::{BallSide, Pair};
 use crate::error::Result;
 use crate::scene::{Component, Method, Scene, TimeFunction};
@@ -49,6 +50,8 @@ pub(crate) struct RowModel {
     pub count: usize,
     /// Contacts with the outer and the inner race.
     pub pairs: [Pair; 2],
+    /// Hertz's contacts with the same, whatever the law: pressures, and what the law is compared with.
+    pub hertz: [Hertz; 2],
     /// Distance of neighbouring balls ℓ₀.
     pub cage_distance: f64,
     pub side: f64,

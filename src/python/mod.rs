@@ -20,8 +20,8 @@ mod _core {
     use super::run::{Model, explain, simulate};
     #[pymodule_export]
     use super::scene::{
-        preset_deep_groove_6205, preset_wheel_bearing, scene_from_json, scene_from_toml,
-        scene_replace, scene_to_toml,
+        preset_deep_groove_6205, preset_wheel_bearing, scene_doubts, scene_from_json,
+        scene_from_toml, scene_replace, scene_to_toml,
     };
     #[pymodule_export]
     use super::statics::{equilibrium, load_distribution, stiffness};

@@ -24,6 +24,13 @@ pub(super) fn scene_to_toml(py: Python<'_>, text: &str) -> PyResult<String> {
     Ok(Scene::from_json(text).or_raise(py)?.to_toml())
 }
 
+/// What is unusual about a scene's numbers and probes, a text each.
+#[pyfunction]
+pub(super) fn scene_doubts(py: Python<'_>, text: &str) -> PyResult<Vec<String>> {
+    let scene = Scene::from_json(text).or_raise(py)?;
+    Ok(scene.doubts().iter().map(ToString::to_string).collect())
+}
+
 /// Replace fields by dotted paths; `changes` is a JSON list of pairs of path and value.
 #[pyfunction]
 pub(super) fn scene_replace(py: Python<'_>, text: &str, changes: &str) -> PyResult<String> {

@@ -20,7 +20,7 @@ const TURNING: [Column; 5] = [
     ("inner_angle", |ball| ball.inner.angle.unwrap_or(f64::NAN)),
 ];
 /// What is told besides at one.
-const STANDING: [Column; 6] = [
+const STANDING: [Column; 8] = [
     ("radius", |ball| ball.radius),
     ("z", |ball| ball.z),
     ("outer_deflection", |ball| ball.outer.deflection),
@@ -31,6 +31,8 @@ const STANDING: [Column; 6] = [
     ("inner_zone_centre", |ball| {
         ball.inner.zone_centre.unwrap_or(f64::NAN)
     }),
+    ("outer_pressure", |ball| ball.outer.pressure),
+    ("inner_pressure", |ball| ball.inner.pressure),
 ];
 
 /// Static equilibrium.
@@ -74,6 +76,10 @@ pub(super) fn load_distribution<'py>(
     set(&all, "outer_equivalent", equivalent(|row| row.outer), &rows)?;
     set(&all, "inner_equivalent", equivalent(|row| row.inner), &rows)?;
     set(&all, "turn", found.turn, &shape[..1])?;
+    let by_pressure =
+        |a: &&Equilibrium, b: &&Equilibrium| a.largest_pressure().total_cmp(&b.largest_pressure());
+    let worst = found.equilibria.iter().max_by(by_pressure);
+    all.set_item("warnings", worst.map_or_else(Vec::new, told))?;
     Ok(all)
 }
 
@@ -87,7 +93,12 @@ fn arrays<'py>(py: Python<'py>, found: &Equilibrium) -> PyResult<Bound<'py, PyDi
         set(&all, name, values, &[found.balls.len()])?;
     }
     all.set_item("iterations", found.iterations)?;
+    all.set_item("warnings", told(found))?;
     Ok(all)
+}
+
+fn told(found: &Equilibrium) -> Vec<String> {
+    found.doubts.iter().map(ToString::to_string).collect()
 }
 
 /// Enters which balls of which rows they are.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Contact {
-    /// Force of a slice from its penetration.
+    /// Force of a slice from its penetration; Hertz's law by default.
     pub law: NormalLaw,
     /// Where the ball is cut; 6 fitted nodes by default.
     pub slices: Slices,
@@ -19,7 +19,7 @@ pub struct Contact {
 impl Default for Contact {
     fn default() -> Self {
         Self {
-            law: NormalLaw::default(),
+            law: NormalLaw::Hertz,
             slices: Slices::Fitted(6),
             damping: 0.2,
             clamp_pull: true,
@@ -31,7 +31,8 @@ impl Default for Contact {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum NormalLaw {
-    /// The paper's law, after the roller slices of ISO/TS 16281: F = Σ c_s s^{10/9}.
+    /// The paper's law, after the roller slices of ISO/TS 16281: F = Σ c_s s^{10/9}. With the paper's constants it gives
+    /// way about three times as far as Hertz; [`crate::explain()`] tells how far at a scene's own load.
     Iso16281 {
         /// Constant of the law for lengths in metres \[N m^{−2}\]; 35948 N/mm² = 3.5948·10¹⁰.
         #[serde(default = "iso_constant")]
@@ -52,8 +53,9 @@ fn iso_length_ratio() -> f64 {
     0.5
 }
 
-impl Default for NormalLaw {
-    fn default() -> Self {
+impl NormalLaw {
+    /// The paper's law with the paper's constants.
+    pub fn iso16281() -> Self {
         Self::Iso16281 {
             constant: iso_constant(),
             length_ratio: iso_length_ratio(),

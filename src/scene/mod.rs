@@ -1,7 +1,8 @@
 //! What a user says: the scene, a plain document in SI units.
 //!
 //! TOML is for people, JSON crosses the border to Python; both are the same serde document. Unknown
-//! fields are refused. Nothing is computed here but [`Scene::validate`]; [`crate::Model`] compiles it.
+//! fields are refused. Nothing is computed here: [`Scene::validate`] refuses what cannot be, [`Scene::doubts`] tells what
+//! hardly is meant, and [`crate::Model`] compiles the rest.
 //!
 //! ```
 //! use ballrace::Scene;
@@ -17,12 +18,14 @@ mod bearing;
 mod contact;
 mod defaults;
 mod defect;
+mod doubt;
 mod fault_lines;
 mod load;
 mod material;
 mod path;
 pub mod presets;
 mod probe;
+mod recorded;
 mod solver;
 mod time;
 mod validate;
@@ -37,6 +40,7 @@ pub use approximations::Approximations;
 pub use bearing::{Mount, Ring, RingName, Row, Support, Waviness};
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
 pub use defect::{Defect, Floor, Surface, Width, WidthProfile};
+pub use doubt::{Doubt, STATIC_PRESSURE};
 pub use load::{Drive, Load, Unbalance};
 pub use material::{Material, Materials};
 pub use probe::{Component, ContactQuantity, Probe};
@@ -90,7 +94,7 @@ pub struct Scene {
     /// Defects by name.
     #[serde(default)]
     pub defects: BTreeMap<String, Defect>,
-    /// Probes by name; none: the motion of the outer ring.
+    /// Probes by name; none: those of [`Scene::recorded`].
     #[serde(default)]
     pub probes: BTreeMap<String, Probe>,
     /// What is given up for speed; nothing by default.

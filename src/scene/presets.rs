@@ -68,7 +68,11 @@ pub fn wheel_bearing(axial_load: f64) -> Scene {
             ..Ring::default()
         },
         materials: Materials::default(),
-        contact: Contact::default(),
+        // The paper's law and constants, with which the numbers here were identified.
+        contact: Contact {
+            law: NormalLaw::iso16281(),
+            ..Contact::default()
+        },
         friction: Friction::Coulomb {
             coefficient: 0.05,
             slip_speed: 0.1,

@@ -113,6 +113,11 @@ impl Component {
         Self::Alpha,
     ];
 
+    /// The direction it is of: 0 to 2 along x, y, z, 3 about z.
+    pub fn direction(self) -> usize {
+        self as usize % 4
+    }
+
     /// Name as in columns and states, and unit.
     pub fn label(self) -> (&'static str, &'static str) {
         [

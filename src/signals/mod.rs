@@ -89,6 +89,9 @@ pub struct Statistics {
     pub wall_time: f64,
     /// Evaluations beyond the end of the run, for what the filter takes from there; not among `nfev`.
     pub nfev_past_end: usize,
+    /// Largest Hertz pressure of any contact at the start or at the end of the run \[Pa\], at the zone's centre; that of
+    /// the smooth race where the ball lies in a defect.
+    pub largest_pressure: f64,
 }
 
 /// What produced the signals.

@@ -59,14 +59,7 @@ pub(super) struct Probes {
 impl Probes {
     pub fn new(model: &Model) -> Self {
         let mut probes = Self::default();
-        let outer = Probe::Motion {
-            body: "outer".to_owned(),
-            components: None,
-        };
-        if model.scene.probes.is_empty() {
-            probes.add(model, "outer", &outer);
-        }
-        for (name, probe) in &model.scene.probes {
+        for (name, probe) in model.scene.recorded().iter() {
             probes.add(model, name, probe);
         }
         probes.listings.sort_by(|a, b| b.time.total_cmp(&a.time));

@@ -300,6 +300,7 @@ def test_defaults_are_those_of_the_core() -> None:
         drive=s.TorqueDrive(value=1.0),
         outer_ring=s.Ring(mass=1.0, support=s.Support(x=s.Spring())),
         inner_ring=s.Ring(mass=1.0),
+        contact=s.Contact(law=s.Iso16281()),
         cage=s.Cage(stiffness=1.0),
         unbalances={"a": s.Unbalance(ring="inner", moment=1e-3)},
         defects={

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from .. import _core
-from ..errors import CampaignError, CampaignWarning, SceneError
+from ..errors import CampaignError, CampaignWarning, SceneError, SceneWarning
 from ..scene import Scene
 from .cases import Cases
 from .spread import Executor
@@ -113,7 +113,7 @@ def check_choices(**given: object) -> None:
 
 
 def scenes_of(given: Scene | Mapping[str, Scene], features: dict[str, Any]) -> dict[str, str]:
-    """Return the scenes as JSON, having checked that they give the features."""
+    """Return the scenes as JSON, having checked that they give the features; warn of what is doubtful in them."""
     scenes = {"": given} if isinstance(given, Scene) else given
     if (
         not isinstance(scenes, Mapping)
@@ -124,6 +124,8 @@ def scenes_of(given: Scene | Mapping[str, Scene], features: dict[str, Any]) -> d
     documents = {str(name): scene.to_json() for name, scene in scenes.items()}
     for document in documents.values():
         _core.feature_columns(document, json.dumps(features))
+        for doubt in _core.scene_doubts(document):
+            warnings.warn(doubt, SceneWarning, stacklevel=3)
     return documents
 
 

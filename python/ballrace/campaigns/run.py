@@ -132,7 +132,8 @@ def campaign(
         Band of the envelope [Hz]; by default all frequencies.
     contact_loads : bool
         Whether the extremes of the contact loads are among the features: ``row0.outer.load_max`` and so on [N].
-        They cost a reading of every contact at every sample, and do not change the signals.
+        They cost a reading of every contact at every sample, and do not change the signals. ``largest_pressure``,
+        the largest Hertz pressure of any contact at the start or the end of the run [Pa], is always among them.
     threads : int, optional
         Cases at once in this process, or in each task of an executor; by default all cores, or one with an
         executor.
@@ -171,6 +172,11 @@ def campaign(
         The folder cannot be made or read.
     KeyboardInterrupt
         Ctrl-C; the message says what is safe and how to go on.
+
+    Warns
+    -----
+    SceneWarning
+        A number of ``scene`` is one that no bearing is likely to have, or a probe records what cannot move.
 
     Examples
     --------

@@ -182,7 +182,7 @@ mod tests {
         };
         vec![
             ("Hertz", smooth(), 8),
-            ("ISO", with(|s| s.contact.law = NormalLaw::default()), 8),
+            ("ISO", with(|s| s.contact.law = NormalLaw::iso16281()), 8),
             ("no cage", with(|s| s.cage = None), 8),
             ("a cage with play", with(play), 8),
             ("eight balls", balls(8), 4),

@@ -1,0 +1,75 @@
+//! What the law of a scene's contacts implies at its own load.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use crate::equilibrium::Equilibrium;
+use crate::model::Model;
+use crate::scene::NormalLaw;
+
+/// How far the heaviest contact gives way at the start, beside Hertz's theory.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LawExplanation {
+    /// The law.
+    pub law: NormalLaw,
+    /// The heaviest contact, such as `row0.ball3.inner`.
+    pub contact: String,
+    /// Its load \[N\].
+    pub load: f64,
+    /// How far ball and race approach under it \[m\].
+    pub approach: f64,
+    /// The same by Hertz's theory \[m\].
+    pub hertz_approach: f64,
+    /// Largest Hertz pressure in it \[Pa\].
+    pub pressure: f64,
+}
+
+/// Of the scene at its start; absent where no contact is loaded.
+pub(super) fn of(model: &Model, at_start: &Equilibrium) -> Option<LawExplanation> {
+    let contacts = at_start
+        .balls
+        .iter()
+        .flat_map(|ball| [(ball, 0, &ball.outer), (ball, 1, &ball.inner)]);
+    let (ball, race, contact) = contacts.max_by(|a, b| a.2.load.total_cmp(&b.2.load))?;
+    let ring = ["outer", "inner"][race];
+    (contact.load > 0.0).then(|| LawExplanation {
+        law: model.scene().contact.law.clone(),
+        contact: format!("row{}.ball{}.{ring}", ball.row, ball.ball),
+        load: contact.load,
+        approach: contact.deflection,
+        hertz_approach: model.rows[ball.row].hertz[race].approach(contact.load),
+        pressure: contact.pressure,
+    })
+}
+
+impl fmt::Display for LawExplanation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let is_hertz = self.law == NormalLaw::Hertz;
+        let name = if is_hertz {
+            "Hertz's point contact"
+        } else {
+            "roller slices after ISO/TS 16281, the paper's law"
+        };
+        write!(
+            f,
+            "{name}: under {:.0} N, the heaviest, {} gives way by {:.2} µm",
+            self.load,
+            self.contact,
+            1e6 * self.approach
+        )?;
+        if !is_hertz {
+            write!(
+                f,
+                ", {:.2} × Hertz's {:.2} µm",
+                self.approach / self.hertz_approach,
+                1e6 * self.hertz_approach
+            )?;
+        }
+        write!(
+            f,
+            "; largest Hertz pressure {:.2} GPa",
+            1e-9 * self.pressure
+        )
+    }
+}

@@ -1,0 +1,148 @@
+//! Rows, rings, materials, defects.
+
+use std::f64::consts::PI;
+
+use super::{Doubt, angle, length, short};
+use crate::scene::{Material, Ring, Row, Scene, Waviness};
+
+/// Largest ball, largest pitch or ring diameter, and any other length \[m\]: a bearing of a bore of one metre has balls of
+/// some 70 mm and is 1.42 m wide outside (dimension series 10 of ISO 15).
+const LARGEST_BALL: f64 = 0.2;
+const LARGEST_RING: f64 = 1.5;
+const LARGEST: f64 = 1.0;
+/// Ball over pitch diameter: thin-section bearings are near 0.02, those of dimension series 4 near 0.35.
+const BALL_SHARE: [f64; 2] = [0.01, 0.6];
+/// Groove radius over ball diameter: 0.51 to 0.54 for most, up to 0.57 for miniature bearings.
+const CONFORMITY: [f64; 2] = [0.505, 0.6];
+/// Density \[kg/m³\] from plastics to hard metal, Young's modulus \[Pa\] from plastics to diamond.
+const DENSITY: [f64; 2] = [500.0, 25e3];
+const MODULUS: [f64; 2] = [1e9, 1.5e12];
+
+pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
+    for (i, row) in scene.rows.iter().enumerate() {
+        let path = format!("rows[{i}]");
+        diameters(&path, row, found);
+        gaps(&path, row, found);
+        waves(&path, row, found);
+        balls(&path, row, &scene.materials.balls, found);
+    }
+    let (rings, first) = (&scene.materials.rings, &scene.rows[0]);
+    ring("outer_ring", &scene.outer_ring, rings, first, found);
+    ring("inner_ring", &scene.inner_ring, rings, first, found);
+    material("materials.rings", rings, found);
+    material("materials.balls", &scene.materials.balls, found);
+    for (name, defect) in &scene.defects {
+        angle(format!("defects.{name}.angle"), defect.angle, found);
+    }
+}
+
+fn diameters(path: &str, row: &Row, found: &mut Vec<Doubt>) {
+    let (ball, pitch) = (row.ball_diameter, row.pitch_diameter);
+    length(format!("{path}.ball_diameter"), ball, LARGEST_BALL, found);
+    length(format!("{path}.pitch_diameter"), pitch, LARGEST_RING, found);
+    let share = format!("{path}.ball_diameter / pitch_diameter");
+    within(share, ball / pitch, BALL_SHARE, found);
+    let conformities = [
+        ("outer_conformity", row.outer_conformity),
+        ("inner_conformity", row.inner_conformity),
+    ];
+    for (field, conformity) in conformities {
+        within(format!("{path}.{field}"), conformity, CONFORMITY, found);
+    }
+    let place = format!("{path}.axial_position");
+    length(place, row.axial_position, LARGEST, found);
+    angle(format!("{path}.start_angle"), row.start_angle, found);
+}
+
+/// Small lengths, against the ball: the widest clearance group of a miniature bearing (C5 of ISO 5753-1) is 37 µm.
+fn gaps(path: &str, row: &Row, found: &mut Vec<Doubt>) {
+    let worst = |errors: &[f64]| errors.iter().fold(0.0_f64, |w, e| w.max(e.abs()));
+    let smallest = [
+        ("clearance", row.clearance, 50e-6, 0.02),
+        ("axial_preload", row.axial_preload, 0.2e-3, 0.05),
+        ("diameter_errors", worst(&row.diameter_errors), 10e-6, 0.005),
+    ];
+    for (field, value, least, share) in smallest {
+        let most = (share * row.ball_diameter).max(least);
+        length(format!("{path}.{field}"), value, most, found);
+    }
+}
+
+fn waves(path: &str, row: &Row, found: &mut Vec<Doubt>) {
+    let most = (0.005 * row.ball_diameter).max(20e-6);
+    let mut look = |field: &str, waves: &[Waviness]| {
+        for (i, wave) in waves.iter().enumerate() {
+            let at = |name: &str| format!("{path}.{field}[{i}].{name}");
+            length(at("amplitude"), wave.amplitude, most, found);
+            angle(at("phase"), wave.phase, found);
+        }
+    };
+    look("outer_waviness", &row.outer_waviness);
+    look("inner_waviness", &row.inner_waviness);
+}
+
+/// A given mass or inertia of a ball that is not that of a ball of its material within a factor of ten.
+fn balls(path: &str, row: &Row, material: &Material, found: &mut Vec<Doubt>) {
+    let solid = material.density * PI / 6.0 * row.ball_diameter.powi(3);
+    let inertia = 0.1 * row.ball_mass.unwrap_or(solid) * row.ball_diameter.powi(2);
+    let given = [
+        ("ball_mass", row.ball_mass, solid, "kg"),
+        ("ball_inertia", row.ball_inertia, inertia, "kg m²"),
+    ];
+    for (field, value, usual, unit) in given {
+        if let Some(value) = value
+            && !(0.1..=10.0).contains(&(value / usual))
+        {
+            let told = format!("a solid ball of the diameter has {} {unit}", short(usual));
+            let value = format!("{} {unit}", short(value));
+            found.push(Doubt::new(format!("{path}.{field}"), value, told));
+        }
+    }
+}
+
+fn ring(path: &str, ring: &Ring, material: &Material, row: &Row, found: &mut Vec<Doubt>) {
+    let at = |field: &str| format!("{path}.{field}");
+    let or_none = Option::unwrap_or_default;
+    length(at("diameter"), or_none(ring.diameter), LARGEST_RING, found);
+    length(at("width"), or_none(ring.width), LARGEST, found);
+    let Some(mass) = ring.mass else { return };
+    // Of the ring alone, some; with a rotor, up to ten times a ball of steel as large as the pitch circle.
+    let alone = material.density * PI * row.pitch_diameter * 0.3 * row.ball_diameter.powi(2);
+    let rotor = 10.0 * material.density * PI / 6.0 * row.pitch_diameter.powi(3);
+    let (least, most) = (1e-2 * alone, rotor.max(1e3));
+    if !(least..=most).contains(&mass) {
+        let told = format!(
+            "with what moves with it a ring of this size has {} to {} kg; masses are in kilograms",
+            short(least),
+            short(most)
+        );
+        found.push(Doubt::new(at("mass"), format!("{mass} kg"), told));
+    }
+}
+
+fn material(path: &str, material: &Material, found: &mut Vec<Doubt>) {
+    let [low, high] = DENSITY;
+    if !(low..=high).contains(&material.density) {
+        let usual = format!("solids have {low} to {high} kg/m³, steel 7850");
+        let value = format!("{} kg/m³", material.density);
+        found.push(Doubt::new(format!("{path}.density"), value, usual));
+    }
+    let [low, high] = MODULUS;
+    if !(low..=high).contains(&material.youngs_modulus) {
+        let usual = format!(
+            "materials of bearings have {} to {} GPa, steel 206; moduli are in pascals",
+            1e-9 * low,
+            1e-9 * high
+        );
+        let value = format!("{} GPa", short(1e-9 * material.youngs_modulus));
+        found.push(Doubt::new(format!("{path}.youngs_modulus"), value, usual));
+    }
+}
+
+/// A ratio outside what bearings have.
+fn within(path: String, value: f64, [low, high]: [f64; 2], found: &mut Vec<Doubt>) {
+    if !(low..=high).contains(&value) {
+        let usual = format!("bearings have {low} to {high}");
+        found.push(Doubt::new(path, short(value), usual));
+    }
+}

@@ -1,0 +1,126 @@
+//! What a scene may say without being refused, and hardly means: a number in another unit, a column that stands still.
+//!
+//! Validation refuses what cannot be computed; a pitch diameter of 39 m can. So every number is held against what
+//! bearings have, wide enough for any catalogue from miniature bearings to those of a bore of one metre
+//! (`tests/doubts.rs`), and what lies outside is told, not refused: research may well look there.
+
+mod geometry;
+mod motion;
+mod probes;
+
+use std::fmt;
+
+use serde::Serialize;
+
+use super::{Profile, Scene, TimeFunction};
+
+/// Largest Hertz pressure of a contact of hardened steel at the static load rating of a ball bearing \[Pa\]: it leaves a
+/// dent of a ten-thousandth of the ball diameter. ISO 76 gives it for the *centre* of the most heavily loaded contact,
+/// so it is the largest pressure there, not the mean, which is two thirds of it.
+pub const STATIC_PRESSURE: f64 = 4.2e9;
+
+/// A value that no bearing is likely to have.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Doubt {
+    /// Path of the field, such as `rows[0].ball_diameter`, or what follows from the scene, such as `contact pressure`.
+    pub path: String,
+    /// Its value in a unit that readers think in.
+    pub value: String,
+    /// What is usual, and what may have gone wrong.
+    pub usual: String,
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} = {}: {}", self.path, self.value, self.usual)
+    }
+}
+
+impl Doubt {
+    fn new(path: impl Into<String>, value: impl Into<String>, usual: impl Into<String>) -> Self {
+        Self {
+            path: path.into(),
+            value: value.into(),
+            usual: usual.into(),
+        }
+    }
+
+    /// Of a largest Hertz pressure \[Pa\] that a contact has, where it exceeds the static rating.
+    pub(crate) fn pressure(largest: f64) -> Option<Self> {
+        (largest > STATIC_PRESSURE).then(|| {
+            Self::new(
+                "contact pressure",
+                format!("{:.2} GPa", 1e-9 * largest),
+                format!(
+                    "the static load rating of ball bearings (ISO 76) stands for {:.1} GPa at the centre of the most \
+                     heavily loaded contact, where steel keeps a dent of a ten-thousandth of the ball; loads are in \
+                     newtons, lengths in metres",
+                    1e-9 * STATIC_PRESSURE
+                ),
+            )
+        })
+    }
+}
+
+impl Scene {
+    /// What is unusual about the scene's numbers and probes, in the order of its fields; of an ordinary bearing nothing.
+    /// For a scene that [`Scene::validate`] accepts.
+    ///
+    /// ```
+    /// use ballrace::scene::presets;
+    /// let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    /// assert!(scene.doubts().is_empty());
+    /// scene.rows[0].start_angle = -90.0;
+    /// let told = scene.doubts()[0].to_string();
+    /// assert!(told.starts_with("rows[0].start_angle = -90 rad: more than a turn"));
+    /// ```
+    pub fn doubts(&self) -> Vec<Doubt> {
+        let mut found = Vec::new();
+        geometry::look(self, &mut found);
+        motion::look(self, &mut found);
+        probes::look(self, &mut found);
+        found
+    }
+}
+
+/// Four digits, without trailing zeros.
+fn short(x: f64) -> String {
+    if x == 0.0 || !(1e-3..1e6).contains(&x.abs()) {
+        return format!("{x:.3e}");
+    }
+    // Between 10⁻³ and 10⁶ the exponent is small.
+    #[allow(clippy::cast_possible_truncation)]
+    let scale = 10_f64.powi(3 - x.abs().log10().floor() as i32);
+    format!("{}", (x * scale).round() / scale)
+}
+
+fn millimetres(x: f64) -> String {
+    format!("{} mm", short(1e3 * x))
+}
+
+/// A length \[m\] beyond the most that is usual.
+fn length(path: String, value: f64, most: f64, found: &mut Vec<Doubt>) {
+    if value.abs() > most {
+        let usual = format!(
+            "bearings have at most {}; lengths are in metres",
+            millimetres(most)
+        );
+        found.push(Doubt::new(path, millimetres(value), usual));
+    }
+}
+
+/// An angle beyond a turn.
+fn angle(path: String, value: f64, found: &mut Vec<Doubt>) {
+    // Half a degree of rounding.
+    if value.abs() > std::f64::consts::TAU + 0.01 {
+        let usual = "more than a turn; angles are in radians";
+        found.push(Doubt::new(path, format!("{} rad", short(value)), usual));
+    }
+}
+
+/// The phase of a value in time.
+fn phase(path: &str, value: &TimeFunction, found: &mut Vec<Doubt>) {
+    if let TimeFunction::Profile(Profile::Sine { phase, .. }) = value {
+        angle(format!("{path}.sine.phase"), *phase, found);
+    }
+}

@@ -1,0 +1,145 @@
+//! Friction, cage, drive, gravity, loads.
+
+use std::f64::consts::TAU;
+
+use super::{Doubt, angle, length, phase, short};
+use crate::scene::{Drive, Friction, Scene};
+
+/// Speed times pitch diameter, n d_m \[mm/min\]: bearings of aircraft engines come near it, and one of 120 mm bore on a
+/// test rig reached 3.9 million (E. N. Bamberger, E. V. Zaretsky, H. Signer, NASA TN D-7870, 1975).
+const SPEED_FACTOR: f64 = 3e6;
+/// Coefficient of friction of any bearing material, dry.
+const FRICTION: f64 = 1.0;
+/// Speed below which friction fades \[m/s\]: faster slip is seen by few contacts at all.
+const SLIP: f64 = 10.0;
+/// Acceleration of gravity \[m/s²\]: a hundred times the earth's.
+const GRAVITY: f64 = 1e3;
+/// Unbalance \[kg m\]; that of a machine is balanced to some µm times its mass (ISO 21940-11).
+const UNBALANCE: f64 = 1.0;
+
+pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
+    friction(&scene.friction, found);
+    if let Some(cage) = &scene.cage {
+        let most = 0.5 * scene.rows[0].ball_diameter;
+        length("cage.play".to_owned(), cage.play, most, found);
+    }
+    speed(scene, found);
+    let gravity = scene.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
+    if gravity > GRAVITY {
+        let usual = "more than a hundred times the earth's 9.81 m/s²";
+        let value = format!("{} m/s²", short(gravity));
+        found.push(Doubt::new("gravity", value, usual));
+    }
+    for (name, load) in &scene.loads {
+        phase(&format!("loads.{name}.force"), &load.force, found);
+    }
+    for (name, unbalance) in &scene.unbalances {
+        angle(format!("unbalances.{name}.angle"), unbalance.angle, found);
+        if unbalance.moment >= UNBALANCE {
+            let force = unbalance.moment * fastest(scene).powi(2);
+            let usual = format!(
+                "machines keep below {UNBALANCE} kg m; it pulls with {} N at {} rev/min",
+                short(force),
+                short(fastest(scene) * 60.0 / TAU)
+            );
+            let value = format!("{} kg m", short(unbalance.moment));
+            found.push(Doubt::new(
+                format!("unbalances.{name}.moment"),
+                value,
+                usual,
+            ));
+        }
+    }
+}
+
+fn friction(friction: &Friction, found: &mut Vec<Doubt>) {
+    let (law, coefficients, slip_speed) = match *friction {
+        Friction::None => return,
+        Friction::Coulomb {
+            coefficient,
+            slip_speed,
+        } => ("coulomb", vec![("coefficient", coefficient)], slip_speed),
+        Friction::Stribeck {
+            static_coefficient,
+            kinetic_coefficient,
+            slip_speed,
+            ..
+        } => (
+            "stribeck",
+            vec![
+                ("static_coefficient", static_coefficient),
+                ("kinetic_coefficient", kinetic_coefficient),
+            ],
+            slip_speed,
+        ),
+        Friction::Traction {
+            a,
+            b,
+            c,
+            d,
+            slip_speed,
+        } => {
+            // Its only stationary point.
+            let slip = if b == 0.0 || c == 0.0 {
+                0.0
+            } else {
+                (1.0 / c - a / b).max(0.0)
+            };
+            let peak = ((a + b * slip) * (-c * slip).exp() + d).max(a + d).max(d);
+            ("traction", vec![("largest coefficient", peak)], slip_speed)
+        }
+    };
+    for (field, value) in coefficients {
+        if value > FRICTION {
+            let usual = "rolling bearings have 0.001 to 0.2, dry steel less than 1";
+            found.push(Doubt::new(
+                format!("friction.{law}.{field}"),
+                short(value),
+                usual,
+            ));
+        }
+    }
+    if slip_speed > SLIP {
+        let usual = "below it friction fades, so that rolling balls would have none; speeds are in metres a second";
+        let value = format!("{} m/s", short(slip_speed));
+        found.push(Doubt::new(
+            format!("friction.{law}.slip_speed"),
+            value,
+            usual,
+        ));
+    }
+}
+
+/// Largest speed of the inner ring that the scene names \[rad/s\].
+fn fastest(scene: &Scene) -> f64 {
+    match &scene.drive {
+        Drive::Speed(speed) => speed.peak(),
+        Drive::Torque { initial_speed, .. } => initial_speed.abs(),
+    }
+}
+
+fn speed(scene: &Scene, found: &mut Vec<Doubt>) {
+    let pitches = scene.rows.iter().map(|row| row.pitch_diameter);
+    let turns = fastest(scene) * 60.0 / TAU;
+    let factor = turns * 1e3 * pitches.fold(0.0, f64::max);
+    let path = match &scene.drive {
+        Drive::Speed(speed) => {
+            phase("drive.speed", speed, found);
+            "drive.speed"
+        }
+        Drive::Torque { value, .. } => {
+            phase("drive.torque.value", value, found);
+            "drive.torque.initial_speed"
+        }
+    };
+    if factor > SPEED_FACTOR {
+        let usual = format!(
+            "times the pitch diameter {} mm/min, and the fastest bearings, of aircraft engines, come near {}; speeds \
+             are in radians a second",
+            short(factor),
+            short(SPEED_FACTOR)
+        );
+        let value = format!("{} rev/min", short(turns));
+        found.push(Doubt::new(path, value, usual));
+    }
+}

@@ -1,0 +1,76 @@
+//! What can move, and what a run records where nobody says.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use super::{Component, ContactQuantity, Drive, Mount, Probe, Scene, Support};
+
+/// The rings in the order of the bodies: name, as in columns and states.
+const RINGS: [&str; 2] = ["outer", "inner"];
+
+impl Scene {
+    /// The probes of a run: those of the scene. Where it has none, the motion of the outer ring if it can move along x,
+    /// y or z, else that of the inner ring, each in the directions that can move; and where both rings are held, the
+    /// loads of all contacts: `row0`, `row1`, …
+    ///
+    /// ```
+    /// let mut scene = ballrace::scene::presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    /// scene.probes.clear();
+    /// // The outer ring is sprung along x, y and z, and does not turn.
+    /// assert!(scene.recorded().contains_key("outer"));
+    /// scene.outer_ring.support = Default::default();
+    /// assert!(scene.recorded().contains_key("inner"));
+    /// ```
+    pub fn recorded(&self) -> Cow<'_, BTreeMap<String, Probe>> {
+        if !self.probes.is_empty() {
+            return Cow::Borrowed(&self.probes);
+        }
+        let moving = (0..2).find(|ring| self.moves(*ring)[..3].contains(&true));
+        Cow::Owned(match moving {
+            Some(ring) => [(RINGS[ring].to_owned(), self.motion(ring))].into(),
+            None => (0..self.rows.len()).map(contact_loads).collect(),
+        })
+    }
+
+    /// Whether a body can move along x, y, z and about z; numbered as by [`Scene::body_index`].
+    pub(super) fn moves(&self, body: usize) -> [bool; 4] {
+        let can = |support: &Support, absent| support.mounts(absent).map(|m| m != Mount::Fixed);
+        match body {
+            0 => can(&self.outer_ring.support, Mount::Fixed),
+            1 => {
+                let mut moves = can(&self.inner_ring.support, Mount::Free);
+                moves[3] |= matches!(self.drive, Drive::Speed(_));
+                moves
+            }
+            _ => {
+                let mut ball = body - 2;
+                let row = self.rows.iter().find(|row| {
+                    let is_here = ball < row.ball_count;
+                    ball = ball.saturating_sub(row.ball_count);
+                    is_here
+                });
+                row.map_or([true; 4], |row| can(&row.ball_support, Mount::Free))
+            }
+        }
+    }
+
+    /// The motion of a ring as far as it can move.
+    fn motion(&self, ring: usize) -> Probe {
+        let moves = self.moves(ring);
+        let can_move = |component: &Component| moves[component.direction()];
+        Probe::Motion {
+            body: RINGS[ring].to_owned(),
+            components: Some(Component::ALL.into_iter().filter(can_move).collect()),
+        }
+    }
+}
+
+fn contact_loads(row: usize) -> (String, Probe) {
+    let probe = Probe::Contacts {
+        row,
+        balls: None,
+        races: None,
+        quantities: Some(vec![ContactQuantity::Load]),
+    };
+    (format!("row{row}"), probe)
+}

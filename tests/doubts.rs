@@ -1,0 +1,445 @@
+//! Defaults of a scene written from scratch, and what is told of numbers that no bearing has.
+//!
+//! Truth: catalogue-like bearings of all sizes are ordinary, and the same numbers in another unit are not; Hertz's law
+//! without saying so; what is held does not move.
+
+mod common;
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use ballrace::scene::{
+    Cage, Component, Contact, ContactQuantity, Drive, Friction, Material, Mount, NormalLaw, Probe,
+    Ring, RingName, Scene, Support, Unbalance, presets,
+};
+use ballrace::{Warning, equilibrium, explain};
+use common::{Noise, run, short};
+
+/// A 6205 as someone writes it who knows its catalogue page.
+const HANDWRITTEN: &str = r#"
+name = "my 6205"
+[[rows]]
+ball_count = 9
+ball_diameter = 7.94e-3
+pitch_diameter = 39.04e-3
+outer_conformity = 0.525
+inner_conformity = 0.515
+start_angle = -1.5707963267948966
+[inner_ring]
+mass = 1.0
+[drive]
+speed = 188.5
+[loads.radial]
+ring = "inner"
+direction = [0.0, -1.0, 0.0]
+force = 500.0
+"#;
+
+fn handwritten() -> Scene {
+    Scene::from_toml(HANDWRITTEN).unwrap()
+}
+
+/// Literature: 500 N on a 6205 press its rings together by 8.9 µm by Hertz, the paper's law gives 25.7 µm.
+#[test]
+fn a_scene_that_names_no_law_has_hertz() {
+    let mut scene = handwritten();
+    assert_eq!(Contact::default().law, NormalLaw::Hertz);
+    assert_eq!(scene.contact.law, NormalLaw::Hertz);
+    let approach = |scene: &Scene| -1e6 * equilibrium(scene).unwrap().inner[1];
+    let hertz = approach(&scene);
+    assert!((hertz - 8.9).abs() < 0.1, "{hertz} µm");
+    scene.contact.law = NormalLaw::iso16281();
+    let paper = approach(&scene);
+    assert!((paper - 25.7).abs() < 0.1, "{paper} µm");
+    let preset = presets::wheel_bearing(3000.0);
+    assert_eq!(preset.contact.law, NormalLaw::iso16281());
+}
+
+/// Analytic: the told approaches are those of the static solve and of Hertz's F = K δ^{3/2}.
+#[test]
+fn explain_says_what_a_law_implies() {
+    let mut scene = handwritten();
+    let told = explain(&scene).unwrap();
+    let law = told.law.as_ref().unwrap();
+    assert_eq!(
+        (&law.law, law.contact.as_str()),
+        (&NormalLaw::Hertz, "row0.ball0.outer")
+    );
+    assert!(
+        (law.approach / law.hertz_approach - 1.0).abs() < 1e-3,
+        "{law}"
+    );
+    assert!(
+        told.to_string()
+            .contains("law        Hertz's point contact: under ")
+    );
+
+    scene.contact.law = NormalLaw::iso16281();
+    let told = explain(&scene).unwrap();
+    let law = told.law.as_ref().unwrap();
+    let ball = &equilibrium(&scene).unwrap().balls[0];
+    assert_eq!(
+        (law.load, law.approach),
+        (ball.outer.load, ball.outer.deflection)
+    );
+    assert_eq!(law.pressure, ball.outer.pressure);
+    let ratio = law.approach / law.hertz_approach;
+    assert!((2.5..3.2).contains(&ratio), "{law}");
+    let sentence = format!("{ratio:.2} × Hertz's");
+    assert!(told.to_string().contains(&sentence), "{told}");
+}
+
+/// Names of the columns of a short run.
+fn columns(scene: &Scene) -> Vec<String> {
+    let out = run(scene, &short(1e-4));
+    out.columns.into_iter().map(|c| c.name).collect()
+}
+
+#[test]
+fn without_probes_what_can_move_is_recorded() {
+    // The outer ring is fixed where nothing is said of it: the inner one moves.
+    let mut scene = handwritten();
+    let inner = columns(&scene);
+    assert_eq!(inner.len(), 12);
+    assert!(
+        inner.iter().all(|name| name.starts_with("inner.")),
+        "{inner:?}"
+    );
+    // Sprung along y only: nothing but y is recorded.
+    scene.outer_ring = Ring {
+        mass: Some(0.1),
+        support: Support {
+            y: Some(Mount::Spring {
+                stiffness: 1e8,
+                damping: 300.0,
+            }),
+            ..Support::default()
+        },
+        ..Ring::default()
+    };
+    assert_eq!(columns(&scene), ["outer.y", "outer.vy", "outer.ay"]);
+    // Both rings held: what the balls carry.
+    let fixed = Some(Mount::Fixed);
+    scene.outer_ring.support = Support::default();
+    scene.inner_ring.support = Support {
+        x: fixed,
+        y: fixed,
+        z: fixed,
+        theta: None,
+    };
+    scene.rows[0].clearance = -4e-6;
+    let loads = columns(&scene);
+    assert_eq!(loads.len(), 18);
+    assert_eq!(
+        loads[..2],
+        ["row0.ball0.outer.load", "row0.ball0.inner.load"]
+    );
+    let out = run(&scene, &short(1e-4));
+    assert!(out.columns.iter().all(|c| c.values[0] > 0.0));
+    assert!(out.warnings().is_empty(), "{:?}", out.warnings());
+}
+
+fn motion(body: &str, components: Option<&[Component]>) -> Probe {
+    Probe::Motion {
+        body: body.to_owned(),
+        components: components.map(<[Component]>::to_vec),
+    }
+}
+
+#[test]
+fn columns_that_cannot_change_are_told() {
+    let mut scene = handwritten();
+    let mut told = |probe: Probe| {
+        scene.probes = [("p".to_owned(), probe)].into();
+        let texts: Vec<String> = scene.doubts().iter().map(ToString::to_string).collect();
+        texts.join("\n")
+    };
+    let all = told(motion("outer", None));
+    assert!(
+        all.starts_with("probes.p = p.x, p.y, p.z, p.theta, p.vx, "),
+        "{all}"
+    );
+    assert!(
+        all.contains("holds outer along x, along y, along z, about z"),
+        "{all}"
+    );
+    let one = told(motion("outer", Some(&[Component::Ay])));
+    assert!(
+        one.starts_with("probes.p = p.ay: these columns never change"),
+        "{one}"
+    );
+    assert_eq!(told(motion("inner", None)), "");
+    assert_eq!(told(motion("row0.ball8", None)), "");
+    assert!(told(Probe::Cage { row: 0 }).contains("no cage"));
+
+    // Along x and y it moves, along z it is held; a given speed turns the inner ring.
+    let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    scene.outer_ring.support.z = Some(Mount::Fixed);
+    let texts: Vec<String> = scene.doubts().iter().map(ToString::to_string).collect();
+    assert_eq!(texts.len(), 1);
+    assert!(
+        texts[0].starts_with("probes.outer = outer.z, outer.vz, outer.az: "),
+        "{texts:?}"
+    );
+    scene.rows[0].ball_support.x = Some(Mount::Fixed);
+    scene.probes = [("b".to_owned(), motion("row0.ball2", Some(&[Component::X])))].into();
+    assert_eq!(scene.doubts()[0].path, "probes.b");
+    // A run says so, too.
+    let out = run(&scene, &short(1e-4));
+    assert!(matches!(&out.warnings()[..], [Warning::Doubtful(d)] if d.path == "probes.b"));
+    assert_eq!(out.warnings()[0].category(), "scene");
+}
+
+/// Bore, ball diameter and pitch diameter \[mm\], balls, contact angle \[°\], rev/min, clearance \[µm\].
+type Size = (f64, f64, f64, usize, f64, f64, f64);
+
+/// Catalogue-like bearings from 2 mm to 1 m bore, thin, heavy, fast, loose and angular.
+const SIZES: [Size; 16] = [
+    (2.0, 1.0, 3.5, 7, 0.0, 100e3, 20.0),
+    (2.38, 1.0, 4.2, 7, 12.0, 420e3, 0.0),
+    (3.0, 2.0, 6.5, 6, 0.0, 50e3, 37.0),
+    (8.0, 3.969, 15.0, 7, 0.0, 30e3, 10.0),
+    (17.0, 12.7, 39.5, 6, 0.0, 10e3, 20.0),
+    (25.0, 7.94, 39.04, 9, 0.0, 18e3, 48.0),
+    (40.0, 11.9, 60.0, 14, 40.0, 12e3, 0.0),
+    (50.0, 19.05, 80.0, 8, 0.0, 6e3, 30.0),
+    (100.0, 7.94, 112.5, 24, 0.0, 6e3, 40.0),
+    (100.0, 25.4, 140.0, 10, 0.0, 4e3, 60.0),
+    (101.6, 3.175, 104.8, 60, 30.0, 1e3, 30.0),
+    (120.0, 20.6, 155.0, 15, 24.0, 18e3, 0.0),
+    (260.0, 57.0, 370.0, 11, 0.0, 1e3, 230.0),
+    (500.0, 30.0, 560.0, 34, 0.0, 500.0, 350.0),
+    (1000.0, 64.0, 1110.0, 32, 0.0, 100.0, 600.0),
+    (1000.0, 120.0, 1210.0, 18, 0.0, 100.0, 700.0),
+];
+
+/// A bearing of a size under a load over ISO 76's C₀ ≈ 14 N/mm² Z D² cos α.
+fn of_size(size: Size, share: f64) -> Scene {
+    let (bore, ball, pitch, count, degrees, turns, clearance) = size;
+    let angle = degrees.to_radians();
+    let rating = 14.0 * count as f64 * ball * ball * angle.cos();
+    let mut scene = presets::deep_groove_6205(share * rating, 0.1 * share * rating, turns);
+    let row = &mut scene.rows[0];
+    (row.ball_count, row.contact_angle) = (count, angle);
+    (row.ball_diameter, row.pitch_diameter) = (1e-3 * ball, 1e-3 * pitch);
+    (row.outer_conformity, row.inner_conformity) = (0.53, 0.52);
+    row.clearance = 1e-6 * clearance;
+    // The standards' boundary; as wide as a ball and a third.
+    let (outer, width) = (2.0 * pitch - bore, 1.3e-3 * ball);
+    scene.outer_ring.diameter = Some(1e-3 * outer);
+    (scene.inner_ring.diameter, scene.inner_ring.mass) = (Some(1e-3 * bore), None);
+    (scene.outer_ring.width, scene.inner_ring.width) = (Some(width), Some(width));
+    scene
+}
+
+#[test]
+fn ordinary_bearings_raise_no_doubt() {
+    for scene in [
+        presets::wheel_bearing(0.0),
+        presets::wheel_bearing(3000.0),
+        presets::wheel_bearing(-3000.0),
+        presets::deep_groove_6205(500.0, 0.0, 1800.0),
+    ] {
+        assert_eq!(equilibrium(&scene).unwrap().doubts, []);
+        assert_eq!(run(&scene, &short(2e-4)).warnings(), []);
+    }
+    for size in SIZES {
+        let scene = of_size(size, 0.2);
+        assert_eq!(scene.doubts(), [], "{size:?}");
+        let found = equilibrium(&scene).unwrap();
+        assert_eq!(found.doubts, [], "{size:?}");
+        assert!(found.largest_pressure() > 1e9, "{size:?}");
+    }
+}
+
+#[test]
+fn a_load_beyond_the_static_rating_is_told() {
+    for size in SIZES {
+        let found = equilibrium(&of_size(size, 2.0)).unwrap();
+        let told: Vec<_> = found.doubts.iter().map(|d| d.path.as_str()).collect();
+        assert_eq!(told, ["contact pressure"], "{size:?}");
+    }
+    let out = run(&of_size(SIZES[5], 2.0), &short(2e-4));
+    let pressure = out.stats.largest_pressure;
+    assert!(pressure > 4.2e9);
+    assert!(matches!(&out.warnings()[..], [Warning::Doubtful(d)]
+        if d.to_string().starts_with(&format!("contact pressure = {:.2} GPa", 1e-9 * pressure))));
+}
+
+/// A change of the scene, and the path that has to be told.
+type Slip = (&'static str, fn(&mut Scene));
+
+/// Numbers in the wrong unit, one each, that validation lets pass.
+const SLIPS: &[Slip] = &[
+    ("rows[0].pitch_diameter", |s| {
+        s.rows[0].pitch_diameter *= 1e3;
+        s.rows[0].ball_diameter *= 1e3;
+    }),
+    ("rows[0].ball_diameter", |s| {
+        (s.rows[0].ball_diameter, s.rows[0].pitch_diameter) = (0.25, 1.0);
+    }),
+    ("rows[0].ball_diameter / pitch_diameter", |s| {
+        s.rows[0].ball_diameter = 0.3e-3;
+        s.defects.clear();
+    }),
+    ("rows[0].inner_conformity", |s| {
+        s.rows[0].inner_conformity = 0.8
+    }),
+    ("rows[0].outer_conformity", |s| {
+        s.rows[0].outer_conformity = 0.5001
+    }),
+    ("rows[0].axial_position", |s| {
+        s.rows[0].axial_position = 11.0
+    }),
+    ("rows[0].clearance", |s| s.rows[0].clearance = 1e-3),
+    ("rows[0].axial_preload", |s| s.rows[0].axial_preload = 1e-3),
+    ("rows[0].start_angle", |s| s.rows[0].start_angle = -90.0),
+    ("rows[0].diameter_errors", |s| {
+        s.rows[0].diameter_errors = vec![1e-4; 9]
+    }),
+    ("rows[0].ball_mass", |s| s.rows[0].ball_mass = Some(2.06)),
+    ("rows[0].ball_inertia", |s| {
+        s.rows[0].ball_inertia = Some(1.3e-2)
+    }),
+    ("outer_ring.width", |s| s.outer_ring.width = Some(15.0)),
+    ("outer_ring.diameter", |s| {
+        s.outer_ring.diameter = Some(52.0)
+    }),
+    ("inner_ring.mass", |s| s.inner_ring.mass = Some(1500.0)),
+    ("outer_ring.mass", |s| s.outer_ring.mass = Some(60e-6)),
+    ("materials.balls.density", |s| {
+        s.materials.balls.density = 7.85
+    }),
+    ("materials.rings.youngs_modulus", |s| {
+        s.materials.rings.youngs_modulus = 206e3
+    }),
+    ("defects.a.angle", |s| {
+        s.defects.get_mut("a").unwrap().angle = -90.0
+    }),
+    ("friction.coulomb.coefficient", |s| {
+        s.friction = Friction::Coulomb {
+            coefficient: 5.0,
+            slip_speed: 0.1,
+        };
+    }),
+    ("friction.coulomb.slip_speed", |s| {
+        s.friction = Friction::Coulomb {
+            coefficient: 0.05,
+            slip_speed: 100.0,
+        };
+    }),
+    ("friction.traction.largest coefficient", |s| {
+        s.friction = Friction::Traction {
+            a: 0.0,
+            b: 10.0,
+            c: 1.0,
+            d: 0.0,
+            slip_speed: 0.1,
+        };
+    }),
+    ("cage.play", |s| {
+        s.cage = Some(Cage {
+            stiffness: 1e6,
+            damping: 20.0,
+            play: 0.1,
+        })
+    }),
+    ("drive.speed", |s| {
+        s.drive = Drive::Speed((180_000.0).into())
+    }),
+    ("gravity", |s| s.gravity = [0.0, -9810.0, 0.0]),
+    ("unbalances.a.moment", |s| {
+        s.unbalances.get_mut("a").unwrap().moment = 2.0
+    }),
+    ("unbalances.a.angle", |s| {
+        s.unbalances.get_mut("a").unwrap().angle = 90.0
+    }),
+];
+
+fn with_everything() -> Scene {
+    let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    let spall = presets::wheel_bearing(0.0).defects["spall"].clone();
+    scene.defects.insert("a".to_owned(), spall);
+    scene.defects.get_mut("a").unwrap().axial_offset = 0.0;
+    let unbalance = Unbalance {
+        ring: RingName::Inner,
+        moment: 1e-4,
+        angle: 0.0,
+    };
+    scene.unbalances.insert("a".to_owned(), unbalance);
+    for ring in [&mut scene.outer_ring, &mut scene.inner_ring] {
+        (ring.diameter, ring.mass) = (None, Some(0.5));
+    }
+    scene
+}
+
+#[test]
+fn numbers_in_another_unit_are_told() {
+    assert_eq!(with_everything().doubts(), []);
+    for (path, slip) in SLIPS {
+        let mut scene = with_everything();
+        slip(&mut scene);
+        let told = scene.doubts();
+        assert!(told.iter().any(|d| d.path == *path), "{path}: {told:?}");
+        scene.validate().unwrap_or_else(|e| panic!("{path}: {e}"));
+    }
+}
+
+/// No doubt comes from what an engineer may well write: drawn within what the module says is usual.
+#[test]
+fn scenes_drawn_within_the_usual_raise_no_doubt() {
+    let mut noise = Noise(11);
+    for _ in 0..300 {
+        let mut scene = with_everything();
+        let scale = 10_f64.powf(noise.between(-1.0, 1.4));
+        let row = &mut scene.rows[0];
+        row.ball_diameter *= scale;
+        row.pitch_diameter *= scale;
+        row.outer_conformity = noise.between(0.506, 0.58);
+        row.inner_conformity = noise.between(0.506, 0.58);
+        row.clearance = noise.between(-0.01, 0.015) * row.ball_diameter;
+        row.start_angle = noise.between(-2.0 * PI, 2.0 * PI);
+        scene.outer_ring.mass = Some(noise.between(0.02, 2.0) * scale.powi(3));
+        scene.inner_ring.mass = Some(noise.between(0.02, 2.0) * scale.powi(3));
+        scene.drive = Drive::Speed((noise.between(0.0, 7.5e3) / scale).into());
+        scene.materials.balls = Material {
+            density: noise.between(3200.0, 7850.0),
+            youngs_modulus: noise.between(200e9, 315e9),
+            ..Material::default()
+        };
+        assert_eq!(scene.doubts(), []);
+    }
+}
+
+/// Analytic: pressures of the statics are Hertz's of their own loads, under either law.
+#[test]
+fn pressures_belong_to_the_loads() {
+    let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    for law in [NormalLaw::iso16281(), NormalLaw::Hertz] {
+        scene.contact.law = law;
+        scene.rows[0].start_angle = -FRAC_PI_2;
+        let found = equilibrium(&scene).unwrap();
+        let loaded = &found.balls[0];
+        // The inner groove curves against the ball: the smaller contact, the higher pressure.
+        assert!(loaded.inner.pressure > loaded.outer.pressure);
+        assert_eq!(found.largest_pressure(), loaded.inner.pressure);
+        // p₀ ∝ F^{1/3}.
+        let other = &found.balls[1];
+        let expected = (other.inner.load / loaded.inner.load).cbrt();
+        assert!((other.inner.pressure / loaded.inner.pressure / expected - 1.0).abs() < 1e-12);
+        // The top ball touches the outer race only.
+        assert_eq!(found.balls[4].inner.pressure, 0.0);
+        // A run begins there; a contact probe reads the same load.
+        scene.probes = [(
+            "c".to_owned(),
+            Probe::Contacts {
+                row: 0,
+                balls: Some(vec![0]),
+                races: None,
+                quantities: Some(vec![ContactQuantity::Load]),
+            },
+        )]
+        .into();
+        let out = run(&scene, &short(1e-4));
+        assert!((out.stats.largest_pressure / loaded.inner.pressure - 1.0).abs() < 1e-2);
+    }
+}

@@ -1,0 +1,110 @@
+"""Defaults of a scene written by hand, and what is told of it; the numbers themselves are tested in Rust."""
+
+from __future__ import annotations
+
+import json
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ballrace as br
+from ballrace.cli import main
+
+
+@pytest.fixture
+def scene() -> br.Scene:
+    """A 6205 as someone writes it who knows its catalogue page."""
+    row = br.scene.Row(
+        ball_count=9,
+        ball_diameter=7.94e-3,
+        pitch_diameter=39.04e-3,
+        outer_conformity=0.525,
+        inner_conformity=0.515,
+        start_angle=-np.pi / 2.0,
+    )
+    load = br.scene.Load(ring="inner", direction=(0.0, -1.0, 0.0), force=500.0)
+    return br.scene.Scene(
+        rows=(row,),
+        inner_ring=br.scene.Ring(mass=1.0),
+        drive=br.scene.SpeedDrive(188.5),
+        loads={"radial": load},
+    )
+
+
+@pytest.fixture
+def doubtful() -> br.Scene:
+    return br.presets.deep_groove_6205(500.0).replace({"rows[0].start_angle": -90.0})
+
+
+def test_a_scene_that_names_no_law_has_hertz(scene: br.Scene) -> None:
+    """Truth: Hertz's 8.9 µm at 500 N, the paper's law's 25.7."""
+    assert scene.contact.law == "hertz"
+    assert -br.equilibrium(scene).inner[1] == pytest.approx(8.9e-6, abs=1e-7)
+    paper = scene.replace({"contact.law": br.scene.Iso16281()})
+    assert -br.equilibrium(paper).inner[1] == pytest.approx(25.7e-6, abs=1e-7)
+    assert isinstance(br.presets.wheel_bearing().contact.law, br.scene.Iso16281)
+
+
+def test_without_probes_what_can_move_is_recorded(scene: br.Scene) -> None:
+    out = br.simulate(scene, duration=1e-3)
+    assert {name.split(".")[0] for name in out} == {"inner"}
+    assert all(np.ptp(out[f"inner.{name}"]) > 0.0 for name in ("vy", "ay", "theta"))
+
+
+def test_a_run_tells_columns_that_cannot_change(scene: br.Scene) -> None:
+    probe = br.scene.MotionProbe(body="outer", components=("ax", "ay"))
+    with pytest.warns(br.SceneWarning, match=r"probes\.a = a\.ax, a\.ay: these columns never"):
+        out = br.simulate(scene.replace({"probes": {"a": probe}}), duration=1e-4)
+    assert len(out.warnings) == 1
+
+
+def test_statics_tell_doubts_and_pressures(scene: br.Scene, doubtful: br.Scene) -> None:
+    """Truth: 1544.5 MPa on the inner race under Stribeck's 4.7 F/Z, and the cube root of the load by Hertz."""
+    found = br.equilibrium(scene)
+    assert found.warnings == scene.doubts() == ()
+    assert [text.split(" =")[0] for text in doubtful.doubts()] == ["rows[0].start_angle"]
+    assert found.inner_pressure.shape == (9,)
+    load = found.inner_load.max()
+    expected = 1544.47e6 * (load / (4.7 * 500.0 / 9.0)) ** (1.0 / 3.0)
+    assert found.inner_pressure.max() == pytest.approx(expected, rel=1e-3)
+    assert "outer_pressure" in found.to_polars().columns
+    for solve in (br.equilibrium, br.stiffness, br.load_distribution):
+        with pytest.warns(br.SceneWarning, match=r"start_angle = -90 rad: more than a turn"):
+            solve(doubtful)
+    heavy = br.presets.deep_groove_6205(20e3)
+    with pytest.warns(br.SceneWarning, match="contact pressure = .* GPa: the static load rating"):
+        assert br.equilibrium(heavy).inner_pressure.max() > 4.2e9
+
+
+def test_a_campaign_tells_doubts_once_and_pressures_a_case(
+    doubtful: br.Scene, tmp_path: Path
+) -> None:
+    table = br.grid({"loads.radial.force": [500.0, 4000.0]})
+    with pytest.warns(br.SceneWarning, match="start_angle") as told:
+        done = br.campaign(table, tmp_path, scene=doubtful, duration=1e-3, progress=False)
+    assert len(told) == 1
+    light, heavy = done.manifest["largest_pressure"]
+    # Twice as high under eight times the load, more or less: the load zone changes.
+    assert heavy / light == pytest.approx(2.0, rel=0.03)
+
+
+def test_the_command_line_tells(
+    doubtful: br.Scene, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(doubtful.to_toml())
+    assert main(["explain", str(path)]) == 0
+    text = capsys.readouterr().out
+    assert "\ndoubtful   rows[0].start_angle = -90 rad" in text
+    assert "\nlaw        Hertz's point contact: under " in text
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", br.SceneWarning)
+        assert main(["equilibrium", str(path), "--json", "--stiffness", "--life"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert len(told["balls"]) == 9
+    assert told["balls"][0]["outer_pressure"] > 1e8
+    assert told["warnings"][0].startswith("rows[0].start_angle")
+    assert np.shape(told["stiffness"]) == (3, 3)
+    assert len(told["inner_equivalent"]) == 1
