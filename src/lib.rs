@@ -33,7 +33,7 @@
 //!   in one order; smooth plane rows in one loop, without tables between; forces by name, energies.
 //! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
 //! * `equilibrium` ([`equilibrium()`], [`stiffness()`], [`load_distribution()`]) — the static solve and what follows
-//!   from it; `start` ([`start()`]) — how a run begins.
+//!   from it; `start` ([`start()`]) — how a run begins; `settle` — what is left of that dies down before t = 0.
 //! * `signals` ([`Signals`]) — probes read on a uniform grid from the dense output.
 //! * `residual`, `collapse`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
 //! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
@@ -82,6 +82,7 @@ mod model;
 mod pool;
 mod residual;
 pub mod scene;
+mod settle;
 mod signals;
 pub mod simd;
 mod simulate;

@@ -71,6 +71,10 @@ pub struct Statistics {
     pub acceleration_residual: Option<f64>,
     /// Wall time of the integration \[s\].
     pub wall_time: f64,
+    /// Steps accepted before t = 0, while the start settled; counted nowhere else.
+    pub settling_accepted: usize,
+    /// Evaluations before t = 0, while the start settled; counted nowhere else.
+    pub settling_nfev: usize,
 }
 
 /// What produced the signals.
@@ -105,6 +109,8 @@ pub struct Provenance {
     pub simd: &'static str,
     /// Processor architecture.
     pub architecture: &'static str,
+    /// Time before t = 0 in which the start settled \[s\]; 0: not at all.
+    pub settled: f64,
 }
 
 /// One signal.

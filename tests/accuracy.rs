@@ -152,6 +152,7 @@ fn the_choice_is_told() {
         duration: 1e-3,
         threads: 1,
         accuracy,
+        settle: Some(0.0),
         ..Run::default()
     };
     let (loose, tight) = (
@@ -181,6 +182,7 @@ fn what_cannot_be_asked_is_refused() {
     for accuracy in [0.0, -1.0, 1e-5, 0.5, f64::NAN] {
         let run = Run {
             accuracy: Some(accuracy),
+            settle: Some(0.0),
             ..Run::default()
         };
         assert_eq!(refused(&run), "accuracy");

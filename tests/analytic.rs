@@ -153,6 +153,7 @@ fn energy_is_kept_without_damping_and_friction() {
                 accuracy: None,
                 method: None,
                 threads: 1,
+                settle: Some(0.0),
             },
         );
         let (e, y, z) = (
@@ -193,6 +194,7 @@ fn symmetries() {
     let short = Run {
         duration: 1e-3,
         threads: 1,
+        settle: Some(0.0),
         ..Run::default()
     };
     let (one, two, three) = (
@@ -314,6 +316,7 @@ fn equilibrium_start_is_calm() {
                 duration,
                 start,
                 threads: 1,
+                settle: Some(0.0),
                 ..Run::default()
             },
         );
@@ -349,6 +352,7 @@ fn torque_turns_the_ring() {
         &Run {
             duration: 5e-3,
             threads: 1,
+            settle: Some(0.0),
             ..Run::default()
         },
     );

@@ -336,6 +336,7 @@ fn run(scene: &Scene, method: Method, rtol: f64) -> Signals {
         rtol: Some(rtol),
         method: Some(method),
         threads: 1,
+        settle: Some(0.0),
         ..Run::default()
     };
     simulate(scene, &run, &mut |_| ControlFlow::Continue(())).unwrap()
@@ -450,6 +451,7 @@ fn auto_switches_within_a_run() {
         duration: 5e-3,
         method: Some(Method::Auto),
         threads: 1,
+        settle: Some(0.0),
         ..Run::default()
     };
     let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
@@ -471,6 +473,7 @@ fn a_fixed_step_must_come_from_somewhere() {
     scene.solver.frequency_cap = false;
     let run = Run {
         duration: 1e-4,
+        settle: Some(0.0),
         ..Run::default()
     };
     let go = |scene: &Scene| simulate(scene, &run, &mut |_| ControlFlow::Continue(()));
@@ -490,6 +493,7 @@ fn implicit_steps_do_not_depend_on_threads() {
             duration: 5e-4,
             method: Some(Method::ImplicitFriction),
             threads,
+            settle: Some(0.0),
             ..Run::default()
         };
         simulate(&scene, &run, &mut |_| ControlFlow::Continue(()))

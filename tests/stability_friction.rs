@@ -92,6 +92,7 @@ fn start_stop_and_reversal_roll_on() {
             &driven(ramp(from, to, 10e-3), 0.01),
             &Run {
                 duration: 15e-3,
+                settle: Some(0.0),
                 ..Run::default()
             },
         );

@@ -89,6 +89,7 @@ def simulate(
     method: str | None,
     threads: int,
     progress: Callable[[float], object] | None,
+    settle: float | None,
 ) -> _Signals: ...
 def campaign(
     cases: Iterable[tuple[str, str]],

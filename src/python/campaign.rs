@@ -22,6 +22,7 @@ struct RunDocument {
     rtol: Option<f64>,
     accuracy: Option<f64>,
     method: Option<String>,
+    settle: Option<f64>,
 }
 
 /// Run cases on threads of their own, each a pair of scene and run as JSON.
@@ -106,6 +107,7 @@ fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<
         rtol: run.rtol,
         accuracy: run.accuracy,
         method: run.method.as_deref().map(method).transpose().or_raise(py)?,
+        settle: run.settle,
         ..Run::default()
     };
     Ok(Some(Case { scene, run }))

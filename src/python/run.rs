@@ -128,6 +128,7 @@ pub(super) fn simulate<'py>(
     method: Option<&str>,
     threads: usize,
     progress: Option<Py<PyAny>>,
+    settle: Option<f64>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let scene = Scene::from_json(scene).or_raise(py)?;
     let state = state.map(|y| y.as_array().iter().copied().collect());
@@ -139,6 +140,7 @@ pub(super) fn simulate<'py>(
         accuracy,
         method: method.map(self::method).transpose().or_raise(py)?,
         threads,
+        settle,
     };
     let mut raised = None;
     let result = py.detach(|| {

@@ -57,6 +57,7 @@ pub fn short(duration: f64) -> Run {
         duration,
         fs: 200e3,
         threads: 1,
+        settle: Some(0.0),
         ..Run::default()
     }
 }

@@ -35,6 +35,7 @@ class _Options(TypedDict, total=False):
     rtol: float | None
     accuracy: float | None
     method: Method | None
+    settle: float | None
     keep: Literal["features", "signals"]
     columns: Sequence[str] | None
     skip: float
@@ -78,6 +79,7 @@ def campaign(
     rtol: float | None = None,
     accuracy: float | None = None,
     method: Method | None = None,
+    settle: float | None = None,
     keep: Literal["features", "signals"] = "features",
     columns: Sequence[str] | None = None,
     skip: float = 0.0,
@@ -102,16 +104,17 @@ def campaign(
     cases : table
         One row a case: polars, pandas, Arrow, a list of dicts or a dict of columns. Columns with a dot or an
         index are fields of the scene (``loads.axial.force``, ``rows[0].clearance``), as are its own fields;
-        ``duration``, ``fs``, ``start``, ``rtol``, ``accuracy`` and ``method`` replace the arguments of that
-        name; ``scene`` says which one if there are several. Every other column is a label, and only carried
+        ``duration``, ``fs``, ``start``, ``rtol``, ``accuracy``, ``method`` and ``settle`` replace the arguments of
+        that name; ``scene`` says which one if there are several. Every other column is a label, and only carried
         along. An empty cell changes nothing.
     out : path
         Folder of the campaign, made if it does not exist. With an executor all workers must see it under this
         name.
     scene : Scene, or mapping of str to Scene
         What the rows change, or several of them by name.
-    duration, fs, start, rtol, accuracy, method
-        As for :func:`ballrace.simulate`.
+    duration, fs, start, rtol, accuracy, method, settle
+        As for :func:`ballrace.simulate`. Features never contain the start: they begin at t = 0, when it has
+        settled. With ``settle=0``, or from a rolling start, it is in them as far as `skip` does not leave it out.
     keep : {"features", "signals"}
         Whether the signals of every case are kept beside its features.
     columns : sequence of str, optional
@@ -186,6 +189,7 @@ def campaign(
             "rtol": rtol,
             "accuracy": accuracy,
             "method": method,
+            "settle": settle,
         }
     )
     features = {
