@@ -33,7 +33,7 @@
 //!   in one order; smooth plane rows in one loop, without tables between; forces by name, energies.
 //! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
 //! * `equilibrium` ([`equilibrium()`], [`stiffness()`], [`load_distribution()`]) — the static solve and what follows
-//!   from it; `start` ([`start()`]) — how a run begins.
+//!   from it; `start` ([`start()`]) — how a run begins; `settle` — what is left of that dies down before t = 0.
 //! * `signals` ([`Signals`]) — probes read from the dense output on a uniform grid, through a low-pass ([`Bandwidth`]).
 //! * `residual`, `collapse`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
 //! * `selftest` — whether this processor's vector instructions compute what they should, once a process.
@@ -85,6 +85,7 @@ mod pool;
 mod residual;
 pub mod scene;
 mod selftest;
+mod settle;
 mod signals;
 pub mod simd;
 mod simulate;

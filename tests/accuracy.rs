@@ -154,6 +154,7 @@ fn the_choice_is_told() {
         threads: 1,
         accuracy,
         bandwidth: Bandwidth::Raw,
+        settle: Some(0.0),
         ..Run::default()
     };
     let (loose, tight) = (
@@ -183,6 +184,7 @@ fn what_cannot_be_asked_is_refused() {
     for accuracy in [0.0, -1.0, 1e-5, 0.5, f64::NAN] {
         let run = Run {
             accuracy: Some(accuracy),
+            settle: Some(0.0),
             ..Run::default()
         };
         assert_eq!(refused(&run), "accuracy");

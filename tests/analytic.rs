@@ -150,9 +150,10 @@ fn energy_is_kept_without_damping_and_friction() {
                 fs: 100e3,
                 start: Start::Rolling,
                 rtol: Some(1e-9),
-                accuracy: None,
-                method: None,
                 threads: 1,
+                bandwidth: Bandwidth::Raw,
+                settle: Some(0.0),
+                ..Run::default()
             },
         );
         let (e, y, z) = (
@@ -194,6 +195,7 @@ fn symmetries() {
         duration: 1e-3,
         threads: 1,
         bandwidth: Bandwidth::Raw,
+        settle: Some(0.0),
         ..Run::default()
     };
     let (one, two, three) = (
@@ -316,6 +318,7 @@ fn equilibrium_start_is_calm() {
                 start,
                 threads: 1,
                 bandwidth: Bandwidth::Raw,
+                settle: Some(0.0),
                 ..Run::default()
             },
         );
@@ -352,6 +355,7 @@ fn torque_turns_the_ring() {
             duration: 5e-3,
             threads: 1,
             bandwidth: Bandwidth::Raw,
+            settle: Some(0.0),
             ..Run::default()
         },
     );

@@ -398,6 +398,7 @@ fn a_run_tells_what_it_gave_up() {
     let scene = wheel(NormalLaw::iso16281(), FLAT);
     let run = Run {
         duration: 1e-4,
+        settle: Some(0.0),
         ..Run::default()
     };
     let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();

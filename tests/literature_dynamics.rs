@@ -159,6 +159,7 @@ fn orbit_of_loaded_balls_under_500_newtons() {
             duration: 0.1,
             fs: 5e3,
             threads: 1,
+            settle: Some(0.0),
             ..Run::default()
         },
     );
@@ -222,6 +223,7 @@ fn thrown(law: &NormalLaw, outer: bool, damping: f64, speed: f64, fs: f64) -> (V
             rtol,
             threads: 1,
             bandwidth: Bandwidth::Raw,
+            settle: Some(0.0),
             ..Run::default()
         },
     );

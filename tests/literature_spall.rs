@@ -75,6 +75,7 @@ fn time_to_impact(on: Surface, width: f64, shaft: f64, radial: f64) -> f64 {
             fs,
             rtol: Some(1e-7),
             threads: 1,
+            settle: Some(0.0),
             ..Run::default()
         },
     );

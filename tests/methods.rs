@@ -337,6 +337,7 @@ fn run(scene: &Scene, method: Method, rtol: f64) -> Signals {
         method: Some(method),
         threads: 1,
         bandwidth: Bandwidth::Raw,
+        settle: Some(0.0),
         ..Run::default()
     };
     simulate(scene, &run, &mut |_| ControlFlow::Continue(())).unwrap()
@@ -452,6 +453,7 @@ fn auto_switches_within_a_run() {
         method: Some(Method::Auto),
         threads: 1,
         bandwidth: Bandwidth::Raw,
+        settle: Some(0.0),
         ..Run::default()
     };
     let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
@@ -473,6 +475,7 @@ fn a_fixed_step_must_come_from_somewhere() {
     scene.solver.frequency_cap = false;
     let run = Run {
         duration: 1e-4,
+        settle: Some(0.0),
         ..Run::default()
     };
     let go = |scene: &Scene| simulate(scene, &run, &mut |_| ControlFlow::Continue(()));
@@ -492,6 +495,7 @@ fn implicit_steps_do_not_depend_on_threads() {
             duration: 5e-4,
             method: Some(Method::ImplicitFriction),
             threads,
+            settle: Some(0.0),
             ..Run::default()
         };
         simulate(&scene, &run, &mut |_| ControlFlow::Continue(()))

@@ -412,6 +412,7 @@ fn nothing_is_left_out_on_request() {
         scene.solver.reduce = reduce;
         let run = Run {
             duration: 1e-4,
+            settle: Some(0.0),
             ..Run::default()
         };
         let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();

@@ -257,6 +257,7 @@ fn restitution_stays_positive_and_free_impacts_never_pull() {
                 rtol: Some(1e-9),
                 threads: 1,
                 bandwidth: Bandwidth::Raw,
+                settle: Some(0.0),
                 ..Run::default()
             },
         );

@@ -94,6 +94,7 @@ fn start_stop_and_reversal_roll_on() {
             &Run {
                 duration: 15e-3,
                 bandwidth: Bandwidth::Raw,
+                settle: Some(0.0),
                 ..Run::default()
             },
         );

@@ -94,6 +94,7 @@ def simulate(
     threads: int,
     progress: Callable[[float], object] | None,
     bandwidth: str | None,
+    settle: float | None,
 ) -> _Signals: ...
 def campaign(
     cases: Iterable[tuple[str, str]],

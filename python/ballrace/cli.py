@@ -37,8 +37,6 @@ __all__ = ["main"]
 _AXIAL_LOADS = {"axial 0": 0.0, "axial +3 kN": 3000.0, "axial -3 kN": -3000.0}
 _COLUMN = "outer.ay"
 _FS = 50_000.0
-# The start has died down by then [s].
-_SETTLED = 0.02
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -127,6 +125,10 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument(
         "--accuracy", type=float, help="error of accelerations to stay below, in place of --rtol"
     )
+    run.add_argument(
+        "--settle", type=float, metavar="SECONDS",
+        help="time before t = 0 in which the start dies down (default: as long as the scene needs; 0: none)",
+    )  # fmt: skip
     run.add_argument(
         "--threads",
         type=int,
@@ -220,9 +222,8 @@ def _demo(options: argparse.Namespace) -> None:
 
 
 def _features(out: Signals) -> list[str]:
-    """Root mean square, peak, kurtosis and mean impact of the demo's column, once it has settled."""
-    skip = min(_SETTLED, out.t[-1] / 5.0)
-    signal = out[_COLUMN][out.t >= skip]
+    """Root mean square, peak, kurtosis and mean impact of the demo's column."""
+    signal = out[_COLUMN]
     centred = signal - signal.mean()
     variance = np.mean(centred**2)
     kurtosis = np.mean(centred**4) / variance**2 if variance > 0.0 else np.nan
@@ -297,6 +298,7 @@ def _run(options: argparse.Namespace) -> None:
         threads=options.threads,
         progress=True,
         bandwidth="auto" if options.bandwidth == "auto" else None,
+        settle=options.settle,
     )
     out.write_parquet(options.output)
     print(f"{options.output}: {len(out)} columns, {out.t.size} samples")

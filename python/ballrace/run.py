@@ -37,6 +37,7 @@ def simulate(
     threads: int = 0,
     progress: bool | Callable[[float], object] | None = None,
     bandwidth: Literal["auto"] | None = "auto",
+    settle: float | None = None,
 ) -> Signals:
     """Run a scene and record its probes.
 
@@ -85,6 +86,13 @@ def simulate(
 
         ``out.provenance`` tells: ``bandwidth`` [Hz] is 0.4 `fs`, or `fs`/2 where `fs` is so high that no filter
         was needed, or None; ``oversampling`` is the number of points read a sample.
+    settle : float, optional
+        Time before t = 0 in which what the start leaves may die down [s], at most 1000; 0 switches it off. By
+        default it is as long as the scene needs from equilibrium, at most 0.1 s, and 0 from any other start: a
+        given state is given. ``out.provenance.settled`` tells how long it was, ``out.stats.settling_nfev`` what it
+        cost. Meanwhile loads and drive are as at t = 0 (a driving torque: the initial speed), and rings and cage
+        are wound back, so that at t = 0 they stand where the scene says but for what the balls have slipped. From
+        a given state nothing is wound back.
 
     Returns
     -------
@@ -137,6 +145,7 @@ def simulate(
                 threads,
                 bar.show,
                 bandwidth,
+                settle,
             )
     else:
         callback = progress or None
@@ -152,6 +161,7 @@ def simulate(
             threads,
             callback,
             bandwidth,
+            settle,
         )
     out = Signals._from_core(raw)
     for category, text in raw["warnings"]:

@@ -23,6 +23,7 @@ struct RunDocument {
     accuracy: Option<f64>,
     method: Option<String>,
     bandwidth: Option<String>,
+    settle: Option<f64>,
 }
 
 /// Run cases on threads of their own, each a pair of scene and run as JSON.
@@ -108,6 +109,7 @@ fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<
         accuracy: run.accuracy,
         method: run.method.as_deref().map(method).transpose().or_raise(py)?,
         bandwidth: bandwidth(run.bandwidth.as_deref()).or_raise(py)?,
+        settle: run.settle,
         ..Run::default()
     };
     Ok(Some(Case { scene, run }))

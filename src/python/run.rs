@@ -129,6 +129,7 @@ pub(super) fn simulate<'py>(
     threads: usize,
     progress: Option<Py<PyAny>>,
     bandwidth: Option<&str>,
+    settle: Option<f64>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let scene = Scene::from_json(scene).or_raise(py)?;
     let state = state.map(|y| y.as_array().iter().copied().collect());
@@ -141,6 +142,7 @@ pub(super) fn simulate<'py>(
         method: method.map(self::method).transpose().or_raise(py)?,
         threads,
         bandwidth: self::bandwidth(bandwidth).or_raise(py)?,
+        settle,
     };
     let mut raised = None;
     let result = py.detach(|| {

@@ -92,6 +92,10 @@ pub struct Statistics {
     /// Largest Hertz pressure of any contact at the start or at the end of the run \[Pa\], at the zone's centre; that of
     /// the smooth race where the ball lies in a defect.
     pub largest_pressure: f64,
+    /// Steps accepted before t = 0, while the start settled; counted nowhere else.
+    pub settling_accepted: usize,
+    /// Evaluations before t = 0, while the start settled; counted nowhere else.
+    pub settling_nfev: usize,
 }
 
 /// What produced the signals.
@@ -133,6 +137,8 @@ pub struct Provenance {
     pub bandwidth: Option<f64>,
     /// Points a sample at which filtered signals are read; 1: there is no filter.
     pub oversampling: usize,
+    /// Time before t = 0 in which the start settled \[s\]; 0: not at all.
+    pub settled: f64,
 }
 
 /// One signal.

@@ -58,6 +58,7 @@ pub fn short(duration: f64) -> Run {
         fs: 200e3,
         threads: 1,
         bandwidth: Bandwidth::Raw,
+        settle: Some(0.0),
         ..Run::default()
     }
 }

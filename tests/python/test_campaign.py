@@ -29,7 +29,7 @@ def test_any_number_of_threads_gives_the_same_bits(tmp_path: Path) -> None:
 def test_signals_are_those_of_a_run_alone(tmp_path: Path) -> None:
     done = run(table(4), tmp_path, keep="signals", threads=2)
     case_id = done.manifest["case_id"][2]
-    alone = br.simulate(done.scene(case_id), duration=DURATION)
+    alone = br.simulate(done.scene(case_id), duration=DURATION, settle=0.0)
     assert done.signals(case_id).equals(alone.to_polars())
     scanned = done.scan().collect()
     assert scanned["case_id"].to_list() == sorted(scanned["case_id"])
@@ -205,7 +205,12 @@ def test_bad_input_gets_one_clear_error(
 
 
 def test_dry_run_writes_nothing(tmp_path: Path) -> None:
-    options: dict[str, Any] = {"scene": SCENE, "duration": DURATION, "keep": "signals"}
+    options: dict[str, Any] = {
+        "scene": SCENE,
+        "duration": DURATION,
+        "keep": "signals",
+        "settle": 0.0,
+    }
     found = br.campaign(table(5), tmp_path / "runs", dry_run=True, **options)
     assert not (tmp_path / "runs").exists()
     assert (found.total, found.missing) == (5, 5)

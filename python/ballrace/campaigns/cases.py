@@ -17,7 +17,7 @@ from ..scene import Scene
 if TYPE_CHECKING:
     import polars as pl
 
-RUN = ("duration", "fs", "start", "rtol", "accuracy", "method", "bandwidth")
+RUN = ("duration", "fs", "start", "rtol", "accuracy", "method", "bandwidth", "settle")
 """Columns that say how a case is run, instead of the campaign's own arguments."""
 
 FAULTS = ("outer_race", "inner_race", "ball")
@@ -153,18 +153,21 @@ def run_document(run: Mapping[str, Any]) -> dict[str, Any]:
         "fs": (0.0, 1e9),
         "rtol": (1e-12, 1e-1),
         "accuracy": (1e-4, 1e-1),
+        "settle": (0.0, 1e3),
     }
     for name, (low, high) in limits.items():
         value: Any = run.get(name)
-        if value is None and name in ("rtol", "accuracy"):
+        if value is None and name in ("rtol", "accuracy", "settle"):
             document[name] = None
             continue
         try:
             number = float(value)
         except (TypeError, ValueError):
             raise SceneError(name, repr(value), "a number") from None
-        if not (low < number <= high or number == low > 0.0):
-            raise SceneError(name, str(value), f"above {low:g} and at most {high:g}")
+        ends_count = low > 0.0 or name == "settle"
+        if not (low < number <= high or (number == low and ends_count)):
+            least = "at least 0" if name == "settle" else f"above {low:g}"
+            raise SceneError(name, str(value), f"{least} and at most {high:g}")
         document[name] = number
     return document
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import polars as pl
 
 _ARGUMENTS = (
-    "duration", "fs", "start", "rtol", "accuracy", "method", "bandwidth", "keep", "columns", "skip",
+    "duration", "fs", "start", "rtol", "accuracy", "method", "bandwidth", "settle", "keep", "columns", "skip",
     "band", "contact_loads",
 )  # fmt: skip
 _BUILDERS = ("table", "grid", "latin_hypercube", "sobol", "scatter")

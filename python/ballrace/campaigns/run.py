@@ -36,6 +36,7 @@ class _Options(TypedDict, total=False):
     accuracy: float | None
     method: Method | None
     bandwidth: Literal["auto"] | None
+    settle: float | None
     keep: Literal["features", "signals"]
     columns: Sequence[str] | None
     skip: float
@@ -80,6 +81,7 @@ def campaign(
     accuracy: float | None = None,
     method: Method | None = None,
     bandwidth: Literal["auto"] | None = "auto",
+    settle: float | None = None,
     keep: Literal["features", "signals"] = "features",
     columns: Sequence[str] | None = None,
     skip: float = 0.0,
@@ -104,16 +106,17 @@ def campaign(
     cases : table
         One row a case: polars, pandas, Arrow, a list of dicts or a dict of columns. Columns with a dot or an
         index are fields of the scene (``loads.axial.force``, ``rows[0].clearance``), as are its own fields;
-        ``duration``, ``fs``, ``start``, ``rtol``, ``accuracy``, ``method`` and ``bandwidth`` (``"auto"`` or
-        ``"none"``) replace the arguments of that name; ``scene`` says which one if there are several. Every
+        ``duration``, ``fs``, ``start``, ``rtol``, ``accuracy``, ``method``, ``bandwidth`` (``"auto"`` or ``"none"``)
+        and ``settle`` replace the arguments of that name; ``scene`` says which one if there are several. Every
         other column is a label, and only carried along. An empty cell changes nothing.
     out : path
         Folder of the campaign, made if it does not exist. With an executor all workers must see it under this
         name.
     scene : Scene, or mapping of str to Scene
         What the rows change, or several of them by name.
-    duration, fs, start, rtol, accuracy, method, bandwidth
-        As for :func:`ballrace.simulate`.
+    duration, fs, start, rtol, accuracy, method, bandwidth, settle
+        As for :func:`ballrace.simulate`. Features never contain the start: they begin at t = 0, when it has
+        settled. With ``settle=0``, or from a rolling start, it is in them as far as `skip` does not leave it out.
     keep : {"features", "signals"}
         Whether the signals of every case are kept beside its features.
     columns : sequence of str, optional
@@ -199,6 +202,7 @@ def campaign(
             "accuracy": accuracy,
             "method": method,
             "bandwidth": bandwidth,
+            "settle": settle,
         }
     )
     features = {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -107,6 +107,7 @@ def snapshot(scene: Scene, instant: float = INSTANT, threads: int = 0) -> Snapsh
         start="rolling",
         threads=threads,
         bandwidth=None,
+        settle=0.0,
     )
     now = {name: float(values[_SNAPSHOT_SAMPLES]) for name, values in out.items()}
     number = {body: i for i, body in enumerate(model.bodies)}
@@ -141,7 +142,10 @@ def _slices(scene: Scene, state: Array, ball: int) -> dict[str, Array]:
     """Return the slices of equal width of a ball of row 0 on the outer race in a state."""
     probe = SlicesProbe(row=0, balls=(ball,), races=("outer",), times=(0.0,))
     cut = scene.replace({"probes": {"slices": probe}, "contact.slices": FixedSlices(count=_SLICES)})
-    table = simulate(cut, duration=1e-6, fs=1e6, start=state, threads=1, bandwidth=None).slices
+    out = simulate(
+        cut, duration=1e-6, fs=1e6, start=state, threads=1, settle=0.0, bandwidth=None
+    )
+    table = out.slices
     assert table is not None
     names = ("zeta", "z", "width", "penetration", "force")
     return {name: table[name].to_numpy() for name in names}
@@ -172,19 +176,28 @@ def load_case(
         fs=FS,
         start="rolling",
         threads=threads,
+        settle=0.0,
         progress=lambda share: show(0.6 * share),
         bandwidth=None,
     )
     features = dynamic(out)
     level = VISIBLE * features.impact if level is None else level
     healthy = scene.replace({"probes": {"outer": probes["outer"]}, "defects": {}})
-    rolling = simulate(
-        healthy, duration=2.0 * SETTLED, fs=FS, start="rolling", threads=threads, bandwidth=None
-    )
+
+    def unsettled(duration: float, start: Literal["rolling", "equilibrium"]) -> Signals:
+        return simulate(
+            healthy,
+            duration=duration,
+            fs=FS,
+            start=start,
+            threads=threads,
+            settle=0.0,
+            bandwidth=None,
+        )
+
+    rolling = unsettled(2.0 * SETTLED, "rolling")
     show(0.75)
-    passage = 1.0 / features.bpfo
-    rest = simulate(healthy, duration=passage, fs=FS, threads=threads, bandwidth=None)
-    still = rest["outer.ay"]
+    still = unsettled(1.0 / features.bpfo, "equilibrium")["outer.ay"]
     show(0.85)
     at_instant = snapshot(scene, threads=threads)
     show(1.0)
