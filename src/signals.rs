@@ -8,6 +8,7 @@ use crate::integrate::{DenseStep, System};
 use crate::model::{Model, Omission};
 use crate::residual::Residual;
 use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene};
+use crate::touched::{Touched, Watch};
 
 /// What a run gives.
 #[derive(Debug, Clone)]
@@ -105,6 +106,8 @@ pub struct Provenance {
     pub simd: &'static str,
     /// Processor architecture.
     pub architecture: &'static str,
+    /// What became of the defects that have a width.
+    pub defects: Vec<Touched>,
 }
 
 /// One signal.
@@ -184,6 +187,7 @@ pub(crate) struct Recorder {
     dy: Vec<f64>,
     values: Vec<f64>,
     pub residual: Residual,
+    pub watch: Watch,
     pub t: Vec<f64>,
     pub columns: Vec<Column>,
     pub slices: Vec<SliceRow>,
@@ -203,6 +207,7 @@ impl Recorder {
             dy: Vec::new(),
             values: Vec::new(),
             residual: Residual::default(),
+            watch: Watch::new(model),
             t: Vec::new(),
             columns: Vec::new(),
             slices: Vec::new(),
@@ -232,6 +237,7 @@ impl Recorder {
         self.own = (zeros.clone(), zeros);
         (self.y, self.dy) = (start.to_vec(), vec![0.0; start.len()]);
         self.residual = Residual::new(dynamics);
+        self.watch.prepare(dynamics, start);
         self.t.reserve_exact(self.count);
         for column in &mut self.columns {
             column.values.reserve_exact(self.count);
@@ -346,6 +352,7 @@ impl Recorder {
 
     /// All samples within an accepted step.
     pub fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) {
+        self.watch.step(dynamics, step);
         while self.t.len() < self.count {
             let t = self.t.len() as f64 / self.fs;
             if t > step.t1() {

@@ -10,6 +10,7 @@ use rayon::ThreadPool;
 use crate::accuracy;
 use crate::collapse::{Crawl, culprits};
 use crate::dynamics::Dynamics;
+use crate::equilibrium::place;
 use crate::error::{Error, Result};
 use crate::integrate::{self, DenseStep, Failure, FailureKind, Options, Tolerance};
 use crate::method::{self, Choice, Task};
@@ -86,7 +87,8 @@ pub fn simulate(
     run: &Run,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Signals> {
-    let mut scene = scene.clone();
+    let (scene, placed) = place(scene)?;
+    let mut scene = scene.into_owned();
     scene.solver.rtol = run.rtol.unwrap_or(scene.solver.rtol);
     scene.solver.method = run.method.unwrap_or(scene.solver.method);
     let accuracy = match (run.accuracy, run.rtol) {
@@ -150,6 +152,7 @@ pub fn simulate(
             left_out: reduction.map_or_else(Vec::new, |r| r.omissions().to_vec()),
             simd: model.level().name(),
             architecture: std::env::consts::ARCH,
+            defects: recorder.watch.told(&model, &placed),
         },
         scene,
     })

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::signals::Signals;
+use crate::touched::Touched;
 
 /// Residual of the accelerations above which a run is warned of. Measured on the faulted wheel bearing in 140 runs
 /// over slip speeds of 1e-4 to 0.1 m/s, damping of 0 to 20 s/m and rtol of 1e-7 to 1e-1: above it the error against
@@ -32,6 +33,24 @@ pub enum Warning {
         /// Accepted steps.
         steps: usize,
     },
+    /// Balls passed a defect, and no contact was ever loaded within it.
+    Untouched {
+        /// [`crate::Touched::name`].
+        defect: String,
+        /// [`crate::Touched::passes`].
+        passes: usize,
+        /// [`crate::Touched::axial_offset`].
+        axial_offset: f64,
+        /// [`crate::Touched::contact_offset`].
+        contact_offset: Option<f64>,
+    },
+    /// No ball passed a defect: of its effect the run shows nothing.
+    Unpassed {
+        /// [`crate::Touched::name`].
+        defect: String,
+        /// Simulated time \[s\].
+        duration: f64,
+    },
 }
 
 impl Warning {
@@ -39,6 +58,7 @@ impl Warning {
     pub fn category(&self) -> &'static str {
         match self {
             Self::Accelerations { .. } | Self::Shoulders { .. } => "accuracy",
+            Self::Untouched { .. } | Self::Unpassed { .. } => "scene",
         }
     }
 }
@@ -63,6 +83,29 @@ impl std::fmt::Display for Warning {
                 "contacts rode over a shoulder {contacts} times in {steps} steps: the part beyond it carries \
                  nothing, and the pressure at the edge is not modelled. Lower the axial load, raise the \
                  shoulders, or look at the truncated contacts"
+            ),
+            Self::Untouched {
+                defect,
+                passes,
+                axial_offset,
+                contact_offset: Some(place),
+            } => write!(
+                f,
+                "defect {defect:?} was never touched: balls passed it {passes} times, but contacts ran at \
+                 {:.3} mm and its middle lies at {:.3} mm (axial_offset); give \"contact\" to place it where \
+                 they run at equilibrium, or a greater length",
+                1e3 * place,
+                1e3 * axial_offset
+            ),
+            Self::Untouched { defect, passes, .. } => write!(
+                f,
+                "defect {defect:?} was never touched: balls passed it {passes} times, but none was loaded there; \
+                 move it by its angle, or change the loads"
+            ),
+            Self::Unpassed { defect, duration } => write!(
+                f,
+                "no ball passed defect {defect:?} in {duration} s: the signals show nothing of it; simulate for \
+                 longer, or move it by its angle"
             ),
         }
     }
@@ -94,6 +137,27 @@ impl Signals {
             contacts: stats.truncated_contacts,
             steps: stats.accepted,
         });
-        accelerations.into_iter().chain(shoulders).collect()
+        let defects = self.provenance.defects.iter();
+        let unheard = defects.filter_map(|of| unheard(of, self.provenance.duration));
+        accelerations
+            .into_iter()
+            .chain(shoulders)
+            .chain(unheard)
+            .collect()
+    }
+}
+
+/// What is to be said of a defect that nothing touched.
+fn unheard(of: &Touched, duration: f64) -> Option<Warning> {
+    let defect = of.name.clone();
+    match (of.passes, of.touched) {
+        (0, _) => Some(Warning::Unpassed { defect, duration }),
+        (passes, 0) => Some(Warning::Untouched {
+            defect,
+            passes,
+            axial_offset: of.axial_offset,
+            contact_offset: of.contact_offset,
+        }),
+        _ => None,
     }
 }

@@ -38,6 +38,10 @@ class Explanation(Record):
     variants : list of dict
         Changes of the scene that would help, the cheapest first: ``change``, ``note`` on what it does to the
         answer, states ``kept``, estimated ``seconds`` for a simulated second.
+    defects : list of dict
+        Where defects lie and what contacts carry there at the healthy bearing's equilibrium, the fields as of
+        :class:`ballrace.Touched`; ``passes`` counts the contacts looked at: over a turn of the inner race or the
+        ball past all balls, or of a ball at the angle of a defect on the outer race.
     """
 
     def __init__(self, entries: Mapping[str, Any], text: str) -> None:

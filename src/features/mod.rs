@@ -62,7 +62,11 @@ impl Feature {
 /// # Errors
 /// [`Error::Scene`] for a scene that is not usable, or a column that its probes do not record.
 pub fn feature_columns(scene: &Scene, options: &FeatureOptions) -> Result<Vec<String>> {
-    let model = Model::new(scene)?;
+    scene.validate()?;
+    // What is recorded does not depend on defects, nor on where they are placed.
+    let mut healthy = scene.clone();
+    healthy.defects.clear();
+    let model = Model::new(&healthy)?;
     let columns = Recorder::new(&model, 1.0, 0).columns;
     let Some(asked) = &options.columns else {
         let accelerations = columns.into_iter().filter(|c| c.unit == "m/s^2");

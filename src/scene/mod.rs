@@ -35,7 +35,7 @@ use crate::error::{Error, Result};
 pub use approximations::Approximations;
 pub use bearing::{Mount, Ring, RingName, Row, Support, Waviness};
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
-pub use defect::{Defect, Floor, Surface, Width, WidthProfile};
+pub use defect::{AxialOffset, Defect, Floor, Surface, Width, WidthProfile};
 pub use load::{Drive, Load, Unbalance};
 pub use material::{Material, Materials};
 pub use probe::{Component, ContactQuantity, Probe};
