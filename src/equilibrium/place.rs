@@ -25,8 +25,10 @@ pub enum Placed {
     Nominal,
 }
 
-/// Places are rounded to a nanometre: a level groove gives 0, and rows that are images keep being so \[m\].
-const FINEST: f64 = 1e-9;
+/// Places are rounded to a nanometre: a level groove gives 0, and rows that are images keep being so \[1/m\].
+const FINEST: f64 = 1e9;
+/// Share of the contacts' scale from which a load counts: what lies below is left over from the solution.
+const LOADED: f64 = 1e-9;
 
 impl Model {
     /// Checks a scene, places the defects that are to lie where contacts run, and compiles it.
@@ -65,7 +67,7 @@ pub(crate) fn place(scene: &Scene) -> Result<(Cow<'_, Scene>, BTreeMap<String, P
             None => (nominal(defect, &scene.rows[defect.row]), Placed::Nominal),
         };
         // The sum makes a negative zero a plain one.
-        defect.axial_offset = ((number / FINEST).round() * FINEST + 0.0).into();
+        defect.axial_offset = ((number * FINEST).round() / FINEST + 0.0).into();
         from.insert(name.clone(), placed);
     }
     Ok((Cow::Owned(all), from))
@@ -121,14 +123,13 @@ impl Meeting {
             };
             (contact.load, contact.zone_centre - from)
         });
-        // The first of equals.
-        let most = told.fold(
-            (0.0, f64::NAN),
-            |most, of| {
-                if of.0 > most.0 { of } else { most }
-            },
-        );
-        (most.0 > 0.0).then_some(most.1)
+        let (mut most, mut place) = (LOADED * self.model.scales.load, None);
+        for (load, at) in told {
+            if load > most {
+                (most, place) = (load, Some(at));
+            }
+        }
+        place
     }
 }
 
