@@ -271,7 +271,16 @@ fn reduced_runs_see_what_full_ones_see() {
                 },
             ),
         ),
-        ("a ball", with(radial(), spall(Surface::Ball))),
+        (
+            "a ball",
+            with(
+                radial(),
+                Defect {
+                    angle: -FRAC_PI_2 + 0.4,
+                    ..spall(Surface::Ball)
+                },
+            ),
+        ),
     ];
     for (name, scene) in scenes {
         let mut whole = scene.clone();
