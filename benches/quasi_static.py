@@ -63,7 +63,12 @@ def scenes() -> dict[str, br.Scene]:
 
     def spalled(scene: br.Scene, width: float) -> br.Scene:
         spall = Defect(
-            on="outer_race", angle=-0.5 * np.pi, length=4e-3, width=width, edge_radius=0.3e-3
+            on="outer_race",
+            angle=-0.5 * np.pi,
+            axial_offset=0.0,
+            length=4e-3,
+            width=width,
+            edge_radius=0.3e-3,
         )
         return replace(scene, defects={"spall": spall})
 

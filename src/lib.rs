@@ -33,7 +33,9 @@
 //!   in one order; smooth plane rows in one loop, without tables between; forces by name, energies.
 //! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
 //! * `equilibrium` ([`equilibrium()`], [`stiffness()`], [`load_distribution()`]) — the static solve and what follows
-//!   from it; `start` ([`start()`]) — how a run begins; `settle` — what is left of that dies down before t = 0.
+//!   from it, the places of defects among it; `start` ([`start()`]) — how a run begins; `settle` — what is left of that
+//!   dies down before t = 0.
+//! * `touched` ([`Touched`]) — which defects balls met in a run, and what their contacts carried there.
 //! * `signals` ([`Signals`]) — probes read from the dense output on a uniform grid, through a low-pass ([`Bandwidth`]).
 //! * `residual`, `collapse`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
 //! * `selftest` — whether this processor's vector instructions compute what they should, once a process.
@@ -90,13 +92,14 @@ mod signals;
 pub mod simd;
 mod simulate;
 mod start;
+mod touched;
 mod warning;
 
 pub use accuracy::Accuracy;
 pub use campaign::{Case, Finished, Outcome, campaign, stream};
 pub use equilibrium::{
-    BallEquilibrium, ContactEquilibrium, Equilibrium, EquivalentLoads, LoadDistribution, Stiffness,
-    equilibrium, load_distribution, stiffness,
+    BallEquilibrium, ContactEquilibrium, Equilibrium, EquivalentLoads, LoadDistribution, Placed,
+    Stiffness, equilibrium, load_distribution, stiffness,
 };
 pub use error::{Error, Result};
 pub use explain::{ContactKind, Cost, Explanation, LawExplanation, Variant, explain};
@@ -106,4 +109,5 @@ pub use scene::Scene;
 pub use signals::{Bandwidth, Column, Provenance, Signals, SliceRow, Statistics};
 pub use simulate::{Run, simulate};
 pub use start::{Start, start};
+pub use touched::Touched;
 pub use warning::Warning;

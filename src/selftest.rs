@@ -50,7 +50,7 @@ fn scenes() -> [Scene; 3] {
     let mut spalled = smooth.clone();
     spalled.defects.clone_from(&wheel.defects);
     for spall in spalled.defects.values_mut() {
-        spall.axial_offset = 0.0;
+        spall.axial_offset = 0.0.into();
     }
     [wheel, spalled, smooth]
 }

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use crate::accuracy;
 use crate::collapse::{Crawl, culprits};
 use crate::dynamics::Dynamics;
+use crate::equilibrium::place;
 use crate::error::{Error, Result};
 use crate::integrate::{self, DenseStep, Failure, FailureKind, Options, Tolerance};
 use crate::method::{self, Choice, Task};
@@ -93,7 +94,8 @@ pub fn simulate(
     run: &Run,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Signals> {
-    let mut scene = scene.clone();
+    let (scene, placed) = place(scene)?;
+    let mut scene = scene.into_owned();
     scene.solver.rtol = run.rtol.unwrap_or(scene.solver.rtol);
     scene.solver.method = run.method.unwrap_or(scene.solver.method);
     if let (Some(_), Some(rtol)) = (run.accuracy, run.rtol) {
@@ -162,6 +164,7 @@ pub fn simulate(
             bandwidth: sampling.bandwidth,
             oversampling: sampling.oversampling,
             settled: before,
+            defects: recorder.watch.told(&model, &placed),
         },
         scene,
     })

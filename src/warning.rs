@@ -5,6 +5,7 @@ use serde::Serialize;
 use crate::scene::Doubt;
 use crate::signals::Signals;
 use crate::simd::Distrust;
+use crate::touched::Touched;
 
 /// Residual of the accelerations above which a run is warned of. Measured on the faulted wheel bearing in 140 runs
 /// over slip speeds of 1e-4 to 0.1 m/s, damping of 0 to 20 s/m and rtol of 1e-7 to 1e-1: above it the error against
@@ -47,6 +48,24 @@ pub enum Warning {
     },
     /// A number of the scene, or what follows from it, that no bearing is likely to have; a column that cannot change.
     Doubtful(Doubt),
+    /// Balls passed a defect, and no contact was ever loaded within it.
+    Untouched {
+        /// [`crate::Touched::name`].
+        defect: String,
+        /// [`crate::Touched::passes`].
+        passes: usize,
+        /// [`crate::Touched::axial_offset`].
+        axial_offset: f64,
+        /// [`crate::Touched::contact_offset`].
+        contact_offset: Option<f64>,
+    },
+    /// No ball passed a defect: of its effect the run shows nothing.
+    Unpassed {
+        /// [`crate::Touched::name`].
+        defect: String,
+        /// Simulated time \[s\].
+        duration: f64,
+    },
 }
 
 impl Warning {
@@ -56,7 +75,10 @@ impl Warning {
             Self::Accelerations { .. } | Self::Shoulders { .. } | Self::Instructions(_) => {
                 "accuracy"
             }
-            Self::SamplingRate { .. } | Self::Doubtful(_) => "scene",
+            Self::SamplingRate { .. }
+            | Self::Doubtful(_)
+            | Self::Untouched { .. }
+            | Self::Unpassed { .. } => "scene",
         }
     }
 }
@@ -98,6 +120,29 @@ impl std::fmt::Display for Warning {
                 2.0 * line
             ),
             Self::Doubtful(doubt) => doubt.fmt(f),
+            Self::Untouched {
+                defect,
+                passes,
+                axial_offset,
+                contact_offset: Some(place),
+            } => write!(
+                f,
+                "defect {defect:?} was never touched: balls passed it {passes} times, but contacts ran at \
+                 {:.3} mm and its middle lies at {:.3} mm (axial_offset); give \"contact\" to place it where \
+                 they run at equilibrium, or a greater length",
+                1e3 * place,
+                1e3 * axial_offset
+            ),
+            Self::Untouched { defect, passes, .. } => write!(
+                f,
+                "defect {defect:?} was never touched: balls passed it {passes} times, but none was loaded there; \
+                 move it by its angle, or change the loads"
+            ),
+            Self::Unpassed { defect, duration } => write!(
+                f,
+                "no ball passed defect {defect:?} in {duration} s: the signals show nothing of it; simulate for \
+                 longer, or move it by its angle"
+            ),
         }
     }
 }
@@ -140,10 +185,28 @@ impl Signals {
         let instructions = self.provenance.distrust.map(Warning::Instructions);
         let pressure = Doubt::pressure(stats.largest_pressure);
         let doubts = self.scene.doubts().into_iter().chain(pressure);
+        let defects = self.provenance.defects.iter();
+        let untouched = defects.filter_map(|of| not_touched(of, self.provenance.duration));
         [accelerations, shoulders, instructions, unheard]
             .into_iter()
             .flatten()
+            .chain(untouched)
             .chain(doubts.map(Warning::Doubtful))
             .collect()
+    }
+}
+
+/// What is to be said of a defect that nothing touched.
+fn not_touched(of: &Touched, duration: f64) -> Option<Warning> {
+    let defect = of.name.clone();
+    match (of.passes, of.touched) {
+        (0, _) => Some(Warning::Unpassed { defect, duration }),
+        (passes, 0) => Some(Warning::Untouched {
+            defect,
+            passes,
+            axial_offset: of.axial_offset,
+            contact_offset: of.contact_offset,
+        }),
+        _ => None,
     }
 }

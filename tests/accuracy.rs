@@ -39,7 +39,7 @@ fn random(noise: &mut Noise) -> Scene {
         row: 0,
         ball: None,
         angle,
-        axial_offset: noise.between(-0.5e-3, 0.5e-3),
+        axial_offset: noise.between(-0.5e-3, 0.5e-3).into(),
         length: noise.between(1e-3, 3e-3),
         width: noise.between(0.3e-3, 1.5e-3).into(),
         edge_radius: 0.3e-3,

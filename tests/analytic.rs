@@ -21,7 +21,7 @@ fn spall(on: Surface, width: f64) -> Defect {
         row: 0,
         ball: (on == Surface::Ball).then_some(1),
         angle: -FRAC_PI_2,
-        axial_offset: 0.5e-3,
+        axial_offset: 0.5e-3.into(),
         length: 3e-3,
         width: width.into(),
         edge_radius: 0.3e-3,
@@ -257,7 +257,7 @@ fn edges_do_not_jump_and_narrow_defects_vanish() {
                 let whole = Model::new(&scene).unwrap();
                 let y = start(&whole, &Start::Equilibrium).unwrap();
                 let mut defect = Defect {
-                    axial_offset: 0.0,
+                    axial_offset: 0.0.into(),
                     ..spall(on, width)
                 };
                 defect.ball = defect.ball.map(|_| 0);

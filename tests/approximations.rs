@@ -151,7 +151,7 @@ fn places_speeds_and_rates_belong_together() {
             row: 0,
             ball: Some(3),
             angle: PI,
-            axial_offset: 0.0,
+            axial_offset: 0.0.into(),
             length: 1e-3,
             width: 0.5e-3.into(),
             edge_radius: 0.3e-3,

@@ -23,7 +23,7 @@ fn spall(on: Surface) -> Defect {
             Surface::InnerRace => -FRAC_PI_2 - 2_f64.to_radians(),
             Surface::Ball => PI,
         },
-        axial_offset: 0.0,
+        axial_offset: 0.0.into(),
         length: 1.5e-3,
         width: 0.5e-3.into(),
         edge_radius: 0.2e-3,
@@ -58,7 +58,7 @@ fn mirrored() -> Scene {
     let spall = scene.defects["spall"].clone();
     let image = Defect {
         row: 1,
-        axial_offset: -spall.axial_offset,
+        axial_offset: (-spall.axial_offset.number().unwrap()).into(),
         ..spall
     };
     scene.rows[1].start_angle = scene.rows[0].start_angle;

@@ -38,7 +38,7 @@ fn spall(on: Surface, axial_offset: f64) -> Defect {
         row: 0,
         ball: (on == Surface::Ball).then_some(0),
         angle: if on == Surface::Ball { PI } else { -FRAC_PI_2 },
-        axial_offset,
+        axial_offset: axial_offset.into(),
         length: 1.5e-3,
         width: 0.8e-3.into(),
         edge_radius: 0.3e-3,

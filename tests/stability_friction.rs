@@ -183,7 +183,8 @@ fn a_vanishing_slip_speed_is_warned_of() {
             out.stats.acceleration_residual.unwrap()
         );
         calls.push(out.stats.nfev);
-        assert_eq!(out.warnings().is_empty(), slip_speed > 1e-3);
+        let doubts = out.warnings().iter().any(|w| w.category() == "accuracy");
+        assert_eq!(!doubts, slip_speed > 1e-3);
     }
     assert!(calls[3] < 2 * calls[2]);
 }

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 __all__ = [
     "AccurateSlices",
     "Approximations",
+    "AxialOffset",
     "Cage",
     "CageProbe",
     "Component",
@@ -604,6 +605,9 @@ class WidthProfile(Part):
 Width = float | WidthProfile
 """Width of a defect along its length; a plain number is constant [m]."""
 
+AxialOffset = float | Literal["contact"]
+"""Axial place of a defect's middle: a number [m], or where the contact runs (see :class:`Defect`)."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Floor(Part):
@@ -635,8 +639,13 @@ class Defect(Part):
         Ball of the row, from 0; needed for a ball defect, absent otherwise.
     angle : float
         Angular place on the body, counter-clockwise from its own x axis [rad].
-    axial_offset : float
-        Axial place of the middle, from the row's plane (races) or the ball's centre [m].
+    axial_offset : AxialOffset
+        Axial place of the middle, from the row's plane (races) or the ball's centre [m]. ``"contact"`` places it
+        where the contact runs that it is there for: the most loaded of those that meet it over a turn of the
+        balls, at the static equilibrium of the healthy bearing under the largest value of every load. Of a
+        defect on the outer race that is a ball's at the defect's own angle; of one on a ball, its contact with
+        the race that loads it more. Without equilibrium or load it is the place of the nominal contact angle.
+        A run records the number in ``out.scene`` and tells in ``out.defects`` where it comes from.
     length : float
         Axial length [m].
     width : Width
@@ -651,7 +660,7 @@ class Defect(Part):
     row: int = 0
     ball: int | None = None
     angle: float
-    axial_offset: float = 0.0
+    axial_offset: AxialOffset = "contact"
     length: float
     width: Width
     edge_radius: float

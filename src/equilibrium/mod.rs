@@ -10,12 +10,13 @@
 //! held: loose balls leave the race that no longer presses them, and often hang between the races on the cage.
 //!
 //! What follows from it: [`stiffness()`], which the rings' Newton solve forms anyway, and [`load_distribution`] over
-//! a turn of the cage.
+//! a turn of the cage. So does the place of a defect that is to lie where contacts run.
 
 mod ball;
 mod cage;
 mod distribution;
 mod guess;
+mod place;
 mod problem;
 mod rings;
 mod search;
@@ -28,6 +29,8 @@ use crate::error::Result;
 use crate::model::Model;
 use crate::scene::{Doubt, Scene};
 pub use distribution::{EquivalentLoads, LoadDistribution, load_distribution};
+pub use place::Placed;
+pub(crate) use place::{Meeting, place};
 use problem::Problem;
 pub use stiffness::{Stiffness, stiffness};
 

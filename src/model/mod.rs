@@ -11,11 +11,11 @@ mod scales;
 
 use crate::contact::hertz::Hertz;
 use crate::contact::{BallSide, Pair};
-use crate::error::Result;
 use crate::scene::{Component, Method, Scene, TimeFunction};
 use crate::simd::Level;
 
 pub use body::{Body, Degree};
+pub(crate) use compile::{ball_fault, compile, race_fault};
 pub use reduction::{Obstacle, Omission, Reduction};
 pub use scales::Scales;
 
@@ -103,16 +103,8 @@ pub(crate) struct UnbalanceModel {
 }
 
 impl Model {
-    /// Checks and compiles a scene.
-    ///
-    /// # Errors
-    /// [`crate::Error::Scene`] names the first field that is not usable, or the environment variable
-    /// `BALLRACE_SIMD` where it names no level of this processor.
-    pub fn new(scene: &Scene) -> Result<Self> {
-        compile::compile(scene)
-    }
-
-    /// The scene it was compiled from, without the forces that its approximations give up.
+    /// The scene it was compiled from, every defect at its number, without the forces that its approximations give
+    /// up.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }

@@ -148,6 +148,7 @@ fn describe(outcome: &Outcome) -> serde_json::Value {
                 "rejected": signals.stats.rejected,
                 "nfev": signals.stats.nfev,
                 "features": features,
+                "defects": signals.provenance.defects,
             })
         }
         Err(error) => json!({ "wall_time": wall_time, "error": record(error) }),

@@ -39,7 +39,7 @@ use crate::error::{Error, Result};
 pub use approximations::Approximations;
 pub use bearing::{Mount, Ring, RingName, Row, Support, Waviness};
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
-pub use defect::{Defect, Floor, Surface, Width, WidthProfile};
+pub use defect::{AxialOffset, Defect, Floor, Surface, Width, WidthProfile};
 pub use doubt::{Doubt, STATIC_PRESSURE};
 pub use load::{Drive, Load, Unbalance};
 pub use material::{Material, Materials};

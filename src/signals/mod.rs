@@ -19,6 +19,7 @@ use crate::accuracy::Accuracy;
 use crate::model::Omission;
 use crate::scene::{RingName, Scene};
 use crate::simd::Distrust;
+use crate::touched::Touched;
 
 pub(crate) use probes::columns;
 pub(crate) use recorder::Recorder;
@@ -139,6 +140,8 @@ pub struct Provenance {
     pub oversampling: usize,
     /// Time before t = 0 in which the start settled \[s\]; 0: not at all.
     pub settled: f64,
+    /// What became of the defects that have a width.
+    pub defects: Vec<Touched>,
 }
 
 /// One signal.

@@ -12,7 +12,11 @@ use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene};
 /// # Errors
 /// [`crate::Error::Scene`] for a scene that is not usable.
 pub(crate) fn columns(scene: &Scene) -> Result<Vec<Column>> {
-    Ok(Probes::new(&Model::new(scene)?).columns)
+    scene.validate()?;
+    // What is recorded does not depend on defects, nor on where they are placed.
+    let mut healthy = scene.clone();
+    healthy.defects.clear();
+    Ok(Probes::new(&Model::new(&healthy)?).columns)
 }
 
 /// A probe with its indices looked up.

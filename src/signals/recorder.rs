@@ -9,6 +9,7 @@ use crate::integrate::{DenseStep, System};
 use crate::model::Model;
 use crate::residual::Residual;
 use crate::scene::RingName;
+use crate::touched::Watch;
 
 /// What is read at one kind of times: some readers, and the columns that theirs are.
 #[derive(Default)]
@@ -41,6 +42,7 @@ pub(crate) struct Recorder {
     y: Vec<f64>,
     dy: Vec<f64>,
     pub residual: Residual,
+    pub watch: Watch,
     pub t: Vec<f64>,
     pub columns: Vec<Column>,
     pub slices: Vec<SliceRow>,
@@ -82,6 +84,7 @@ impl Recorder {
             y: Vec::new(),
             dy: Vec::new(),
             residual: Residual::default(),
+            watch: Watch::new(model),
             t: Vec::new(),
             columns: probes.columns,
             slices: Vec::new(),
@@ -107,6 +110,7 @@ impl Recorder {
         self.own = (zeros.clone(), zeros);
         (self.y, self.dy) = (start.to_vec(), vec![0.0; start.len()]);
         self.residual = Residual::new(dynamics);
+        self.watch.prepare(dynamics, start);
         self.t.reserve_exact(self.count);
         for column in &mut self.columns {
             column.values.reserve_exact(self.count);
@@ -140,6 +144,10 @@ impl Recorder {
 
     /// All samples within an accepted step.
     pub fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) {
+        // What the filter still sees beyond the end is no part of the run.
+        if step.t0() * self.sampling.fs < self.count as f64 {
+            self.watch.step(dynamics, step);
+        }
         while self.grid.is_some() && self.grid_time() <= step.t1() && self.next <= self.last() {
             let t = self.grid_time();
             step.interpolate(t, &mut self.own.0);

@@ -76,7 +76,9 @@ def test_labels_and_faults_are_carried(tmp_path: Path) -> None:
         {"defects.spall.width": 0.0, "label": "healthy", "bearing_id": 1},
         {"defects.spall.width": 1e-3, "label": "spalled", "bearing_id": 1},
     ]
-    done = run(cases, tmp_path, scene=scene, duration=1e-3, start="rolling")
+    # A ball comes to the spall after a millisecond.
+    scene = scene.replace({"defects.spall.angle": scene.rows[0].start_angle + 0.1})
+    done = run(cases, tmp_path, scene=scene, duration=3e-3)
     columns = ["label", "bearing_id", "fault_outer_race", "fault_inner_race", "fault_ball"]
     assert done.manifest.select(columns).rows() == [
         ("healthy", 1, False, False, False),

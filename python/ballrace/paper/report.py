@@ -105,11 +105,12 @@ def _page(paper: Paper) -> str:
 
     names = list(AXIAL_LOADS)
     cases = paper.cases
-    scene = cases[names[0]].signals.scene
+    signals = cases[names[0]].signals
+    scene = signals.scene
     bpfo = cases[names[0]].dynamic.bpfo
     spans = [
-        (defect.axial_offset + scene.rows[0].axial_position, defect.length)
-        for defect in scene.defects.values()
+        (signals.defects[name].axial_offset + scene.rows[0].axial_position, defect.length)
+        for name, defect in scene.defects.items()
         if defect.row == 0
     ]
     bands = [(z - length / 2.0, z + length / 2.0) for z, length in spans]
