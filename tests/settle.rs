@@ -138,7 +138,7 @@ fn defects_of_the_inner_race_stand_where_the_scene_says() {
     let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
     let mut spall = presets::wheel_bearing(0.0).defects.remove("spall").unwrap();
     spall.on = ballrace::scene::Surface::InnerRace;
-    spall.axial_offset = 0.0;
+    spall.axial_offset = 0.0.into();
     // 2 ms later the inner ring has turned it under the lowest ball.
     spall.angle = -FRAC_PI_2 - 60.0 * PI * (1.0 - 0.3983) * 2e-3;
     scene.defects.insert("spall".to_owned(), spall);
