@@ -107,8 +107,9 @@ def simulate(scene: br.Scene, rtol: float, method: str, seconds: float = math.in
         rtol=rtol,
         threads=1,
         progress=patience,
-        settle=0.0,
         **chosen,
+        settle=0.0,
+        bandwidth=None,
     )
 
 

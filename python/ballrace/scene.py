@@ -672,7 +672,7 @@ class Defect(Part):
 
 @dataclass(frozen=True, kw_only=True)
 class MotionProbe(Variant, tag="motion"):
-    """Position, velocity and acceleration of a body: columns ``<probe>.x`` and so on.
+    """Position, velocity and acceleration of a body: columns ``<probe>.x`` and so on, filtered.
 
     Attributes
     ----------
@@ -688,7 +688,7 @@ class MotionProbe(Variant, tag="motion"):
 
 @dataclass(frozen=True, kw_only=True)
 class ContactsProbe(Variant, tag="contacts"):
-    """What happens between balls and races: columns ``<probe>.ball3.outer.load`` and so on.
+    """What happens between balls and races: columns ``<probe>.ball3.outer.load`` and so on, as points in time.
 
     Attributes
     ----------
@@ -710,7 +710,7 @@ class ContactsProbe(Variant, tag="contacts"):
 
 @dataclass(frozen=True, kw_only=True)
 class CageProbe(Variant, tag="cage"):
-    """Force of every cage link of a row, positive in tension: columns ``<probe>.link0``, … [N].
+    """Force of every cage link of a row, positive in tension: columns ``<probe>.link0``, … [N], filtered.
 
     Attributes
     ----------
@@ -723,17 +723,21 @@ class CageProbe(Variant, tag="cage"):
 
 @dataclass(frozen=True, kw_only=True)
 class EnergyProbe(Variant, tag="energy"):
-    """Energies [J] and dissipated powers [W]."""
+    """Energies [J] and dissipated powers [W], as points in time."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class TorqueProbe(Variant, tag="torque"):
-    """Friction torque about z that the balls put on each ring: ``<probe>.outer``, ``<probe>.inner`` [N m]."""
+    """Friction torque about z that the balls put on each ring: ``<probe>.outer``, ``<probe>.inner`` [N m].
+
+    It is filtered, and takes an evaluation of the model at every point that the filter reads: a run of the wheel
+    bearing takes a sixth longer.
+    """
 
 
 @dataclass(frozen=True, kw_only=True)
 class ForcesProbe(Variant, tag="forces"):
-    """The forces on a body by origin: ``<probe>.contact.x`` and so on [N], about z [N m].
+    """The forces on a body by origin: ``<probe>.contact.x`` and so on [N], about z [N m], as points in time.
 
     Attributes
     ----------

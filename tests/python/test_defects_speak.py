@@ -123,7 +123,7 @@ def run(name: str, duration: float) -> Run:
     if bearing == "wheel":
         probes["other"] = ContactsProbe(row=1, races=("outer",), quantities=("load",))
     scene = replace(build(**{key: known[key] for key in what}), probes=probes)
-    out = br.simulate(scene, duration=duration, fs=FS, threads=1)
+    out = br.simulate(scene, duration=duration, fs=FS, threads=1, bandwidth=None)
 
     settled = out.t >= SETTLED
     phase = np.unwrap(np.arctan2(out["ball.y"], out["ball.x"]))
@@ -336,7 +336,7 @@ def passages(on: Surface, width: float, probes: dict[str, Any]) -> br.Signals:
     """Run long enough for four passages over an outer spall, sample by sample."""
     scene = deep_groove(spall=replace(INNER if on == "inner_race" else OUTER, width=width))
     scene = replace(scene, probes=probes)
-    return br.simulate(scene, duration=0.04, fs=200_000.0, threads=1)
+    return br.simulate(scene, duration=0.04, fs=200_000.0, threads=1, bandwidth=None)
 
 
 def entry_to_exit(out: br.Signals, width: float) -> list[float]:

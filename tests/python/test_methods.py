@@ -23,7 +23,9 @@ def run(method: Method | None, slip_speed: float = 0.1, **solver: object) -> br.
     changes: dict[str, object] = {"friction.coulomb.slip_speed": slip_speed}
     changes |= {f"solver.{name.removesuffix('_')}": value for name, value in solver.items()}
     scene = br.presets.wheel_bearing().replace(changes)
-    return br.simulate(scene, duration=5e-4, fs=100_000, threads=1, method=method, settle=0.0)
+    return br.simulate(
+        scene, duration=5e-4, fs=100_000, threads=1, method=method, settle=0.0, bandwidth=None
+    )
 
 
 def test_the_names_are_those_of_the_core() -> None:
@@ -65,7 +67,9 @@ def test_auto_says_what_it_did() -> None:
     rough = scene.replace({"friction.coulomb.slip_speed": 1e-3})
 
     def started(scene: br.Scene, method: Method) -> br.Signals:
-        return br.simulate(scene, duration=5e-4, fs=100_000, threads=1, method=method, settle=0.0)
+        return br.simulate(
+            scene, duration=5e-4, fs=100_000, threads=1, method=method, settle=0.0, bandwidth=None
+        )
 
     soft, stiff = started(scene, "auto"), started(rough, "auto")
     explicit = started(rough, "dormand-prince")

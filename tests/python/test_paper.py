@@ -118,7 +118,7 @@ def test_transient_does_not_hang_on_a_nanometre() -> None:
         # Positions of the balls: x, y, z, θ each, after those of the rings.
         balls = aside[8 : start.size // 2].reshape(-1, 4)
         balls[:, :3] = size * noise.standard_normal((len(balls), 3))
-        out = br.simulate(scene, duration=0.04, fs=paper.FS, start=start + aside)
+        out = br.simulate(scene, duration=0.04, fs=paper.FS, start=start + aside, bandwidth=None)
         found.append(paper.settling_time(out.t, out["outer.ay"], 4.9))
     assert 0.01 < min(found) < max(found) < 0.025, found
 

@@ -142,9 +142,7 @@ def _slices(scene: Scene, state: Array, ball: int) -> dict[str, Array]:
     """Return the slices of equal width of a ball of row 0 on the outer race in a state."""
     probe = SlicesProbe(row=0, balls=(ball,), races=("outer",), times=(0.0,))
     cut = scene.replace({"probes": {"slices": probe}, "contact.slices": FixedSlices(count=_SLICES)})
-    out = simulate(
-        cut, duration=1e-6, fs=1e6, start=state, threads=1, settle=0.0, bandwidth=None
-    )
+    out = simulate(cut, duration=1e-6, fs=1e6, start=state, threads=1, settle=0.0, bandwidth=None)
     table = out.slices
     assert table is not None
     names = ("zeta", "z", "width", "penetration", "force")
