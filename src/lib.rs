@@ -35,9 +35,10 @@
 //! * `equilibrium` ([`equilibrium()`], [`stiffness()`], [`load_distribution()`]) — the static solve and what follows
 //!   from it; `start` ([`start()`]) — how a run begins.
 //! * `signals` ([`Signals`]) — probes read on a uniform grid from the dense output.
-//! * `residual`, `collapse`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
+//! * `residual`, `collapse`, `runaway`, `ending`, `warning` ([`Warning`]) — whether a run can be believed, who held it
+//!   up, and what its error says.
 //! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
-//! * `method` — the method a run asked for, and the switch between two of them.
+//! * `method` — the method a run asked for, and the switch between two of them; `step_limit` — the largest step of each.
 //! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
 //! * `explain` ([`explain()`]) — what a scene is compiled to, what it costs, what would make it cheaper.
 //! * `features` ([`Feature`]) — the few numbers a case is known by: moments, fault lines, contact loads.
@@ -54,7 +55,7 @@
 //! | an approximation | `scene/approximations.rs`, grounds and a reason in `model/reduction/`, an offer in `explain/variants.rs` | `tests/approximations.rs`, a row in `benches/approximations.py` |
 //! | a race profile | `contact/race.rs`, `contact/press.rs` | gap against a closed form |
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
-//! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` | row sums, order of convergence |
+//! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` and in `step_limit.rs` | row sums, order of convergence |
 //! | a signal | a variant in `scene/probe.rs`, an arm in `signals.rs` | unit, value at a known state |
 //! | a feature | a file in `features/`, a line in its `mod.rs` | value of a synthetic signal |
 //!
@@ -72,6 +73,7 @@ mod campaign;
 mod collapse;
 pub mod contact;
 pub mod dynamics;
+mod ending;
 mod equilibrium;
 mod error;
 mod explain;
@@ -81,11 +83,13 @@ mod method;
 mod model;
 mod pool;
 mod residual;
+mod runaway;
 pub mod scene;
 mod signals;
 pub mod simd;
 mod simulate;
 mod start;
+mod step_limit;
 mod warning;
 
 pub use accuracy::Accuracy;

@@ -105,6 +105,8 @@ pub struct Provenance {
     pub simd: &'static str,
     /// Processor architecture.
     pub architecture: &'static str,
+    /// Largest step by which the method is stable and accurate in this scene \[s\]; `frequency_cap` keeps below it.
+    pub step_limit: f64,
 }
 
 /// One signal.

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::method;
 use crate::signals::Signals;
 
 /// Residual of the accelerations above which a run is warned of. Measured on the faulted wheel bearing in 140 runs
@@ -24,6 +25,8 @@ pub enum Warning {
         stiff_share: f64,
         /// Tolerance of the run.
         rtol: f64,
+        /// The step of a method of fixed steps, which has no tolerance \[s\].
+        fixed_step: Option<f64>,
     },
     /// Contacts reached beyond a shoulder, where the model has no race.
     Shoulders {
@@ -32,13 +35,22 @@ pub enum Warning {
         /// Accepted steps.
         steps: usize,
     },
+    /// The fixed step that was asked for is longer than the method bears in this scene.
+    FixedStep {
+        /// The step \[s\].
+        step: f64,
+        /// The longest by which the method is stable and accurate there \[s\].
+        limit: f64,
+    },
 }
 
 impl Warning {
     /// What it is about: `accuracy` of the signals, or the `scene` that was asked for.
     pub fn category(&self) -> &'static str {
         match self {
-            Self::Accelerations { .. } | Self::Shoulders { .. } => "accuracy",
+            Self::Accelerations { .. } | Self::Shoulders { .. } | Self::FixedStep { .. } => {
+                "accuracy"
+            }
         }
     }
 }
@@ -50,6 +62,7 @@ impl std::fmt::Display for Warning {
                 residual,
                 stiff_share,
                 rtol,
+                fixed_step: None,
             } => write!(
                 f,
                 "accelerations are uncertain by about {:.0} %: they differ that much from the derivative of the \
@@ -57,6 +70,21 @@ impl std::fmt::Display for Warning {
                  rtol, keep solver.frequency_cap on, or raise the friction's slip_speed",
                 100.0 * residual,
                 100.0 * stiff_share
+            ),
+            Self::Accelerations {
+                residual,
+                fixed_step: Some(step),
+                ..
+            } => write!(
+                f,
+                "accelerations are uncertain by about {:.0} %: they differ that much from the derivative of the \
+                 velocities. Use a max_step smaller than {step:.1e} s, or raise the friction's slip_speed",
+                100.0 * residual
+            ),
+            Self::FixedStep { step, limit } => write!(
+                f,
+                "a fixed step of {step:.1e} s is longer than the {limit:.1e} s by which the method is stable and \
+                 accurate in this scene. Use a smaller max_step, or keep solver.frequency_cap on"
             ),
             Self::Shoulders { contacts, steps } => write!(
                 f,
@@ -82,6 +110,9 @@ impl Signals {
     /// ```
     pub fn warnings(&self) -> Vec<Warning> {
         let stats = &self.stats;
+        let fixed = method::is_fixed(self.scene.solver.method);
+        let fixed_step = self.provenance.max_step.filter(|_| fixed);
+        let limit = self.provenance.step_limit;
         let accelerations = stats
             .acceleration_residual
             .filter(|residual| *residual > LARGEST_RESIDUAL)
@@ -89,11 +120,16 @@ impl Signals {
                 residual,
                 stiff_share: stats.stiff_share,
                 rtol: self.provenance.rtol,
+                fixed_step,
             });
         let shoulders = (stats.truncated_contacts > 0).then_some(Warning::Shoulders {
             contacts: stats.truncated_contacts,
             steps: stats.accepted,
         });
-        accelerations.into_iter().chain(shoulders).collect()
+        let too_long = fixed_step
+            .filter(|step| *step > limit)
+            .map(|step| Warning::FixedStep { step, limit });
+        let found = [accelerations, shoulders, too_long];
+        found.into_iter().flatten().collect()
     }
 }
