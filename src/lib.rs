@@ -37,10 +37,11 @@
 //!   dies down before t = 0.
 //! * `touched` ([`Touched`]) — which defects balls met in a run, and what their contacts carried there.
 //! * `signals` ([`Signals`]) — probes read from the dense output on a uniform grid, through a low-pass ([`Bandwidth`]).
-//! * `residual`, `collapse`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
+//! * `residual`, `collapse`, `runaway`, `ending`, `warning` ([`Warning`]) — whether a run can be believed, who held it
+//!   up, and what its error says.
 //! * `selftest` — whether this processor's vector instructions compute what they should, once a process.
 //! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
-//! * `method` — the method a run asked for, and the switch between two of them.
+//! * `method` — the method a run asked for, and the switch between two of them; `step_limit` — the largest step of each.
 //! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
 //! * `explain` ([`explain()`]) — what a scene is compiled to, what it costs, what would make it cheaper.
 //! * `features` ([`Feature`]) — the few numbers a case is known by: moments, fault lines, contact loads.
@@ -57,7 +58,7 @@
 //! | an approximation | `scene/approximations.rs`, grounds and a reason in `model/reduction/`, an offer in `explain/variants.rs` | `tests/approximations.rs`, a row in `benches/approximations.py` |
 //! | a race profile | `contact/race.rs`, `contact/press.rs` | gap against a closed form |
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
-//! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` | row sums, order of convergence |
+//! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` and in `step_limit.rs` | row sums, order of convergence |
 //! | a signal | a variant in `scene/probe.rs`, two arms in `signals/probes.rs` | unit, value at a known state; filtered or a reading of a state |
 //! | a doubt | a check in `scene/doubt/`, with its source | `tests/doubts.rs`: told, and no ordinary bearing is |
 //! | a feature | a file in `features/`, a line in its `mod.rs` | value of a synthetic signal |
@@ -76,6 +77,7 @@ mod campaign;
 mod collapse;
 pub mod contact;
 pub mod dynamics;
+mod ending;
 mod equilibrium;
 mod error;
 mod explain;
@@ -85,6 +87,7 @@ mod method;
 mod model;
 mod pool;
 mod residual;
+mod runaway;
 pub mod scene;
 mod selftest;
 mod settle;
@@ -92,6 +95,7 @@ mod signals;
 pub mod simd;
 mod simulate;
 mod start;
+mod step_limit;
 mod touched;
 mod warning;
 

@@ -4,19 +4,22 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use crate::accuracy;
-use crate::collapse::{Crawl, culprits};
+use crate::collapse::Crawl;
 use crate::dynamics::Dynamics;
+use crate::ending::{self, broken, stopped};
 use crate::equilibrium::place;
 use crate::error::{Error, Result};
-use crate::integrate::{self, DenseStep, Failure, FailureKind, Options, Tolerance};
+use crate::integrate::{self, DenseStep, Options, Tolerance};
 use crate::method::{self, Choice, Task};
 use crate::model::{Model, Reduction};
 use crate::pool::on;
+use crate::runaway;
 use crate::scene::{Drive, Method, SCHEMA, Scene};
 use crate::selftest;
 use crate::settle;
 use crate::signals::{Bandwidth, Provenance, Recorder, Sampling, Signals, Statistics};
 use crate::start::{Start, start};
+use crate::step_limit;
 
 /// What to run.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,12 +67,6 @@ impl Default for Run {
 
 /// The most that the signals of one run may take \[bytes\].
 const MEMORY_LIMIT: f64 = 8.0 * (1u64 << 30) as f64;
-
-/// Share of the contact mode's 1/ω that a step may reach. Dormand–Prince is stable to 1 on the imaginary
-/// axis and further when damped. Measured on the faulted wheel bearing, 6 ms with an impact, against a tenth
-/// of the step at rtol 1e-9: at 1 the relative error of the outer ring's acceleration is 0.06–0.3 % for any
-/// rtol from 1e-3 to 1e-6; without the cap it is 6 % at rtol 1e-3.
-const STEP_SHARE: f64 = 1.0;
 
 /// How often progress is told, and after how many steps the clock is asked: of a small model's step that would take a
 /// fiftieth.
@@ -165,6 +162,7 @@ pub fn simulate(
             oversampling: sampling.oversampling,
             settled: before,
             defects: recorder.watch.told(&model, &placed),
+            step_limit: step_limit::largest(scene.solver.method, model.scales()),
         },
         scene,
     })
@@ -244,6 +242,7 @@ pub(crate) fn follow(
     let mut told = begun;
     let (mut pulls, mut truncated, mut halt) = (0, 0, None);
     let mut crawl = Crawl::new(model, options.max_step);
+    let bounds = runaway::Bounds::new(&dynamics, y0);
     let tolerance = tolerance(&dynamics)?;
     let own = dynamics.compress(y0);
     let (mut last, mut last_time) = (own.clone(), 0.0);
@@ -258,12 +257,15 @@ pub(crate) fn follow(
             last.copy_from_slice(step.y1());
             last_time = step.t1();
             let crawls = crawl.after(step.h());
-            if let Some(body) = lost {
-                halt = Some((step.t1(), step.h(), Some(body), ESCAPED));
-            } else if crawls {
-                halt = Some((step.t1(), step.h(), None, CRAWLING));
-            }
-            if halt.is_some() {
+            let why = if let Some(body) = lost {
+                Some((Some(body), ending::escaped(model, step.h())))
+            } else if let Some((body, does)) = bounds.left(step.y1()) {
+                Some((Some(body), ending::ran_away(model, &does, step.h())))
+            } else {
+                crawls.then(|| (None, ending::CRAWLING.to_owned()))
+            };
+            if let Some((body, reason)) = why {
+                halt = Some((step.t1(), step.h(), body, reason));
                 return ControlFlow::Break(());
             }
             if stats.accepted.is_multiple_of(ASK_EVERY) && told.elapsed() >= TELL_EVERY {
@@ -286,7 +288,7 @@ pub(crate) fn follow(
     dynamics.expand(last_time, &last, &mut full);
     let (solution, choice) = solved.map_err(|failure| broken(model, &full, begins, &failure))?;
     if let Some((time, step, body, reason)) = halt {
-        return Err(stopped(model, &full, (begins + time, step), body, reason));
+        return Err(stopped(model, &full, (begins + time, step), body, &reason));
     }
     if solution.interrupted {
         let time = begins + solution.t;
@@ -428,7 +430,7 @@ pub(crate) fn options(model: &Model) -> Result<Options> {
     let scene = &model.scene;
     let solver = &scene.solver;
     let cap = if solver.frequency_cap {
-        STEP_SHARE / model.scales.frequency
+        step_limit::largest(solver.method, &model.scales)
     } else {
         f64::INFINITY
     };
@@ -491,46 +493,4 @@ pub(crate) fn tolerance(dynamics: &Dynamics<'_>) -> Result<Tolerance> {
     let group = bodies.clone().chain(bodies).collect();
     Tolerance::new(0.0, atol, &vec![false; 2 * degrees.len()], group)
         .map_err(|invalid| Error::scene("solver.rtol", rtol, invalid.to_string()))
-}
-
-/// Why a run ends though the integrator could go on.
-const ESCAPED: &str =
-    "the ball has left its groove; check loads, clearance and shoulders, or use a smaller rtol";
-const CRAWLING: &str = "the step has collapsed to less than 1e-5 of the contacts' period and stays there; \
-                        raise slip_speed, lower the damping, or soften the contacts";
-
-fn broken(model: &Model, last: &[f64], begins: f64, failure: &Failure) -> Error {
-    let reason = match failure.kind {
-        FailureKind::NonFinite => "a force is not finite; check masses, stiffnesses and loads",
-        FailureKind::TooSmall => {
-            "the step fell below the resolution of time; soften contacts, raise slip_speed or rtol, or try another method"
-        }
-        FailureKind::Invalid(invalid) => invalid.0,
-    };
-    let when = (begins + failure.time, failure.step);
-    stopped(model, last, when, Some(failure.group), reason)
-}
-
-/// The error with what held up the run in its last state: a body's contacts, or the fastest of all.
-fn stopped(
-    model: &Model,
-    last: &[f64],
-    (time, step): (f64, f64),
-    body: Option<usize>,
-    reason: &str,
-) -> Error {
-    let found = culprits(model, last, body);
-    let listed: Vec<String> = found.iter().map(ToString::to_string).collect();
-    let body = body.or(found.first().map(|first| first.body)).unwrap_or(0);
-    Error::Integration {
-        time,
-        step,
-        body: model.bodies[body].name.clone(),
-        reason: if listed.is_empty() {
-            format!("{reason} (no contact touches)")
-        } else {
-            format!("{reason}. Fastest: {}", listed.join(", "))
-        },
-        contacts: found.into_iter().map(|culprit| culprit.name).collect(),
-    }
 }

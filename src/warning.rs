@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::method;
 use crate::scene::Doubt;
 use crate::signals::Signals;
 use crate::simd::Distrust;
@@ -27,6 +28,8 @@ pub enum Warning {
         stiff_share: f64,
         /// Tolerance of the run.
         rtol: f64,
+        /// The step of a method of fixed steps, which has no tolerance \[s\].
+        fixed_step: Option<f64>,
     },
     /// Contacts reached beyond a shoulder, where the model has no race.
     Shoulders {
@@ -66,15 +69,23 @@ pub enum Warning {
         /// Simulated time \[s\].
         duration: f64,
     },
+    /// The fixed step that was asked for is longer than the method bears in this scene.
+    FixedStep {
+        /// The step \[s\].
+        step: f64,
+        /// The longest by which the method is stable and accurate there \[s\].
+        limit: f64,
+    },
 }
 
 impl Warning {
     /// What it is about: `accuracy` of the signals, or the `scene` that was asked for.
     pub fn category(&self) -> &'static str {
         match self {
-            Self::Accelerations { .. } | Self::Shoulders { .. } | Self::Instructions(_) => {
-                "accuracy"
-            }
+            Self::Accelerations { .. }
+            | Self::Shoulders { .. }
+            | Self::Instructions(_)
+            | Self::FixedStep { .. } => "accuracy",
             Self::SamplingRate { .. }
             | Self::Doubtful(_)
             | Self::Untouched { .. }
@@ -90,6 +101,7 @@ impl std::fmt::Display for Warning {
                 residual,
                 stiff_share,
                 rtol,
+                fixed_step: None,
             } => write!(
                 f,
                 "accelerations are uncertain by about {:.0} %: they differ that much from the derivative of the \
@@ -97,6 +109,21 @@ impl std::fmt::Display for Warning {
                  rtol, keep solver.frequency_cap on, or raise the friction's slip_speed",
                 100.0 * residual,
                 100.0 * stiff_share
+            ),
+            Self::Accelerations {
+                residual,
+                fixed_step: Some(step),
+                ..
+            } => write!(
+                f,
+                "accelerations are uncertain by about {:.0} %: they differ that much from the derivative of the \
+                 velocities. Use a max_step smaller than {step:.1e} s, or raise the friction's slip_speed",
+                100.0 * residual
+            ),
+            Self::FixedStep { step, limit } => write!(
+                f,
+                "a fixed step of {step:.1e} s is longer than the {limit:.1e} s by which the method is stable and \
+                 accurate in this scene. Use a smaller max_step, or keep solver.frequency_cap on"
             ),
             Self::Shoulders { contacts, steps } => write!(
                 f,
@@ -161,6 +188,9 @@ impl Signals {
     /// ```
     pub fn warnings(&self) -> Vec<Warning> {
         let stats = &self.stats;
+        let fixed = method::is_fixed(self.scene.solver.method);
+        let fixed_step = self.provenance.max_step.filter(|_| fixed);
+        let limit = self.provenance.step_limit;
         let accelerations = stats
             .acceleration_residual
             .filter(|residual| *residual > LARGEST_RESIDUAL)
@@ -168,6 +198,7 @@ impl Signals {
                 residual,
                 stiff_share: stats.stiff_share,
                 rtol: self.provenance.rtol,
+                fixed_step,
             });
         let shoulders = (stats.truncated_contacts > 0).then_some(Warning::Shoulders {
             contacts: stats.truncated_contacts,
@@ -187,7 +218,10 @@ impl Signals {
         let doubts = self.scene.doubts().into_iter().chain(pressure);
         let defects = self.provenance.defects.iter();
         let untouched = defects.filter_map(|of| not_touched(of, self.provenance.duration));
-        [accelerations, shoulders, instructions, unheard]
+        let too_long = fixed_step
+            .filter(|step| *step > limit)
+            .map(|step| Warning::FixedStep { step, limit });
+        [accelerations, shoulders, too_long, instructions, unheard]
             .into_iter()
             .flatten()
             .chain(untouched)

@@ -834,8 +834,11 @@ class Solver(Part):
     max_step : float or None
         Largest step [s]; None: no limit but the one below.
     frequency_cap : bool
-        Whether the step is also kept below a share of the period of the highest contact frequency.
-        Without it, loose tolerances report success with accelerations wrong by 30 % and more.
+        Whether the step is also kept below what the method's stability and accuracy ask for: a share of the
+        period of the highest contact frequency, less for methods of low order where contacts ring undamped; for
+        fixed steps also a share of the time in which friction and damping act (``provenance.step_limit``).
+        Without it, loose tolerances report success with accelerations wrong by 30 % and more, and fixed steps
+        longer than that are warned of.
     reduce : bool
         Whether a run leaves out what does not change the motion: directions without forces, mirror images, slices
         where a closed form says the same.

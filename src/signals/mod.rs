@@ -142,6 +142,8 @@ pub struct Provenance {
     pub settled: f64,
     /// What became of the defects that have a width.
     pub defects: Vec<Touched>,
+    /// Largest step by which the method is stable and accurate in this scene \[s\]; `frequency_cap` keeps below it.
+    pub step_limit: f64,
 }
 
 /// One signal.

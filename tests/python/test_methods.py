@@ -88,3 +88,25 @@ def test_fixed_steps_are_the_largest_allowed() -> None:
     assert verlet.stats.nfev == 501
     with pytest.raises(br.SceneError, match=r"solver\.max_step"):
         run("runge-kutta-4", frequency_cap=False)
+
+
+@pytest.mark.parametrize("method", get_args(Method))
+def test_every_method_runs_with_its_defaults(method: Method) -> None:
+    """Truth: the default at tight tolerance; warnings are errors here."""
+    truth = run("dormand-prince", rtol=1e-9)["outer.ay"]
+    out = run(method)
+    assert np.linalg.norm(out["outer.ay"] - truth) < 0.05 * np.linalg.norm(truth)
+    assert out.provenance.max_step == out.provenance.step_limit
+
+
+def test_a_fixed_step_that_is_too_long_is_told() -> None:
+    with pytest.raises(br.IntegrationError, match=r"smaller max_step \(the step was 1\.0e-5"):
+        br.simulate(
+            br.presets.wheel_bearing().replace(
+                {"solver.frequency_cap": False, "solver.max_step": 1e-5}
+            ),
+            duration=2e-3,
+            method="velocity-verlet",
+        )
+    with pytest.warns(br.AccuracyWarning, match="a fixed step of 4.0e-6 s is longer than"):
+        run("runge-kutta-4", frequency_cap=False, max_step=4e-6)

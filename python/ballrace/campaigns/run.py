@@ -106,9 +106,9 @@ def campaign(
     cases : table
         One row a case: polars, pandas, Arrow, a list of dicts or a dict of columns. Columns with a dot or an
         index are fields of the scene (``loads.axial.force``, ``rows[0].clearance``), as are its own fields;
-        ``duration``, ``fs``, ``start``, ``rtol``, ``accuracy``, ``method``, ``bandwidth`` (``"auto"`` or ``"none"``)
-        and ``settle`` replace the arguments of that name; ``scene`` says which one if there are several. Every
-        other column is a label, and only carried along. An empty cell changes nothing.
+        ``duration``, ``fs``, ``start``, ``rtol``, ``accuracy``, ``method``, ``bandwidth`` (``"auto"`` or
+        ``"none"``) and ``settle`` replace the arguments of that name; ``scene`` says which one if there are
+        several. Every other column is a label, and only carried along. An empty cell changes nothing.
     out : path
         Folder of the campaign, made if it does not exist. With an executor all workers must see it under this
         name.
