@@ -48,7 +48,14 @@ NAMES = {
 
 def scenes() -> dict[str, tuple[br.Scene, list[Approximations]]]:
     """Return scenes by name and what they are simplified by."""
-    spall = Defect(on="outer_race", angle=-1.5708, length=1.5e-3, width=0.8e-3, edge_radius=0.3e-3)
+    spall = Defect(
+        on="outer_race",
+        angle=-1.5708,
+        axial_offset=0.0,
+        length=1.5e-3,
+        width=0.8e-3,
+        edge_radius=0.3e-3,
+    )
     level = br.presets.deep_groove_6205(radial_load=500.0)
     thrust = level.replace({"loads.axial.force": 500.0})
     wheel = br.presets.wheel_bearing(axial_load=3000.0)

@@ -224,7 +224,7 @@ def impact_change(u: Unknowns) -> float:
         }
         out = br.simulate(
             scene(u, load, angle).replace({"probes": probes}),
-            duration=0.06, fs=paper.FS, start="rolling", threads=1,
+            duration=0.06, fs=paper.FS, start="rolling", threads=1, bandwidth=None,
         )  # fmt: skip
         impact.append(paper.dynamic(out).impact)
     return impact[1] / impact[0] - 1.0

@@ -173,6 +173,7 @@ fn run(c: &mut Criterion) {
             threads: 1,
             rtol,
             accuracy,
+            settle: Some(0.0),
             ..Run::default()
         };
         group.bench_function(format!("10 ms of the wheel bearing, {name}"), |b| {

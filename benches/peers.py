@@ -185,7 +185,9 @@ class Wheel:
             changes = {"solver.max_step": step, "solver.frequency_cap": False}
         scene = self.scene.replace(changes)
         scene = scene if probes is None else replace(scene, probes=probes)
-        return br.simulate(scene, duration=duration, fs=FS, start=self.start, rtol=rtol, threads=1)
+        return br.simulate(
+            scene, duration=duration, fs=FS, start=self.start, rtol=rtol, threads=1, bandwidth=None
+        )
 
     def states(self, every: int) -> Array:
         """States along the run, shape (states, dim)."""
@@ -472,7 +474,13 @@ def exudyn_cases(quick: bool) -> list[Case]:
         bounded = scene.replace(changes)
         seconds, out = timed(
             lambda: br.simulate(
-                bounded, duration=duration, fs=FS, start="rolling", rtol=rtol, threads=1
+                bounded,
+                duration=duration,
+                fs=FS,
+                start="rolling",
+                rtol=rtol,
+                threads=1,
+                bandwidth=None,
             )
         )
         return seconds, np.stack([out["inner.ax"], out["inner.ay"]])[:, 1:samples]

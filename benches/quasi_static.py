@@ -63,7 +63,12 @@ def scenes() -> dict[str, br.Scene]:
 
     def spalled(scene: br.Scene, width: float) -> br.Scene:
         spall = Defect(
-            on="outer_race", angle=-0.5 * np.pi, length=4e-3, width=width, edge_radius=0.3e-3
+            on="outer_race",
+            angle=-0.5 * np.pi,
+            axial_offset=0.0,
+            length=4e-3,
+            width=width,
+            edge_radius=0.3e-3,
         )
         return replace(scene, defects={"spall": spall})
 
@@ -270,14 +275,14 @@ def features(x: Array, top: float, bpfo: float) -> dict[str, float]:
 
 def effort(scene: br.Scene, start: Array) -> tuple[float, float]:
     """Return the full model's evaluations a second: default, and twice the largest step at rtol 1e-3."""
-    out = br.simulate(scene, duration=CHECKED, start=start, threads=1)
+    out = br.simulate(scene, duration=CHECKED, start=start, threads=1, bandwidth=None)
     step = 2.0 * float(out.provenance.max_step)
     loose = scene.replace(
         {"solver.rtol": 1e-3, "solver.frequency_cap": False, "solver.max_step": step}
     )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", br.AccuracyWarning)
-        cheap = br.simulate(loose, duration=CHECKED, start=start, threads=1)
+        cheap = br.simulate(loose, duration=CHECKED, start=start, threads=1, bandwidth=None)
     return out.stats.nfev / CHECKED, cheap.stats.nfev / CHECKED
 
 
@@ -289,7 +294,9 @@ def measure(
     nudge = np.zeros_like(start)
     nudge[: start.size // 2] = 1e-12 * np.random.default_rng(1).standard_normal(start.size // 2)
     full, other = (
-        br.simulate(scene, duration=duration, fs=FS, rtol=1e-7, start=y, threads=1)["outer.ay"]
+        br.simulate(scene, duration=duration, fs=FS, rtol=1e-7, start=y, threads=1, bandwidth=None)[
+            "outer.ay"
+        ]
         for y in (start, start + nudge)
     )
     default, loose = effort(scene, start)

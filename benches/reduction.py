@@ -33,7 +33,14 @@ def ladder() -> dict[str, br.Scene]:
         defects={},
         rows=(level.rows[0], replace(level.rows[1], start_angle=level.rows[0].start_angle)),
     )
-    spall = Defect(on="outer_race", angle=-1.5708, length=1.5e-3, width=1e-3, edge_radius=0.3e-3)
+    spall = Defect(
+        on="outer_race",
+        angle=-1.5708,
+        axial_offset=0.0,
+        length=1.5e-3,
+        width=1e-3,
+        edge_radius=0.3e-3,
+    )
     return {
         "6205, no friction": smooth,
         "the same, ISO law": smooth.replace({"contact.law": Iso16281()}),

@@ -101,7 +101,15 @@ def simulate(scene: br.Scene, rtol: float, method: str, seconds: float = math.in
 
     chosen = {} if method == "default" else {"method": method}
     return br.simulate(
-        scene, duration=DURATION, fs=200e3, rtol=rtol, threads=1, progress=patience, **chosen
+        scene,
+        duration=DURATION,
+        fs=200e3,
+        rtol=rtol,
+        threads=1,
+        progress=patience,
+        **chosen,
+        settle=0.0,
+        bandwidth=None,
     )
 
 

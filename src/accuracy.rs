@@ -49,14 +49,13 @@ const LARGEST: f64 = 2.0;
 /// and the evaluations that it took.
 pub(crate) type Pilot<'a> = dyn FnMut(&Scene, &Start) -> Result<(Vec<f64>, usize)> + 'a;
 
-/// Checks a request, and puts tolerance, nodes and step cap into a scene that starts as told.
+/// Puts tolerance, nodes and step cap into a scene that starts as told.
 pub(crate) fn choose(
     requested: f64,
     scene: &mut Scene,
     from: &Start,
     pilot: &mut Pilot<'_>,
 ) -> Result<Accuracy> {
-    check(requested, scene)?;
     let own = scene.contact.slices;
     let fitted = !matches!(own, Slices::Fixed(_));
     let nodes = |count: usize| {
@@ -91,7 +90,8 @@ pub(crate) fn choose(
     })
 }
 
-fn check(requested: f64, scene: &Scene) -> Result<()> {
+/// Refuses what cannot be asked for, of this scene.
+pub(crate) fn check(requested: f64, scene: &Scene) -> Result<()> {
     if !(1e-4..=1e-1).contains(&requested) {
         return Err(Error::scene("accuracy", requested, "1e-4 to 1e-1"));
     }

@@ -1,6 +1,6 @@
 //! When the step collapses: how it is seen, and which contacts did it.
 
-use crate::model::{Degree, Model};
+use crate::model::Model;
 
 /// Steps in a row below the limit that make a collapse.
 const PATIENCE: usize = 1000;
@@ -93,33 +93,22 @@ fn contact(model: &Model, y: &[f64], j: usize, race: usize) -> Option<Culprit> {
     })
 }
 
-/// Two links damp a ball: at most 4 c_c/m.
+/// The links of the cage that damp a ball.
 fn cage(model: &Model, row: usize) -> Option<Culprit> {
-    let damping = model.scene.cage.as_ref()?.damping;
-    let ball = 2 + model.rows[row].first;
-    let mass = model.bodies[ball].mass[0];
-    (damping > 0.0).then(|| Culprit {
+    let rate = model.cage_rate(row);
+    (rate > 0.0).then(|| Culprit {
         name: format!("row{row}.cage"),
-        body: ball,
+        body: 2 + model.rows[row].first,
         state: String::new(),
-        rate: 4.0 * damping / mass,
+        rate,
     })
 }
 
 /// The fastest direction of a body's dampers.
 fn support(model: &Model, index: usize) -> Option<Culprit> {
-    let body = &model.bodies[index];
-    let rates = body
-        .degrees
-        .iter()
-        .zip(body.mass)
-        .map(|(degree, mass)| match degree {
-            Degree::Free { damping, .. } => damping / mass,
-            _ => 0.0,
-        });
-    let rate = rates.fold(0.0, f64::max);
+    let rate = model.support_rate(index);
     (rate > 0.0).then(|| Culprit {
-        name: format!("{}.support", body.name),
+        name: format!("{}.support", model.bodies[index].name),
         body: index,
         state: String::new(),
         rate,

@@ -33,11 +33,15 @@
 //!   in one order; smooth plane rows in one loop, without tables between; forces by name, energies.
 //! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
 //! * `equilibrium` ([`equilibrium()`], [`stiffness()`], [`load_distribution()`]) — the static solve and what follows
-//!   from it; `start` ([`start()`]) — how a run begins.
-//! * `signals` ([`Signals`]) — probes read on a uniform grid from the dense output.
-//! * `residual`, `collapse`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
+//!   from it, the places of defects among it; `start` ([`start()`]) — how a run begins; `settle` — what is left of that
+//!   dies down before t = 0.
+//! * `touched` ([`Touched`]) — which defects balls met in a run, and what their contacts carried there.
+//! * `signals` ([`Signals`]) — probes read from the dense output on a uniform grid, through a low-pass ([`Bandwidth`]).
+//! * `residual`, `collapse`, `runaway`, `ending`, `warning` ([`Warning`]) — whether a run can be believed, who held it
+//!   up, and what its error says.
+//! * `selftest` — whether this processor's vector instructions compute what they should, once a process.
 //! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
-//! * `method` — the method a run asked for, and the switch between two of them.
+//! * `method` — the method a run asked for, and the switch between two of them; `step_limit` — the largest step of each.
 //! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
 //! * `explain` ([`explain()`]) — what a scene is compiled to, what it costs, what would make it cheaper.
 //! * `features` ([`Feature`]) — the few numbers a case is known by: moments, fault lines, contact loads.
@@ -54,8 +58,8 @@
 //! | an approximation | `scene/approximations.rs`, grounds and a reason in `model/reduction/`, an offer in `explain/variants.rs` | `tests/approximations.rs`, a row in `benches/approximations.py` |
 //! | a race profile | `contact/race.rs`, `contact/press.rs` | gap against a closed form |
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
-//! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` | row sums, order of convergence |
-//! | a signal | a variant in `scene/probe.rs`, an arm in `signals.rs` | unit, value at a known state |
+//! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` and in `step_limit.rs` | row sums, order of convergence |
+//! | a signal | a variant in `scene/probe.rs`, two arms in `signals/probes.rs` | unit, value at a known state; filtered or a reading of a state |
 //! | a doubt | a check in `scene/doubt/`, with its source | `tests/doubts.rs`: told, and no ordinary bearing is |
 //! | a feature | a file in `features/`, a line in its `mod.rs` | value of a synthetic signal |
 //!
@@ -73,6 +77,7 @@ mod campaign;
 mod collapse;
 pub mod contact;
 pub mod dynamics;
+mod ending;
 mod equilibrium;
 mod error;
 mod explain;
@@ -82,25 +87,31 @@ mod method;
 mod model;
 mod pool;
 mod residual;
+mod runaway;
 pub mod scene;
+mod selftest;
+mod settle;
 mod signals;
 pub mod simd;
 mod simulate;
 mod start;
+mod step_limit;
+mod touched;
 mod warning;
 
 pub use accuracy::Accuracy;
 pub use campaign::{Case, Finished, Outcome, campaign, stream};
 pub use equilibrium::{
-    BallEquilibrium, ContactEquilibrium, Equilibrium, EquivalentLoads, LoadDistribution, Stiffness,
-    equilibrium, load_distribution, stiffness,
+    BallEquilibrium, ContactEquilibrium, Equilibrium, EquivalentLoads, LoadDistribution, Placed,
+    Stiffness, equilibrium, load_distribution, stiffness,
 };
 pub use error::{Error, Result};
 pub use explain::{ContactKind, Cost, Explanation, LawExplanation, Variant, explain};
 pub use features::{Feature, FeatureOptions, feature_columns};
 pub use model::{Body, Degree, Model, Obstacle, Omission, Reduction, Scales};
 pub use scene::Scene;
-pub use signals::{Column, Provenance, Signals, SliceRow, Statistics};
+pub use signals::{Bandwidth, Column, Provenance, Signals, SliceRow, Statistics};
 pub use simulate::{Run, simulate};
 pub use start::{Start, start};
+pub use touched::Touched;
 pub use warning::Warning;

@@ -9,7 +9,9 @@ use crate::integrate::{
     KENNEDY_CARPENTER, Observer, Options, RUNGE_KUTTA_4, Solution, Statistics, TSITOURAS,
     Tolerance, VERNER, VelocityVerlet, integrate,
 };
+use crate::model::Model;
 use crate::scene::Method;
+use crate::step_limit;
 
 /// Stiffness quotients at which `auto` takes to implicit steps and back to explicit ones. At a quotient of 1
 /// friction begins to hold explicit steps below the cap, and at loose tolerance they report success with wrong
@@ -139,6 +141,10 @@ fn choose<'m, O: Observer<Dynamics<'m>>>(
             ..task
         };
         let (mut solution, done) = if watch.implicit {
+            let part = Task {
+                options: &implicit_options(&options, dynamics.model()),
+                ..part
+            };
             by(&KENNEDY_CARPENTER, dynamics, part, &mut watch)?
         } else {
             by(&DORMAND_PRINCE, dynamics, part, &mut watch)?
@@ -161,6 +167,16 @@ fn choose<'m, O: Observer<Dynamics<'m>>>(
         options.first_step = Some(watch.last);
         whole = Some(solution);
     }
+}
+
+/// The options for implicit steps, which have a cap of their own.
+fn implicit_options(options: &Options, model: &Model) -> Options {
+    let mut options = options.clone();
+    if model.scene().solver.frequency_cap {
+        let most = step_limit::largest(Method::ImplicitFriction, model.scales());
+        options.max_step = options.max_step.min(most);
+    }
+    options
 }
 
 /// Looks at the stiffness now and then, and ends the integration where the other method should go on.

@@ -1,23 +1,25 @@
-//! A run: scene → model → start → integrate → signals. The lines to read first.
+//! A run: scene → model → start → settle → integrate → signals. The lines to read first.
 
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, mpsc};
 use std::time::{Duration, Instant};
 
-use rayon::ThreadPool;
-
 use crate::accuracy;
-use crate::collapse::{Crawl, culprits};
+use crate::collapse::Crawl;
 use crate::dynamics::Dynamics;
+use crate::ending::{self, broken, stopped};
+use crate::equilibrium::place;
 use crate::error::{Error, Result};
-use crate::integrate::{self, DenseStep, Failure, FailureKind, Options, Tolerance};
+use crate::integrate::{self, DenseStep, Options, Tolerance};
 use crate::method::{self, Choice, Task};
 use crate::model::{Model, Reduction};
-use crate::pool::pool;
+use crate::pool::on;
+use crate::runaway;
 use crate::scene::{Drive, Method, SCHEMA, Scene};
-use crate::signals::{Provenance, Recorder, Signals, Statistics};
+use crate::selftest;
+use crate::settle;
+use crate::signals::{Bandwidth, Provenance, Recorder, Sampling, Signals, Statistics};
 use crate::start::{Start, start};
+use crate::step_limit;
 
 /// What to run.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +39,13 @@ pub struct Run {
     pub method: Option<Method>,
     /// Threads that share the balls of one evaluation; 0: as many as pay. The bits are the same for any.
     pub threads: usize,
+    /// Whether signals are filtered before they are sampled.
+    pub bandwidth: Bandwidth,
+    /// Time before t = 0 in which what is left of the start dies down \[s\]; absent: as long as the scene needs from
+    /// equilibrium, 0 from any other start. Loads and drive are then as at t = 0, and rings and cage are wound back, so
+    /// that at t = 0 they stand where the scene says but for what the balls have slipped. From a given state nothing is
+    /// wound back: that state is the one before.
+    pub settle: Option<f64>,
 }
 
 impl Default for Run {
@@ -50,18 +59,14 @@ impl Default for Run {
             accuracy: None,
             method: None,
             threads: 0,
+            bandwidth: Bandwidth::Auto,
+            settle: None,
         }
     }
 }
 
 /// The most that the signals of one run may take \[bytes\].
 const MEMORY_LIMIT: f64 = 8.0 * (1u64 << 30) as f64;
-
-/// Share of the contact mode's 1/ω that a step may reach. Dormand–Prince is stable to 1 on the imaginary
-/// axis and further when damped. Measured on the faulted wheel bearing, 6 ms with an impact, against a tenth
-/// of the step at rtol 1e-9: at 1 the relative error of the outer ring's acceleration is 0.06–0.3 % for any
-/// rtol from 1e-3 to 1e-6; without the cap it is 6 % at rtol 1e-3.
-const STEP_SHARE: f64 = 1.0;
 
 /// How often progress is told, and after how many steps the clock is asked: of a small model's step that would take a
 /// fiftieth.
@@ -86,44 +91,46 @@ pub fn simulate(
     run: &Run,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Signals> {
-    let mut scene = scene.clone();
+    let (scene, placed) = place(scene)?;
+    let mut scene = scene.into_owned();
     scene.solver.rtol = run.rtol.unwrap_or(scene.solver.rtol);
     scene.solver.method = run.method.unwrap_or(scene.solver.method);
-    let accuracy = match (run.accuracy, run.rtol) {
-        (Some(_), Some(rtol)) => {
-            return Err(Error::scene(
-                "rtol",
-                rtol,
-                "absent where `accuracy` is given, which chooses it",
-            ));
-        }
-        (Some(requested), None) => Some(accuracy::choose(
-            requested,
-            &mut scene,
-            &run.start,
-            &mut |scene, from| pilot(scene, from, run, progress),
-        )?),
-        (None, _) => None,
-    };
-    let model = Model::new(&scene)?;
+    if let (Some(_), Some(rtol)) = (run.accuracy, run.rtol) {
+        let allowed = "absent where `accuracy` is given, which chooses it";
+        return Err(Error::scene("rtol", rtol, allowed));
+    }
+    if let Some(requested) = run.accuracy {
+        accuracy::check(requested, &scene)?;
+    }
     let count = samples(run)?;
-    let mut recorder = Recorder::new(&model, run.fs, count);
+    let settled = settle::settle(&scene, run, progress)?;
+    let before = settled.seconds;
+    let accuracy = run.accuracy.map(|requested| {
+        let pilot = &mut |scene: &Scene, from: &Start| pilot(scene, from, run, progress);
+        accuracy::choose(requested, &mut scene, &settled.from, pilot)
+    });
+    let accuracy = accuracy.transpose()?;
+    let (model, distrust) = selftest::trusted(Model::new(&scene)?);
+    let sampling = Sampling::new(run.bandwidth, run.fs, model.scales.frequency)?;
+    let mut recorder = Recorder::new(&model, sampling, count);
     check_memory(run, count, recorder.width())?;
     let threads = threads(&model, run.threads)?;
     let options = options(&model)?;
-    let y0 = start(&model, &run.start)?;
+    let y0 = start(&model, &settled.from)?;
     let reduction = model.reduction(&y0);
     let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);
     recorder.prepare(&dynamics, &y0);
-    let (recorder, stats, choice) = if threads > 1 {
-        let pool = pool(threads)?;
-        let dynamics = dynamics.shared(Arc::clone(&pool));
-        inside(&pool, progress, |progress| {
-            follow(dynamics, recorder, &y0, run.duration, &options, progress)
-        })?
-    } else {
-        follow(dynamics, recorder, &y0, run.duration, &options, progress)?
+    let mut progress =
+        |share: f64| progress((before + share * run.duration) / (before + run.duration));
+    let stretch = Stretch {
+        begins: 0.0,
+        length: run.duration,
     };
+    let (_, mut stats, choice) = on(threads, dynamics, &mut progress, |dynamics, progress| {
+        follow(dynamics, &mut recorder, &y0, stretch, &options, progress)
+    })?;
+    stats.acceleration_residual = recorder.residual.value();
+    (stats.settling_accepted, stats.settling_nfev) = (settled.accepted, settled.nfev);
     let start = match run.start {
         Start::Equilibrium => "equilibrium",
         Start::Rolling => "rolling",
@@ -149,7 +156,13 @@ pub fn simulate(
             states: reduction.as_ref().map_or(model.dim(), Reduction::dim),
             left_out: reduction.map_or_else(Vec::new, |r| r.omissions().to_vec()),
             simd: model.level().name(),
+            distrust,
             architecture: std::env::consts::ARCH,
+            bandwidth: sampling.bandwidth,
+            oversampling: sampling.oversampling,
+            settled: before,
+            defects: recorder.watch.told(&model, &placed),
+            step_limit: step_limit::largest(scene.solver.method, model.scales()),
         },
         scene,
     })
@@ -167,90 +180,104 @@ fn pilot(
         fs: accuracy::FS,
         start: from.clone(),
         accuracy: None,
+        bandwidth: Bandwidth::Raw,
+        settle: Some(0.0),
         ..run.clone()
     };
     let mut out = simulate(scene, &first, &mut |_| progress(0.0))?;
     Ok((out.columns.remove(0).values, out.stats.nfev))
 }
 
-/// Works inside a pool: to enter one takes some 10 µs, to hand out work from inside next to nothing. `progress`
-/// stays on this thread: it may hold a lock that a thread of the pool must not wait for.
-fn inside<T: Send>(
-    pool: &ThreadPool,
-    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
-    work: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlow<()>) -> T + Send,
-) -> T {
-    let (told, listen) = mpsc::channel();
-    let stop = AtomicBool::new(false);
-    let mut result = None;
-    pool.in_place_scope(|scope| {
-        scope.spawn(|_| {
-            // Owned here, so that listening ends with the work.
-            let told = told;
-            result = Some(work(&mut |share| {
-                let _ = told.send(share);
-                if stop.load(Ordering::Relaxed) {
-                    ControlFlow::Break(())
-                } else {
-                    ControlFlow::Continue(())
-                }
-            }));
-        });
-        for share in &listen {
-            if progress(share).is_break() {
-                stop.store(true, Ordering::Relaxed);
-            }
-        }
-    });
-    result.expect("the scope waits for the work")
+/// A time to integrate over: it begins at 0 on the integrator's clock and, maybe before it, on that of the run \[s\].
+#[derive(Clone, Copy)]
+pub(crate) struct Stretch {
+    pub begins: f64,
+    pub length: f64,
 }
 
-/// Integrates and records.
-fn follow(
+/// Sees the first state of a stretch and every accepted step, on the integrator's clock.
+pub(crate) trait Watch: Send {
+    fn first(&mut self, dynamics: &mut Dynamics<'_>, y: &[f64]);
+    fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>);
+
+    /// Until when it wants to see steps of a stretch with this end \[s\].
+    fn until(&self, end: f64) -> f64 {
+        end
+    }
+
+    /// There are no more steps.
+    fn finish(&mut self) {}
+}
+
+impl Watch for Recorder {
+    fn first(&mut self, dynamics: &mut Dynamics<'_>, y: &[f64]) {
+        Recorder::first(self, dynamics, 0.0, y);
+    }
+
+    fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) {
+        Recorder::step(self, dynamics, step);
+    }
+
+    fn until(&self, end: f64) -> f64 {
+        Recorder::until(self, end)
+    }
+
+    fn finish(&mut self) {
+        Recorder::finish(self);
+    }
+}
+
+/// Integrates over a stretch from a state of all bodies; returns the last one.
+pub(crate) fn follow(
     mut dynamics: Dynamics<'_>,
-    mut recorder: Recorder,
+    watch: &mut dyn Watch,
     y0: &[f64],
-    duration: f64,
+    stretch: Stretch,
     options: &Options,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<(Recorder, Statistics, Choice)> {
+) -> Result<(Vec<f64>, Statistics, Choice)> {
+    let Stretch { begins, length } = stretch;
     let model = dynamics.model();
     let begun = Instant::now();
     let mut told = begun;
     let (mut pulls, mut truncated, mut halt) = (0, 0, None);
     let mut crawl = Crawl::new(model, options.max_step);
+    let bounds = runaway::Bounds::new(&dynamics, y0);
     let tolerance = tolerance(&dynamics)?;
     let own = dynamics.compress(y0);
     let (mut last, mut last_time) = (own.clone(), 0.0);
-    recorder.first(&mut dynamics, &own);
+    watch.first(&mut dynamics, &own);
     let mut observe =
         |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, stats: &integrate::Statistics| {
             // The last evaluation was at the accepted state.
             pulls += dynamics.pulls();
             truncated += dynamics.truncated();
             let lost = dynamics.lost();
-            recorder.step(dynamics, step);
+            watch.step(dynamics, step);
             last.copy_from_slice(step.y1());
             last_time = step.t1();
             let crawls = crawl.after(step.h());
-            if let Some(body) = lost {
-                halt = Some((step.t1(), step.h(), Some(body), ESCAPED));
-            } else if crawls {
-                halt = Some((step.t1(), step.h(), None, CRAWLING));
-            }
-            if halt.is_some() {
+            let why = if let Some(body) = lost {
+                Some((Some(body), ending::escaped(model, step.h())))
+            } else if let Some((body, does)) = bounds.left(step.y1()) {
+                Some((Some(body), ending::ran_away(model, &does, step.h())))
+            } else {
+                crawls.then(|| (None, ending::CRAWLING.to_owned()))
+            };
+            if let Some((body, reason)) = why {
+                halt = Some((step.t1(), step.h(), body, reason));
                 return ControlFlow::Break(());
             }
             if stats.accepted.is_multiple_of(ASK_EVERY) && told.elapsed() >= TELL_EVERY {
                 told = Instant::now();
-                return progress(step.t1() / duration);
+                return progress(step.t1() / length);
             }
             ControlFlow::Continue(())
         };
     let solved = method::run(
         &mut dynamics,
         Task {
-            span: (0.0, duration),
+            span: (0.0, length),
             y0: &own,
             tolerance: &tolerance,
             options,
@@ -259,13 +286,17 @@ fn follow(
     );
     let mut full = y0.to_vec();
     dynamics.expand(last_time, &last, &mut full);
-    let (solution, choice) = solved.map_err(|failure| broken(model, &full, &failure))?;
+    let (solution, choice) = solved.map_err(|failure| broken(model, &full, begins, &failure))?;
     if let Some((time, step, body, reason)) = halt {
-        return Err(stopped(model, &full, (time, step), body, reason));
+        return Err(stopped(model, &full, (begins + time, step), body, &reason));
     }
     if solution.interrupted {
-        return Err(Error::Interrupted { time: solution.t });
+        let time = begins + solution.t;
+        return Err(Error::Interrupted { time });
     }
+    let end = (solution.t, &solution.y[..]);
+    let nfev_past_end = go_on(&mut dynamics, watch, end, (&tolerance, options), progress)?;
+    watch.finish();
     let _ = progress(1.0);
     let stats = solution.stats;
     let statistics = Statistics {
@@ -281,13 +312,60 @@ fn follow(
         capped_share: stats.capped as f64 / stats.accepted.max(1) as f64,
         clamped_pulls: pulls,
         truncated_contacts: truncated,
-        acceleration_residual: recorder.residual.value(),
+        acceleration_residual: None,
         wall_time: begun.elapsed().as_secs_f64(),
+        nfev_past_end,
         largest_pressure: model
             .largest_pressure(y0)
             .max(model.largest_pressure(&full)),
+        settling_accepted: 0,
+        settling_nfev: 0,
     };
-    Ok((recorder, statistics, choice))
+    Ok((full, statistics, choice))
+}
+
+/// Follows the motion beyond the end of the run for what the last samples take from there; returns the evaluations.
+/// Where it cannot go on, the samples make do with what there is.
+fn go_on(
+    dynamics: &mut Dynamics<'_>,
+    watch: &mut dyn Watch,
+    (end, y): (f64, &[f64]),
+    (tolerance, options): (&Tolerance, &Options),
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<usize> {
+    let until = watch.until(end);
+    if until <= end {
+        return Ok(0);
+    }
+    let mut crawl = Crawl::new(dynamics.model(), options.max_step);
+    let (mut told, mut stopped) = (Instant::now(), false);
+    let mut observe =
+        |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &integrate::Statistics| {
+            if dynamics.lost().is_some() || crawl.after(step.h()) {
+                return ControlFlow::Break(());
+            }
+            watch.step(dynamics, step);
+            if told.elapsed() >= TELL_EVERY {
+                told = Instant::now();
+                stopped = progress(1.0).is_break();
+            }
+            if stopped {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+    let task = Task {
+        span: (end, until),
+        y0: y,
+        tolerance,
+        options,
+    };
+    let beyond = method::run(dynamics, task, &mut observe);
+    if stopped {
+        return Err(Error::Interrupted { time: end });
+    }
+    Ok(beyond.map_or(0, |(solution, _)| solution.stats.nfev))
 }
 
 /// Number of samples k / fs below the duration.
@@ -332,7 +410,7 @@ fn check_memory(run: &Run, count: usize, width: usize) -> Result<()> {
     Ok(())
 }
 
-fn threads(model: &Model, asked: usize) -> Result<usize> {
+pub(crate) fn threads(model: &Model, asked: usize) -> Result<usize> {
     if asked > 1024 {
         return Err(Error::scene("threads", asked, "at most 1024; 0 chooses"));
     }
@@ -352,7 +430,7 @@ pub(crate) fn options(model: &Model) -> Result<Options> {
     let scene = &model.scene;
     let solver = &scene.solver;
     let cap = if solver.frequency_cap {
-        STEP_SHARE / model.scales.frequency
+        step_limit::largest(solver.method, &model.scales)
     } else {
         f64::INFINITY
     };
@@ -415,46 +493,4 @@ pub(crate) fn tolerance(dynamics: &Dynamics<'_>) -> Result<Tolerance> {
     let group = bodies.clone().chain(bodies).collect();
     Tolerance::new(0.0, atol, &vec![false; 2 * degrees.len()], group)
         .map_err(|invalid| Error::scene("solver.rtol", rtol, invalid.to_string()))
-}
-
-/// Why a run ends though the integrator could go on.
-const ESCAPED: &str =
-    "the ball has left its groove; check loads, clearance and shoulders, or use a smaller rtol";
-const CRAWLING: &str = "the step has collapsed to less than 1e-5 of the contacts' period and stays there; \
-                        raise slip_speed, lower the damping, or soften the contacts";
-
-fn broken(model: &Model, last: &[f64], failure: &Failure) -> Error {
-    let reason = match failure.kind {
-        FailureKind::NonFinite => "a force is not finite; check masses, stiffnesses and loads",
-        FailureKind::TooSmall => {
-            "the step fell below the resolution of time; soften contacts, raise slip_speed or rtol, or try another method"
-        }
-        FailureKind::Invalid(invalid) => invalid.0,
-    };
-    let when = (failure.time, failure.step);
-    stopped(model, last, when, Some(failure.group), reason)
-}
-
-/// The error with what held up the run in its last state: a body's contacts, or the fastest of all.
-fn stopped(
-    model: &Model,
-    last: &[f64],
-    (time, step): (f64, f64),
-    body: Option<usize>,
-    reason: &str,
-) -> Error {
-    let found = culprits(model, last, body);
-    let listed: Vec<String> = found.iter().map(ToString::to_string).collect();
-    let body = body.or(found.first().map(|first| first.body)).unwrap_or(0);
-    Error::Integration {
-        time,
-        step,
-        body: model.bodies[body].name.clone(),
-        reason: if listed.is_empty() {
-            format!("{reason} (no contact touches)")
-        } else {
-            format!("{reason}. Fastest: {}", listed.join(", "))
-        },
-        contacts: found.into_iter().map(|culprit| culprit.name).collect(),
-    }
 }

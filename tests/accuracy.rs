@@ -5,7 +5,7 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use ballrace::scene::{Defect, Friction, Method, Scene, Slices, Surface, presets};
-use ballrace::{Error, Model, Run, Start, simulate, start};
+use ballrace::{Bandwidth, Error, Model, Run, Start, simulate, start};
 use common::{Noise, run};
 
 /// A bearing with a spall on a race that its most loaded ball is about to meet.
@@ -39,7 +39,7 @@ fn random(noise: &mut Noise) -> Scene {
         row: 0,
         ball: None,
         angle,
-        axial_offset: noise.between(-0.5e-3, 0.5e-3),
+        axial_offset: noise.between(-0.5e-3, 0.5e-3).into(),
         length: noise.between(1e-3, 3e-3),
         width: noise.between(0.3e-3, 1.5e-3).into(),
         edge_radius: 0.3e-3,
@@ -73,6 +73,7 @@ fn error_and_horizon(scene: &Scene, accuracy: f64) -> (f64, f64) {
         fs: 100e3,
         start: Start::State(y),
         threads: 1,
+        bandwidth: Bandwidth::Raw,
         ..Run::default()
     };
     let exact = run(&fine, &from(y0.clone()));
@@ -152,6 +153,8 @@ fn the_choice_is_told() {
         duration: 1e-3,
         threads: 1,
         accuracy,
+        bandwidth: Bandwidth::Raw,
+        settle: Some(0.0),
         ..Run::default()
     };
     let (loose, tight) = (
@@ -181,6 +184,7 @@ fn what_cannot_be_asked_is_refused() {
     for accuracy in [0.0, -1.0, 1e-5, 0.5, f64::NAN] {
         let run = Run {
             accuracy: Some(accuracy),
+            settle: Some(0.0),
             ..Run::default()
         };
         assert_eq!(refused(&run), "accuracy");

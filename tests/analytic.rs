@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use ballrace::scene::{
     Defect, Friction, Load, NormalLaw, Probe, RingName, Scene, Slices, Support, Surface, presets,
 };
-use ballrace::{Model, Run, Signals, Start, simulate, start};
+use ballrace::{Bandwidth, Model, Run, Signals, Start, simulate, start};
 
 /// The wheel bearing at +3 kN without its defect.
 fn healthy() -> Scene {
@@ -21,7 +21,7 @@ fn spall(on: Surface, width: f64) -> Defect {
         row: 0,
         ball: (on == Surface::Ball).then_some(1),
         angle: -FRAC_PI_2,
-        axial_offset: 0.5e-3,
+        axial_offset: 0.5e-3.into(),
         length: 3e-3,
         width: width.into(),
         edge_radius: 0.3e-3,
@@ -150,9 +150,10 @@ fn energy_is_kept_without_damping_and_friction() {
                 fs: 100e3,
                 start: Start::Rolling,
                 rtol: Some(1e-9),
-                accuracy: None,
-                method: None,
                 threads: 1,
+                bandwidth: Bandwidth::Raw,
+                settle: Some(0.0),
+                ..Run::default()
             },
         );
         let (e, y, z) = (
@@ -193,6 +194,8 @@ fn symmetries() {
     let short = Run {
         duration: 1e-3,
         threads: 1,
+        bandwidth: Bandwidth::Raw,
+        settle: Some(0.0),
         ..Run::default()
     };
     let (one, two, three) = (
@@ -254,7 +257,7 @@ fn edges_do_not_jump_and_narrow_defects_vanish() {
                 let whole = Model::new(&scene).unwrap();
                 let y = start(&whole, &Start::Equilibrium).unwrap();
                 let mut defect = Defect {
-                    axial_offset: 0.0,
+                    axial_offset: 0.0.into(),
                     ..spall(on, width)
                 };
                 defect.ball = defect.ball.map(|_| 0);
@@ -314,6 +317,8 @@ fn equilibrium_start_is_calm() {
                 duration,
                 start,
                 threads: 1,
+                bandwidth: Bandwidth::Raw,
+                settle: Some(0.0),
                 ..Run::default()
             },
         );
@@ -349,6 +354,8 @@ fn torque_turns_the_ring() {
         &Run {
             duration: 5e-3,
             threads: 1,
+            bandwidth: Bandwidth::Raw,
+            settle: Some(0.0),
             ..Run::default()
         },
     );

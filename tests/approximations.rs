@@ -151,7 +151,7 @@ fn places_speeds_and_rates_belong_together() {
             row: 0,
             ball: Some(3),
             angle: PI,
-            axial_offset: 0.0,
+            axial_offset: 0.0.into(),
             length: 1e-3,
             width: 0.5e-3.into(),
             edge_radius: 0.3e-3,
@@ -398,6 +398,7 @@ fn a_run_tells_what_it_gave_up() {
     let scene = wheel(NormalLaw::iso16281(), FLAT);
     let run = Run {
         duration: 1e-4,
+        settle: Some(0.0),
         ..Run::default()
     };
     let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 20] = [
+const ORDER: [&str; 21] = [
     "error",
     "simd",
     "scene",
@@ -17,6 +17,7 @@ const ORDER: [&str; 20] = [
     "start",
     "accuracy",
     "residual",
+    "touched",
     "signals",
     "warning",
     "collapse",

@@ -120,6 +120,7 @@ fn contact_loads_have_their_extremes() {
     let balls = f64::from(u32::try_from(scene.rows[0].ball_count).unwrap());
     let run = Run {
         duration: 0.01,
+        settle: Some(0.0),
         ..Run::default()
     };
     let options = FeatureOptions {

@@ -11,6 +11,7 @@ fn bits(threads: usize) -> Vec<u64> {
     let run = Run {
         duration: 2e-3,
         threads,
+        settle: Some(0.0),
         ..Run::default()
     };
     let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
@@ -35,6 +36,7 @@ fn effort_is_pinned() {
     let run = Run {
         duration: 1e-3,
         threads: 1,
+        settle: Some(0.0),
         ..Run::default()
     };
     for (scene, steps) in [

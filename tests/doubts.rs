@@ -359,7 +359,7 @@ fn with_everything() -> Scene {
     let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
     let spall = presets::wheel_bearing(0.0).defects["spall"].clone();
     scene.defects.insert("a".to_owned(), spall);
-    scene.defects.get_mut("a").unwrap().axial_offset = 0.0;
+    scene.defects.get_mut("a").unwrap().axial_offset = 0.0.into();
     let unbalance = Unbalance {
         ring: RingName::Inner,
         moment: 1e-4,

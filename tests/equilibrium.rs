@@ -66,7 +66,7 @@ fn a_ball_over_a_spall_is_found() {
                 row: 0,
                 ball: None,
                 angle: -FRAC_PI_2,
-                axial_offset: 0.0,
+                axial_offset: 0.0.into(),
                 length: 4e-3,
                 width: width.into(),
                 edge_radius: 0.1e-3,

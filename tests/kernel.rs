@@ -97,7 +97,7 @@ fn scenes() -> Vec<(String, Scene)> {
                 row: 0,
                 ball,
                 angle: if ball.is_some() { PI } else { -FRAC_PI_2 },
-                axial_offset: 0.5e-3,
+                axial_offset: 0.5e-3.into(),
                 length: 2e-3,
                 width: 1e-3.into(),
                 edge_radius: 0.3e-3,

@@ -266,7 +266,7 @@ fn sink_over_a_sharp_slot() {
             row: 0,
             ball: None,
             angle: 0.0,
-            axial_offset: 0.0,
+            axial_offset: 0.0.into(),
             length: d,
             width: w.into(),
             edge_radius: 1e-9,

@@ -20,7 +20,7 @@ use ballrace::scene::{
     Component, Contact, ContactQuantity, Friction, Material, Mount, NormalLaw, Probe, Row, Scene,
     Support, presets,
 };
-use ballrace::{Model, Run, Signals, Start, simulate, start};
+use ballrace::{Bandwidth, Model, Run, Signals, Start, simulate, start};
 use common::meets;
 
 fn run(scene: &Scene, run: &Run) -> Signals {
@@ -159,6 +159,7 @@ fn orbit_of_loaded_balls_under_500_newtons() {
             duration: 0.1,
             fs: 5e3,
             threads: 1,
+            settle: Some(0.0),
             ..Run::default()
         },
     );
@@ -220,9 +221,10 @@ fn thrown(law: &NormalLaw, outer: bool, damping: f64, speed: f64, fs: f64) -> (V
             fs,
             start: Start::State(y),
             rtol,
-            accuracy: None,
-            method: None,
             threads: 1,
+            bandwidth: Bandwidth::Raw,
+            settle: Some(0.0),
+            ..Run::default()
         },
     );
     // Hunt and Crossley's force never attracts.

@@ -54,7 +54,7 @@ fn time_to_impact(on: Surface, width: f64, shaft: f64, radial: f64) -> f64 {
         ball: None,
         // The inner race overtakes the ball.
         angle: -FRAC_PI_2 - if outer { 0.0 } else { lead },
-        axial_offset: 0.0,
+        axial_offset: 0.0.into(),
         length: 4e-3,
         width: width.into(),
         edge_radius: 10e-6,
@@ -75,6 +75,7 @@ fn time_to_impact(on: Surface, width: f64, shaft: f64, radial: f64) -> f64 {
             fs,
             rtol: Some(1e-7),
             threads: 1,
+            settle: Some(0.0),
             ..Run::default()
         },
     );

@@ -11,7 +11,7 @@ use ballrace::integrate::{
     Tolerance, VERNER, VelocityVerlet, integrate,
 };
 use ballrace::scene::{Friction, Method, presets};
-use ballrace::{Model, Run, Scene, Signals, simulate};
+use ballrace::{Bandwidth, Model, Run, Scene, Signals, simulate};
 
 /// An oscillator rubbed by regularised Coulomb friction against a belt that moves: q' = v,
 /// v' = −q − rate·s·(v − w)/√((v − w)² + s²), w = cos t. Its fastest rate is `rate`.
@@ -336,6 +336,8 @@ fn run(scene: &Scene, method: Method, rtol: f64) -> Signals {
         rtol: Some(rtol),
         method: Some(method),
         threads: 1,
+        bandwidth: Bandwidth::Raw,
+        settle: Some(0.0),
         ..Run::default()
     };
     simulate(scene, &run, &mut |_| ControlFlow::Continue(())).unwrap()
@@ -450,6 +452,8 @@ fn auto_switches_within_a_run() {
         duration: 5e-3,
         method: Some(Method::Auto),
         threads: 1,
+        bandwidth: Bandwidth::Raw,
+        settle: Some(0.0),
         ..Run::default()
     };
     let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
@@ -471,6 +475,7 @@ fn a_fixed_step_must_come_from_somewhere() {
     scene.solver.frequency_cap = false;
     let run = Run {
         duration: 1e-4,
+        settle: Some(0.0),
         ..Run::default()
     };
     let go = |scene: &Scene| simulate(scene, &run, &mut |_| ControlFlow::Continue(()));
@@ -490,6 +495,7 @@ fn implicit_steps_do_not_depend_on_threads() {
             duration: 5e-4,
             method: Some(Method::ImplicitFriction),
             threads,
+            settle: Some(0.0),
             ..Run::default()
         };
         simulate(&scene, &run, &mut |_| ControlFlow::Continue(()))

@@ -11,7 +11,7 @@ use ballrace::scene::{
     Defect, Drive, Friction, Mount, NormalLaw, Profile, Scene, Slices, Surface, TimeFunction,
     Waviness, Width, WidthProfile, presets,
 };
-use ballrace::{Model, Reduction, Run, Start, simulate, start};
+use ballrace::{Bandwidth, Model, Reduction, Run, Start, simulate, start};
 use common::Noise;
 
 /// A healthy deep-groove bearing under a radial load.
@@ -38,7 +38,7 @@ fn spall(on: Surface, axial_offset: f64) -> Defect {
         row: 0,
         ball: (on == Surface::Ball).then_some(0),
         angle: if on == Surface::Ball { PI } else { -FRAC_PI_2 },
-        axial_offset,
+        axial_offset: axial_offset.into(),
         length: 1.5e-3,
         width: 0.8e-3.into(),
         edge_radius: 0.3e-3,
@@ -282,6 +282,7 @@ fn signal(scene: &Scene, reduce: bool, y0: &[f64]) -> [Vec<f64>; 2] {
     let run = Run {
         duration: 2e-3,
         start: Start::State(y0.to_vec()),
+        bandwidth: Bandwidth::Raw,
         ..Run::default()
     };
     let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
@@ -411,6 +412,7 @@ fn nothing_is_left_out_on_request() {
         scene.solver.reduce = reduce;
         let run = Run {
             duration: 1e-4,
+            settle: Some(0.0),
             ..Run::default()
         };
         let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();

@@ -10,7 +10,7 @@ use ballrace::contact::iso16281::Iso16281;
 use ballrace::dynamics::Dynamics;
 use ballrace::integrate::{DORMAND_PRINCE, DenseStep, Options, System, Tolerance, integrate};
 use ballrace::scene::{NormalLaw, Scene};
-use ballrace::{Model, Run, Start, start};
+use ballrace::{Bandwidth, Model, Run, Start, start};
 use common::{ball_mass, one_ball, rms, run, slope};
 
 /// A mass that flies against one slice of the ISO law: ẍ = −F(x)/m.
@@ -254,10 +254,11 @@ fn restitution_stays_positive_and_free_impacts_never_pull() {
                 duration: 0.4e-3,
                 fs: 1e6,
                 start: Start::State(y0),
-                method: None,
-                accuracy: None,
                 rtol: Some(1e-9),
                 threads: 1,
+                bandwidth: Bandwidth::Raw,
+                settle: Some(0.0),
+                ..Run::default()
             },
         );
         let ratio = -out.get("ball.vx").unwrap().last().unwrap() / speed;
@@ -318,6 +319,7 @@ fn a_torn_contact_does_not_pull_and_is_counted() {
                 duration: 20e-6,
                 fs: 10e6,
                 start: Start::State(y),
+                bandwidth: Bandwidth::Raw,
                 ..Run::default()
             },
         );

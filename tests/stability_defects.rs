@@ -139,7 +139,7 @@ fn a_defect_at_the_end_of_the_zone_does_not_jump_on_fitted_nodes() {
             .map(|i| {
                 // The zone of the loaded ball lies between +0.3 and +3.1 mm; the defect comes in from above.
                 scene.defects.get_mut("spall").unwrap().axial_offset =
-                    4.1e-3 - 0.05e-3 * f64::from(i);
+                    (4.1e-3 - 0.05e-3 * f64::from(i)).into();
                 Model::new(&scene).unwrap().contact(&y, 0, 0).load
             })
             .collect();
@@ -218,7 +218,7 @@ fn a_defect_under_an_unloaded_ball_is_not_felt() {
                 row: 0,
                 ball: None,
                 angle: FRAC_PI_2,
-                axial_offset: 0.0,
+                axial_offset: 0.0.into(),
                 length: 1e-3,
                 width: 0.5e-3.into(),
                 edge_radius: 0.2e-3,
@@ -267,7 +267,7 @@ fn at_minus_3_kilonewtons_contact_in_the_faulty_region_is_unstable() {
             out.slices
                 .iter()
                 .filter(|slice| slice.time == time && ball.is_none_or(|ball| slice.ball == ball))
-                .filter(|slice| !region || (slice.z + 11e-3 - spall.axial_offset).abs() < spall.length / 2.0)
+                .filter(|slice| !region || (slice.z + 11e-3 - spall.axial_offset.number().unwrap()).abs() < spall.length / 2.0)
                 .map(|slice| slice.force)
                 .sum()
         };

@@ -5,7 +5,7 @@
 mod common;
 
 use ballrace::scene::{Drive, Friction, NormalLaw, Probe, Profile, Scene, TimeFunction, presets};
-use ballrace::{Model, Run, Start, start};
+use ballrace::{Bandwidth, Model, Run, Start, start};
 use common::{ball_mass, one_ball, run, short, soon_over_the_spall};
 
 fn with_friction(mut scene: Scene, slip_speed: f64) -> Scene {
@@ -38,6 +38,7 @@ fn sticking_is_a_creep_that_falls_with_the_slip_speed() {
             &Run {
                 duration: 2e-3,
                 start: Start::State(y0),
+                bandwidth: Bandwidth::Raw,
                 ..Run::default()
             },
         );
@@ -92,6 +93,8 @@ fn start_stop_and_reversal_roll_on() {
             &driven(ramp(from, to, 10e-3), 0.01),
             &Run {
                 duration: 15e-3,
+                bandwidth: Bandwidth::Raw,
+                settle: Some(0.0),
                 ..Run::default()
             },
         );
@@ -180,7 +183,8 @@ fn a_vanishing_slip_speed_is_warned_of() {
             out.stats.acceleration_residual.unwrap()
         );
         calls.push(out.stats.nfev);
-        assert_eq!(out.warnings().is_empty(), slip_speed > 1e-3);
+        let doubts = out.warnings().iter().any(|w| w.category() == "accuracy");
+        assert_eq!(!doubts, slip_speed > 1e-3);
     }
     assert!(calls[3] < 2 * calls[2]);
 }

@@ -132,6 +132,7 @@ fn balls_leave_and_enter_the_load_zone() {
         &scene,
         &Run {
             duration: 30e-3,
+            settle: Some(0.0),
             ..Run::default()
         },
     );

@@ -119,7 +119,7 @@ fn stiffness_is_the_slope_of_the_equilibrium() {
         row: 0,
         ball: None,
         angle: -FRAC_PI_2,
-        axial_offset: 0.0,
+        axial_offset: 0.0.into(),
         length: 4e-3,
         width: 0.3e-3.into(),
         edge_radius: 0.1e-3,

@@ -65,7 +65,9 @@ def loaded_contacts() -> float:
         f"row{row}": ContactsProbe(row=row, quantities=("load",)) for row in range(len(scene.rows))
     }
     watched = integrated(scene.replace({"probes": probes}), Effort())
-    out = br.simulate(watched, duration=DURATION, fs=FS, start=settled(0.1, TRUE), threads=1)
+    out = br.simulate(
+        watched, duration=DURATION, fs=FS, start=settled(0.1, TRUE), threads=1, bandwidth=None
+    )
     return sum(float(np.mean(out[column] > 0.0)) for column in out)
 
 
@@ -95,7 +97,9 @@ def times_of_evaluation(cuts: Iterable[str], rounds: int) -> dict[str, float]:
     for _ in range(rounds):
         for cut, mine in walls.items():
             scene = integrated(bearing(cut=cut), Effort())
-            out = br.simulate(scene, duration=5e-4, fs=2e3, start=settled(0.1, TRUE), threads=1)
+            out = br.simulate(
+                scene, duration=5e-4, fs=2e3, start=settled(0.1, TRUE), threads=1, bandwidth=None
+            )
             mine.append(float(out.stats.wall_time) / float(out.stats.nfev))
     return {cut: statistics.median(mine) for cut, mine in walls.items()}
 

@@ -73,7 +73,7 @@ def run(cut: str, effort: Effort, seed: int, duration: float) -> dict[str, float
     names = br.Model(scene).names
     places = [i for i, name in enumerate(names) if name.rsplit(".", 1)[1] in {"x", "y", "z"}]
     start[places] += PERTURBATION * np.random.default_rng(seed).standard_normal(len(places))
-    out = br.simulate(scene, duration=duration, fs=FS, start=start, threads=1)
+    out = br.simulate(scene, duration=duration, fs=FS, start=start, threads=1, bandwidth=None)
     return {
         **features(out[COLUMN], scene),
         "evaluations": float(out.stats.nfev),

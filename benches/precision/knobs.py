@@ -44,6 +44,7 @@ def measure(*, quick: bool) -> list[dict[str, Any]]:
                 fs=1e3,
                 start=settled(0.1, "fitted 6"),
                 threads=threads,
+                bandwidth=None,
             )
             walls[point].append(float(out.stats.wall_time))
             evaluations[point] = int(out.stats.nfev)

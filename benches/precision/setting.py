@@ -69,7 +69,7 @@ def integrated(scene: br.Scene, effort: Effort) -> br.Scene:
 @cache
 def largest_step() -> float:
     """Return the default step cap of the bearing [s]."""
-    out = br.simulate(bearing(), duration=2e-5, fs=FS)
+    out = br.simulate(bearing(), duration=2e-5, fs=FS, bandwidth=None)
     return float(out.provenance.max_step)
 
 
@@ -92,7 +92,7 @@ def states(
     model = br.Model(scene)
     probes = {body.replace(".", "_"): MotionProbe(body=body) for body in model.bodies}
     watched = scene.replace({"probes": probes})
-    out = br.simulate(watched, duration=duration, fs=fs, start=start, threads=1)
+    out = br.simulate(watched, duration=duration, fs=fs, start=start, threads=1, bandwidth=None)
     columns = (name.replace(".", "_", name.count(".") - 1) for name in model.names)
     return np.column_stack([out[column] for column in columns])
 
@@ -114,7 +114,9 @@ def truth(slip_speed: float, cut: str) -> Truth:
     else:
         efforts = Effort("dormand-prince", 1e-11, 0.1), Effort("implicit-friction", 1e-11, 0.05)
     one, other = (
-        br.simulate(integrated(scene, e), duration=DURATION, fs=FS, start=start, threads=1)[COLUMN]
+        br.simulate(
+            integrated(scene, e), duration=DURATION, fs=FS, start=start, threads=1, bandwidth=None
+        )[COLUMN]
         for e in efforts
     )
     return Truth(one, error(other, one))
@@ -137,7 +139,9 @@ class Case:
 
     def run(self, fs: float = FS) -> br.Signals:
         """Run it."""
-        out = br.simulate(self.scene, duration=DURATION, fs=fs, start=self.start, threads=1)
+        out = br.simulate(
+            self.scene, duration=DURATION, fs=fs, start=self.start, threads=1, bandwidth=None
+        )
         if fs < FS:
             self.walls.append(float(out.stats.wall_time))
         return out

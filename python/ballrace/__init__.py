@@ -30,7 +30,7 @@ from .explanation import Explanation, explain
 from .model import Model
 from .run import simulate
 from .scene import Scene
-from .signals import Record, Signals
+from .signals import Record, Signals, Touched
 from .statics import (
     Equilibrium,
     LoadDistribution,
@@ -58,6 +58,7 @@ __all__ = [
     "SceneWarning",
     "Signals",
     "Stiffness",
+    "Touched",
     "campaign",
     "equilibrium",
     "explain",

@@ -93,6 +93,8 @@ def simulate(
     method: str | None,
     threads: int,
     progress: Callable[[float], object] | None,
+    bandwidth: str | None,
+    settle: float | None,
 ) -> _Signals: ...
 def campaign(
     cases: Iterable[tuple[str, str]],

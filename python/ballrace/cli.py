@@ -37,8 +37,6 @@ __all__ = ["main"]
 _AXIAL_LOADS = {"axial 0": 0.0, "axial +3 kN": 3000.0, "axial -3 kN": -3000.0}
 _COLUMN = "outer.ay"
 _FS = 50_000.0
-# The start has died down by then [s].
-_SETTLED = 0.02
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -128,11 +126,19 @@ def _parser() -> argparse.ArgumentParser:
         "--accuracy", type=float, help="error of accelerations to stay below, in place of --rtol"
     )
     run.add_argument(
+        "--settle", type=float, metavar="SECONDS",
+        help="time before t = 0 in which the start dies down (default: as long as the scene needs; 0: none)",
+    )  # fmt: skip
+    run.add_argument(
         "--threads",
         type=int,
         default=0,
         help="threads (default: chosen; no influence on the result)",
     )
+    run.add_argument(
+        "--bandwidth", choices=("auto", "none"), default="auto",
+        help="auto: signals through a low-pass of 0.4 fs; none: point samples (default: %(default)s)",
+    )  # fmt: skip
     run.set_defaults(command=_run)
 
     scene = commands.add_parser("scene", help="print a ready-made scene as TOML, to start from")
@@ -216,9 +222,8 @@ def _demo(options: argparse.Namespace) -> None:
 
 
 def _features(out: Signals) -> list[str]:
-    """Root mean square, peak, kurtosis and mean impact of the demo's column, once it has settled."""
-    skip = min(_SETTLED, out.t[-1] / 5.0)
-    signal = out[_COLUMN][out.t >= skip]
+    """Root mean square, peak, kurtosis and mean impact of the demo's column."""
+    signal = out[_COLUMN]
     centred = signal - signal.mean()
     variance = np.mean(centred**2)
     kurtosis = np.mean(centred**4) / variance**2 if variance > 0.0 else np.nan
@@ -275,6 +280,7 @@ def _paper(options: argparse.Namespace) -> None:
         print(paper.dumps(found), end="")
         return
     _print_table(paper.HEADER, paper.rows(found))
+    print(f"\nSignals: {paper.SIGNALS}.")
     print("\nWritten:", *written, sep="\n  ")
     if importlib.util.find_spec("plotly") is None:
         print('\nFor the figures: pip install "ballrace[plot]"')
@@ -291,6 +297,8 @@ def _run(options: argparse.Namespace) -> None:
         accuracy=options.accuracy,
         threads=options.threads,
         progress=True,
+        bandwidth="auto" if options.bandwidth == "auto" else None,
+        settle=options.settle,
     )
     out.write_parquet(options.output)
     print(f"{options.output}: {len(out)} columns, {out.t.size} samples")

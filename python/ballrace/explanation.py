@@ -44,6 +44,10 @@ class Explanation(Record):
         None where no contact is loaded.
     doubts : list of dict
         Numbers that no bearing is likely to have, and columns that cannot change: ``path``, ``value``, ``usual``.
+    defects : list of dict
+        Where defects lie and what contacts carry there at the healthy bearing's equilibrium, the fields as of
+        :class:`ballrace.Touched`; ``passes`` counts the contacts looked at: over a turn of the inner race or the
+        ball past all balls, or of a ball at the angle of a defect on the outer race.
     """
 
     def __init__(self, entries: Mapping[str, Any], text: str) -> None:

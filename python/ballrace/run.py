@@ -36,6 +36,8 @@ def simulate(
     reduce: bool | None = None,
     threads: int = 0,
     progress: bool | Callable[[float], object] | None = None,
+    bandwidth: Literal["auto"] | None = "auto",
+    settle: float | None = None,
 ) -> Signals:
     """Run a scene and record its probes.
 
@@ -70,6 +72,27 @@ def simulate(
     progress : bool or callable, optional
         True shows a bar on a terminal. A callable is given the share done, from 0 to 1, about twenty times
         a second; what it raises stops the run.
+    bandwidth : {"auto"} or None
+        ``"auto"`` reads motion, cage forces and friction torques as finely as the steps go, and decimates them
+        through a linear-phase low-pass: flat within 0.004 dB up to 0.4 `fs`, 83 dB down beyond 0.6 `fs`, without
+        delay. Accelerations are the filtered derivatives of the velocities. Where something jumps, the samples
+        around it ring. For its last samples a run goes on for 14 samples past its end, by a tenth of its
+        duration at most; beyond that, and before t = 0, signals are continued by their odd reflection.
+        Contacts, energies, forces by origin and slices tell a state and are always points.
+
+        None takes point samples of the dense output for all columns, for those who study the integrator. What
+        lies above half the sampling rate is then folded into the band below: of a faulted 6205's acceleration
+        four fifths of the power at 12 kHz.
+
+        ``out.provenance`` tells: ``bandwidth`` [Hz] is 0.4 `fs`, or `fs`/2 where `fs` is so high that no filter
+        was needed, or None; ``oversampling`` is the number of points read a sample.
+    settle : float, optional
+        Time before t = 0 in which what the start leaves may die down [s], at most 1000; 0 switches it off. By
+        default it is as long as the scene needs from equilibrium, at most 0.1 s, and 0 from any other start: a
+        given state is given. ``out.provenance.settled`` tells how long it was, ``out.stats.settling_nfev`` what it
+        cost. Meanwhile loads and drive are as at t = 0 (a driving torque: the initial speed), and rings and cage
+        are wound back, so that at t = 0 they stand where the scene says but for what the balls have slipped. From
+        a given state nothing is wound back.
 
     Returns
     -------
@@ -91,7 +114,8 @@ def simulate(
         The steps do not resolve the contacts, or contacts rode over a shoulder.
     SceneWarning
         The scene is not what it seems to say: a number that no bearing is likely to have, contacts beyond the
-        static load rating (``out.stats.largest_pressure``), columns that cannot change.
+        static load rating (``out.stats.largest_pressure``), columns that cannot change, `fs` below
+        twice the line of a defect.
 
     Examples
     --------
@@ -110,12 +134,34 @@ def simulate(
     if progress is True:
         with Bar(scene.name or "simulating") as bar:
             raw = _core.simulate(
-                document, duration, fs, kind, state, rtol, accuracy, method, threads, bar.show
+                document,
+                duration,
+                fs,
+                kind,
+                state,
+                rtol,
+                accuracy,
+                method,
+                threads,
+                bar.show,
+                bandwidth,
+                settle,
             )
     else:
         callback = progress or None
         raw = _core.simulate(
-            document, duration, fs, kind, state, rtol, accuracy, method, threads, callback
+            document,
+            duration,
+            fs,
+            kind,
+            state,
+            rtol,
+            accuracy,
+            method,
+            threads,
+            callback,
+            bandwidth,
+            settle,
         )
     out = Signals._from_core(raw)
     for category, text in raw["warnings"]:

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 __all__ = [
     "AccurateSlices",
     "Approximations",
+    "AxialOffset",
     "Cage",
     "CageProbe",
     "Component",
@@ -604,6 +605,9 @@ class WidthProfile(Part):
 Width = float | WidthProfile
 """Width of a defect along its length; a plain number is constant [m]."""
 
+AxialOffset = float | Literal["contact"]
+"""Axial place of a defect's middle: a number [m], or where the contact runs (see :class:`Defect`)."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Floor(Part):
@@ -635,8 +639,13 @@ class Defect(Part):
         Ball of the row, from 0; needed for a ball defect, absent otherwise.
     angle : float
         Angular place on the body, counter-clockwise from its own x axis [rad].
-    axial_offset : float
-        Axial place of the middle, from the row's plane (races) or the ball's centre [m].
+    axial_offset : AxialOffset
+        Axial place of the middle, from the row's plane (races) or the ball's centre [m]. ``"contact"`` places it
+        where the contact runs that it is there for: the most loaded of those that meet it over a turn of the
+        balls, at the static equilibrium of the healthy bearing under the largest value of every load. Of a
+        defect on the outer race that is a ball's at the defect's own angle; of one on a ball, its contact with
+        the race that loads it more. Without equilibrium or load it is the place of the nominal contact angle.
+        A run records the number in ``out.scene`` and tells in ``out.defects`` where it comes from.
     length : float
         Axial length [m].
     width : Width
@@ -651,7 +660,7 @@ class Defect(Part):
     row: int = 0
     ball: int | None = None
     angle: float
-    axial_offset: float = 0.0
+    axial_offset: AxialOffset = "contact"
     length: float
     width: Width
     edge_radius: float
@@ -663,7 +672,7 @@ class Defect(Part):
 
 @dataclass(frozen=True, kw_only=True)
 class MotionProbe(Variant, tag="motion"):
-    """Position, velocity and acceleration of a body: columns ``<probe>.x`` and so on.
+    """Position, velocity and acceleration of a body: columns ``<probe>.x`` and so on, filtered.
 
     Attributes
     ----------
@@ -679,7 +688,7 @@ class MotionProbe(Variant, tag="motion"):
 
 @dataclass(frozen=True, kw_only=True)
 class ContactsProbe(Variant, tag="contacts"):
-    """What happens between balls and races: columns ``<probe>.ball3.outer.load`` and so on.
+    """What happens between balls and races: columns ``<probe>.ball3.outer.load`` and so on, as points in time.
 
     Attributes
     ----------
@@ -701,7 +710,7 @@ class ContactsProbe(Variant, tag="contacts"):
 
 @dataclass(frozen=True, kw_only=True)
 class CageProbe(Variant, tag="cage"):
-    """Force of every cage link of a row, positive in tension: columns ``<probe>.link0``, … [N].
+    """Force of every cage link of a row, positive in tension: columns ``<probe>.link0``, … [N], filtered.
 
     Attributes
     ----------
@@ -714,17 +723,21 @@ class CageProbe(Variant, tag="cage"):
 
 @dataclass(frozen=True, kw_only=True)
 class EnergyProbe(Variant, tag="energy"):
-    """Energies [J] and dissipated powers [W]."""
+    """Energies [J] and dissipated powers [W], as points in time."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class TorqueProbe(Variant, tag="torque"):
-    """Friction torque about z that the balls put on each ring: ``<probe>.outer``, ``<probe>.inner`` [N m]."""
+    """Friction torque about z that the balls put on each ring: ``<probe>.outer``, ``<probe>.inner`` [N m].
+
+    It is filtered, and takes an evaluation of the model at every point that the filter reads: a run of the wheel
+    bearing takes a sixth longer.
+    """
 
 
 @dataclass(frozen=True, kw_only=True)
 class ForcesProbe(Variant, tag="forces"):
-    """The forces on a body by origin: ``<probe>.contact.x`` and so on [N], about z [N m].
+    """The forces on a body by origin: ``<probe>.contact.x`` and so on [N], about z [N m], as points in time.
 
     Attributes
     ----------
@@ -821,8 +834,11 @@ class Solver(Part):
     max_step : float or None
         Largest step [s]; None: no limit but the one below.
     frequency_cap : bool
-        Whether the step is also kept below a share of the period of the highest contact frequency.
-        Without it, loose tolerances report success with accelerations wrong by 30 % and more.
+        Whether the step is also kept below what the method's stability and accuracy ask for: a share of the
+        period of the highest contact frequency, less for methods of low order where contacts ring undamped; for
+        fixed steps also a share of the time in which friction and damping act (``provenance.step_limit``).
+        Without it, loose tolerances report success with accelerations wrong by 30 % and more, and fixed steps
+        longer than that are warned of.
     reduce : bool
         Whether a run leaves out what does not change the motion: directions without forces, mirror images, slices
         where a closed form says the same.

@@ -7,16 +7,17 @@ import difflib
 import io
 import json
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._files import whole
 from .errors import SceneError
-from .scene import Scene
+from .scene import Scene, Surface
 
 if TYPE_CHECKING:
     import os
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
     from ._core import _Signals
 
-__all__ = ["Record", "Signals"]
+__all__ = ["Record", "Signals", "Touched"]
 
 _FORMAT = "1"
 
@@ -67,6 +68,46 @@ class Record(Mapping[str, Any]):
     def to_dict(self) -> dict[str, Any]:
         """Return the entries as plain dicts."""
         return {k: v.to_dict() if isinstance(v, Record) else v for k, v in self.items()}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Touched:
+    """What became of a defect in a run.
+
+    Attributes
+    ----------
+    name : str
+        Name of the defect.
+    on : {"outer_race", "inner_race", "ball"}
+        Which surface.
+    axial_offset : float
+        Axial place of its middle, from the row's plane (races) or the ball's centre [m].
+    placed : {"given", "contact", "nominal"}
+        Where that number comes from: the scene, the contacts at equilibrium, or the nominal contact angle since
+        there is no equilibrium or no load.
+    passes : int
+        How often a ball came by: a contact of the race, or one of the ball's two contacts, passed over its arc.
+    touched : int
+        In how many of these a contact was loaded within its length.
+    largest_load : float
+        Largest normal force of a contact within its length [N].
+    contact_offset : float or None
+        Where the most loaded contact ran that passed, measured as `axial_offset` [m]; None without load.
+    """
+
+    name: str
+    on: Surface
+    axial_offset: float
+    placed: Literal["given", "contact", "nominal"]
+    passes: int
+    touched: int
+    largest_load: float
+    contact_offset: float | None
+
+    @property
+    def share(self) -> float | None:
+        """Share of the passes that touched it, 0 to 1; None without a pass."""
+        return self.touched / self.passes if self.passes else None
 
 
 class Signals(Mapping[str, NDArray[np.float64]]):
@@ -192,6 +233,12 @@ class Signals(Mapping[str, NDArray[np.float64]]):
         return self._provenance
 
     @property
+    def defects(self) -> Mapping[str, Touched]:
+        """What became of the defects that have a width, by their names: whether contacts met them."""
+        told = self._provenance.to_dict()["defects"]
+        return MappingProxyType({defect["name"]: Touched(**defect) for defect in told})
+
+    @property
     def accuracy(self) -> Record | None:
         """What a requested accuracy chose and what error it expects of that; None where none was asked for.
 
@@ -204,7 +251,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Reasons to look twice, as :class:`ballrace.AccuracyWarning` told them; usually none."""
+        """Reasons to look twice, as :class:`AccuracyWarning` and :class:`SceneWarning` told them; usually none."""
         return self._warnings
 
     @property

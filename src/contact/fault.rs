@@ -76,6 +76,13 @@ impl Fault {
         wrapped(self.angle - direction).abs() <= self.reach
     }
 
+    /// Whether the surface is absent at an axial place where it has this radius, in a direction this far from the
+    /// fault's own \[rad\].
+    pub(crate) fn covers(&self, z: f64, radius: f64, aside: f64) -> bool {
+        self.arc(z, radius, self.angle + aside)
+            .is_some_and(|arc| arc.low.angle <= 0.0 && arc.high.angle >= 0.0)
+    }
+
     /// The arc at an axial place where the surface has this radius, seen from a direction.
     fn arc(&self, z: f64, radius: f64, direction: f64) -> Option<Arc> {
         let from_middle = z - self.middle;

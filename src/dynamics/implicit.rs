@@ -174,7 +174,7 @@ mod tests {
         (wheel.cage, hertz.cage) = (None, None);
         // Under a loaded ball at the start.
         let spall = wheel.defects.get_mut("spall").unwrap();
-        (spall.angle, spall.axial_offset) = (-1.6, 2.0e-3);
+        (spall.angle, spall.axial_offset) = (-1.6, 2.0e-3.into());
         hertz.friction = Friction::Stribeck {
             static_coefficient: 0.12,
             kinetic_coefficient: 0.05,

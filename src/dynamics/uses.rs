@@ -54,6 +54,11 @@ impl Dynamics<'_> {
         ]
     }
 
+    /// Whether the contacts of a row have a part in the motion.
+    pub(crate) fn evaluates(&self, row: usize) -> bool {
+        self.contacts.rows().contains(&row) || self.contacts.is_mirrored()
+    }
+
     /// How the contacts of a row with outer (0) or inner race are evaluated where nothing is in their way.
     pub(crate) fn evaluation(&self, row: usize, side: usize) -> String {
         if !self.contacts.rows().contains(&row) {

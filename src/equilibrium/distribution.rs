@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
-use super::{Equilibrium, doubts, equilibrium};
+use super::{Equilibrium, doubts, equilibrium, place};
 use crate::error::{Error, Result};
 use crate::scene::{Row, Scene, Surface};
 
@@ -56,8 +56,14 @@ pub fn load_distribution(scene: &Scene, positions: usize) -> Result<LoadDistribu
         return Err(Error::scene("positions", "0", "at least 1 per ball pitch"));
     }
     scene.validate()?;
+    // Once for all positions: a defect does not move as the cage turns.
+    let (scene, _) = place(scene)?;
     let most = scene.rows.iter().map(|row| row.ball_count).max();
-    let pitches = if repeats(scene) { 1 } else { most.unwrap_or(1) };
+    let pitches = if repeats(&scene) {
+        1
+    } else {
+        most.unwrap_or(1)
+    };
     let range = if pitches == 1 {
         TAU / most.unwrap_or(1) as f64
     } else {
@@ -70,13 +76,13 @@ pub fn load_distribution(scene: &Scene, positions: usize) -> Result<LoadDistribu
     let equilibria = turn
         .iter()
         .map(|turn| {
-            let mut turned = scene.clone();
+            let mut turned = scene.clone().into_owned();
             for row in &mut turned.rows {
                 row.start_angle += turn;
             }
             let mut found = equilibrium(&turned)?;
             // Those of the scene that was given: the angle of a turned one says nothing.
-            found.doubts = doubts(scene, &found);
+            found.doubts = doubts(&scene, &found);
             Ok(found)
         })
         .collect::<Result<Vec<_>>>()?;

@@ -10,12 +10,13 @@
 //! held: loose balls leave the race that no longer presses them, and often hang between the races on the cage.
 //!
 //! What follows from it: [`stiffness()`], which the rings' Newton solve forms anyway, and [`load_distribution`] over
-//! a turn of the cage.
+//! a turn of the cage. So does the place of a defect that is to lie where contacts run.
 
 mod ball;
 mod cage;
 mod distribution;
 mod guess;
+mod place;
 mod problem;
 mod rings;
 mod search;
@@ -28,6 +29,8 @@ use crate::error::Result;
 use crate::model::Model;
 use crate::scene::{Doubt, Scene};
 pub use distribution::{EquivalentLoads, LoadDistribution, load_distribution};
+pub use place::Placed;
+pub(crate) use place::{Meeting, place};
 use problem::Problem;
 pub use stiffness::{Stiffness, stiffness};
 
@@ -118,9 +121,18 @@ pub fn equilibrium(scene: &Scene) -> Result<Equilibrium> {
     Ok(solve(&model)?.describe(&model))
 }
 
-/// Positions of the equilibrium in a state vector with zero velocities.
+/// Positions of the equilibrium in a state vector with zero velocities. Where rings and rows are to keep their axial
+/// places, those of the equilibrium with balls that move along z tell which, and the rest balances anew: balls that
+/// share one place would else be pressed more or less than they bear.
 pub(crate) fn positions(model: &Model) -> Result<Vec<f64>> {
-    solve(model).map(|solved| solved.y)
+    let solved = solve(model)?;
+    let Some(levels) = model.levels(&solved.y) else {
+        return Ok(solved.y);
+    };
+    let (outer, inner) = (&solved.y[..3], &solved.y[4..7]);
+    let mut rings = SVector::from_fn(|i, _| if i < 3 { outer[i] } else { inner[i - 3] });
+    (rings[2], rings[5]) = (levels[0], levels[1]);
+    solve_from(Problem::in_planes(model, levels), rings).map(|solved| solved.y)
 }
 
 /// What the solver found.

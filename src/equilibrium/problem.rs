@@ -25,6 +25,8 @@ pub(super) struct Problem<'m> {
     pub(super) magnitude: f64,
     /// How far the contacts of each row's balls give.
     pub(super) springs: Vec<RowSpring>,
+    /// Axial places that outer ring, inner ring and the rows keep, where they do.
+    pub(super) levels: Option<Vec<f64>>,
 }
 
 impl<'m> Problem<'m> {
@@ -88,7 +90,22 @@ impl<'m> Problem<'m> {
                 .iter()
                 .map(|row| RowSpring::of(model, row))
                 .collect(),
+            levels: None,
         }
+    }
+
+    /// The same where rings and rows keep their axial places: the outer ring's, the inner one's, the rows'.
+    pub(super) fn in_planes(model: &'m Model, levels: Vec<f64>) -> Self {
+        let mut problem = Self::new(model);
+        problem.free.retain(|i| i % 3 != 2);
+        problem.levels = Some(levels);
+        problem
+    }
+
+    /// The axial place that a ball keeps, if it does.
+    fn level(&self, j: usize) -> Option<f64> {
+        let row = self.model.balls[j].row;
+        self.levels.as_ref().map(|levels| levels[2 + row])
     }
 
     /// A typical contact stiffness.
@@ -114,6 +131,8 @@ impl<'m> Problem<'m> {
     ) -> BallState {
         let ball = &self.model.balls[j];
         let direction = self.directions[j];
+        let level = self.level(j);
+        let place = Vector2::new(place.x, level.unwrap_or(place.y));
         let centre = Vector3::new(direction.x * place.x, direction.y * place.x, place.y);
         let from_rings = [0, 3].map(|k| centre - rings.fixed_rows::<3>(k));
         let contacts = [0, 1].map(|race| {
@@ -133,6 +152,10 @@ impl<'m> Problem<'m> {
             } else {
                 force.y += pull;
             }
+        }
+        if level.is_some() {
+            // What keeps the ball in its plane.
+            force.y = 0.0;
         }
         BallState {
             place,
@@ -168,6 +191,9 @@ impl<'m> Problem<'m> {
         }
         axial += degrees[2].stiffness();
         radial += self.cage_spring[j].stiffness();
+        if self.level(j).is_some() {
+            return Matrix2::from_diagonal(&Vector2::new(radial, self.stiffness()));
+        }
         Matrix2::new(
             radial,
             x * k[(0, 2)] + y * k[(1, 2)],
@@ -191,6 +217,10 @@ impl<'m> Problem<'m> {
                 (pulled[(0, a)], pulled[(1, a)]) = (x * k[(0, i)] + y * k[(1, i)], k[(2, i)]);
                 (pulling[(a, 0)], pulling[(a, 1)]) = (x * k[(i, 0)] + y * k[(i, 1)], k[(i, 2)]);
             }
+        }
+        if self.level(j).is_some() {
+            pulled.row_mut(1).fill(0.0);
+            pulling.column_mut(1).fill(0.0);
         }
         (pulled, pulling)
     }

@@ -4,16 +4,19 @@ mod cost;
 mod law;
 mod variants;
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::Serialize;
 
 use crate::dynamics::Dynamics;
 use crate::equilibrium::describe;
+use crate::equilibrium::{Meeting, Placed, place};
 use crate::error::Result;
 use crate::model::{Model, Obstacle, Omission, Reduction};
 use crate::scene::{Doubt, Scene};
 use crate::start::{Start, start};
+use crate::touched::{Touched, compiled, is_there};
 
 pub use cost::Cost;
 pub use law::LawExplanation;
@@ -50,6 +53,9 @@ pub struct Explanation {
     pub law: Option<LawExplanation>,
     /// What is unusual about the scene, and about the pressure in its contacts.
     pub doubts: Vec<Doubt>,
+    /// Where defects are placed, and what contacts carry there at the healthy bearing's equilibrium: over a turn of
+    /// the inner race or the ball past all balls; of one on the outer race with a ball at its angle.
+    pub defects: Vec<Touched>,
 }
 
 /// How the contacts of a race are evaluated.
@@ -77,7 +83,8 @@ pub struct ContactKind {
 /// # Errors
 /// As [`crate::simulate()`].
 pub fn explain(scene: &Scene) -> Result<Explanation> {
-    let model = Model::new(scene)?;
+    let (scene, placed) = place(scene)?;
+    let model = Model::new(&scene)?;
     let y0 = start(&model, &Start::Equilibrium)?;
     let reduction = model.reduction(&y0);
     let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);
@@ -103,11 +110,35 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         cost,
         law: law::of(&model, &at_start),
         doubts: at_start.doubts,
+        defects: defects(&scene, &placed)?,
     })
 }
 
 fn listed<T: Clone>(reduction: Option<&Reduction>, list: fn(&Reduction) -> &[T]) -> Vec<T> {
     reduction.map_or_else(Vec::new, |reduction| list(reduction).to_vec())
+}
+
+/// What contacts at equilibrium carry within the defects of a scene.
+fn defects(scene: &Scene, placed: &BTreeMap<String, Placed>) -> Result<Vec<Touched>> {
+    let mut all = Vec::new();
+    for (name, defect) in scene.defects.iter().filter(|(_, of)| is_there(of)) {
+        let mut told = Touched::not_yet(name, defect, placed[name]);
+        if let Some(Meeting { model, y, contacts }) = Meeting::of(scene, defect)? {
+            let (fault, origin) = compiled(&model, defect);
+            let mut most = 0.0;
+            for of in contacts {
+                let found = model.load_within(&y, of, &fault, defect.on, 0.0);
+                told.passes += 1;
+                told.touched += usize::from(found.within > 0.0);
+                told.largest_load = told.largest_load.max(found.within);
+                if found.load > most {
+                    (most, told.contact_offset) = (found.load, Some(found.place - origin));
+                }
+            }
+        }
+        all.push(told);
+    }
+    Ok(all)
 }
 
 fn contacts(model: &Model, dynamics: &Dynamics<'_>) -> Vec<ContactKind> {
@@ -152,6 +183,12 @@ impl fmt::Display for Explanation {
         if let Some(law) = &self.law {
             writeln!(f, "law        {law}")?;
         }
+        if !self.defects.is_empty() {
+            writeln!(f, "defects    at equilibrium")?;
+        }
+        for defect in &self.defects {
+            writeln!(f, "  {}", in_words(defect))?;
+        }
         for (name, forces) in [
             ("evaluated", &self.evaluated),
             ("set once", &self.constant),
@@ -190,4 +227,28 @@ impl fmt::Display for Explanation {
         }
         Ok(())
     }
+}
+
+/// Where a defect lies, why there, and whether contacts meet it.
+fn in_words(defect: &Touched) -> String {
+    let Touched { name, .. } = defect;
+    let place = 1e3 * defect.axial_offset;
+    let from = match defect.placed {
+        Placed::Given => "as given",
+        Placed::Contact => "where contacts run",
+        Placed::Nominal => "at the nominal contact angle, for no contact is loaded",
+    };
+    let met = match (defect.passes, defect.touched) {
+        (0, _) => "no equilibrium tells whether it is touched".to_owned(),
+        (_, 0) => match defect.contact_offset {
+            Some(run) => format!("not touched: contacts run at {:.3} mm", 1e3 * run),
+            None => "not touched: no contact is loaded there".to_owned(),
+        },
+        (1, _) => format!("touched with up to {:.3} N", defect.largest_load),
+        (passes, touched) => format!(
+            "touched in {touched} of {passes} contacts with up to {:.3} N",
+            defect.largest_load
+        ),
+    };
+    format!("{name}: at {place:.3} mm, {from}; {met}")
 }

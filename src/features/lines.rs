@@ -1,119 +1,234 @@
-//! Lines at the fault frequencies of the rows.
-
-use std::f64::consts::TAU;
+//! Lines at the fault frequencies of the rows, with their harmonics and sidebands.
 
 use rustfft::FftPlanner;
 
 use super::Feature;
+use super::shaft::Shaft;
 use super::spectrum::{Spectrum, squared_envelope};
-use crate::scene::{Drive, Row, Scene};
-
-const NAMES: [&str; 4] = ["ftf", "bpfo", "bpfi", "bsf"];
+use crate::scene::Row;
 
 /// A line is sought this far from its kinematic frequency: the operating contact angle differs from the
 /// nominal one, by 10° at most, and the balls slip a little.
-const SHARE: f64 = 0.02;
+pub(super) const SHARE: f64 = 0.02;
 
 /// A line nearer to 0 than this many bins drowns in the Hann window's main lobe around it.
 const BINS: f64 = 2.0;
 
-/// Fault frequencies of every row \[Hz\]: cage (FTF), balls passing a place of the outer and of the inner race
-/// (BPFO, BPFI), spin of a ball (BSF). Absent where the speed is not known beforehand or changes by more than
-/// the width in which a line is sought.
-pub(super) fn fault_frequencies(scene: &Scene, from: f64, to: f64) -> Vec<Option<[f64; 4]>> {
-    let shaft = shaft_frequency(scene, from, to);
-    let rows = scene.rows.iter();
-    rows.map(|row| shaft.map(|shaft| orders(row).map(|order| order * shaft)))
-        .collect()
+/// Harmonics of a line that are added up, itself the first.
+const HARMONICS: u8 = 3;
+
+/// The line of a fault.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Fault {
+    pub name: &'static str,
+    /// In turns of the shaft.
+    pub order: f64,
+    /// Distance of its sidebands, where what turns past the load makes it stronger and weaker: the shaft for the inner
+    /// race, the cage for a ball.
+    sidebands: Option<f64>,
 }
 
-/// Mean of the given speed over a part of the run \[Hz\].
-fn shaft_frequency(scene: &Scene, from: f64, to: f64) -> Option<f64> {
-    let Drive::Speed(speed) = &scene.drive else {
-        return None;
+/// The faults of a row by their kinematic orders: the cage's, those of balls that pass a place of the outer and of the inner
+/// race, and of places of a ball that pass a race: it meets both in a turn, so twice the ball's spin.
+pub(super) fn faults(row: &Row) -> [Fault; 4] {
+    let [ftf, bpfo, bpfi, bsf] = row.orders();
+    let fault = |name, order, sidebands| Fault {
+        name,
+        order,
+        sidebands,
     };
-    let places = (0..=1000).map(|i| from + (to - from) * f64::from(i) / 1000.0);
-    let speeds: Vec<f64> = places.map(|t| speed.at(t) / TAU).collect();
-    let mean = speeds.iter().sum::<f64>() / speeds.len() as f64;
-    let steady = speeds
-        .iter()
-        .all(|s| (s - mean).abs() <= SHARE * mean.abs());
-    steady.then_some(mean.abs())
-}
-
-/// Kinematic orders of a row at its nominal contact angle, outer ring at rest, with γ = D cos α / d_m:
-/// FTF (1 − γ)/2, BPFO Z(1 − γ)/2, BPFI Z(1 + γ)/2, BSF d_m/2D (1 − γ²).
-fn orders(row: &Row) -> [f64; 4] {
-    let gamma = row.ball_diameter * row.contact_angle.cos() / row.pitch_diameter;
-    let count = row.ball_count as f64;
     [
-        (1.0 - gamma) / 2.0,
-        count * (1.0 - gamma) / 2.0,
-        count * (1.0 + gamma) / 2.0,
-        row.pitch_diameter / (2.0 * row.ball_diameter) * (1.0 - gamma * gamma),
+        fault("ftf", ftf, None),
+        fault("bpfo", bpfo, None),
+        fault("bpfi", bpfi, Some(1.0)),
+        fault("2bsf", 2.0 * bsf, Some(ftf)),
     ]
 }
 
-/// Lines of a signal and of its squared envelope at the frequencies of every row.
+/// Lines of a signal and of its squared envelope at the frequencies of every row; without values where the speed of the
+/// shaft is not known.
 pub(super) fn of(
     planner: &mut FftPlanner<f64>,
     name: &str,
     x: &[f64],
-    fs: f64,
-    band: Option<[f64; 2]>,
-    faults: &[Option<[f64; 4]>],
+    (fs, band): (f64, Option<[f64; 2]>),
+    shaft: Option<&Shaft>,
+    rows: &[Row],
 ) -> Vec<Feature> {
-    let bin = fs / x.len() as f64;
-    let plain = Spectrum::new(planner, x, fs);
-    let envelope = {
+    let spectra = shaft.map(|shaft| {
         let envelope = squared_envelope(planner, x, fs, band);
-        Spectrum::new(planner, &envelope, fs)
-    };
+        let mut spectrum = |x: &[f64]| {
+            let (x, rate) = shaft.by_angle(x, fs);
+            let bin = rate / x.len() as f64;
+            (Spectrum::new(planner, &x, rate), shaft.frequency(), bin)
+        };
+        [spectrum(x), spectrum(&envelope)]
+    });
     let mut found = Vec::new();
-    for (row, frequencies) in faults.iter().enumerate() {
-        for (i, fault) in NAMES.iter().enumerate() {
-            let near = frequencies
-                .map(|f| (f[i], (SHARE * f[i]).max(bin)))
-                .filter(|(f, width)| *f >= BINS * bin && f + width + bin < fs / 2.0);
-            for (suffix, spectrum) in [("", &plain), ("_envelope", &envelope)] {
-                found.push(Feature {
-                    name: format!("{name}.row{row}.{fault}{suffix}"),
-                    value: near.map(|(f, width)| spectrum.highest(f - width, f + width)),
+    for (row, of) in rows.iter().enumerate() {
+        for fault in faults(of) {
+            for (i, suffix) in ["", "_envelope"].into_iter().enumerate() {
+                let lines = spectra.as_ref().map(|spectra| {
+                    let (spectrum, shaft, bin) = &spectra[i];
+                    Lines::of(&fault, spectrum, *shaft, *bin)
                 });
+                let prefix = format!("{name}.row{row}.{}{suffix}", fault.name);
+                found.extend(Lines::features(lines.flatten(), &prefix, &fault));
             }
         }
     }
     found
 }
 
+/// What stands in a spectrum at a fault's frequency.
+struct Lines {
+    line: f64,
+    /// Root of the sum of the squares of the line and its harmonics.
+    harmonics: f64,
+    /// The same of the two sidebands.
+    sidebands: f64,
+}
+
+impl Lines {
+    /// In a spectrum over units in which the shaft has a frequency and a record has a bin. Absent where the record is too
+    /// short for the line, or sampled too slowly.
+    fn of(fault: &Fault, spectrum: &Spectrum, shaft: f64, bin: f64) -> Option<Self> {
+        let near = fault.order * shaft;
+        let width = (SHARE * near).max(bin);
+        let top = spectrum.top();
+        if near < BINS * bin || near + width + bin >= top {
+            return None;
+        }
+        let (place, line) = spectrum.highest(near - width, near + width);
+        let beside = |f: f64| {
+            let inside = f >= BINS * bin && f + 2.0 * bin < top;
+            inside.then(|| spectrum.highest(f - bin, f + bin).1.powi(2))
+        };
+        let sum = |places: &[f64]| places.iter().copied().filter_map(beside).sum::<f64>();
+        let higher: Vec<f64> = (2..=HARMONICS).map(|k| place * f64::from(k)).collect();
+        let distance = fault.sidebands.unwrap_or(0.0) * shaft;
+        Some(Self {
+            line,
+            harmonics: (line * line + sum(&higher)).sqrt(),
+            sidebands: sum(&[place - distance, place + distance]).sqrt(),
+        })
+    }
+
+    fn features(lines: Option<Self>, prefix: &str, fault: &Fault) -> Vec<Feature> {
+        let feature = |suffix: &str, value: fn(&Self) -> f64| Feature {
+            name: format!("{prefix}{suffix}"),
+            value: lines.as_ref().map(value),
+        };
+        let mut features = vec![
+            feature("", |lines| lines.line),
+            feature("_harmonics", |lines| lines.harmonics),
+        ];
+        if fault.sidebands.is_some() {
+            features.push(feature("_sidebands", |lines| lines.sidebands));
+        }
+        features
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
-    use crate::scene::presets;
+    use crate::scene::{Drive, Profile, Scene, TimeFunction, presets};
+
+    fn scene() -> Scene {
+        presets::deep_groove_6205(500.0, 0.0, 1800.0)
+    }
+
+    fn lines(scene: &Scene, x: &[f64], fs: f64) -> impl Fn(&str) -> Option<f64> + use<> {
+        let shaft = Shaft::of(scene, 0.0, x.len(), fs);
+        let planner = &mut FftPlanner::new();
+        let found = of(planner, "x", x, (fs, None), shaft.as_ref(), &scene.rows);
+        move |name: &str| {
+            let wanted = format!("x.row0.{name}");
+            let feature = found.iter().find(|feature| feature.name == wanted);
+            feature.unwrap_or_else(|| panic!("{wanted}")).value
+        }
+    }
 
     /// Literature: orders of the bearing 6205 of the Case Western Reserve data, BPFO 3.5848, BPFI 5.4152,
     /// FTF 0.3983, twice BSF 4.7135 of the ball diameter 7.94 mm on 39.04 mm.
     #[test]
     fn orders_of_the_6205() {
-        let mut row = presets::deep_groove_6205(500.0, 0.0, 1800.0).rows[0].clone();
-        (row.ball_count, row.contact_angle) = (9, 0.0);
-        (row.ball_diameter, row.pitch_diameter) = (7.94e-3, 39.04e-3);
-        let found = orders(&row);
-        for (found, wanted) in found
-            .into_iter()
-            .zip([0.3983, 3.5848, 5.4152, 4.7135 / 2.0])
-        {
-            assert!((found - wanted).abs() < 6e-5, "{found} {wanted}");
+        let found = faults(&scene().rows[0]);
+        for (found, wanted) in found.into_iter().zip([0.3983, 3.5848, 5.4152, 4.7135]) {
+            assert!((found.order - wanted).abs() < 6e-5, "{found:?} {wanted}");
         }
     }
 
     /// A record too short for a line has none, and says so for every name.
     #[test]
     fn a_short_record_has_no_lines() {
-        let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
-        let faults = fault_frequencies(&scene, 0.0, 1e-3);
-        let found = of(&mut FftPlanner::new(), "x", &[1.0; 50], 50e3, None, &faults);
-        assert_eq!(found.len(), 8);
+        let scene = scene();
+        let shaft = Shaft::of(&scene, 0.0, 50, 50e3);
+        let planner = &mut FftPlanner::new();
+        let found = of(
+            planner,
+            "x",
+            &[1.0; 50],
+            (50e3, None),
+            shaft.as_ref(),
+            &scene.rows,
+        );
+        assert_eq!(found.len(), 2 * (2 + 2 + 3 + 3));
         assert!(found.iter().all(|f| f.value.is_none()));
+    }
+
+    /// Analytic: amplitudes 2, 1 and 0.5 at BPFI and its harmonics, 0.6 and 0.8 a turn of the shaft beside it.
+    #[test]
+    fn a_family_is_added_up() {
+        let (scene, fs, shaft) = (scene(), 20e3, 30.0);
+        let inner = faults(&scene.rows[0])[2].order * shaft;
+        let parts = [
+            (2.0, inner),
+            (1.0, 2.0 * inner),
+            (0.5, 3.0 * inner),
+            (0.6, inner - shaft),
+            (0.8, inner + shaft),
+        ];
+        let x: Vec<f64> = (0..20_000)
+            .map(|i| f64::from(i) / fs)
+            .map(|t| parts.iter().map(|(a, f)| a * (TAU * f * t).sin()).sum())
+            .collect();
+        let found = lines(&scene, &x, fs);
+        for (name, wanted) in [
+            ("bpfi", 2.0),
+            ("bpfi_harmonics", 5.25_f64.sqrt()),
+            ("bpfi_sidebands", 1.0),
+        ] {
+            let value = found(name).unwrap();
+            assert!((value / wanted - 1.0).abs() < 2e-3, "{name}: {value}");
+        }
+        assert!(found("bpfo").unwrap() < 0.02);
+    }
+
+    /// Analytic: a fault strikes at its order of a shaft that runs up from 20 to 40 Hz; in time it has no line.
+    #[test]
+    fn a_run_up_has_lines_over_the_angle() {
+        let (mut scene, fs, count) = (scene(), 20e3, 20_000);
+        scene.drive = Drive::Speed(TimeFunction::Profile(Profile::Ramp {
+            from: TAU * 20.0,
+            to: TAU * 40.0,
+            start: 0.0,
+            end: 1.0,
+        }));
+        let outer = faults(&scene.rows[0])[1].order;
+        let x: Vec<f64> = (0..count)
+            .map(|i| f64::from(i) / fs)
+            .map(|t| 3.0 * (TAU * outer * (20.0 * t + 10.0 * t * t)).sin())
+            .collect();
+        let value = lines(&scene, &x, fs)("bpfo").unwrap();
+        assert!((value / 3.0 - 1.0).abs() < 2e-3, "{value}");
+        scene.drive = Drive::Torque {
+            value: 1.0.into(),
+            initial_speed: 100.0,
+        };
+        assert_eq!(lines(&scene, &x, fs)("bpfo"), None);
     }
 }

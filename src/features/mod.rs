@@ -3,8 +3,10 @@
 //! | name | what | source |
 //! |---|---|---|
 //! | `outer.ay.rms`, `.peak`, `.crest_factor`, `.kurtosis` | moments of a column | `moments.rs` |
-//! | `outer.ay.row0.bpfo`, … | amplitude of its line at a fault frequency of a row | `lines.rs` |
-//! | `outer.ay.row0.bpfo_envelope`, … | the same line of its squared envelope | `lines.rs` |
+//! | `outer.ay.row0.ftf`, `.bpfo`, `.bpfi`, `.2bsf` | amplitude of its line at a fault frequency of a row | `lines.rs` |
+//! | `….bpfo_harmonics`, … | root of the sum of the squares of the line and its second and third harmonic | `lines.rs` |
+//! | `….bpfi_sidebands`, `….2bsf_sidebands` | the same of the lines a shaft's, a cage's frequency beside it | `lines.rs` |
+//! | `….bpfo_envelope`, `….bpfo_envelope_harmonics`, … | the same lines of its squared envelope | `lines.rs` |
 //! | `row0.outer.load_max`, `.load_min` | extremes of the contact loads of a row \[N\] | `loads.rs` |
 //! | `largest_pressure` | largest Hertz pressure of any contact at the start or the end of the run \[Pa\] | |
 //!
@@ -14,16 +16,17 @@
 mod lines;
 mod loads;
 mod moments;
+mod shaft;
 mod spectrum;
 
 use rustfft::FftPlanner;
 use serde::Deserialize;
 
 use crate::error::{Error, Result};
-use crate::model::Model;
 use crate::scene::Scene;
-use crate::signals::{Recorder, Signals};
+use crate::signals::{Signals, columns};
 use crate::simulate::Run;
+use shaft::Shaft;
 
 pub(crate) use loads::{with_load_probes, without_load_probes};
 
@@ -63,8 +66,7 @@ impl Feature {
 /// # Errors
 /// [`Error::Scene`] for a scene that is not usable, or a column that its probes do not record.
 pub fn feature_columns(scene: &Scene, options: &FeatureOptions) -> Result<Vec<String>> {
-    let model = Model::new(scene)?;
-    let columns = Recorder::new(&model, 1.0, 0).columns;
+    let columns = columns(scene)?;
     let Some(asked) = &options.columns else {
         let accelerations = columns.into_iter().filter(|c| c.unit == "m/s^2");
         return Ok(accelerations.map(|c| c.name).collect());
@@ -104,8 +106,8 @@ pub(crate) fn features(
     options: &FeatureOptions,
 ) -> Vec<Feature> {
     let first = signals.t.partition_point(|&t| t < options.skip);
-    let faults =
-        lines::fault_frequencies(&signals.scene, options.skip, signals.provenance.duration);
+    let count = signals.t.len() - first;
+    let shaft = Shaft::of(&signals.scene, options.skip, count, signals.fs);
     // Twiddle factors cost more than the transforms that use them, and are the same for all columns.
     let mut planner = FftPlanner::new();
     let mut found = Vec::new();
@@ -119,9 +121,9 @@ pub(crate) fn features(
             &mut planner,
             name,
             x,
-            signals.fs,
-            options.band,
-            &faults,
+            (signals.fs, options.band),
+            shaft.as_ref(),
+            &signals.scene.rows,
         ));
     }
     found.extend(loads::extremes(signals, first));

@@ -60,14 +60,21 @@ impl Spectrum {
         }
     }
 
-    /// The highest amplitude from `low` to `high` \[Hz\], between the entries on a parabola through the highest
-    /// and its neighbours. At most an eighth of a bin from an entry, the parabola of the Hann window's main lobe
+    /// Its highest frequency \[Hz\].
+    pub fn top(&self) -> f64 {
+        (self.amplitudes.len() - 1) as f64 * self.spacing
+    }
+
+    /// Place \[Hz\] and height of the highest amplitude from `low` to `high` \[Hz\], between the entries on a parabola through
+    /// the highest and its neighbours. At most an eighth of a bin from an entry, the parabola of the Hann window's main lobe
     /// is good to 1e-4.
-    pub fn highest(&self, low: f64, high: f64) -> f64 {
-        let edges = self.at(low).max(self.at(high));
+    pub fn highest(&self, low: f64, high: f64) -> (f64, f64) {
         let range = index((low / self.spacing).ceil())..=index((high / self.spacing).floor());
         let within = range.max_by(|&i, &j| self.amplitudes[i].total_cmp(&self.amplitudes[j]));
-        within.map_or(edges, |top| self.summit(top).max(edges))
+        let edges = [low, high].map(|f| (f, self.at(f)));
+        let summit = within.map(|top| self.summit(top));
+        let all = edges.into_iter().chain(summit);
+        all.max_by(|a, b| a.1.total_cmp(&b.1)).expect("two edges")
     }
 
     /// On the parabola through the nearest entry and its neighbours.
@@ -79,14 +86,17 @@ impl Spectrum {
         middle + s * (right - left) / 2.0 + s * s * (left - 2.0 * middle + right) / 2.0
     }
 
-    /// Summit of the parabola through an entry and its neighbours, if the entry is above them.
-    fn summit(&self, i: usize) -> f64 {
+    /// Place \[Hz\] and height of the summit of the parabola through an entry and its neighbours, if the entry is above
+    /// them.
+    fn summit(&self, i: usize) -> (f64, f64) {
         let [left, top, right] = [i - 1, i, i + 1].map(|i| self.amplitudes[i]);
         let bend = left - 2.0 * top + right;
         if top < left || top < right || bend >= 0.0 {
-            return top;
+            return (i as f64 * self.spacing, top);
         }
-        top - (left - right).powi(2) / (8.0 * bend)
+        let aside = (left - right) / (2.0 * bend);
+        let height = top - (left - right).powi(2) / (8.0 * bend);
+        ((i as f64 + aside) * self.spacing, height)
     }
 }
 
@@ -111,7 +121,8 @@ mod tests {
     fn a_sine_has_its_amplitude() {
         for f in [50.0, 50.13, 50.37, 50.5] {
             let found = Spectrum::new(&mut FftPlanner::new(), &sine(3.0, f, 1000.0, 1009), 1000.0)
-                .highest(45.0, 55.0);
+                .highest(45.0, 55.0)
+                .1;
             assert!((found / 3.0 - 1.0).abs() < 2e-4, "{f}: {found}");
         }
     }
@@ -129,8 +140,8 @@ mod tests {
         let envelope = squared_envelope(&mut planner, &burst, 1000.0, Some([150.0, 250.0]));
         assert!((envelope[0] - 2.25).abs() < 1e-9, "{}", envelope[0]);
         let spectrum = Spectrum::new(&mut planner, &envelope, 1000.0);
-        assert!((spectrum.highest(6.0, 8.0) - 1.0).abs() < 1e-3);
-        assert!((spectrum.highest(13.0, 15.0) - 0.125).abs() < 1e-3);
+        assert!((spectrum.highest(6.0, 8.0).1 - 1.0).abs() < 1e-3);
+        assert!((spectrum.highest(13.0, 15.0).1 - 0.125).abs() < 1e-3);
         let beside = squared_envelope(&mut planner, &burst, 1000.0, Some([300.0, 400.0]));
         assert!(beside.iter().all(|x| *x < 1e-20));
     }

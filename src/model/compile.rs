@@ -8,10 +8,13 @@ use crate::contact::hertz::Hertz;
 use crate::contact::iso16281::Iso16281;
 use crate::contact::{BallSide, Fault, Friction, Law, Pair, Rules, Slices, Torus, Waves};
 use crate::error::{Error, Result};
-use crate::scene::{self, Approximations, Drive, Mount, NormalLaw, RingName, Row, Scene, Surface};
+use crate::scene::{
+    self, Approximations, Defect, Drive, Mount, NormalLaw, RingName, Row, Scene, Surface,
+};
 use crate::simd::Level;
 
-pub(super) fn compile(scene: &Scene) -> Result<Model> {
+/// Checks and compiles a scene whose defects all have numbers for their places; [`Model::new`] gives them those.
+pub(crate) fn compile(scene: &Scene) -> Result<Model> {
     scene.validate()?;
     let scene = &Approximations::simplified(scene);
     let mut bodies = vec![
@@ -180,11 +183,7 @@ fn pair(scene: &Scene, index: usize, row: &Row, sigma: f64, hertz: Hertz) -> Pai
         .defects
         .values()
         .filter(|defect| defect.on == surface && defect.row == index)
-        .map(|defect| {
-            let middle = row.axial_position + defect.axial_offset;
-            // Validation keeps the defect inside the groove.
-            Fault::new(defect, middle, race.radius(middle).unwrap_or(race.a))
-        })
+        .map(|defect| race_fault(defect, row, &race))
         .collect();
     let contact = &scene.contact;
     let law = match contact.law {
@@ -218,12 +217,27 @@ fn ball_faults(scene: &Scene, row: usize, ball: usize, radius: f64) -> Vec<Fault
         .defects
         .values()
         .filter(|d| d.on == Surface::Ball && d.row == row && d.ball == Some(ball))
-        .map(|defect| {
-            let reach = defect.axial_offset.abs() + defect.length / 2.0;
-            let slice = (radius * radius - reach * reach).max(0.0).sqrt();
-            Fault::new(defect, defect.axial_offset, slice)
-        })
+        .map(|defect| ball_fault(defect, radius))
         .collect()
+}
+
+/// A defect of a race, compiled.
+pub(crate) fn race_fault(defect: &Defect, row: &Row, race: &Torus) -> Fault {
+    let middle = row.axial_position + offset(defect);
+    // Validation keeps the defect inside the groove.
+    Fault::new(defect, middle, race.radius(middle).unwrap_or(race.a))
+}
+
+/// A defect of a ball of this radius, compiled.
+pub(crate) fn ball_fault(defect: &Defect, radius: f64) -> Fault {
+    let reach = offset(defect).abs() + defect.length / 2.0;
+    let slice = (radius * radius - reach * reach).max(0.0).sqrt();
+    Fault::new(defect, offset(defect), slice)
+}
+
+fn offset(defect: &Defect) -> f64 {
+    let number = defect.axial_offset.number();
+    number.expect("defects are placed before a scene is compiled")
 }
 
 fn springs(bodies: &[Body]) -> Vec<Spring> {

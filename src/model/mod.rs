@@ -11,11 +11,11 @@ mod scales;
 
 use crate::contact::hertz::Hertz;
 use crate::contact::{BallSide, Pair};
-use crate::error::Result;
 use crate::scene::{Component, Method, Scene, TimeFunction};
 use crate::simd::Level;
 
 pub use body::{Body, Degree};
+pub(crate) use compile::{ball_fault, compile, race_fault};
 pub use reduction::{Obstacle, Omission, Reduction};
 pub use scales::Scales;
 
@@ -103,16 +103,8 @@ pub(crate) struct UnbalanceModel {
 }
 
 impl Model {
-    /// Checks and compiles a scene.
-    ///
-    /// # Errors
-    /// [`crate::Error::Scene`] names the first field that is not usable, or the environment variable
-    /// `BALLRACE_SIMD` where it names no level of this processor.
-    pub fn new(scene: &Scene) -> Result<Self> {
-        compile::compile(scene)
-    }
-
-    /// The scene it was compiled from, without the forces that its approximations give up.
+    /// The scene it was compiled from, every defect at its number, without the forces that its approximations give
+    /// up.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -195,7 +187,19 @@ impl Model {
         (speed * orbit, speed * spin)
     }
 
-    /// The same over the speed of the inner ring.
+    /// Speed of a row's balls about the axis in a state of all bodies, in the mean \[rad/s\].
+    pub(crate) fn orbit_speed(&self, row: usize, y: &[f64]) -> f64 {
+        let half = y.len() / 2;
+        let RowModel { first, count, .. } = self.rows[row];
+        let mut speed = 0.0;
+        for body in 2 + first..2 + first + count {
+            let [x, y_, vx, vy] = [0, 1, half, half + 1].map(|at| y[4 * body + at]);
+            speed += (x * vy - y_ * vx) / (x * x + y_ * y_) / count as f64;
+        }
+        speed
+    }
+
+    /// [`Model::rolling_speeds`] over the speed of the inner ring.
     fn rolling_shares(&self, row: usize) -> (f64, f64) {
         let row = &self.scene.rows[row];
         let gamma = row.ball_diameter * row.contact_angle.cos() / row.pitch_diameter;

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::errors::{OrRaise, record};
-use super::run::{hand_over, method, start};
+use super::run::{bandwidth, hand_over, method, start};
 use crate::{Case, Error, FeatureOptions, Finished, Outcome, Run, Scene};
 
 /// How a case is run.
@@ -22,6 +22,8 @@ struct RunDocument {
     rtol: Option<f64>,
     accuracy: Option<f64>,
     method: Option<String>,
+    bandwidth: Option<String>,
+    settle: Option<f64>,
 }
 
 /// Run cases on threads of their own, each a pair of scene and run as JSON.
@@ -106,6 +108,8 @@ fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<
         rtol: run.rtol,
         accuracy: run.accuracy,
         method: run.method.as_deref().map(method).transpose().or_raise(py)?,
+        bandwidth: bandwidth(run.bandwidth.as_deref()).or_raise(py)?,
+        settle: run.settle,
         ..Run::default()
     };
     Ok(Some(Case { scene, run }))
@@ -144,6 +148,7 @@ fn describe(outcome: &Outcome) -> serde_json::Value {
                 "rejected": signals.stats.rejected,
                 "nfev": signals.stats.nfev,
                 "features": features,
+                "defects": signals.provenance.defects,
             })
         }
         Err(error) => json!({ "wall_time": wall_time, "error": record(error) }),

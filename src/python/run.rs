@@ -15,7 +15,7 @@ use serde::de::value::Error as ValueError;
 
 use super::errors::{OrRaise, to_json};
 use crate::scene::{Method, RingName};
-use crate::{Error, Run, Scene, Signals, SliceRow, Start};
+use crate::{Bandwidth, Error, Run, Scene, Signals, SliceRow, Start};
 
 /// Least time between two looks at signals and callbacks; Ctrl-C is answered within it.
 const ATTENTION: Duration = Duration::from_millis(50);
@@ -128,6 +128,8 @@ pub(super) fn simulate<'py>(
     method: Option<&str>,
     threads: usize,
     progress: Option<Py<PyAny>>,
+    bandwidth: Option<&str>,
+    settle: Option<f64>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let scene = Scene::from_json(scene).or_raise(py)?;
     let state = state.map(|y| y.as_array().iter().copied().collect());
@@ -139,6 +141,8 @@ pub(super) fn simulate<'py>(
         accuracy,
         method: method.map(self::method).transpose().or_raise(py)?,
         threads,
+        bandwidth: self::bandwidth(bandwidth).or_raise(py)?,
+        settle,
     };
     let mut raised = None;
     let result = py.detach(|| {
@@ -191,6 +195,19 @@ pub(super) fn start(kind: &str, state: Option<Vec<f64>>) -> crate::Result<Start>
 pub(super) fn method(name: &str) -> crate::Result<Method> {
     Method::deserialize(name.into_deserializer())
         .map_err(|e: ValueError| Error::scene("method", format!("{name:?}"), e.to_string()))
+}
+
+/// None asks for point samples.
+pub(super) fn bandwidth(name: Option<&str>) -> crate::Result<Bandwidth> {
+    match name {
+        Some("auto") => Ok(Bandwidth::Auto),
+        None => Ok(Bandwidth::Raw),
+        Some(other) => Err(Error::scene(
+            "bandwidth",
+            format!("{other:?}"),
+            "\"auto\" or None",
+        )),
+    }
 }
 
 /// Lets Ctrl-C and the callback speak.

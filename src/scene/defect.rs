@@ -1,5 +1,8 @@
 //! Defects: the race or ball surface is absent over an arc, and fault circles stand at its edges.
 
+use std::fmt;
+
+use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::time::number_or_map;
@@ -18,9 +21,10 @@ pub struct Defect {
     pub ball: Option<usize>,
     /// Angular place φ_f on the body, counter-clockwise from its own x axis \[rad\].
     pub angle: f64,
-    /// Axial place of the middle, from the row's plane (races) or the ball's centre \[m\].
+    /// Axial place of the middle, from the row's plane (races) or the ball's centre; where contacts run by default
+    /// \[m\].
     #[serde(default)]
-    pub axial_offset: f64,
+    pub axial_offset: AxialOffset,
     /// Axial length L_f \[m\].
     pub length: f64,
     /// Width w, arc length along the surface \[m\]; a number or a profile along z.
@@ -43,6 +47,39 @@ pub enum Surface {
     /// A ball.
     Ball,
 }
+
+/// Axial place of a defect's middle: a number, or `"contact"`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum AxialOffset {
+    /// From the row's plane (races) or the ball's centre \[m\].
+    At(f64),
+    /// Where the contact runs that a defect is there for: the most loaded of those that meet it over a turn of the
+    /// balls, at the static equilibrium of the healthy bearing under the largest value of every load. Of a defect on
+    /// the outer race that is a ball's at the defect's own angle; of one on a ball, its contact with the race that
+    /// loads it more. Without equilibrium or load it is the place of the nominal contact angle. A run records the
+    /// number, in nanometres.
+    #[default]
+    Contact,
+}
+
+impl From<f64> for AxialOffset {
+    fn from(value: f64) -> Self {
+        Self::At(value)
+    }
+}
+
+impl AxialOffset {
+    /// The number \[m\], if it is one.
+    pub fn number(self) -> Option<f64> {
+        match self {
+            Self::At(value) => Some(value),
+            Self::Contact => None,
+        }
+    }
+}
+
+/// What a document says instead of a number.
+const CONTACT: &str = "contact";
 
 /// Fault circles of the edge radius, evenly spaced between the edges, their crests at a depth. Their
 /// forces are a bare sum: a bed of bumps rather than a smooth floor.
@@ -147,5 +184,42 @@ impl<'de> Deserialize<'de> for Width {
             Self::Constant,
             Self::Profile,
         )
+    }
+}
+
+impl Serialize for AxialOffset {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::At(value) => serializer.serialize_f64(*value),
+            Self::Contact => serializer.serialize_str(CONTACT),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for AxialOffset {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct NumberOrContact;
+        impl Visitor<'_> for NumberOrContact {
+            type Value = AxialOffset;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "a number [m], or {CONTACT:?}")
+            }
+            fn visit_f64<E>(self, value: f64) -> Result<AxialOffset, E> {
+                Ok(AxialOffset::At(value))
+            }
+            fn visit_i64<E>(self, value: i64) -> Result<AxialOffset, E> {
+                Ok(AxialOffset::At(value as f64))
+            }
+            fn visit_u64<E>(self, value: u64) -> Result<AxialOffset, E> {
+                Ok(AxialOffset::At(value as f64))
+            }
+            fn visit_str<E: Error>(self, text: &str) -> Result<AxialOffset, E> {
+                if text == CONTACT {
+                    return Ok(AxialOffset::Contact);
+                }
+                Err(E::invalid_value(serde::de::Unexpected::Str(text), &self))
+            }
+        }
+        deserializer.deserialize_any(NumberOrContact)
     }
 }

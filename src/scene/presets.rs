@@ -96,7 +96,7 @@ pub fn wheel_bearing(axial_load: f64) -> Scene {
                 row: 0,
                 ball: None,
                 angle: -FRAC_PI_2,
-                axial_offset: 2.32e-3,
+                axial_offset: 2.32e-3.into(),
                 length: 1.5e-3,
                 width: 1.5e-3.into(),
                 edge_radius: 0.3e-3,

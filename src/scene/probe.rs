@@ -1,4 +1,7 @@
 //! What a run records. A probe's columns are named after it: probe `outer` of a motion gives `outer.ay`.
+//!
+//! Motion, cage forces and friction torques are signals, filtered before they are sampled unless a run's bandwidth is
+//! [`Raw`](crate::Bandwidth::Raw). Contacts, energies, forces by origin and slices tell a state: always points.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +11,7 @@ use super::bearing::RingName;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Probe {
-    /// Position, velocity and acceleration of a body.
+    /// Position, velocity and acceleration of a body; filtered.
     Motion {
         /// `outer`, `inner` or a ball such as `row0.ball3`.
         body: String,
@@ -16,7 +19,7 @@ pub enum Probe {
         #[serde(default)]
         components: Option<Vec<Component>>,
     },
-    /// What happens between balls and races: columns `<probe>.ball3.outer.load` and so on.
+    /// What happens between balls and races, as points: columns `<probe>.ball3.outer.load` and so on.
     Contacts {
         /// Row, from 0.
         #[serde(default)]
@@ -31,17 +34,18 @@ pub enum Probe {
         #[serde(default)]
         quantities: Option<Vec<ContactQuantity>>,
     },
-    /// Force of every cage link of a row, positive in tension: columns `<probe>.link0`, … \[N\].
+    /// Force of every cage link of a row, positive in tension, filtered: columns `<probe>.link0`, … \[N\].
     Cage {
         /// Row, from 0.
         #[serde(default)]
         row: usize,
     },
-    /// Energies \[J\] and dissipated powers \[W\].
+    /// Energies \[J\] and dissipated powers \[W\], as points.
     Energy {},
-    /// Friction torque about z that the balls put on each ring: `<probe>.outer`, `<probe>.inner` \[N m\].
+    /// Friction torque about z that the balls put on each ring, filtered: `<probe>.outer`, `<probe>.inner` \[N m\].
+    /// Takes an evaluation of the model at every point that the filter reads.
     Torque {},
-    /// The forces on a body by origin: `<probe>.contact.x`, `<probe>.friction.y`, … \[N\], about z \[N m\].
+    /// The forces on a body by origin, as points: `<probe>.contact.x`, `<probe>.friction.y`, … \[N\], about z \[N m\].
     Forces {
         /// `outer`, `inner` or a ball such as `row0.ball3`.
         body: String,

@@ -18,8 +18,7 @@ pub enum Method {
     /// The classical Runge–Kutta method with fixed steps, each the largest allowed.
     #[serde(rename = "runge-kutta-4")]
     RungeKutta4,
-    /// Velocity Verlet with fixed steps, each the largest allowed; damped contacts want a `max_step` of a
-    /// fifth of the cap or less.
+    /// Velocity Verlet with fixed steps, each the largest allowed.
     VelocityVerlet,
     /// Kennedy–Carpenter 4(3), explicit in positions and implicit in velocities: its steps do not depend on how
     /// stiff friction is. For slip speeds below about 0.01 m/s.
@@ -40,8 +39,10 @@ pub struct Solver {
     pub first_step: Option<f64>,
     /// Largest step \[s\]; absent: no limit but the one below.
     pub max_step: Option<f64>,
-    /// Whether the step is also kept below a share of the period of the highest contact frequency. On by
-    /// default: at loose tolerances a run otherwise reports success with accelerations wrong by 30 % and more.
+    /// Whether the step is also kept below what the method's stability and accuracy ask for: a share of the period
+    /// of the highest contact frequency, less for methods of low order where contacts ring undamped; for fixed steps
+    /// also a share of the time in which friction and damping act. On by default: at loose tolerances a run otherwise
+    /// reports success with accelerations wrong by 30 % and more.
     pub frequency_cap: bool,
     /// Whether a run leaves out what does not change the motion: directions without forces, mirror images, slices
     /// where a closed form says the same. Default true.

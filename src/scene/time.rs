@@ -187,18 +187,28 @@ impl TimeFunction {
         }
     }
 
-    /// Largest magnitude the value ever takes.
-    pub fn peak(&self) -> f64 {
+    /// The value of the largest magnitude that is ever taken, with its sign.
+    ///
+    /// ```
+    /// use ballrace::scene::{Profile, TimeFunction};
+    /// let table = Profile::Table { times: vec![0.0, 1.0, 2.0], values: vec![0.0, -8.0, 5.0] };
+    /// assert_eq!(TimeFunction::Profile(table).extreme(), -8.0);
+    /// ```
+    pub fn extreme(&self) -> f64 {
+        let larger = |a: f64, b: &f64| if b.abs() > a.abs() { *b } else { a };
         match self {
-            Self::Constant(value) => value.abs(),
-            Self::Profile(Profile::Ramp { from, to, .. }) => from.abs().max(to.abs()),
+            Self::Constant(value) => *value,
+            Self::Profile(Profile::Ramp { from, to, .. }) => larger(*from, to),
             Self::Profile(Profile::Sine {
                 mean, amplitude, ..
-            }) => mean.abs() + amplitude.abs(),
-            Self::Profile(Profile::Table { values, .. }) => {
-                values.iter().fold(0.0, |peak, v| peak.max(v.abs()))
-            }
+            }) => mean + amplitude.abs().copysign(*mean),
+            Self::Profile(Profile::Table { values, .. }) => values.iter().fold(0.0, larger),
         }
+    }
+
+    /// Largest magnitude the value ever takes.
+    pub fn peak(&self) -> f64 {
+        self.extreme().abs()
     }
 }
 

@@ -1,11 +1,14 @@
 //! One program for three levels of instructions.
 
+use std::ffi::OsStr;
 use std::fmt;
 use std::sync::OnceLock;
 
 use pulp::{NullaryFnOnce, Scalar256b, Simd};
+use serde::Serialize;
 
-use super::vector::Wide;
+use super::proof::wrong_primitive;
+use super::vector::{Vector, Wide};
 
 /// The environment variable that overrides the choice.
 const VARIABLE: &str = "BALLRACE_SIMD";
@@ -34,6 +37,36 @@ pub struct UnknownLevel {
     pub available: Vec<&'static str>,
 }
 
+/// A level that this processor says it has and that does not compute what it should; a narrower one is used instead.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Distrust {
+    /// Name of the level.
+    pub level: &'static str,
+    /// The primitive that erred first; `contacts` where the primitives did not and contacts did.
+    pub primitive: &'static str,
+    /// Name of the level that is used.
+    pub used: &'static str,
+}
+
+/// The first level that errs nowhere, or the last, and what was wrong with the first.
+fn trusted(
+    levels: Vec<Level>,
+    wrong: impl Fn(Level) -> Option<&'static str>,
+) -> (Level, Option<Distrust>) {
+    let last = levels[levels.len() - 1];
+    let (first, error) = (levels[0], wrong(levels[0]));
+    let used = levels
+        .into_iter()
+        .find(|level| wrong(*level).is_none())
+        .unwrap_or(last);
+    let distrust = error.map(|primitive| Distrust {
+        level: first.name(),
+        primitive,
+        used: used.name(),
+    });
+    (used, distrust)
+}
+
 /// Work that is compiled once a level.
 pub(crate) trait Task {
     type Output;
@@ -57,29 +90,61 @@ impl Level {
         }
     }
 
-    /// The level that the environment variable `BALLRACE_SIMD` names, or the widest.
+    /// Names of all levels that this program is compiled for, widest first, whether this processor has them or not.
+    pub fn known() -> &'static [&'static str] {
+        if cfg!(target_arch = "x86_64") {
+            &["x86-64-v4", "x86-64-v3", "baseline"]
+        } else {
+            &["baseline"]
+        }
+    }
+
+    /// The level that the environment variable `BALLRACE_SIMD` names, or the widest; a narrower one where that does not
+    /// compute what it should ([`Level::distrust`]).
     ///
     /// # Errors
     /// [`UnknownLevel`] if the variable names none that this processor has.
     pub fn chosen() -> Result<Self, UnknownLevel> {
-        let available = Self::available();
-        let Some(value) = std::env::var_os(VARIABLE).filter(|value| !value.is_empty()) else {
-            return Ok(available[0]);
-        };
-        available
-            .iter()
-            .copied()
-            .find(|level| value == level.name())
-            .ok_or_else(|| UnknownLevel {
-                value: value.to_string_lossy().into_owned(),
-                available: available.iter().map(Self::name).collect(),
-            })
+        Self::choice().clone().map(|(level, _)| level)
     }
 
-    /// The level of this process, read once; the baseline if the environment names none of this processor.
+    /// What was wrong with the level that this process would have used, if anything: its primitives are compared with
+    /// the same on single numbers once, at first use.
+    pub fn distrust() -> Option<Distrust> {
+        Self::choice()
+            .clone()
+            .ok()
+            .and_then(|(_, distrust)| distrust)
+    }
+
+    /// The level of this process; the baseline if the environment names none of this processor.
     pub(crate) fn current() -> Self {
-        static CURRENT: OnceLock<Level> = OnceLock::new();
-        *CURRENT.get_or_init(|| Self::chosen().unwrap_or(Self::Baseline))
+        Self::chosen().unwrap_or(Self::Baseline)
+    }
+
+    /// Made once, at first use.
+    fn choice() -> &'static Result<(Self, Option<Distrust>), UnknownLevel> {
+        static CHOICE: OnceLock<Result<(Level, Option<Distrust>), UnknownLevel>> = OnceLock::new();
+        CHOICE.get_or_init(|| {
+            let asked = std::env::var_os(VARIABLE).filter(|value| !value.is_empty());
+            let candidates = Self::from_asked(asked.as_deref())?;
+            Ok(trusted(candidates, wrong_primitive))
+        })
+    }
+
+    /// The level that is asked for and those below it.
+    fn from_asked(asked: Option<&OsStr>) -> Result<Vec<Self>, UnknownLevel> {
+        let mut available = Self::available();
+        let Some(value) = asked else {
+            return Ok(available);
+        };
+        match available.iter().position(|level| value == level.name()) {
+            Some(first) => Ok(available.split_off(first)),
+            None => Err(UnknownLevel {
+                value: value.to_string_lossy().into_owned(),
+                available: available.iter().map(Self::name).collect(),
+            }),
+        }
     }
 
     /// Its name, as the environment variable takes it.
@@ -109,13 +174,13 @@ impl Level {
 }
 
 impl Level {
+    /// Numbers in a register.
+    fn lanes(self) -> usize {
+        self.run_wide(CountLanes)
+    }
+
     /// This level, or one whose registers so many numbers fill.
     pub(crate) fn filled_by(self, count: usize) -> Option<Self> {
-        let lanes = |level: &Self| match level {
-            #[cfg(target_arch = "x86_64")]
-            Self::V4(_) => 8,
-            _ => 4,
-        };
         let narrower = match self {
             #[cfg(target_arch = "x86_64")]
             Self::V4(level) => Self::V3(*level),
@@ -123,7 +188,7 @@ impl Level {
         };
         [self, narrower]
             .into_iter()
-            .find(|level| lanes(level) <= count)
+            .find(|level| level.lanes() <= count)
     }
 
     /// Does a task that is written for registers of any width.
@@ -136,6 +201,16 @@ impl Level {
             #[cfg(target_arch = "x86_64")]
             Self::V4(level) => Simd::vectorize(level, task),
         }
+    }
+}
+
+struct CountLanes;
+
+impl Wide for CountLanes {
+    type Output = usize;
+
+    fn with_simd<S: Simd>(self, _: S) -> usize {
+        Vector::<S>::LANES
     }
 }
 
@@ -164,5 +239,55 @@ impl PartialEq for Level {
 impl fmt::Display for Level {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Analytic: what errs is not used, and it is told what was wrong with it.
+    #[test]
+    fn a_level_that_errs_gives_way_to_the_next() {
+        let all = Level::available();
+        assert_eq!(trusted(all.clone(), |_| None), (all[0], None));
+        let widest = all[0];
+        let (used, distrust) = trusted(all.clone(), |level| (level == widest).then_some("any"));
+        assert_eq!(used, *all.get(1).unwrap_or(&Level::Baseline));
+        let wanted = Distrust {
+            level: widest.name(),
+            primitive: "any",
+            used: used.name(),
+        };
+        assert_eq!(distrust, Some(wanted));
+        assert_eq!(trusted(all, |_| Some("any")).0, Level::Baseline);
+    }
+
+    /// Analytic: what the environment asks for is the widest that is tried.
+    #[test]
+    fn the_environment_chooses() {
+        let names = |asked: &str| {
+            Level::from_asked(Some(OsStr::new(asked)))
+                .map(|levels| levels.iter().map(Level::name).collect::<Vec<_>>())
+        };
+        assert_eq!(names("baseline"), Ok(vec!["baseline"]));
+        assert_eq!(names("mmx").unwrap_err().value, "mmx");
+        for (i, level) in Level::available().iter().enumerate() {
+            assert_eq!(
+                names(level.name()).unwrap().len(),
+                Level::available().len() - i
+            );
+        }
+    }
+
+    /// Analytic: known levels and those at hand have the same names.
+    #[test]
+    fn levels_at_hand_are_known() {
+        let known = Level::known();
+        assert!(
+            Level::available()
+                .iter()
+                .all(|level| known.contains(&level.name()))
+        );
     }
 }

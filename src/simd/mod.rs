@@ -6,9 +6,10 @@
 
 mod lanes;
 mod level;
+mod proof;
 mod vector;
 
 pub(crate) use lanes::{Counters, LANES, Lanes, Mask, mul_add};
 pub(crate) use level::Task;
-pub use level::{Level, UnknownLevel};
+pub use level::{Distrust, Level, UnknownLevel};
 pub(crate) use vector::{Choice, Simd, Vector, Wide};

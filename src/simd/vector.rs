@@ -8,6 +8,8 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 pub(crate) use pulp::{Simd, WithSimd as Wide};
 
+use super::lanes::LANES;
+
 /// The numbers of a register.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Vector<S: Simd> {
@@ -23,8 +25,11 @@ pub(crate) struct Choice<S: Simd> {
 }
 
 impl<S: Simd> Vector<S> {
-    /// How many.
-    pub(crate) const LANES: usize = S::F64_LANES;
+    /// How many. A mask's size says nothing about it: AVX-512 has a bit a number.
+    pub(crate) const LANES: usize = {
+        assert!(S::F64_LANES.is_power_of_two() && S::F64_LANES <= LANES);
+        S::F64_LANES
+    };
 
     /// The same number everywhere.
     #[inline(always)]
@@ -134,16 +139,16 @@ impl<S: Simd> Vector<S> {
         self.with(self.simd.abs_f64s(self.numbers))
     }
 
-    /// The greater of two; what is not a number in the second stays.
+    /// The greater of two; where this is not a number, it stays so. Levels differ in what their maximum does with a NaN.
     #[inline(always)]
     pub(crate) fn or_more(self, least: Self) -> Self {
-        self.with(self.simd.max_f64s(least.numbers, self.numbers))
+        self.below(least).choose(least, self)
     }
 
-    /// The lesser of two; what is not a number in the first stays.
+    /// The lesser of two, likewise.
     #[inline(always)]
     pub(crate) fn or_less(self, most: Self) -> Self {
-        self.with(self.simd.min_f64s(most.numbers, self.numbers))
+        most.below(self).choose(most, self)
     }
 
     /// self · b + c, fused where the instructions have it.
@@ -161,8 +166,7 @@ impl<S: Simd> Vector<S> {
     /// Each by a function of one number.
     #[inline(always)]
     pub(crate) fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        // As wide as any level.
-        let mut numbers = [0.0; 8];
+        let mut numbers = [0.0; LANES];
         self.store(&mut numbers);
         for number in &mut numbers[..Self::LANES] {
             *number = f(*number);
@@ -181,7 +185,7 @@ impl<S: Simd> Vector<S> {
     /// The first number.
     #[inline(always)]
     pub(crate) fn first(self) -> f64 {
-        let mut numbers = [0.0; 8];
+        let mut numbers = [0.0; LANES];
         self.store(&mut numbers);
         numbers[0]
     }
@@ -253,15 +257,15 @@ impl<S: Simd> Choice<S> {
 
     #[inline(always)]
     pub(crate) fn any(self) -> bool {
-        self.simd.first_true_m64s(self.lanes) < S::F64_LANES
+        self.simd.first_true_m64s(self.lanes) < Vector::<S>::LANES
     }
 
     /// Which ones.
     #[inline(always)]
     pub(crate) fn lanes(self) -> impl Iterator<Item = usize> {
-        let mut told = [0.0; 8];
+        let mut told = [0.0; LANES];
         let all = |x| Vector::all(self.simd, x);
         self.choose(all(1.0), all(0.0)).store(&mut told);
-        (0..S::F64_LANES).filter(move |lane| told[*lane] > 0.0)
+        (0..Vector::<S>::LANES).filter(move |lane| told[*lane] > 0.0)
     }
 }

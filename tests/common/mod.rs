@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::ControlFlow;
 
 use ballrace::scene::{Friction, Mount, Probe, Scene, Support, presets};
-use ballrace::{Run, Signals, simulate};
+use ballrace::{Bandwidth, Run, Signals, simulate};
 
 /// Numbers in −1 … 1, the same in every run.
 pub struct Noise(pub u64);
@@ -51,12 +51,14 @@ pub fn run(scene: &Scene, run: &Run) -> Signals {
         .unwrap_or_else(|error| panic!("{}: {error}", scene.name))
 }
 
-/// A run of some duration from equilibrium at 200 kHz, on one thread.
+/// A run of some duration from equilibrium, point samples at 200 kHz, on one thread.
 pub fn short(duration: f64) -> Run {
     Run {
         duration,
         fs: 200e3,
         threads: 1,
+        bandwidth: Bandwidth::Raw,
+        settle: Some(0.0),
         ..Run::default()
     }
 }

@@ -23,7 +23,13 @@ def table(count: int) -> pl.DataFrame:
 
 
 def run(cases: object, out: Path, *, duration: float = DURATION, **options: Any) -> br.Campaign:
-    options = {"scene": SCENE, "progress": False, "duration": duration, **options}
+    options = {
+        "scene": SCENE,
+        "progress": False,
+        "duration": duration,
+        "settle": 0.0,
+        **options,
+    }
     found = br.campaign(cases, out, **options)
     assert isinstance(found, br.Campaign)
     return found

@@ -15,7 +15,14 @@ FLAT = Approximations(rolling=True, plane=True)
 
 def spalled() -> br.Scene:
     scene = br.presets.deep_groove_6205(radial_load=500.0, axial_load=500.0)
-    spall = Defect(on="outer_race", angle=-1.5708, length=1.5e-3, width=0.8e-3, edge_radius=0.3e-3)
+    spall = Defect(
+        on="outer_race",
+        angle=-1.5708,
+        axial_offset=0.0,
+        length=1.5e-3,
+        width=0.8e-3,
+        edge_radius=0.3e-3,
+    )
     return replace(scene, defects={"spall": spall})
 
 

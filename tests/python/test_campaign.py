@@ -29,7 +29,7 @@ def test_any_number_of_threads_gives_the_same_bits(tmp_path: Path) -> None:
 def test_signals_are_those_of_a_run_alone(tmp_path: Path) -> None:
     done = run(table(4), tmp_path, keep="signals", threads=2)
     case_id = done.manifest["case_id"][2]
-    alone = br.simulate(done.scene(case_id), duration=DURATION)
+    alone = br.simulate(done.scene(case_id), duration=DURATION, settle=0.0)
     assert done.signals(case_id).equals(alone.to_polars())
     scanned = done.scan().collect()
     assert scanned["case_id"].to_list() == sorted(scanned["case_id"])
@@ -60,8 +60,7 @@ def test_features_are_those_of_the_signals(tmp_path: Path) -> None:
     orders = br.frequencies.of_row(scene.rows[0]).at(30.0)
     envelope = br.spectra.squared_envelope(x, 50e3, (500.0, 20e3))
     width = 1.0 / 0.03
-    for name in ("bpfo", "bpfi", "bsf"):
-        near = getattr(orders, name)
+    for name, near in (("bpfo", orders.bpfo), ("bpfi", orders.bpfi), ("2bsf", 2.0 * orders.bsf)):
         if near < 2.0 * width:
             continue
         for suffix, signal in (("", x), ("_envelope", envelope)):
@@ -77,7 +76,9 @@ def test_labels_and_faults_are_carried(tmp_path: Path) -> None:
         {"defects.spall.width": 0.0, "label": "healthy", "bearing_id": 1},
         {"defects.spall.width": 1e-3, "label": "spalled", "bearing_id": 1},
     ]
-    done = run(cases, tmp_path, scene=scene, duration=1e-3, start="rolling")
+    # A ball comes to the spall after a millisecond.
+    scene = scene.replace({"defects.spall.angle": scene.rows[0].start_angle + 0.1})
+    done = run(cases, tmp_path, scene=scene, duration=3e-3)
     columns = ["label", "bearing_id", "fault_outer_race", "fault_inner_race", "fault_ball"]
     assert done.manifest.select(columns).rows() == [
         ("healthy", 1, False, False, False),
@@ -206,7 +207,12 @@ def test_bad_input_gets_one_clear_error(
 
 
 def test_dry_run_writes_nothing(tmp_path: Path) -> None:
-    options: dict[str, Any] = {"scene": SCENE, "duration": DURATION, "keep": "signals"}
+    options: dict[str, Any] = {
+        "scene": SCENE,
+        "duration": DURATION,
+        "keep": "signals",
+        "settle": 0.0,
+    }
     found = br.campaign(table(5), tmp_path / "runs", dry_run=True, **options)
     assert not (tmp_path / "runs").exists()
     assert (found.total, found.missing) == (5, 5)

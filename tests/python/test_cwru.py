@@ -24,7 +24,7 @@ import pytest
 
 import ballrace as br
 from ballrace import frequencies, spectra
-from ballrace.scene import ContactsProbe, Defect, MotionProbe
+from ballrace.scene import Defect, MotionProbe
 from truth import meets
 
 if TYPE_CHECKING:
@@ -41,6 +41,8 @@ FOLDER = Path(
 RECORDS = {"inner": "105", "outer": "130"}
 PLANE = frequencies.orders(9, 7.94e-3, 39.04e-3)
 KINEMATIC = {"inner": PLANE.bpfi, "outer": PLANE.bpfo}
+# How far the records' lines stand over their surroundings at least [dB], and the simulated ones with them.
+CLEAR = 30.0
 # As printed on the page of reference cases: shaft and defect frequency [Hz].
 PUBLISHED = {"inner": (29.9325, 161.683), "outer": (29.9278, 107.645)}
 
@@ -79,12 +81,12 @@ def measured_order(race: Race) -> float:
 
 
 @functools.cache
-def simulated(race: Race) -> tuple[br.Signals, float]:
+def simulated(race: Race, thrust: float) -> tuple[br.Signals, float]:
     """Run the 6205 with the measured spall and shaft rate; return the signals and the order of its lines.
 
-    A clearance of 5 µm is what fits leave of the normal one; with a light thrust load it opens a contact
-    angle near the measured one. The load at the test rig is not published. No play in the cage, since play
-    moves the rates too (see ``test_defects_speak.py``).
+    A clearance of 5 µm is what fits leave of the normal one; the thrust [N] opens a contact angle. Neither it nor
+    the load at the test rig is published. No play in the cage, since play moves the rates too (see
+    ``test_defects_speak.py``).
     """
     rate = PUBLISHED[race][0]
     spall = Defect(
@@ -94,15 +96,11 @@ def simulated(race: Race) -> tuple[br.Signals, float]:
         length=4e-3,
         edge_radius=0.3e-3,
     )
-    scene = br.presets.deep_groove_6205(300.0, 100.0, 60.0 * rate)
+    scene = br.presets.deep_groove_6205(300.0, thrust, 60.0 * rate)
     scene = replace(
         scene.replace({"rows[0].clearance": 5e-6, "cage.play": 0.0}),
         defects={"spall": spall},
-        probes={
-            "outer": MotionProbe(body="outer", components=("ay",)),
-            "ball": MotionProbe(body="row0.ball0", components=("x", "y")),
-            "row": ContactsProbe(races=("outer",), quantities=("load", "angle")),
-        },
+        probes={"outer": MotionProbe(body="outer", components=("ay",))},
     )
     out = br.simulate(scene, duration=0.6, fs=FS, threads=1)
     envelope = squared(out["outer.ay"][out.t >= 0.1])
@@ -111,13 +109,26 @@ def simulated(race: Race) -> tuple[br.Signals, float]:
     return out, f / rate
 
 
+@functools.cache
+def fitted_thrust() -> float:
+    """Return the thrust [N] with which the outer race's line has the order of record 130, by secants."""
+    wanted = measured_order("outer")
+    tried = [(thrust, simulated("outer", thrust)[1] - wanted) for thrust in (30.0, 80.0)]
+    for _ in range(2):
+        (a, at_a), (b, at_b) = tried[-2:]
+        thrust = min(max(b - at_b * (b - a) / (at_b - at_a), 1.0), 300.0)
+        tried.append((thrust, simulated("outer", thrust)[1] - wanted))
+    assert abs(tried[-1][1]) < 2e-4 * wanted, tried
+    return tried[-1][0]
+
+
 @pytest.mark.parametrize("race", ["inner", "outer"])
 def test_the_records_have_the_published_lines(race: Race) -> None:
     x = record(RECORDS[race])
     rate, defect = PUBLISHED[race]
     assert shaft(x) == pytest.approx(rate, rel=5e-5)
     meets(f"CWRU record, {race} race: order of the line", defect / rate, measured_order(race), 2e-4)
-    assert level(x, defect) > 30.0
+    assert level(x, defect) > CLEAR
 
 
 def test_the_healthy_record_has_neither() -> None:
@@ -126,39 +137,32 @@ def test_the_healthy_record_has_neither() -> None:
         assert level(x, KINEMATIC[race] * PUBLISHED[race][0]) < 15.0
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("race", ["inner", "outer"])
-def test_orders_agree(race: Race) -> None:
-    measured = measured_order(race)
-    _, ours = simulated(race)
-    meets(f"6205 simulated beside the record, {race} race: order", measured, ours, 5e-3)
+PREDICTED = 1e-3
+"""Largest relative misfit of a predicted order. Plane kinematics is off by 2.5e-3."""
 
 
 @pytest.mark.long
-def test_the_contact_angle_has_the_sign_of_the_measured_shift() -> None:
-    inner, outer = measured_order("inner"), measured_order("outer")
-    assert inner < KINEMATIC["inner"]
-    assert outer > KINEMATIC["outer"]
-    assert simulated("inner")[1] < KINEMATIC["inner"]
-    assert simulated("outer")[1] > KINEMATIC["outer"]
-    # As an angle, both records say about 9.5°; ours is within 2° of that.
-    out, _ = simulated("outer")
-    settled = out.t >= 0.1
-    loads = np.concatenate([out[f"row.ball{b}.outer.load"][settled] for b in range(9)])
-    angles = np.concatenate([out[f"row.ball{b}.outer.angle"][settled] for b in range(9)])
-    loaded = loads > 0.0
-    angle = math.degrees(np.average(angles[loaded], weights=loads[loaded]))
+def test_thrust_fitted_on_one_record_predicts_the_other() -> None:
+    """The thrust is fitted to the outer race's record; what the inner race's shows was not used."""
+    measured = measured_order("inner")
+    _, ours = simulated("inner", fitted_thrust())
+    meets("CWRU inner race, thrust from the outer race's record: order", measured, ours, PREDICTED)
+    # Models that the bound must refuse: plane kinematics, and this one without thrust.
+    assert abs(KINEMATIC["inner"] / measured - 1.0) > 2.0 * PREDICTED
+    assert abs(simulated("inner", 0.0)[1] / measured - 1.0) > PREDICTED
+
+
+def test_both_records_say_one_contact_angle() -> None:
     gamma = 7.94 / 39.04
     told = [
-        math.degrees(math.acos((2.0 * inner / 9.0 - 1.0) / gamma)),
-        math.degrees(math.acos((1.0 - 2.0 * outer / 9.0) / gamma)),
+        math.degrees(math.acos((2.0 * measured_order("inner") / 9.0 - 1.0) / gamma)),
+        math.degrees(math.acos((1.0 - 2.0 * measured_order("outer") / 9.0) / gamma)),
     ]
     assert told == pytest.approx([9.5, 9.5], abs=1.0)
-    assert angle == pytest.approx(np.mean(told), abs=2.0)
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("race", ["inner", "outer"])
 def test_lines_are_as_clear_as_in_the_records(race: Race) -> None:
-    out, order = simulated(race)
-    assert level(out["outer.ay"][out.t >= 0.1], order * PUBLISHED[race][0]) > 12.0
+    out, order = simulated(race, fitted_thrust())
+    assert level(out["outer.ay"][out.t >= 0.1], order * PUBLISHED[race][0]) > CLEAR

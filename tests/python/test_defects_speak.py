@@ -41,11 +41,20 @@ SETTLED = 0.05
 """Start of what is judged [s]."""
 
 # Spalls across the whole contact, and ball defects on one track or across both.
-OUTER = Defect(on="outer_race", angle=-math.pi / 2, length=4e-3, width=1e-3, edge_radius=0.3e-3)
+OUTER = Defect(
+    on="outer_race",
+    angle=-math.pi / 2,
+    axial_offset=0.0,
+    length=4e-3,
+    width=1e-3,
+    edge_radius=0.3e-3,
+)
 # At the start no ball is over it.
 INNER = replace(OUTER, on="inner_race", angle=-math.pi / 2 - 0.35)
 BOTH_TRACKS = replace(OUTER, on="ball", ball=0)
-ONE_TRACK = replace(BOTH_TRACKS, axial_offset=0.8e-3, length=1.2e-3)
+TRACK = 0.8e-3
+"""Place of one track of the 6205's ball [m]."""
+ONE_TRACK = replace(BOTH_TRACKS, axial_offset=TRACK, length=1.2e-3)
 
 
 def deep_groove(**defects: Defect) -> br.Scene:
@@ -60,7 +69,7 @@ def wheel(**defects: Defect) -> br.Scene:
         name: replace(
             defect,
             length=2.0 * defect.length,
-            axial_offset=2.5 * defect.axial_offset,
+            axial_offset=2.5 * TRACK if defect.axial_offset else 0.0,
             width=1.0e-3 if defect.on == "ball" else 1.5e-3,
         )
         for name, defect in defects.items()
@@ -114,7 +123,7 @@ def run(name: str, duration: float) -> Run:
     if bearing == "wheel":
         probes["other"] = ContactsProbe(row=1, races=("outer",), quantities=("load",))
     scene = replace(build(**{key: known[key] for key in what}), probes=probes)
-    out = br.simulate(scene, duration=duration, fs=FS, threads=1)
+    out = br.simulate(scene, duration=duration, fs=FS, threads=1, bandwidth=None)
 
     settled = out.t >= SETTLED
     phase = np.unwrap(np.arctan2(out["ball.y"], out["ball.x"]))
@@ -327,7 +336,7 @@ def passages(on: Surface, width: float, probes: dict[str, Any]) -> br.Signals:
     """Run long enough for four passages over an outer spall, sample by sample."""
     scene = deep_groove(spall=replace(INNER if on == "inner_race" else OUTER, width=width))
     scene = replace(scene, probes=probes)
-    return br.simulate(scene, duration=0.04, fs=200_000.0, threads=1)
+    return br.simulate(scene, duration=0.04, fs=200_000.0, threads=1, bandwidth=None)
 
 
 def entry_to_exit(out: br.Signals, width: float) -> list[float]:

@@ -75,7 +75,12 @@ def ours(bearing: br.Scene, rate: float) -> Found:
     probes["row"] = ContactsProbe(races=("outer",), quantities=("load",))
     started = time.perf_counter()
     out = br.simulate(
-        replace(bearing, probes=probes), duration=DURATION, fs=FS, start="rolling", threads=1
+        replace(bearing, probes=probes),
+        duration=DURATION,
+        fs=FS,
+        start="rolling",
+        threads=1,
+        bandwidth=None,
     )
     wall = time.perf_counter() - started
     phases = [np.unwrap(np.arctan2(out[f"ball{b}.y"], out[f"ball{b}.x"])) for b in range(count)]

@@ -23,7 +23,9 @@ def run(method: Method | None, slip_speed: float = 0.1, **solver: object) -> br.
     changes: dict[str, object] = {"friction.coulomb.slip_speed": slip_speed}
     changes |= {f"solver.{name.removesuffix('_')}": value for name, value in solver.items()}
     scene = br.presets.wheel_bearing().replace(changes)
-    return br.simulate(scene, duration=5e-4, fs=100_000, threads=1, method=method)
+    return br.simulate(
+        scene, duration=5e-4, fs=100_000, threads=1, method=method, settle=0.0, bandwidth=None
+    )
 
 
 def test_the_names_are_those_of_the_core() -> None:
@@ -65,7 +67,9 @@ def test_auto_says_what_it_did() -> None:
     rough = scene.replace({"friction.coulomb.slip_speed": 1e-3})
 
     def started(scene: br.Scene, method: Method) -> br.Signals:
-        return br.simulate(scene, duration=5e-4, fs=100_000, threads=1, method=method)
+        return br.simulate(
+            scene, duration=5e-4, fs=100_000, threads=1, method=method, settle=0.0, bandwidth=None
+        )
 
     soft, stiff = started(scene, "auto"), started(rough, "auto")
     explicit = started(rough, "dormand-prince")
@@ -84,3 +88,25 @@ def test_fixed_steps_are_the_largest_allowed() -> None:
     assert verlet.stats.nfev == 501
     with pytest.raises(br.SceneError, match=r"solver\.max_step"):
         run("runge-kutta-4", frequency_cap=False)
+
+
+@pytest.mark.parametrize("method", get_args(Method))
+def test_every_method_runs_with_its_defaults(method: Method) -> None:
+    """Truth: the default at tight tolerance; warnings are errors here."""
+    truth = run("dormand-prince", rtol=1e-9)["outer.ay"]
+    out = run(method)
+    assert np.linalg.norm(out["outer.ay"] - truth) < 0.05 * np.linalg.norm(truth)
+    assert out.provenance.max_step == out.provenance.step_limit
+
+
+def test_a_fixed_step_that_is_too_long_is_told() -> None:
+    with pytest.raises(br.IntegrationError, match=r"smaller max_step \(the step was 1\.0e-5"):
+        br.simulate(
+            br.presets.wheel_bearing().replace(
+                {"solver.frequency_cap": False, "solver.max_step": 1e-5}
+            ),
+            duration=2e-3,
+            method="velocity-verlet",
+        )
+    with pytest.warns(br.AccuracyWarning, match="a fixed step of 4.0e-6 s is longer than"):
+        run("runge-kutta-4", frequency_cap=False, max_step=4e-6)

@@ -37,7 +37,9 @@ def soon_over_the_spall(slip_speed: float = 0.1, damping: float = 0.2) -> br.Sce
 def quietly(scene: br.Scene, rtol: float, duration: float = 2e-3) -> br.Signals:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", br.AccuracyWarning)
-        return br.simulate(scene, duration=duration, fs=200e3, rtol=rtol, threads=1)
+        return br.simulate(
+            scene, duration=duration, fs=200e3, rtol=rtol, threads=1, settle=0.0, bandwidth=None
+        )
 
 
 def apart(x: NDArray[np.float64], truth: NDArray[np.float64]) -> float:
@@ -63,12 +65,12 @@ def test_success_with_wrong_accelerations_is_warned_of(
     scene = scene.replace({"solver.frequency_cap": cap})
     if lies:
         with pytest.warns(br.AccuracyWarning, match=r"uncertain by about \d+ %.*rtol = 1e-\d"):
-            out = br.simulate(scene, duration=2e-3, fs=200e3, rtol=rtol)
+            out = br.simulate(scene, duration=2e-3, fs=200e3, rtol=rtol, settle=0.0, bandwidth=None)
         assert len(out.warnings) == 1
         assert out.stats.acceleration_residual > 0.05
     else:
         # Warnings are errors here.
-        out = br.simulate(scene, duration=2e-3, fs=200e3, rtol=rtol)
+        out = br.simulate(scene, duration=2e-3, fs=200e3, rtol=rtol, settle=0.0, bandwidth=None)
         assert out.warnings == ()
         assert out.stats.acceleration_residual < 0.01
     assert (apart(out["outer.ay"], truth) > 0.1) == lies
@@ -77,12 +79,12 @@ def test_success_with_wrong_accelerations_is_warned_of(
 def test_the_warning_points_at_the_caller_and_stays_with_the_signals(tmp_path: Path) -> None:
     scene = soon_over_the_spall(damping=5.0)
     with pytest.warns(br.AccuracyWarning) as caught:
-        out = br.simulate(scene, duration=1e-3, rtol=1e-3)
+        out = br.simulate(scene, duration=1e-3, rtol=1e-3, settle=0.0, bandwidth=None)
     assert caught[0].filename == __file__
     out.write_parquet(tmp_path / "out.parquet")
     assert br.Signals.read_parquet(tmp_path / "out.parquet").warnings == out.warnings
     with pytest.raises(br.AccuracyWarning):  # pyproject.toml makes warnings errors
-        br.simulate(scene, duration=1e-3, rtol=1e-3)
+        br.simulate(scene, duration=1e-3, rtol=1e-3, settle=0.0, bandwidth=None)
 
 
 def test_a_contact_over_the_shoulder_is_warned_of() -> None:
@@ -90,7 +92,7 @@ def test_a_contact_over_the_shoulder_is_warned_of() -> None:
     angle = float(br.equilibrium(scene).outer_angle[0])
     low = scene.replace({"rows[0].outer_shoulders": (1.1 * angle, 1.1 * angle)})
     with pytest.warns(br.AccuracyWarning, match=r"over a shoulder \d+ times in \d+ steps"):
-        out = br.simulate(low, duration=0.2e-3)
+        out = br.simulate(low, duration=0.2e-3, settle=0.0, bandwidth=None)
     assert out.stats.truncated_contacts > 0
 
 
@@ -112,7 +114,7 @@ def test_a_collapsed_step_names_what_caused_it(
 ) -> None:
     """Failure: a run that goes on for ever; instead an error within a thousand hopeless steps."""
     with pytest.raises(br.IntegrationError, match="step has collapsed") as caught:
-        br.simulate(wheel.replace(changes), duration=1e-3, rtol=rtol)
+        br.simulate(wheel.replace(changes), duration=1e-3, rtol=rtol, settle=0.0, bandwidth=None)
     error = caught.value
     assert named in error.contacts[0]
     assert error.contacts[0] in str(error)
@@ -135,7 +137,8 @@ def test_numbers_that_are_none_are_refused_by_name(wheel: br.Scene, field: str, 
 def test_a_cold_start_is_repeatable_to_the_bit(wheel: br.Scene) -> None:
     """Failure: chaos from the rolling start; instead the same bits for any number of threads."""
     runs = [
-        br.simulate(wheel, duration=1e-3, start="rolling", threads=threads) for threads in (1, 1, 2)
+        br.simulate(wheel, duration=1e-3, start="rolling", threads=threads, bandwidth=None)
+        for threads in (1, 1, 2)
     ]
     for out in runs[1:]:
         for name in out:
@@ -154,7 +157,7 @@ def test_a_peer_reports_success_with_wrong_accelerations() -> None:
     row = model.names.index("outer.vy")
     theirs = np.array([model.rhs(t, y)[row] for t, y in zip(t, peer.y.T, strict=True)])
     truth = quietly(model.scene, 1e-10)["outer.ay"]
-    ours = br.simulate(model.scene, duration=2e-3, fs=200e3)
+    ours = br.simulate(model.scene, duration=2e-3, fs=200e3, settle=0.0, bandwidth=None)
     errors = apart(theirs, truth), apart(ours["outer.ay"], truth)
     print(f"RK45 {peer.nfev}, error {errors[0]:.1e}; ours {ours.stats.nfev}, {errors[1]:.1e}")
     assert errors[0] > 0.3

@@ -13,17 +13,15 @@ from .. import _core
 from .._document import encode
 from ..errors import SceneError
 from ..scene import Scene
+from .store import BASE
 
 if TYPE_CHECKING:
     import polars as pl
 
-RUN = ("duration", "fs", "start", "rtol", "accuracy", "method")
+RUN = ("duration", "fs", "start", "rtol", "accuracy", "method", "bandwidth", "settle")
 """Columns that say how a case is run, instead of the campaign's own arguments."""
 
-FAULTS = ("outer_race", "inner_race", "ball")
-
-RESULTS = ("case_id", "status", "error", "message", "version", "accepted", "rejected", "nfev",
-           "wall_time", "signals", "changes", *(f"fault_{surface}" for surface in FAULTS))  # fmt: skip
+RESULTS = (*BASE, "changes")
 """Columns of the manifest that a table may not have."""
 
 _FIELDS = frozenset(field.name for field in fields(Scene))
@@ -32,17 +30,16 @@ _STEP = re.compile(r"[^.\[\]]+")
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """One row of a table: its id, the faults of its scene, and why it cannot be run, if so."""
+    """One row of a table: its id, and why it cannot be run, if so."""
 
     id: str
-    faults: tuple[bool, ...]
     error: SceneError | None
 
 
 class Cases:
     """The cases of a table.
 
-    Nothing but ids, faults and the table itself is held; documents are made when they are asked for.
+    Nothing but ids and the table itself is held; documents are made when they are asked for.
     """
 
     def __init__(self, table: object, scenes: Mapping[str, str], run: Mapping[str, Any]) -> None:
@@ -71,14 +68,11 @@ class Cases:
         return self._changes(self._rows[index])
 
     def frame(self) -> pl.DataFrame:
-        """Return the table with case ids and faults: the left part of the manifest."""
+        """Return the table with case ids: the left part of the manifest."""
         import polars as pl
 
         columns = [pl.Series("case_id", [case.id for case in self.cases], dtype=pl.String)]
         columns += [_series(name, [row.get(name) for row in self._rows]) for name in self.names]
-        for i, surface in enumerate(FAULTS):
-            values = [case.faults[i] for case in self.cases]
-            columns.append(pl.Series(f"fault_{surface}", values, dtype=pl.Boolean))
         texts = [json.dumps(_plain(self._changes(row))) for row in self._rows]
         columns.append(pl.Series("changes", texts, dtype=pl.String))
         return pl.DataFrame(columns)
@@ -95,9 +89,8 @@ class Cases:
         except SceneError as error:
             # It has no document to be known by, but what it was made from.
             made_from = json.dumps([dict(self._scenes), self._run, _plain(changes)])
-            return Case(_digest("not usable", made_from), (False,) * len(FAULTS), error)
-        document = json.loads(scene)
-        return Case(_digest(scene, run), _faults(document), None)
+            return Case(_digest("not usable", made_from), error)
+        return Case(_digest(scene, run), None)
 
     def _check_columns(self) -> None:
         for name in self.names:
@@ -147,25 +140,36 @@ def run_document(run: Mapping[str, Any]) -> dict[str, Any]:
     if document["start"] not in ("equilibrium", "rolling"):
         raise SceneError("start", repr(document["start"]), "'equilibrium' or 'rolling'")
     document["method"] = run.get("method")
+    document["bandwidth"] = _bandwidth(run["bandwidth"])
     limits = {
         "duration": (0.0, 1e6),
         "fs": (0.0, 1e9),
         "rtol": (1e-12, 1e-1),
         "accuracy": (1e-4, 1e-1),
+        "settle": (0.0, 1e3),
     }
     for name, (low, high) in limits.items():
         value: Any = run.get(name)
-        if value is None and name in ("rtol", "accuracy"):
+        if value is None and name in ("rtol", "accuracy", "settle"):
             document[name] = None
             continue
         try:
             number = float(value)
         except (TypeError, ValueError):
             raise SceneError(name, repr(value), "a number") from None
-        if not (low < number <= high or number == low > 0.0):
-            raise SceneError(name, str(value), f"above {low:g} and at most {high:g}")
+        ends_count = low > 0.0 or name == "settle"
+        if not (low < number <= high or (number == low and ends_count)):
+            least = "at least 0" if name == "settle" else f"above {low:g}"
+            raise SceneError(name, str(value), f"{least} and at most {high:g}")
         document[name] = number
     return document
+
+
+def _bandwidth(value: object) -> str | None:
+    """Return what the core takes; a table, whose empty cells change nothing, and TOML say "none"."""
+    if value not in ("auto", "none", None):
+        raise SceneError("bandwidth", repr(value), "'auto' or None ('none' in tables and sweeps)")
+    return "auto" if value == "auto" else None
 
 
 def _rows(table: object) -> tuple[list[dict[str, Any]], list[str]]:
@@ -213,17 +217,6 @@ def _exists(document: Any, path: str) -> bool:
         else:
             return False
     return True
-
-
-def _faults(document: Mapping[str, Any]) -> tuple[bool, ...]:
-    """Say which surfaces carry a defect that has a width."""
-
-    def has_width(defect: Mapping[str, Any]) -> bool:
-        width = defect["width"]
-        return bool(max(width["widths"]) if isinstance(width, dict) else width)
-
-    found = {defect["on"] for defect in document["defects"].values() if has_width(defect)}
-    return tuple(surface in found for surface in FAULTS)
 
 
 def _digest(scene: str, run: str) -> str:

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     import polars as pl
 
 _ARGUMENTS = (
-    "duration", "fs", "start", "rtol", "accuracy", "method", "keep", "columns", "skip", "band",
-    "contact_loads",
+    "duration", "fs", "start", "rtol", "accuracy", "method", "bandwidth", "settle", "keep", "columns", "skip",
+    "band", "contact_loads",
 )  # fmt: skip
 _BUILDERS = ("table", "grid", "latin_hypercube", "sobol", "scatter")
 _PLAN = (

@@ -53,10 +53,14 @@ class Campaign:
     def manifest(self) -> pl.DataFrame:
         """One row a case, in the order of the table.
 
-        ``case_id``; the table's own columns; ``fault_outer_race``, ``fault_inner_race``, ``fault_ball``: whether
-        the scene has such a defect; ``status``: ``ok``, ``failed`` or ``missing``; ``error`` and ``message`` of a
+        ``case_id``; the table's own columns; ``fault_outer_race``, ``fault_inner_race``, ``fault_ball``: whether a
+        loaded contact met such a defect in the run, empty where no ball passed it or there was no run;
+        ``status``: ``ok``, ``failed`` or ``missing``; ``error`` and ``message`` of a
         failed case; ``version`` of the solver; ``accepted``, ``rejected``, ``nfev``: its effort; ``wall_time``
-        [s]; ``signals``: the shard that holds them; and the features (see :func:`ballrace.campaign`).
+        [s]; ``signals``: the shard that holds them; the features (see :func:`ballrace.campaign`); and of every
+        defect with a width, such as ``defects.spall``: ``.placed_at``, its axial place [m], ``.passes`` of balls,
+        ``.touched``, the share of them in which a contact was loaded within it, and its ``.largest_load`` [N] (see
+        :class:`ballrace.Touched`).
         """
         import polars as pl
 

@@ -35,6 +35,8 @@ class _Options(TypedDict, total=False):
     rtol: float | None
     accuracy: float | None
     method: Method | None
+    bandwidth: Literal["auto"] | None
+    settle: float | None
     keep: Literal["features", "signals"]
     columns: Sequence[str] | None
     skip: float
@@ -78,6 +80,8 @@ def campaign(
     rtol: float | None = None,
     accuracy: float | None = None,
     method: Method | None = None,
+    bandwidth: Literal["auto"] | None = "auto",
+    settle: float | None = None,
     keep: Literal["features", "signals"] = "features",
     columns: Sequence[str] | None = None,
     skip: float = 0.0,
@@ -102,24 +106,29 @@ def campaign(
     cases : table
         One row a case: polars, pandas, Arrow, a list of dicts or a dict of columns. Columns with a dot or an
         index are fields of the scene (``loads.axial.force``, ``rows[0].clearance``), as are its own fields;
-        ``duration``, ``fs``, ``start``, ``rtol``, ``accuracy`` and ``method`` replace the arguments of that
-        name; ``scene`` says which one if there are several. Every other column is a label, and only carried
-        along. An empty cell changes nothing.
+        ``duration``, ``fs``, ``start``, ``rtol``, ``accuracy``, ``method``, ``bandwidth`` (``"auto"`` or
+        ``"none"``) and ``settle`` replace the arguments of that name; ``scene`` says which one if there are
+        several. Every other column is a label, and only carried along. An empty cell changes nothing.
     out : path
         Folder of the campaign, made if it does not exist. With an executor all workers must see it under this
         name.
     scene : Scene, or mapping of str to Scene
         What the rows change, or several of them by name.
-    duration, fs, start, rtol, accuracy, method
-        As for :func:`ballrace.simulate`.
+    duration, fs, start, rtol, accuracy, method, bandwidth, settle
+        As for :func:`ballrace.simulate`. Features never contain the start: they begin at t = 0, when it has
+        settled. With ``settle=0``, or from a rolling start, it is in them as far as `skip` does not leave it out.
     keep : {"features", "signals"}
         Whether the signals of every case are kept beside its features.
     columns : sequence of str, optional
         Signals whose features are computed; by default all accelerations that the probes record. For
         ``outer.ay``: ``outer.ay.rms``, ``.peak``, ``.crest_factor``, ``.kurtosis``, and for every row of balls
-        the lines of the signal at its fault frequencies ``outer.ay.row0.ftf``, ``.bpfo``, ``.bpfi``, ``.bsf``,
-        and those of the squared envelope, ``outer.ay.row0.bpfo_envelope`` and so on. A line that the record
-        is too short for is empty.
+        the lines of the signal at its fault frequencies ``outer.ay.row0.ftf``, ``.bpfo``, ``.bpfi``, ``.2bsf``
+        (a ball's defect meets both races in a turn), the root of the sum of the squares of the first three
+        harmonics (``.bpfo_harmonics``), and of the sidebands a shaft's frequency beside BPFI and a cage's beside
+        2 BSF (``.bpfi_sidebands``, ``.2bsf_sidebands``); and all of these of the squared envelope,
+        ``outer.ay.row0.bpfo_envelope``, ``.bpfo_envelope_harmonics`` and so on. Where the given speed changes by
+        more than 2 %, lines are taken over the shaft's angle. A line that the record is too short for is empty,
+        and so are all under a torque drive.
     skip : float
         Beginning of each run that features leave out [s].
     band : tuple of two floats, optional
@@ -192,6 +201,8 @@ def campaign(
             "rtol": rtol,
             "accuracy": accuracy,
             "method": method,
+            "bandwidth": bandwidth,
+            "settle": settle,
         }
     )
     features = {

@@ -36,7 +36,12 @@ _FORMAT = 1
 _SHARD = re.compile(r"[0-9a-f]{32}\.parquet")
 _FOLDERS = ("locks", "results", "signals", "tmp")
 
-BASE = ("case_id", "status", "error", "message", "version", "accepted", "rejected", "nfev",
+SURFACES = ("outer_race", "inner_race", "ball")
+"""Surfaces that may have a defect."""
+
+FAULTS = tuple(f"fault_{surface}" for surface in SURFACES)
+
+BASE = ("case_id", *FAULTS, "status", "error", "message", "version", "accepted", "rejected", "nfev",
         "wall_time", "signals")  # fmt: skip
 """Columns of every row of results; features follow."""
 
@@ -167,9 +172,9 @@ class Store:
         """
         import polars as pl
 
-        frames = [self._read_result(path) for path in self._shards("results")]
-        if not frames:
-            return pl.DataFrame(schema=schema())
+        # A shard of an older version may lack columns.
+        frames = [pl.DataFrame(schema=schema())]
+        frames += [self._read_result(path) for path in self._shards("results")]
         rows = pl.concat(frames, how="diagonal")
         # Of a case that was run twice, the row with signals counts; the order does not depend on the files'.
         order = ("case_id", pl.col("signals").is_null(), "version", "signals", "wall_time")
@@ -219,7 +224,9 @@ def schema() -> dict[str, Any]:
     """Return the types of the columns that every row of results has."""
     import polars as pl
 
-    types = {"accepted": pl.Int64, "rejected": pl.Int64, "nfev": pl.Int64, "wall_time": pl.Float64}
+    counts = ("accepted", "rejected", "nfev")
+    types = {**dict.fromkeys(counts, pl.Int64), **dict.fromkeys(FAULTS, pl.Boolean)}
+    types["wall_time"] = pl.Float64
     return {name: types.get(name, pl.String) for name in BASE}
 
 

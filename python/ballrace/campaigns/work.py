@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from .. import _core, errors
 from ..errors import BallraceError, CampaignError
-from .store import schema
+from .store import FAULTS, SURFACES, schema
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -169,6 +169,7 @@ def row(case_id: str, record: dict[str, Any]) -> dict[str, Any]:
     error = record.get("error")
     return {
         "case_id": case_id,
+        **_faults(record.get("defects")),
         "status": "failed" if error else "ok",
         "error": error and error["class"],
         "message": error and error["message"],
@@ -176,7 +177,32 @@ def row(case_id: str, record: dict[str, Any]) -> dict[str, Any]:
         **{name: record.get(name) for name in ("accepted", "rejected", "nfev", "wall_time")},
         "signals": None,
         **dict(record.get("features", ())),
+        **dict(_touched(record.get("defects", ()))),
     }
+
+
+def _faults(defects: list[dict[str, Any]] | None) -> dict[str, bool | None]:
+    """Say which surfaces have a defect that was touched; nothing of a run that failed, or that no ball passed."""
+
+    def is_touched(surface: str) -> bool | None:
+        if defects is None:
+            return None
+        there = [defect for defect in defects if defect["on"] == surface]
+        if any(defect["touched"] for defect in there):
+            return True
+        return False if all(defect["passes"] for defect in there) else None
+
+    return {fault: is_touched(surface) for fault, surface in zip(FAULTS, SURFACES, strict=True)}
+
+
+def _touched(defects: Iterable[dict[str, Any]]) -> Iterator[tuple[str, float | None]]:
+    """Return the columns of the defects of a run: place, passes, share of these that touched, largest load."""
+    for defect in defects:
+        name, passes = f"defects.{defect['name']}", defect["passes"]
+        yield f"{name}.placed_at", defect["axial_offset"]
+        yield f"{name}.passes", float(passes)
+        yield f"{name}.touched", defect["touched"] / passes if passes else None
+        yield f"{name}.largest_load", defect["largest_load"]
 
 
 def exception(error: dict[str, Any]) -> BallraceError:

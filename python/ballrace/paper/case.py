@@ -106,6 +106,8 @@ class Dynamic:
         Largest impact [m/s²].
     line : float
         Amplitude of the envelope's line at ``bpfo`` [m/s²].
+    clarity : float
+        How far the squared envelope's line at ``bpfo`` stands over its surroundings [dB].
     rms : float
         Root mean square about the mean [m/s²].
     bpfo : float
@@ -117,6 +119,7 @@ class Dynamic:
     impact_count: int
     largest: float
     line: float
+    clarity: float
     rms: float
     bpfo: float
 

@@ -8,6 +8,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from .._files import check_writable, whole
+from .simulations import SIGNALS
 from .table import AXIAL_LOADS
 
 if TYPE_CHECKING:
@@ -104,11 +105,12 @@ def _page(paper: Paper) -> str:
 
     names = list(AXIAL_LOADS)
     cases = paper.cases
-    scene = cases[names[0]].signals.scene
+    signals = cases[names[0]].signals
+    scene = signals.scene
     bpfo = cases[names[0]].dynamic.bpfo
     spans = [
-        (defect.axial_offset + scene.rows[0].axial_position, defect.length)
-        for defect in scene.defects.values()
+        (signals.defects[name].axial_offset + scene.rows[0].axial_position, defect.length)
+        for name, defect in scene.defects.items()
         if defect.row == 0
     ]
     bands = [(z - length / 2.0, z + length / 2.0) for z, length in spans]
@@ -140,7 +142,8 @@ def _page(paper: Paper) -> str:
         "td,th{padding:2px 10px;text-align:right}td:first-child,th:first-child{text-align:left}</style>",
         "</head><body><h1>A 3D-ball bearing model for simulation of axial load variations</h1>",
         "<p>The published case, run again: 7 kN radial load, defect on the outer ring, 30 turns a second.",
-        "Accelerations are cut off in the first milliseconds; forces are those at 0.017992 s.</p>",
+        "Accelerations are cut off in the first milliseconds; forces are those at 0.017992 s.",
+        f"Signals are {SIGNALS}.</p>",
         _html_table(rows(paper)),
     ]
     for number, (title, fig) in enumerate(figures.items()):

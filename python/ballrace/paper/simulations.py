@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from ..run import simulate
 from ..scene import ContactsProbe, FixedSlices, MotionProbe, SlicesProbe
 from ..statics import equilibrium
 from .case import Balls, Case, Dynamic, Snapshot, Static
-from .measures import Array, envelope_line, impacts, orbit, passages, settling_time, zone
+from .measures import Array, clarity, envelope_line, impacts, orbit, passages, settling_time, zone
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -31,6 +31,9 @@ SETTLED = 0.02
 
 FS = 200_000.0
 """Sampling rate of the signals [Hz]."""
+
+SIGNALS = "point samples, as the paper computed its own: no low-pass before them (bandwidth=None)"
+"""How the signals of this package are taken."""
 
 # Of the mean impact: less than this of the start cannot be seen in the figures.
 VISIBLE = 0.05
@@ -81,6 +84,7 @@ def dynamic(out: Signals, after: float = SETTLED) -> Dynamic:
         impact_count=found.size,
         largest=float(found.max()),
         line=envelope_line(part, out.fs, bpfo),
+        clarity=clarity(part, out.fs, bpfo),
         rms=float(part.std()),
         bpfo=bpfo,
     )
@@ -102,6 +106,8 @@ def snapshot(scene: Scene, instant: float = INSTANT, threads: int = 0) -> Snapsh
         fs=fs,
         start="rolling",
         threads=threads,
+        bandwidth=None,
+        settle=0.0,
     )
     now = {name: float(values[_SNAPSHOT_SAMPLES]) for name, values in out.items()}
     number = {body: i for i, body in enumerate(model.bodies)}
@@ -136,7 +142,8 @@ def _slices(scene: Scene, state: Array, ball: int) -> dict[str, Array]:
     """Return the slices of equal width of a ball of row 0 on the outer race in a state."""
     probe = SlicesProbe(row=0, balls=(ball,), races=("outer",), times=(0.0,))
     cut = scene.replace({"probes": {"slices": probe}, "contact.slices": FixedSlices(count=_SLICES)})
-    table = simulate(cut, duration=1e-6, fs=1e6, start=state, threads=1).slices
+    out = simulate(cut, duration=1e-6, fs=1e6, start=state, threads=1, settle=0.0, bandwidth=None)
+    table = out.slices
     assert table is not None
     names = ("zeta", "z", "width", "penetration", "force")
     return {name: table[name].to_numpy() for name in names}
@@ -167,14 +174,28 @@ def load_case(
         fs=FS,
         start="rolling",
         threads=threads,
+        settle=0.0,
         progress=lambda share: show(0.6 * share),
+        bandwidth=None,
     )
     features = dynamic(out)
     level = VISIBLE * features.impact if level is None else level
     healthy = scene.replace({"probes": {"outer": probes["outer"]}, "defects": {}})
-    rolling = simulate(healthy, duration=2.0 * SETTLED, fs=FS, start="rolling", threads=threads)
+
+    def unsettled(duration: float, start: Literal["rolling", "equilibrium"]) -> Signals:
+        return simulate(
+            healthy,
+            duration=duration,
+            fs=FS,
+            start=start,
+            threads=threads,
+            settle=0.0,
+            bandwidth=None,
+        )
+
+    rolling = unsettled(2.0 * SETTLED, "rolling")
     show(0.75)
-    still = simulate(healthy, duration=1.0 / features.bpfo, fs=FS, threads=threads)["outer.ay"]
+    still = unsettled(1.0 / features.bpfo, "equilibrium")["outer.ay"]
     show(0.85)
     at_instant = snapshot(scene, threads=threads)
     show(1.0)

@@ -12,7 +12,7 @@ import numpy as np
 from .. import presets
 from .case import Case
 from .measures import ENVELOPE_BAND
-from .simulations import FS, INSTANT, VISIBLE, load_case
+from .simulations import FS, INSTANT, SIGNALS, VISIBLE, load_case
 from .table import AXIAL_LOADS, Comparison, compare
 
 if TYPE_CHECKING:
@@ -46,6 +46,7 @@ class Paper:
             "cases": {name: _numbers(case) for name, case in self.cases.items()},
             "instant": INSTANT,
             "sampling_rate": FS,
+            "signals": SIGNALS,
             "impact_filter": "none",
             "envelope_band": list(ENVELOPE_BAND),
             "scene": json.loads(next(iter(self.cases.values())).signals.scene.to_json()),

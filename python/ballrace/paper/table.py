@@ -58,7 +58,11 @@ TARGETS = (
     Target("static_zone_shift", "9", "contact zone's shift at rest, healthy, mm", *_ZONE),
     Target("force_away", "10", "ball force at -3 kN over the smaller other", "smaller", None, 0, 1),
     Target("zone_away", "10", "zone length at -3 kN over the smaller other", "smaller", None, 0, 1),
-    Target("line_away", "11", "envelope line, -3 against +3 kN, dB", "none", None, -_INF, -12.0),
+    Target("line_away", "11", "envelope line, -3 against +3 kN, dB", "quieter", None, -_INF, -12.0),
+    Target(
+        "clarity_away", "11", "line over its surroundings, -3 kN, dB", "none", None, -_INF, 10.0
+    ),
+    Target("scatter_away", "11", "scatter of impacts at -3 kN, %", "varying", None, 20.0, _INF),
     Target("largest_away", "11", "largest acceleration at -3 kN, m/s²", "< 90", None, 0.0, 90.0),
     Target("transient", "6, 11", "transient, rolling start, s", "0.02", 0.02, 0.01, 0.03),
     Target("start_at_rest", "", "equilibrium over rolling start, %", "", None, 0.0, 2.0),
@@ -138,6 +142,8 @@ def compare(cases: Mapping[str, Case]) -> tuple[Comparison, ...]:
         "force_away": third.zone.force / min(before.zone.force, after.zone.force),
         "zone_away": third.zone.length / min(before.zone.length, after.zone.length),
         "line_away": 20.0 * math.log10(away.dynamic.line / towards.dynamic.line),
+        "clarity_away": away.dynamic.clarity,
+        "scatter_away": 100.0 * away.dynamic.impact_spread / away.dynamic.impact,
         "largest_away": away.dynamic.largest,
         "transient": max(case.transient for case in cases.values()),
         "start_at_rest": 100.0 * max(case.start_at_rest for case in cases.values()),

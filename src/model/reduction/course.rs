@@ -112,16 +112,12 @@ impl Orbit {
     /// From a start, a state of all bodies: as fast as the balls of the row are in the mean, and in proportion to the
     /// drive. `at` is the place of the first radius among the states, if they are.
     pub fn of(model: &Model, row: usize, start: &[f64], at: Option<usize>) -> Self {
-        let half = start.len() / 2;
         let RowModel { first, count, .. } = model.rows[row];
         let first = 2 + first;
-        let mut speed = 0.0;
         let starts = (first..first + count)
             .map(|body| {
                 let [x, y] = [start[4 * body], start[4 * body + 1]];
-                let [vx, vy] = [start[half + 4 * body], start[half + 4 * body + 1]];
                 let square = x * x + y * y;
-                speed += (x * vy - y * vx) / square / count as f64;
                 let scale = if at.is_some() { square.sqrt() } else { 1.0 };
                 [x / scale, y / scale]
             })
@@ -131,7 +127,12 @@ impl Orbit {
             first,
             starts,
             at,
-            course: Course::geared(0.0, speed, at_rest, &model.scene.drive),
+            course: Course::geared(
+                0.0,
+                model.orbit_speed(row, start),
+                at_rest,
+                &model.scene.drive,
+            ),
         }
     }
 

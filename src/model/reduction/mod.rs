@@ -331,6 +331,15 @@ impl Reduction {
     }
 }
 
+impl Model {
+    /// Axial places that outer ring, inner ring and the rows of balls keep by request, from a state of all bodies in
+    /// equilibrium; none where that is not asked for or cannot be.
+    pub(crate) fn levels(&self, start: &[f64]) -> Option<Vec<f64>> {
+        let levels = request::levels(self, start);
+        levels.ok().filter(|_| self.scene.approximations.plane)
+    }
+}
+
 /// Makes the second row the image of the first, whose axial places z become `sum` − z.
 fn copy_row(model: &Model, full: &mut [f64], sum: f64) {
     let (first, second) = (2 + model.rows[0].first, 2 + model.rows[1].first);

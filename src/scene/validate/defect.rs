@@ -14,7 +14,9 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
     positive(&at("length"), defect.length)?;
     positive(&at("edge_radius"), defect.edge_radius)?;
     width(&at("width"), &defect.width)?;
-    finite(&at("axial_offset"), defect.axial_offset)?;
+    if let Some(offset) = defect.axial_offset.number() {
+        finite(&at("axial_offset"), offset)?;
+    }
     match (defect.on, defect.ball) {
         (Surface::Ball, Some(ball)) if ball < row.ball_count => on_ball(path, row, defect)?,
         (Surface::Ball, ball) => {
@@ -79,7 +81,9 @@ fn width(path: &str, width: &Width) -> Result<()> {
 fn on_ball(path: &str, row: &Row, defect: &Defect) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     let radius = row.ball_diameter / 2.0;
-    let reach = defect.axial_offset.abs() + defect.length / 2.0;
+    // At least: one that is yet to be placed is checked again when it is.
+    let offset = defect.axial_offset.number().unwrap_or(0.0);
+    let reach = offset.abs() + defect.length / 2.0;
 
     if reach >= radius {
         return Err(Error::scene(
@@ -121,16 +125,17 @@ fn on_race(path: &str, row: &Row, defect: &Defect, outer: bool) -> Result<()> {
         centre += f64::from(row.side) * row.axial_preload;
     }
     let limits = shoulders.map_or([groove; 2], |s| s.map(|angle| groove * angle.sin()));
-    let (low, high) = (
-        defect.axial_offset - defect.length / 2.0 - centre,
-        defect.axial_offset + defect.length / 2.0 - centre,
-    );
-    if low <= -limits[0] || high >= limits[1] {
+    let beyond = |offset: &f64| {
+        let half = defect.length / 2.0;
+        offset - half - centre <= -limits[0] || offset + half - centre >= limits[1]
+    };
+    if let Some(offset) = defect.axial_offset.number().filter(beyond) {
         return Err(Error::scene(
             at("length"),
             defect.length,
             format!(
-                "a defect within the race, which ends at {:.6e} and {:.6e} from the row's plane",
+                "a defect within the race: its middle is at {offset:.6e}, the race ends at {:.6e} and {:.6e} from \
+                 the row's plane",
                 centre - limits[0],
                 centre + limits[1]
             ),

@@ -1,0 +1,144 @@
+//! Where defects are placed that are to lie where contacts run.
+//!
+//! This stands between a scene and its model: a model knows numbers only, and every model of a user's scene is made
+//! here, so that a run, an equilibrium and an explanation place a defect alike.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::positions;
+use crate::error::Result;
+use crate::model::{Model, compile};
+use crate::scene::{AxialOffset, Defect, Row, Scene, Surface, TimeFunction};
+
+/// Where the number of a defect's axial place comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Placed {
+    /// The scene gave it.
+    Given,
+    /// A contact runs there at equilibrium.
+    Contact,
+    /// The nominal contact angle: there is no equilibrium, or no load on the contacts that meet the defect.
+    Nominal,
+}
+
+/// Places are rounded to a nanometre: a level groove gives 0, and rows that are images keep being so \[1/m\].
+const FINEST: f64 = 1e9;
+/// Share of the contacts' scale from which a load counts: what lies below is left over from the solution.
+const LOADED: f64 = 1e-9;
+
+impl Model {
+    /// Checks a scene, places the defects that are to lie where contacts run, and compiles it.
+    ///
+    /// # Errors
+    /// [`crate::Error::Scene`] names the first field that is not usable, or the environment variable
+    /// `BALLRACE_SIMD` where it names no level of this processor.
+    pub fn new(scene: &Scene) -> Result<Self> {
+        compile(&place(scene)?.0)
+    }
+}
+
+/// The scene with a number for the axial place of every defect, and where the numbers come from, by the defects' names.
+///
+/// # Errors
+/// [`crate::Error::Scene`] for a scene that is not usable.
+pub(crate) fn place(scene: &Scene) -> Result<(Cow<'_, Scene>, BTreeMap<String, Placed>)> {
+    let is_given = |defect: &Defect| defect.axial_offset != AxialOffset::Contact;
+    let mut from: BTreeMap<String, Placed> = scene
+        .defects
+        .keys()
+        .map(|name| (name.clone(), Placed::Given))
+        .collect();
+    if scene.defects.values().all(is_given) {
+        return Ok((Cow::Borrowed(scene), from));
+    }
+    scene.validate()?;
+    let mut all = scene.clone();
+    for (name, defect) in &mut all.defects {
+        if is_given(defect) {
+            continue;
+        }
+        let found = Meeting::of(scene, defect)?.and_then(|meeting| meeting.place(defect));
+        let (number, placed) = match found {
+            Some(number) => (number, Placed::Contact),
+            None => (nominal(defect, &scene.rows[defect.row]), Placed::Nominal),
+        };
+        // The sum makes a negative zero a plain one.
+        defect.axial_offset = ((number * FINEST).round() / FINEST + 0.0).into();
+        from.insert(name.clone(), placed);
+    }
+    Ok((Cow::Owned(all), from))
+}
+
+/// The healthy bearing at equilibrium, and the contacts that meet a defect over a turn of the balls.
+pub(crate) struct Meeting {
+    pub model: Model,
+    /// A state vector with zero velocities.
+    pub y: Vec<f64>,
+    /// Ball among all balls, and race: 0 (outer) or 1 (inner).
+    pub contacts: Vec<(usize, usize)>,
+}
+
+impl Meeting {
+    /// Under the largest value of every load, with a ball at the angle of a defect on the outer race; none without
+    /// equilibrium.
+    ///
+    /// # Errors
+    /// [`crate::Error::Scene`] for a scene that is not usable.
+    pub fn of(scene: &Scene, defect: &Defect) -> Result<Option<Self>> {
+        let mut healthy = scene.clone();
+        healthy.defects.clear();
+        for load in healthy.loads.values_mut() {
+            load.force = TimeFunction::Constant(load.force.extreme());
+        }
+        if defect.on == Surface::OuterRace {
+            let turn = defect.angle - scene.rows[defect.row].start_angle;
+            for row in &mut healthy.rows {
+                row.start_angle += turn;
+            }
+        }
+        let model = compile(&healthy)?;
+        let row = &model.rows[defect.row];
+        let balls = row.first..row.first + row.count;
+        let contacts = match defect.on {
+            Surface::OuterRace => vec![(row.first, 0)],
+            Surface::InnerRace => balls.map(|j| (j, 1)).collect(),
+            Surface::Ball => balls.flat_map(|j| [(j, 0), (j, 1)]).collect(),
+        };
+        let y = positions(&model).ok();
+        Ok(y.map(|y| Self { model, y, contacts }))
+    }
+
+    /// Where the most loaded of these contacts runs, from the row's plane or the ball's centre \[m\]; none without load.
+    fn place(&self, defect: &Defect) -> Option<f64> {
+        let told = self.contacts.iter().map(|&(j, race)| {
+            let contact = self.model.contact(&self.y, j, race);
+            let z = |body: usize| self.y[4 * body + 2];
+            let from = match defect.on {
+                Surface::Ball => z(2 + j) - z(race),
+                _ => self.model.scene().rows[defect.row].axial_position,
+            };
+            (contact.load, contact.zone_centre - from)
+        });
+        let (mut most, mut place) = (LOADED * self.model.scales.load, None);
+        for (load, at) in told {
+            if load > most {
+                (most, place) = (load, Some(at));
+            }
+        }
+        place
+    }
+}
+
+/// Where a contact would run at the nominal contact angle \[m\]: at ±R sin α₀, on the inner race with its preload.
+fn nominal(defect: &Defect, row: &Row) -> f64 {
+    let side = f64::from(row.side);
+    let place = side * row.ball_diameter / 2.0 * row.contact_angle.sin();
+    match defect.on {
+        Surface::OuterRace | Surface::Ball => place,
+        Surface::InnerRace => side * row.axial_preload - place,
+    }
+}

@@ -1,0 +1,87 @@
+//! The shaft's course over a record: its frequency, or the angle over which a run-up is resampled.
+
+use std::borrow::Cow;
+use std::f64::consts::TAU;
+
+use super::lines::SHARE;
+use crate::scene::{Drive, Scene};
+
+/// What a spectrum is taken over.
+pub(super) enum Shaft {
+    /// Time: the speed changes by less than the width in which a line is sought; its frequency \[Hz\].
+    Steady(f64),
+    /// The angle: turns of the shaft at every sample, from 0.
+    Varying(Vec<f64>),
+}
+
+impl Shaft {
+    /// Over so many samples from a time on. Absent where the speed is not given, or the shaft stands still or turns back.
+    pub fn of(scene: &Scene, from: f64, count: usize, fs: f64) -> Option<Self> {
+        let Drive::Speed(speed) = &scene.drive else {
+            return None;
+        };
+        let speeds: Vec<f64> = (0..count)
+            .map(|i| speed.at(from + i as f64 / fs) / TAU)
+            .collect();
+        let mean = speeds.iter().sum::<f64>() / speeds.len() as f64;
+        let within = |share: f64| {
+            let near = |s: &f64| (s - mean).abs() <= share * mean.abs();
+            speeds.iter().all(near)
+        };
+        if within(SHARE) {
+            return (mean != 0.0).then_some(Self::Steady(mean.abs()));
+        }
+        if speeds.iter().any(|s| s * mean <= 0.0) {
+            return None;
+        }
+        let mut turns = vec![0.0];
+        for pair in speeds.windows(2) {
+            let last = turns[turns.len() - 1];
+            turns.push(last + (pair[0] + pair[1]).abs() / (2.0 * fs));
+        }
+        Some(Self::Varying(turns))
+    }
+
+    /// Its frequency over the spectrum's abscissa: in Hz, or once a turn.
+    pub fn frequency(&self) -> f64 {
+        match self {
+            Self::Steady(frequency) => *frequency,
+            Self::Varying(_) => 1.0,
+        }
+    }
+
+    /// A signal at equal distances of the spectrum's abscissa, and how many of these a unit has. What it holds between the
+    /// samples is read from a cubic through the nearest four.
+    pub fn by_angle<'x>(&self, x: &'x [f64], fs: f64) -> (Cow<'x, [f64]>, f64) {
+        let Self::Varying(turns) = self else {
+            return (x.into(), fs);
+        };
+        let (last, all) = (x.len() - 1, turns[turns.len() - 1]);
+        let mut before = 0;
+        let resampled = (0..x.len()).map(|i| {
+            let turn = all * i as f64 / last as f64;
+            while before + 2 < turns.len() && turns[before + 1] <= turn {
+                before += 1;
+            }
+            let (from, to) = (turns[before], turns[before + 1]);
+            cubic(x, before, (turn - from) / (to - from))
+        });
+        (resampled.collect(), last as f64 / all)
+    }
+}
+
+/// At a share of the way from one sample to the next, on the cubic through them with the slopes of their neighbours' chords.
+fn cubic(x: &[f64], before: usize, share: f64) -> f64 {
+    let at = |i: usize| x[i.min(x.len() - 1)];
+    let (a, b) = (at(before), at(before + 1));
+    let slopes = [
+        (b - at(before.saturating_sub(1))) / 2.0,
+        (at(before + 2) - a) / 2.0,
+    ];
+    let rise = b - a;
+    let bend = [
+        3.0 * rise - 2.0 * slopes[0] - slopes[1],
+        slopes[0] + slopes[1] - 2.0 * rise,
+    ];
+    a + share * (slopes[0] + share * (bend[0] + share * bend[1]))
+}

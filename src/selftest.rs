@@ -1,0 +1,121 @@
+//! Whether contacts evaluated at a level of vector instructions agree with the same contacts one by one, on numbers that a
+//! processor has not been seen to compute before.
+
+use std::sync::OnceLock;
+
+use crate::dynamics::Dynamics;
+use crate::integrate::System;
+use crate::model::Model;
+use crate::scene::{Friction, Scene, presets};
+use crate::simd::{Distrust, Level};
+use crate::start::{Start, start};
+
+/// Largest difference of a body's force, over the largest of all. Both ways agree to about 1e-13; what goes wrong loses whole
+/// contacts.
+const TOLERANCE: f64 = 1e-9;
+
+/// What evaluates the contacts of a body, as [`Distrust`] names it.
+const CONTACTS: &str = "contacts";
+
+/// The model at its level, or at the next narrower one where contacts do not agree, and what was wrong if anything was.
+///
+/// A level is tried once a process, in less than a millisecond.
+pub(crate) fn trusted(model: Model) -> (Model, Option<Distrust>) {
+    let level = model.level();
+    let below = Level::available()
+        .into_iter()
+        .skip_while(|other| *other != level);
+    let used = below.into_iter().find(|level| agrees(*level));
+    let used = used.unwrap_or(Level::Baseline);
+    let distrust = (used != level).then(|| Distrust {
+        level: level.name(),
+        primitive: CONTACTS,
+        used: used.name(),
+    });
+    (model.with_level(used), distrust.or_else(Level::distrust))
+}
+
+/// Whether contacts agree at a level; found out once.
+fn agrees(level: Level) -> bool {
+    static FOUND: [OnceLock<bool>; 3] = [const { OnceLock::new() }; 3];
+    let known = Level::known().iter().position(|name| *name == level.name());
+    known.is_some_and(|at| *FOUND[at].get_or_init(|| scenes().iter().all(|s| fits(s, level))))
+}
+
+/// One scene a way to evaluate contacts: by eights, in closed form along the balls with one over a spall, in one loop.
+fn scenes() -> [Scene; 3] {
+    let wheel = presets::wheel_bearing(3000.0);
+    let mut smooth = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    smooth.friction = Friction::None;
+    let mut spalled = smooth.clone();
+    spalled.defects.clone_from(&wheel.defects);
+    for spall in spalled.defects.values_mut() {
+        spall.axial_offset = 0.0.into();
+    }
+    [wheel, spalled, smooth]
+}
+
+fn fits(scene: &Scene, level: Level) -> bool {
+    difference(scene, level).is_ok_and(|apart| apart <= TOLERANCE)
+}
+
+/// Largest difference of the accelerations at nominal places with the inner ring pressed down, over the largest of all.
+fn difference(scene: &Scene, level: Level) -> crate::Result<f64> {
+    /// Deeper than the clearance, so that the lower balls carry \[m\].
+    const PRESSED: f64 = 20e-6;
+    let model = Model::new(scene)?.with_level(level);
+    let mut y = start(&model, &Start::Rolling)?;
+    y[5] -= PRESSED;
+    let reduction = model.reduction(&y);
+    let mut dynamics = Dynamics::begin(&model, reduction.as_ref(), &y);
+    let own = dynamics.compress(&y);
+    let (mut rates, mut found) = (own.clone(), y.clone());
+    dynamics.rhs(0.0, &own, &mut rates);
+    dynamics.expand_rates(0.0, &own, &rates, &mut found);
+    let wanted = one_by_one(&model, &y);
+    let apart = |(found, wanted): (&f64, &f64)| (found - wanted).abs();
+    let accelerations = &found[y.len() / 2..];
+    let worst = accelerations
+        .iter()
+        .zip(&wanted)
+        .map(apart)
+        .fold(0.0, f64::max);
+    let largest = wanted.iter().copied().map(f64::abs).fold(0.0, f64::max);
+    Ok(worst / largest)
+}
+
+/// Accelerations of all bodies by the contacts one by one.
+fn one_by_one(model: &Model, y: &[f64]) -> Vec<f64> {
+    let mut accelerations = vec![0.0; y.len() / 2];
+    for (_, part) in model.forces(0.0, y) {
+        for ((sum, force), mobility) in accelerations
+            .iter_mut()
+            .zip(part)
+            .zip(model.mobility.as_flattened())
+        {
+            *sum += force * mobility;
+        }
+    }
+    accelerations
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Analytic: one law, evaluated in two ways, in every way that runs have; a level that loses contacts is seen.
+    #[test]
+    fn levels_of_this_machine_agree() {
+        for level in Level::available() {
+            for scene in scenes() {
+                let apart = difference(&scene, level).unwrap();
+                println!("{}, {level}: {apart:.1e}", scene.name);
+                assert!(apart < 1e-11, "{}, {level}: {apart:.1e}", scene.name);
+            }
+        }
+        let model = Model::new(&scenes()[0]).unwrap();
+        let level = model.level();
+        let (model, distrust) = trusted(model);
+        assert_eq!((model.level(), distrust), (level, None));
+    }
+}

@@ -1,0 +1,232 @@
+//! What is left of a start dies down before t = 0 (model section 8).
+//!
+//! An equilibrium knows no friction, and not how gravity takes up the play of a cage: measured on a healthy 6205 under
+//! 500 N the outer ring shakes ten times as much over the first three ball passes as later, and is steady to 10 % from
+//! the seventh on, three quarters of a turn of the cage.
+//! So a run begins a little earlier, with loads and drive as they are at t = 0, and with rings and cage wound back: at
+//! t = 0 balls and defects stand where the scene says, but for what the balls have slipped.
+
+use std::f64::consts::TAU;
+use std::ops::ControlFlow;
+
+use crate::dynamics::Dynamics;
+use crate::error::{Error, Result};
+use crate::integrate::{DenseStep, Options};
+use crate::model::{Degree, Model};
+use crate::pool::on;
+use crate::scene::{Drive, RingName, Scene, Surface, TimeFunction};
+use crate::selftest;
+use crate::simulate::{Run, Stretch, Watch, follow, options, threads};
+use crate::start::{Start, start};
+
+/// Decay times of the slowest ring to wait for. Measured on a 6205 under thrust: what the start leaves is 3000 times
+/// the later signal, e⁸, and contacts and the other ring damp too.
+const DECAYS: f64 = 7.0;
+/// The longest time that is chosen \[s\]: what has not settled by then hardly does.
+const LONGEST: f64 = 0.1;
+/// Turn of the cage in which its play is taken up \[rad\].
+const TAKE_UP: f64 = 0.75 * TAU;
+/// Ball passes to wait for at least: in a wheel bearing under 3 kN of thrust the first is twice as loud as the third.
+const PASSES: f64 = 2.0;
+/// The longest time that may be asked for \[s\].
+const MOST: f64 = 1e3;
+
+/// From where a run goes on at t = 0, and what it took to get there.
+pub(crate) struct Settled {
+    pub from: Start,
+    /// Time before t = 0 \[s\].
+    pub seconds: f64,
+    pub accepted: usize,
+    pub nfev: usize,
+}
+
+/// Lets a scene settle from the start of a run, for as long as asked or needed. `progress` is told the share of
+/// settling and run together.
+pub(crate) fn settle(
+    scene: &Scene,
+    run: &Run,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Settled> {
+    let unsettled = Settled {
+        from: run.start.clone(),
+        seconds: 0.0,
+        accepted: 0,
+        nfev: 0,
+    };
+    if let Some(asked) = run.settle.filter(|asked| !(0.0..=MOST).contains(asked)) {
+        let allowed =
+            format!("0 to switch it off, at most {MOST} s, or absent: as long as the scene needs");
+        return Err(Error::scene("settle", asked, allowed));
+    }
+    let chosen = run.settle.is_none() && run.start == Start::Equilibrium;
+    if !chosen && run.settle.is_none_or(|asked| asked == 0.0) {
+        return Ok(unsettled);
+    }
+    let (model, _) = selftest::trusted(Model::new(&frozen(scene))?);
+    let y0 = start(&model, &run.start)?;
+    let seconds = run.settle.unwrap_or_else(|| needed(&model, &y0));
+    if seconds == 0.0 {
+        return Ok(unsettled);
+    }
+    let before = before(&model, &run.start, y0, seconds)?;
+    let options = Options {
+        breakpoints: Vec::new(),
+        ..options(&model)?
+    };
+    let dynamics = Dynamics::begin(&model, model.reduction(&before).as_ref(), &before);
+    let stretch = Stretch {
+        begins: -seconds,
+        length: seconds,
+    };
+    let share = seconds / (seconds + run.duration);
+    let mut progress = |done: f64| progress(share * done);
+    let threads = threads(&model, run.threads)?;
+    let (end, stats, _) = on(threads, dynamics, &mut progress, |dynamics, progress| {
+        follow(dynamics, &mut Unseen, &before, stretch, &options, progress)
+    })?;
+    Ok(Settled {
+        from: Start::State(end),
+        seconds,
+        accepted: stats.accepted,
+        nfev: stats.nfev,
+    })
+}
+
+/// Nobody looks while the start settles.
+struct Unseen;
+
+impl Watch for Unseen {
+    fn first(&mut self, _: &mut Dynamics<'_>, _: &[f64]) {}
+    fn step(&mut self, _: &mut Dynamics<'_>, _: &DenseStep<'_>) {}
+}
+
+/// How long a start from equilibrium needs \[s\]: some decay times of the slowest ring, and some ball passes; where a
+/// cage has play and balls are loose most of a turn of it, until gravity has let all of them fall from one end of the
+/// play to the other. Not at all where nothing takes energy.
+fn needed(model: &Model, y0: &[f64]) -> f64 {
+    let rings = (0..2).map(|ring| decay(model, y0, ring));
+    let slowest = rings.fold(0.0, f64::max);
+    let rubs = model.rows[0].pairs[0].friction.is_some();
+    if slowest.is_infinite() && !rubs && model.scene.contact.damping == 0.0 {
+        return 0.0;
+    }
+    let has_play = model
+        .scene
+        .cage
+        .as_ref()
+        .is_some_and(|cage| cage.play > 0.0);
+    let times = (0..model.rows.len()).map(|row| {
+        let turn = if has_play && has_loose_balls(model, y0, row) {
+            TAKE_UP
+        } else {
+            PASSES * TAU / model.rows[row].count as f64
+        };
+        turn / model.orbit_speed(row, y0).abs()
+    });
+    times
+        .filter(|time| time.is_finite())
+        .fold(DECAYS * slowest, f64::max)
+        .min(LONGEST)
+}
+
+fn has_loose_balls(model: &Model, y: &[f64], row: usize) -> bool {
+    let row = &model.rows[row];
+    (row.first..row.first + row.count).any(|j| model.contact(y, j, 1).load == 0.0)
+}
+
+/// Decay time 2 m/c of a ring's slowest direction \[s\]: damped by its support and by the contacts, each of which damps
+/// by (3/2) α_d F and takes half the approach speed of the rings. Infinite where nothing damps it, 0 for one that is held.
+fn decay(model: &Model, y: &[f64], ring: usize) -> f64 {
+    let loads = (0..model.balls.len()).map(|j| model.contact(y, j, ring).load);
+    let contacts = 0.75 * model.scene.contact.damping * loads.sum::<f64>();
+    let body = &model.bodies[ring];
+    let times = (0..3).filter_map(|i| match body.degrees[i] {
+        Degree::Free { damping, .. } => Some(2.0 * body.mass[i] / (damping + contacts)),
+        Degree::Fixed | Degree::Driven => None,
+    });
+    times.fold(0.0, f64::max)
+}
+
+/// The scene with loads and drive as they are at t = 0; a driving torque becomes the speed that it has reached.
+fn frozen(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    for load in scene.loads.values_mut() {
+        load.force = TimeFunction::Constant(load.force.at(0.0));
+    }
+    scene.drive = Drive::Speed(TimeFunction::Constant(scene.drive.initial_speed()));
+    scene
+}
+
+/// The state of all bodies at which settling begins: the start with inner ring, cage and balls wound back by what they
+/// turn in the meantime. A given state is left as it is.
+fn before(model: &Model, from: &Start, y0: Vec<f64>, seconds: f64) -> Result<Vec<f64>> {
+    if matches!(from, Start::State(_)) {
+        return Ok(y0);
+    }
+    let turned = Turned::since(model, &y0, seconds);
+    let mut y = start(&Model::new(&turned.back(&model.scene))?, from)?;
+    y[7] = -turned.inner;
+    for (j, ball) in model.balls.iter().enumerate() {
+        y[4 * (2 + j) + 3] = -turned.balls[ball.row];
+    }
+    Ok(y)
+}
+
+/// How far bodies turn in a time \[rad\].
+struct Turned {
+    inner: f64,
+    /// About the axis, a row each.
+    rows: Vec<f64>,
+    /// About their own centres, in the mean of a row.
+    balls: Vec<f64>,
+}
+
+impl Turned {
+    fn since(model: &Model, y0: &[f64], seconds: f64) -> Self {
+        let half = y0.len() / 2;
+        let spin = |row: usize| {
+            let row = &model.rows[row];
+            let balls = row.first..row.first + row.count;
+            balls.map(|j| y0[half + 4 * (2 + j) + 3]).sum::<f64>() / row.count as f64
+        };
+        let rows = 0..model.rows.len();
+        // Balls on supports of their own stay where they are.
+        let orbit = |row: usize| match model.bodies[2 + model.rows[row].first].degrees[..2] {
+            [
+                Degree::Free { stiffness: 0.0, .. },
+                Degree::Free { stiffness: 0.0, .. },
+            ] => model.orbit_speed(row, y0),
+            _ => 0.0,
+        };
+        Self {
+            inner: seconds * y0[half + 7],
+            rows: rows.clone().map(|row| seconds * orbit(row)).collect(),
+            balls: rows.map(|row| seconds * spin(row)).collect(),
+        }
+    }
+
+    /// A scene with all angles as they were before.
+    fn back(&self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        for (row, turned) in scene.rows.iter_mut().zip(&self.rows) {
+            row.start_angle = (row.start_angle - turned) % TAU;
+            for wave in &mut row.inner_waviness {
+                wave.phase = (wave.phase + f64::from(wave.order) * self.inner) % TAU;
+            }
+        }
+        for defect in scene.defects.values_mut() {
+            let turned = match defect.on {
+                Surface::OuterRace => 0.0,
+                Surface::InnerRace => self.inner,
+                Surface::Ball => self.balls[defect.row],
+            };
+            defect.angle = (defect.angle - turned) % TAU;
+        }
+        for unbalance in scene.unbalances.values_mut() {
+            if unbalance.ring == RingName::Inner {
+                unbalance.angle = (unbalance.angle - self.inner) % TAU;
+            }
+        }
+        scene
+    }
+}

@@ -1,0 +1,183 @@
+//! Probes read from the dense output of a run, as samples at a rate of their own.
+//!
+//! What a sensor would give (motion, forces of the cage, friction torques) has content far above half the sampling
+//! rate: of a faulted 6205 most of the acceleration's power stands above 6 kHz. Taken as points that folds into the
+//! band below. So these columns are read on a finer grid, as fine as the steps, and decimated through a linear-phase
+//! low-pass (`filter`, `decimate`); accelerations come from the velocities there, by the filter's derivative. What
+//! tells a state (contacts, energies, forces by origin, slices) is read at the samples' own times and never filtered:
+//! a contact angle does not exist without load, energies balance and forces add up at an instant.
+
+mod decimate;
+mod filter;
+mod probes;
+mod recorder;
+mod sampling;
+
+use serde::Serialize;
+
+use crate::accuracy::Accuracy;
+use crate::model::Omission;
+use crate::scene::{RingName, Scene};
+use crate::simd::Distrust;
+use crate::touched::Touched;
+
+pub(crate) use probes::columns;
+pub(crate) use recorder::Recorder;
+pub use sampling::Bandwidth;
+pub(crate) use sampling::Sampling;
+
+/// What a run gives.
+#[derive(Debug, Clone)]
+pub struct Signals {
+    /// Sampling rate \[Hz\].
+    pub fs: f64,
+    /// Times k / fs from 0, the duration itself excluded \[s\].
+    pub t: Vec<f64>,
+    /// The signals, each as long as `t`.
+    pub columns: Vec<Column>,
+    /// Forces of single slices at the times that probes asked for.
+    pub slices: Vec<SliceRow>,
+    /// Effort of the integrator.
+    pub stats: Statistics,
+    /// What produced the signals.
+    pub provenance: Provenance,
+    /// The scene.
+    pub scene: Scene,
+}
+
+impl Signals {
+    /// The values of a column by its name, such as `outer.ay`.
+    pub fn get(&self, name: &str) -> Option<&[f64]> {
+        self.columns
+            .iter()
+            .find(|column| column.name == name)
+            .map(|column| column.values.as_slice())
+    }
+}
+
+/// Effort and mishaps of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Steps accepted.
+    pub accepted: usize,
+    /// Steps rejected.
+    pub rejected: usize,
+    /// Evaluations of the right-hand side by the integrator; sampling of accelerations adds one a sample.
+    pub nfev: usize,
+    /// Iterations of implicit stages; 0 for an explicit method.
+    pub iterations: usize,
+    /// Smallest accepted step \[s\], not counting steps shortened to land on a breakpoint; absent without any.
+    pub smallest_step: Option<f64>,
+    /// Where it began \[s\].
+    pub smallest_step_time: Option<f64>,
+    /// Largest accepted step \[s\].
+    pub largest_step: f64,
+    /// Share of the accepted steps at the stability limit (stiffness quotient above 3.25), 0 to 1.
+    pub stiff_share: f64,
+    /// Share of the accepted steps that were implicit in velocities, 0 to 1.
+    pub implicit_share: f64,
+    /// Share of the accepted steps that the step cap limited, 0 to 1.
+    pub capped_share: f64,
+    /// Slices at accepted steps whose damping wanted to pull and was clamped.
+    pub clamped_pulls: usize,
+    /// Contacts at accepted steps that reached beyond a shoulder.
+    pub truncated_contacts: usize,
+    /// Relative difference (root mean square over the samples) between the recorded accelerations of the outer ring,
+    /// or of the inner one where that is held, and the derivative of its recorded velocities; absent without
+    /// accelerations. A measure of their error: above 0.05 is warned of. Below 0.2 m/s² relative to that.
+    pub acceleration_residual: Option<f64>,
+    /// Wall time of the integration \[s\].
+    pub wall_time: f64,
+    /// Evaluations beyond the end of the run, for what the filter takes from there; not among `nfev`.
+    pub nfev_past_end: usize,
+    /// Largest Hertz pressure of any contact at the start or at the end of the run \[Pa\], at the zone's centre; that of
+    /// the smooth race where the ball lies in a defect.
+    pub largest_pressure: f64,
+    /// Steps accepted before t = 0, while the start settled; counted nowhere else.
+    pub settling_accepted: usize,
+    /// Evaluations before t = 0, while the start settled; counted nowhere else.
+    pub settling_nfev: usize,
+}
+
+/// What produced the signals.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Provenance {
+    /// Version of this crate.
+    pub version: &'static str,
+    /// Version of the scene document.
+    pub schema: u32,
+    /// Method; after `auto: ` the methods that were chosen, in their order.
+    pub method: String,
+    /// Largest stiffness quotient that `auto` met: rate of friction times step cap over the explicit method's
+    /// limit; absent for any other method.
+    pub stiffness: Option<f64>,
+    /// Relative tolerance.
+    pub rtol: f64,
+    /// What a requested accuracy chose, where one was.
+    pub accuracy: Option<Accuracy>,
+    /// Step cap \[s\]; absent: none.
+    pub max_step: Option<f64>,
+    /// How it began.
+    pub start: &'static str,
+    /// Simulated time \[s\].
+    pub duration: f64,
+    /// Threads used.
+    pub threads: usize,
+    /// States that were integrated.
+    pub states: usize,
+    /// What was left out since it does not change the motion.
+    pub left_out: Vec<Omission>,
+    /// Level of vector instructions.
+    pub simd: &'static str,
+    /// What was wrong with the level that would have been used; absent where nothing was.
+    pub distrust: Option<Distrust>,
+    /// Processor architecture.
+    pub architecture: &'static str,
+    /// Frequency up to which motion, cage forces and friction torques are told as they are \[Hz\]: 0.4 fs behind the
+    /// low-pass, fs/2 where fs is above the rate of the steps and takes none; absent for point samples.
+    pub bandwidth: Option<f64>,
+    /// Points a sample at which filtered signals are read; 1: there is no filter.
+    pub oversampling: usize,
+    /// Time before t = 0 in which the start settled \[s\]; 0: not at all.
+    pub settled: f64,
+    /// What became of the defects that have a width.
+    pub defects: Vec<Touched>,
+    /// Largest step by which the method is stable and accurate in this scene \[s\]; `frequency_cap` keeps below it.
+    pub step_limit: f64,
+}
+
+/// One signal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// `<probe>.<quantity>`.
+    pub name: String,
+    /// Unit, such as `m/s^2`.
+    pub unit: &'static str,
+    /// A value a sample.
+    pub values: Vec<f64>,
+}
+
+/// The force of one slice at one time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SliceRow {
+    /// The probe that asked.
+    pub probe: String,
+    /// Time \[s\].
+    pub time: f64,
+    /// Row, from 0.
+    pub row: usize,
+    /// Ball of the row, from 0.
+    pub ball: usize,
+    /// The race.
+    pub race: RingName,
+    /// Place of the slice along the ball \[m\].
+    pub zeta: f64,
+    /// Axial place in the ring's frame \[m\].
+    pub z: f64,
+    /// Width of the slice \[m\].
+    pub width: f64,
+    /// Penetration \[m\].
+    pub penetration: f64,
+    /// Normal force \[N\].
+    pub force: f64,
+}

@@ -1,0 +1,258 @@
+//! The probes of a scene with their indices looked up, and how their columns are sampled.
+
+use super::Column;
+use super::filter::Kind;
+use crate::dynamics::{CONTRIBUTIONS, Dynamics, Energy};
+use crate::error::Result;
+use crate::model::Model;
+use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene};
+
+/// Names and units of what a scene records.
+///
+/// # Errors
+/// [`crate::Error::Scene`] for a scene that is not usable.
+pub(crate) fn columns(scene: &Scene) -> Result<Vec<Column>> {
+    scene.validate()?;
+    // What is recorded does not depend on defects, nor on where they are placed.
+    let mut healthy = scene.clone();
+    healthy.defects.clear();
+    Ok(Probes::new(&Model::new(&healthy)?).columns)
+}
+
+/// A probe with its indices looked up.
+pub(super) enum Reader {
+    Motion {
+        body: usize,
+        components: Vec<Component>,
+    },
+    Contacts {
+        contacts: Vec<(usize, usize)>,
+        quantities: Vec<ContactQuantity>,
+    },
+    Cage {
+        row: usize,
+    },
+    Energy,
+    Torque,
+    Forces {
+        body: usize,
+    },
+}
+
+/// Slices to list at a time.
+pub(super) struct Listing {
+    pub probe: String,
+    pub time: f64,
+    pub contacts: Vec<(usize, usize)>,
+}
+
+/// All probes of a scene.
+#[derive(Default)]
+pub(super) struct Probes {
+    /// What is read, each with how many columns it has.
+    pub readers: Vec<(Reader, usize)>,
+    pub columns: Vec<Column>,
+    /// Latest first.
+    pub listings: Vec<Listing>,
+    /// How each column is decimated; absent for a reading of a state.
+    pub kinds: Vec<Option<Kind>>,
+    /// Whether accelerations or torques are read, for which the model has to be evaluated.
+    pub needs_rhs: bool,
+}
+
+impl Probes {
+    pub fn new(model: &Model) -> Self {
+        let mut probes = Self::default();
+        for (name, probe) in model.scene.recorded().iter() {
+            probes.add(model, name, probe);
+        }
+        probes.listings.sort_by(|a, b| b.time.total_cmp(&a.time));
+        probes
+    }
+
+    fn add(&mut self, model: &Model, name: &str, probe: &Probe) {
+        // Validation has made sure that bodies exist.
+        let body_of = |body: &str| model.scene.body_index(body).unwrap_or(0);
+        let before = self.columns.len();
+        let reader = match probe {
+            Probe::Motion { body, components } => {
+                self.motion(name, body_of(body), components.as_deref())
+            }
+            Probe::Contacts {
+                row,
+                balls,
+                races,
+                quantities,
+            } => {
+                let contacts = contacts(model, *row, balls.as_deref(), races.as_deref());
+                self.contacts(model, name, contacts, quantities.as_deref())
+            }
+            Probe::Cage { row } => {
+                if model.scene.cage.is_some() {
+                    for link in 0..model.rows[*row].links().count() {
+                        self.column(format!("{name}.link{link}"), "N", Some(Kind::Smooth));
+                    }
+                }
+                Reader::Cage { row: *row }
+            }
+            Probe::Energy {} => {
+                for (label, unit, _) in Energy::default().entries() {
+                    self.column(format!("{name}.{label}"), unit, None);
+                }
+                Reader::Energy
+            }
+            Probe::Torque {} => {
+                for ring in ["outer", "inner"] {
+                    self.column(format!("{name}.{ring}"), "N m", Some(Kind::Smooth));
+                }
+                self.needs_rhs = true;
+                Reader::Torque
+            }
+            Probe::Forces { body } => self.forces(name, body_of(body)),
+            Probe::Slices {
+                row,
+                balls,
+                races,
+                times,
+            } => {
+                let contacts = contacts(model, *row, balls.as_deref(), races.as_deref());
+                self.listings.extend(times.iter().map(|&time| Listing {
+                    probe: name.to_owned(),
+                    time,
+                    contacts: contacts.clone(),
+                }));
+                return;
+            }
+        };
+        self.readers.push((reader, self.columns.len() - before));
+    }
+
+    fn motion(&mut self, name: &str, body: usize, components: Option<&[Component]>) -> Reader {
+        let components = components.unwrap_or(&Component::ALL).to_vec();
+        for component in &components {
+            let (label, unit) = component.label();
+            let derived = *component as usize >= 8;
+            let kind = if derived { Kind::Slope } else { Kind::Smooth };
+            self.column(format!("{name}.{label}"), unit, Some(kind));
+            self.needs_rhs |= derived;
+        }
+        Reader::Motion { body, components }
+    }
+
+    fn contacts(
+        &mut self,
+        model: &Model,
+        name: &str,
+        contacts: Vec<(usize, usize)>,
+        quantities: Option<&[ContactQuantity]>,
+    ) -> Reader {
+        let quantities = quantities.unwrap_or(&ContactQuantity::ALL).to_vec();
+        for (j, race) in &contacts {
+            let ball = model.balls[*j].index;
+            for quantity in &quantities {
+                let (label, unit) = quantity.label();
+                let race = ["outer", "inner"][*race];
+                self.column(format!("{name}.ball{ball}.{race}.{label}"), unit, None);
+            }
+        }
+        Reader::Contacts {
+            contacts,
+            quantities,
+        }
+    }
+
+    fn forces(&mut self, name: &str, body: usize) -> Reader {
+        for part in CONTRIBUTIONS {
+            for (direction, unit) in [("x", "N"), ("y", "N"), ("z", "N"), ("theta", "N m")] {
+                self.column(format!("{name}.{part}.{direction}"), unit, None);
+            }
+        }
+        Reader::Forces { body }
+    }
+
+    fn column(&mut self, name: String, unit: &'static str, kind: Option<Kind>) {
+        self.columns.push(Column {
+            name,
+            unit,
+            values: Vec::new(),
+        });
+        self.kinds.push(kind);
+    }
+}
+
+impl Reader {
+    /// Whether its columns are signals, which are filtered, rather than readings of a state.
+    pub fn is_signal(&self) -> bool {
+        matches!(self, Self::Motion { .. } | Self::Cage { .. } | Self::Torque)
+    }
+
+    /// Pushes one value a column at a state of all bodies, of whose velocities `accelerations` are the derivatives.
+    pub fn read(
+        &self,
+        dynamics: &Dynamics<'_>,
+        t: f64,
+        y: &[f64],
+        accelerations: &[f64],
+        values: &mut Vec<f64>,
+    ) {
+        let model = dynamics.model();
+        let half = y.len() / 2;
+        match self {
+            Self::Motion { body, components } => {
+                values.extend(components.iter().map(|component| {
+                    let i = *component as usize;
+                    let at = 4 * body + i % 4;
+                    match i / 4 {
+                        0 => y[at],
+                        1 => y[half + at],
+                        _ => accelerations[at],
+                    }
+                }));
+            }
+            Self::Contacts {
+                contacts,
+                quantities,
+            } => {
+                for (j, race) in contacts {
+                    let contact = model.contact(y, *j, *race);
+                    values.extend(quantities.iter().map(|quantity| match quantity {
+                        ContactQuantity::Load => contact.load,
+                        ContactQuantity::Angle => contact.angle,
+                        ContactQuantity::ZoneCentre => contact.zone_centre,
+                        ContactQuantity::ZoneWidth => contact.zone_width,
+                        ContactQuantity::Slip => contact.slip,
+                    }));
+                }
+            }
+            Self::Cage { row } => values.extend(model.cage_forces(y, *row)),
+            Self::Energy => values.extend(model.energy(y).entries().map(|(_, _, value)| value)),
+            Self::Torque => values.extend(dynamics.ring_torques()),
+            Self::Forces { body } => {
+                for (_, forces) in Dynamics::contributions(model, t, y) {
+                    values.extend(&forces[4 * body..4 * body + 4]);
+                }
+            }
+        }
+    }
+}
+
+/// Pairs (ball among all balls, race), ball by ball.
+fn contacts(
+    model: &Model,
+    row: usize,
+    balls: Option<&[usize]>,
+    races: Option<&[RingName]>,
+) -> Vec<(usize, usize)> {
+    let compiled = &model.rows[row];
+    let all: Vec<usize> = (0..compiled.count).collect();
+    let races = races.unwrap_or(&[RingName::Outer, RingName::Inner]);
+    balls
+        .unwrap_or(&all)
+        .iter()
+        .flat_map(|ball| {
+            races
+                .iter()
+                .map(move |race| (compiled.first + ball, *race as usize))
+        })
+        .collect()
+}

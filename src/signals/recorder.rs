@@ -1,0 +1,316 @@
+//! Reads the probes along a run.
+
+use super::decimate::Decimator;
+use super::filter::Taps;
+use super::probes::{Probes, Reader};
+use super::{Column, Sampling, SliceRow};
+use crate::dynamics::Dynamics;
+use crate::integrate::{DenseStep, System};
+use crate::model::Model;
+use crate::residual::Residual;
+use crate::scene::RingName;
+use crate::touched::Watch;
+
+/// What is read at one kind of times: some readers, and the columns that theirs are.
+#[derive(Default)]
+struct Reading {
+    readers: Vec<Reader>,
+    columns: Vec<usize>,
+    values: Vec<f64>,
+}
+
+/// Reads the probes of a scene along a run: at the samples' times, and signals that are filtered on a finer grid.
+///
+/// Times may begin before 0: what is read there only feeds the filter.
+pub(crate) struct Recorder {
+    sampling: Sampling,
+    count: usize,
+    /// What is read at the samples' times.
+    points: Reading,
+    /// What is read on the grid, and the filter from there to the samples.
+    grid: Option<(Reading, Decimator)>,
+    /// The next point of the grid; 0 stands at t = 0.
+    next: i64,
+    /// Whether accelerations or torques are recorded, so that the model is evaluated at every sample.
+    needs_rhs: bool,
+    /// Whether it has to be on the grid.
+    needs_rhs_on_grid: bool,
+    listings: Vec<super::probes::Listing>,
+    /// The run's own states at a sample, and their rates.
+    own: (Vec<f64>, Vec<f64>),
+    /// Those of all bodies.
+    y: Vec<f64>,
+    dy: Vec<f64>,
+    pub residual: Residual,
+    pub watch: Watch,
+    pub t: Vec<f64>,
+    pub columns: Vec<Column>,
+    pub slices: Vec<SliceRow>,
+}
+
+impl Recorder {
+    /// For `count` samples.
+    pub fn new(model: &Model, sampling: Sampling, count: usize) -> Self {
+        let filtered = sampling.oversampling > 1;
+        let probes = Probes::new(model);
+        let (mut points, mut grid) = (Reading::default(), Reading::default());
+        let (mut kinds, mut column) = (Vec::new(), 0);
+        for (reader, width) in probes.readers {
+            let columns = column..column + width;
+            column += width;
+            let on_grid = filtered && reader.is_signal();
+            if on_grid {
+                kinds.extend(columns.clone().filter_map(|c| Some((c, probes.kinds[c]?))));
+            }
+            let reading = if on_grid { &mut grid } else { &mut points };
+            reading.readers.push(reader);
+            reading.columns.extend(columns);
+        }
+        let needs_rhs_on_grid = grid.readers.iter().any(|r| matches!(r, Reader::Torque));
+        let grid = (!kinds.is_empty()).then(|| {
+            let taps = Taps::new(sampling.oversampling, sampling.fs);
+            (grid, Decimator::new(taps, kinds))
+        });
+        Self {
+            sampling,
+            count,
+            points,
+            grid,
+            next: 0,
+            needs_rhs: probes.needs_rhs,
+            needs_rhs_on_grid,
+            listings: probes.listings,
+            own: (Vec::new(), Vec::new()),
+            y: Vec::new(),
+            dy: Vec::new(),
+            residual: Residual::default(),
+            watch: Watch::new(model),
+            t: Vec::new(),
+            columns: probes.columns,
+            slices: Vec::new(),
+        }
+    }
+
+    /// Number of columns.
+    pub fn width(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// Until when a run of a duration is to be followed \[s\].
+    pub fn until(&self, duration: f64) -> f64 {
+        match self.grid {
+            Some(_) => self.sampling.until(duration),
+            None => duration,
+        }
+    }
+
+    /// Sets memory aside for all samples of a run from a state of all bodies.
+    pub fn prepare(&mut self, dynamics: &Dynamics<'_>, start: &[f64]) {
+        let zeros = vec![0.0; dynamics.dim()];
+        self.own = (zeros.clone(), zeros);
+        (self.y, self.dy) = (start.to_vec(), vec![0.0; start.len()]);
+        self.residual = Residual::new(dynamics);
+        self.watch.prepare(dynamics, start);
+        self.t.reserve_exact(self.count);
+        for column in &mut self.columns {
+            column.values.reserve_exact(self.count);
+        }
+        if let Some((reading, _)) = &self.grid {
+            for column in &reading.columns {
+                // Sums, that grow as the grid is read.
+                self.columns[*column].values.resize(self.count, 0.0);
+            }
+        }
+    }
+
+    /// The run's states where it begins.
+    pub fn first(&mut self, dynamics: &mut Dynamics<'_>, t: f64, y: &[f64]) {
+        self.own.0.copy_from_slice(y);
+        if let Some((_, decimator)) = &self.grid {
+            // What lies further back than the filter reaches is of no use to sample 0.
+            let begin = (t * self.sampling.grid()).ceil();
+            #[allow(clippy::cast_possible_truncation)]
+            let begin = (begin as i64).max(-decimator.reach());
+            self.next = begin;
+            if t == self.grid_time() {
+                self.grid_point(dynamics, t);
+            }
+        }
+        if t == 0.0 {
+            self.sample(dynamics, t);
+        }
+        self.list(dynamics, t, |_, _| {});
+    }
+
+    /// All samples within an accepted step.
+    pub fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) {
+        // What the filter still sees beyond the end is no part of the run.
+        if step.t0() * self.sampling.fs < self.count as f64 {
+            self.watch.step(dynamics, step);
+        }
+        while self.grid.is_some() && self.grid_time() <= step.t1() && self.next <= self.last() {
+            let t = self.grid_time();
+            step.interpolate(t, &mut self.own.0);
+            self.grid_point(dynamics, t);
+        }
+        while self.t.len() < self.count {
+            let t = self.t.len() as f64 / self.sampling.fs;
+            if t > step.t1() {
+                break;
+            }
+            step.interpolate(t, &mut self.own.0);
+            self.sample(dynamics, t);
+            if self.needs_rhs {
+                self.residual.add(step, t, &self.own.1);
+            }
+        }
+        self.list(dynamics, step.t1(), |t, y| step.interpolate(t, y));
+    }
+
+    /// Completes the last samples where the run has ended before the grid.
+    pub fn finish(&mut self) {
+        if let Some((_, decimator)) = &mut self.grid {
+            decimator.finish(&mut self.columns);
+        }
+    }
+
+    /// Time of the next point of the grid \[s\].
+    fn grid_time(&self) -> f64 {
+        self.next as f64 / self.sampling.grid()
+    }
+
+    /// The last point of the grid that any sample needs.
+    fn last(&self) -> i64 {
+        let reach = self.grid.as_ref().map_or(0, |(_, d)| d.reach());
+        ((self.count - 1) * self.sampling.oversampling) as i64 + reach
+    }
+
+    /// Accelerations are the derivatives of the velocities, which the filter takes.
+    fn grid_point(&mut self, dynamics: &mut Dynamics<'_>, t: f64) {
+        let (y, dy) = &mut self.own;
+        dynamics.expand(t, y, &mut self.y);
+        if self.needs_rhs_on_grid {
+            dynamics.rhs(t, y, dy);
+        }
+        let Some((reading, decimator)) = &mut self.grid else {
+            return;
+        };
+        let velocities = &self.y[self.y.len() / 2..];
+        reading.read(dynamics, t, &self.y, velocities);
+        decimator.push(self.next, &reading.values, &mut self.columns);
+        self.next += 1;
+    }
+
+    /// The accelerations are the model's at the interpolated state.
+    fn sample(&mut self, dynamics: &mut Dynamics<'_>, t: f64) {
+        let (y, dy) = &mut self.own;
+        dynamics.expand(t, y, &mut self.y);
+        if self.needs_rhs {
+            dynamics.rhs(t, y, dy);
+            dynamics.expand_rates(t, y, dy, &mut self.dy);
+        }
+        self.t.push(t);
+        let accelerations = &self.dy[self.dy.len() / 2..];
+        let points = &mut self.points;
+        points.read(dynamics, t, &self.y, accelerations);
+        for (column, value) in points.columns.iter().zip(&points.values) {
+            self.columns[*column].values.push(*value);
+        }
+    }
+
+    fn list(&mut self, dynamics: &Dynamics<'_>, until: f64, interpolate: impl Fn(f64, &mut [f64])) {
+        let model = dynamics.model();
+        while let Some(listing) = self.listings.pop_if(|listing| listing.time <= until) {
+            interpolate(listing.time, &mut self.own.0);
+            dynamics.expand(listing.time, &self.own.0, &mut self.y);
+            for (j, race) in listing.contacts {
+                let ball = &model.balls[j];
+                for slice in model.slice_forces(&self.y, j, race) {
+                    self.slices.push(SliceRow {
+                        probe: listing.probe.clone(),
+                        time: listing.time,
+                        row: ball.row,
+                        ball: ball.index,
+                        race: if race == 0 {
+                            RingName::Outer
+                        } else {
+                            RingName::Inner
+                        },
+                        zeta: slice.zeta,
+                        z: slice.z,
+                        width: slice.width,
+                        penetration: slice.penetration,
+                        force: slice.force,
+                    });
+                }
+            }
+        }
+    }
+}
+
+impl Reading {
+    /// Reads a value for each of its columns; see [`Reader::read`].
+    fn read(&mut self, dynamics: &Dynamics<'_>, t: f64, y: &[f64], accelerations: &[f64]) {
+        self.values.clear();
+        for reader in &self.readers {
+            reader.read(dynamics, t, y, accelerations, &mut self.values);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use super::*;
+    use crate::integrate::{self, DORMAND_PRINCE, Options, Tolerance, integrate};
+    use crate::scene::presets;
+    use crate::signals::Bandwidth;
+    use crate::start::{Start, start};
+
+    const FS: f64 = 50e3;
+
+    /// Vertical acceleration of the outer ring in 40 samples of a run that begins at some time \[s\].
+    fn recorded(from: f64) -> Vec<f64> {
+        let model = Model::new(&presets::wheel_bearing(0.0)).unwrap();
+        let y0 = start(&model, &Start::Rolling).unwrap();
+        let sampling = Sampling::new(Bandwidth::Auto, FS, model.scales().frequency).unwrap();
+        let mut dynamics = Dynamics::new(&model);
+        let mut recorder = Recorder::new(&model, sampling, 40);
+        recorder.prepare(&dynamics, &y0);
+        recorder.first(&mut dynamics, from, &y0);
+        let options = Options {
+            max_step: 1.0 / model.scales().frequency,
+            ..Options::default()
+        };
+        let span = (from, recorder.until(40.0 / FS) + 10.0 / FS);
+        integrate(
+            &mut dynamics,
+            &DORMAND_PRINCE,
+            span,
+            &y0,
+            &Tolerance::uniform(y0.len(), 1e-9, 1e-9).unwrap(),
+            &options,
+            &mut |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &integrate::Statistics| {
+                recorder.step(dynamics, step);
+                ControlFlow::Continue(())
+            },
+        )
+        .unwrap();
+        recorder.finish();
+        assert_eq!(recorder.t.len(), 40);
+        let ay = recorder.columns.iter().find(|c| c.name == "outer.ay");
+        ay.unwrap().values.clone()
+    }
+
+    /// Limit: nothing here depends on time itself, so a run that begins 18 samples before 0 gives what one from 0 gives
+    /// later; what it read before 0 stands in the filter in the place of a reflection.
+    #[test]
+    fn times_before_zero_feed_the_first_samples() {
+        let (from_zero, before) = (recorded(0.0), recorded(-18.0 / FS));
+        let size = from_zero.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+        for (later, early) in from_zero[18..].iter().zip(&before) {
+            assert!((later - early).abs() < 1e-4 * size, "{later} {early}");
+        }
+    }
+}

@@ -1,0 +1,283 @@
+//! Which defects balls met in a run: how often they passed, and what their contacts carried there.
+//!
+//! A *pass* is the time that a ball's contact takes over the arc of a defect. Places are looked at after accepted steps,
+//! and between passes only as often as a ball may have come halfway nearer, so that a run takes no longer for it.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use serde::Serialize;
+
+use crate::contact::{Fault, wrapped};
+use crate::dynamics::{Dynamics, motion};
+use crate::equilibrium::Placed;
+use crate::integrate::DenseStep;
+use crate::model::{Model, ball_fault, race_fault};
+use crate::scene::{Defect, Surface};
+
+/// What became of a defect.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Touched {
+    /// Name of the defect.
+    pub name: String,
+    /// Which surface.
+    pub on: Surface,
+    /// Axial place of its middle, from the row's plane (races) or the ball's centre \[m\].
+    pub axial_offset: f64,
+    /// Where that number comes from.
+    pub placed: Placed,
+    /// How often a ball came by: a contact of the race, or one of the ball's two contacts, passed over its arc.
+    pub passes: usize,
+    /// In how many of these a contact was loaded within its length.
+    pub touched: usize,
+    /// Largest normal force of a contact within its length \[N\].
+    pub largest_load: f64,
+    /// Where the most loaded contact ran that passed, measured as `axial_offset` \[m\]; absent without load.
+    pub contact_offset: Option<f64>,
+}
+
+impl Touched {
+    /// For a defect of a compiled scene that nothing has met.
+    pub(crate) fn not_yet(name: &str, defect: &Defect, placed: Placed) -> Self {
+        Self {
+            name: name.to_owned(),
+            on: defect.on,
+            axial_offset: defect.axial_offset.number().unwrap_or(f64::NAN),
+            placed,
+            passes: 0,
+            touched: 0,
+            largest_load: 0.0,
+            contact_offset: None,
+        }
+    }
+
+    /// Share of the passes that touched it, 0 to 1; none without a pass.
+    pub fn share(&self) -> Option<f64> {
+        (self.passes > 0).then(|| self.touched as f64 / self.passes as f64)
+    }
+}
+
+/// Whether a defect has any width; one without is healthy, and nothing is told of it.
+pub(crate) fn is_there(defect: &Defect) -> bool {
+    defect.width.largest() > 0.0
+}
+
+/// Half-widths from the middle at which a pass is over: a ball that rattles at the edge comes by once.
+const AWAY: f64 = 1.2;
+/// Share of the time to the next pass after which it is looked again.
+const HALFWAY: f64 = 0.5;
+/// The most, since speeds change \[s\].
+const LONGEST: f64 = 1e-3;
+
+/// Follows a run.
+pub(crate) struct Watch {
+    defects: Vec<Watched>,
+    /// States of all bodies.
+    y: Vec<f64>,
+    /// When to look again \[s\].
+    next: f64,
+}
+
+/// A defect and the contacts that may meet it.
+struct Watched {
+    name: String,
+    fault: Fault,
+    on: Surface,
+    /// From where its axial place is measured, in the frame of its body \[m\].
+    origin: f64,
+    /// Whether its contacts are evaluated in the run.
+    felt: bool,
+    eyes: Vec<Eye>,
+    passes: usize,
+    touched: usize,
+    largest_load: f64,
+    /// Load of the most loaded contact that passed, and its place.
+    most: (f64, f64),
+}
+
+/// A contact that may meet a defect.
+struct Eye {
+    /// Ball among all balls.
+    ball: usize,
+    /// Race: 0 (outer) or 1 (inner).
+    race: usize,
+    /// How far its direction was from the defect's when last looked at \[rad\]; NaN before.
+    aside: f64,
+    pass: Pass,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Pass {
+    None,
+    Untouched,
+    Touched,
+}
+
+impl Watch {
+    /// For a run of a model that has begun nowhere yet.
+    pub fn new(model: &Model) -> Self {
+        let defects = model.scene().defects.iter();
+        Self {
+            defects: defects
+                .filter(|(_, defect)| is_there(defect))
+                .map(|(name, defect)| Watched::new(model, name, defect))
+                .collect(),
+            y: Vec::new(),
+            next: f64::NEG_INFINITY,
+        }
+    }
+
+    /// For a run from a state of all bodies.
+    pub fn prepare(&mut self, dynamics: &Dynamics<'_>, start: &[f64]) {
+        self.y = start.to_vec();
+        for defect in &mut self.defects {
+            let row = dynamics.model().balls[defect.eyes[0].ball].row;
+            defect.felt = dynamics.evaluates(row);
+        }
+    }
+
+    /// An accepted step.
+    pub fn step(&mut self, dynamics: &Dynamics<'_>, step: &DenseStep<'_>) {
+        let t = step.t1();
+        if t < self.next || self.defects.is_empty() {
+            return;
+        }
+        dynamics.expand(t, step.y1(), &mut self.y);
+        let (model, y) = (dynamics.model(), &self.y);
+        let waits = self.defects.iter_mut().map(|of| of.look(model, y));
+        self.next = t + (HALFWAY * waits.fold(f64::INFINITY, f64::min)).min(LONGEST);
+    }
+
+    /// What became of the defects, which were placed as told.
+    pub fn told(&self, model: &Model, placed: &BTreeMap<String, Placed>) -> Vec<Touched> {
+        let of = |watched: &Watched| {
+            let defect = &model.scene().defects[&watched.name];
+            let placed = placed.get(&watched.name).copied();
+            let (load, place) = watched.most;
+            Touched {
+                passes: watched.passes,
+                touched: watched.touched,
+                largest_load: watched.largest_load,
+                contact_offset: (load > 0.0).then_some(place - watched.origin),
+                ..Touched::not_yet(&watched.name, defect, placed.unwrap_or(Placed::Given))
+            }
+        };
+        self.defects.iter().map(of).collect()
+    }
+}
+
+/// A defect of a compiled scene as its contacts see it, and the place from which its axial place is measured \[m\].
+pub(crate) fn compiled(model: &Model, defect: &Defect) -> (Fault, f64) {
+    let (row, pairs) = (
+        &model.scene().rows[defect.row],
+        &model.rows[defect.row].pairs,
+    );
+    match defect.on {
+        Surface::OuterRace => (race_fault(defect, row, &pairs[0].race), row.axial_position),
+        Surface::InnerRace => (race_fault(defect, row, &pairs[1].race), row.axial_position),
+        Surface::Ball => {
+            let ball = model.rows[defect.row].first + defect.ball.unwrap_or(0);
+            (ball_fault(defect, model.balls[ball].side.radius), 0.0)
+        }
+    }
+}
+
+impl Watched {
+    fn new(model: &Model, name: &str, defect: &Defect) -> Self {
+        let row = &model.rows[defect.row];
+        let balls = row.first..row.first + row.count;
+        let contacts: Vec<(usize, usize)> = match defect.on {
+            Surface::OuterRace => balls.map(|ball| (ball, 0)).collect(),
+            Surface::InnerRace => balls.map(|ball| (ball, 1)).collect(),
+            Surface::Ball => {
+                let ball = row.first + defect.ball.unwrap_or(0);
+                vec![(ball, 0), (ball, 1)]
+            }
+        };
+        let eye = |(ball, race)| Eye {
+            ball,
+            race,
+            aside: f64::NAN,
+            pass: Pass::None,
+        };
+        let (fault, origin) = compiled(model, defect);
+        Self {
+            name: name.to_owned(),
+            fault,
+            on: defect.on,
+            origin,
+            felt: true,
+            eyes: contacts.into_iter().map(eye).collect(),
+            passes: 0,
+            touched: 0,
+            largest_load: 0.0,
+            most: (0.0, f64::NAN),
+        }
+    }
+
+    /// Looks at all contacts in a state of all bodies; the least time until one comes to the defect \[s\].
+    fn look(&mut self, model: &Model, y: &[f64]) -> f64 {
+        let half = self.fault.reach / 2.0;
+        let mut wait = f64::INFINITY;
+        for i in 0..self.eyes.len() {
+            let eye = &mut self.eyes[i];
+            let (aside, rate) = eye.look(y, &self.fault, self.on);
+            let before = std::mem::replace(&mut eye.aside, aside);
+            // A narrow one may lie between two steps.
+            let across = before.signum() != aside.signum() && (before - aside).abs() < PI;
+            if aside.abs() <= half {
+                self.meet(i, model, y, aside);
+            } else if across && before.abs() > half {
+                self.meet(i, model, y, 0.0);
+            }
+            if aside.abs() > AWAY * half {
+                self.eyes[i].pass = Pass::None;
+            }
+            wait = wait.min((aside.abs() - half).max(0.0) / rate.abs());
+        }
+        wait
+    }
+
+    /// A contact stands over the defect, this far from its middle \[rad\].
+    fn meet(&mut self, eye: usize, model: &Model, y: &[f64], aside: f64) {
+        let eye = &mut self.eyes[eye];
+        if eye.pass == Pass::None {
+            self.passes += 1;
+            eye.pass = Pass::Untouched;
+        }
+        if !self.felt {
+            return;
+        }
+        let found = model.load_within(y, (eye.ball, eye.race), &self.fault, self.on, aside);
+        if found.within > 0.0 && eye.pass == Pass::Untouched {
+            self.touched += 1;
+            eye.pass = Pass::Touched;
+        }
+        self.largest_load = self.largest_load.max(found.within);
+        if found.load > self.most.0 {
+            self.most = (found.load, found.place);
+        }
+    }
+}
+
+impl Eye {
+    /// How far the direction of the contact is from the defect's \[rad\], and how fast that changes \[rad/s\].
+    fn look(&self, y: &[f64], fault: &Fault, on: Surface) -> (f64, f64) {
+        let (ball, ring) = (motion(y, 2 + self.ball), motion(y, self.race));
+        let (apart, speed) = (ball.centre - ring.centre, ball.velocity - ring.velocity);
+        let direction = apart.y.atan2(apart.x);
+        let orbit = (apart.x * speed.y - apart.y * speed.x) / apart.norm_squared();
+        let (turned, omega) = match on {
+            Surface::Ball => (ball.theta, ball.omega),
+            _ => (ring.theta, ring.omega),
+        };
+        // The inner race is met on the ball's inner side.
+        let opposite = if on == Surface::Ball && self.race == 1 {
+            PI
+        } else {
+            0.0
+        };
+        let aside = wrapped(direction + opposite - turned - fault.angle);
+        (aside, orbit - omega)
+    }
+}

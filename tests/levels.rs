@@ -1,0 +1,182 @@
+//! The same scene at every level of vector instructions that this machine has: whole runs, each level in a process of its
+//! own, as users choose it.
+
+mod common;
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::process::Command;
+
+use ballrace::scene::{Approximations, Defect, Friction, NormalLaw, Scene, Surface, presets};
+use ballrace::simd::Level;
+use ballrace::{Run, Start};
+use common::{apart, run, soon_over_the_spall};
+
+/// A spall of 1.5 mm, as wide as half a millimetre, in the middle of a surface; on the outer race ahead of the ball that
+/// stands at −90° by 2°, on the others under it.
+fn spall(on: Surface) -> Defect {
+    Defect {
+        on,
+        row: 0,
+        ball: (on == Surface::Ball).then_some(0),
+        angle: match on {
+            Surface::OuterRace => -FRAC_PI_2 + 2_f64.to_radians(),
+            Surface::InnerRace => -FRAC_PI_2 - 2_f64.to_radians(),
+            Surface::Ball => PI,
+        },
+        axial_offset: 0.0.into(),
+        length: 1.5e-3,
+        width: 0.5e-3.into(),
+        edge_radius: 0.2e-3,
+        floor: None,
+    }
+}
+
+/// A 6205 without friction: axially fixed rows, closed forms, with what must be looked at one by one.
+fn plane(law: NormalLaw, on: Option<Surface>) -> Scene {
+    let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    scene.contact.law = law;
+    scene.friction = Friction::None;
+    scene.defects = on
+        .map(|on| ("spall".to_owned(), spall(on)))
+        .into_iter()
+        .collect();
+    scene
+}
+
+fn wheel(rolling: bool, plane: bool, one_row: bool) -> Scene {
+    let mut scene = soon_over_the_spall(3000.0);
+    scene.approximations = Approximations {
+        rolling,
+        plane,
+        one_row,
+    };
+    scene
+}
+
+fn mirrored() -> Scene {
+    let mut scene = soon_over_the_spall(0.0);
+    let spall = scene.defects["spall"].clone();
+    let image = Defect {
+        row: 1,
+        axial_offset: (-spall.axial_offset.number().unwrap()).into(),
+        ..spall
+    };
+    scene.rows[1].start_angle = scene.rows[0].start_angle;
+    scene.defects.insert("image".to_owned(), image);
+    scene
+}
+
+/// The ways in which the reduction and approximation tests evaluate contacts, each with a defect in reach.
+fn scenes() -> Vec<(String, Scene)> {
+    let mut scenes = Vec::new();
+    for law in [NormalLaw::Hertz, iso()] {
+        for on in [Surface::OuterRace, Surface::InnerRace, Surface::Ball] {
+            scenes.push((
+                format!("plane, {on:?}, {law:?}"),
+                plane(law.clone(), Some(on)),
+            ));
+        }
+        scenes.push((format!("plane, smooth, {law:?}"), plane(law, None)));
+    }
+    let mut friction = plane(NormalLaw::Hertz, Some(Surface::OuterRace));
+    friction.friction = presets::deep_groove_6205(500.0, 0.0, 1800.0).friction;
+    scenes.push(("plane with friction".to_owned(), friction));
+    for (name, scene) in [
+        ("wheel bearing", wheel(false, false, false)),
+        ("rolling balls", wheel(true, false, false)),
+        ("axial places kept", wheel(false, true, false)),
+        ("the README's quick scene", wheel(true, true, false)),
+        ("mirrored rows", mirrored()),
+    ] {
+        scenes.push((name.to_owned(), scene));
+    }
+    let mut thrust = presets::wheel_bearing(20e3);
+    thrust.loads.get_mut("radial").unwrap().force = 500.0.into();
+    thrust.approximations = wheel(false, false, true).approximations;
+    scenes.push(("one row under thrust".to_owned(), thrust));
+    scenes
+}
+
+fn iso() -> NormalLaw {
+    NormalLaw::Iso16281 {
+        constant: 3.5948e10,
+        length_ratio: 0.5,
+    }
+}
+
+/// Vertical acceleration of the outer ring over 1.5 ms, a line a scene.
+fn signals() -> Vec<Vec<f64>> {
+    let of = |(_, scene): &(String, Scene)| {
+        let short = Run {
+            start: Start::Equilibrium,
+            ..common::short(1.5e-3)
+        };
+        let out = run(scene, &short);
+        assert!(out.warnings().is_empty(), "{:?}", out.warnings());
+        out.get("outer.ay").unwrap().to_vec()
+    };
+    scenes().iter().map(of).collect()
+}
+
+/// What another process of this program is asked to print.
+const CHILD: &str = "print_signals_of_this_level";
+
+#[test]
+#[ignore = "a part of levels_agree_over_whole_runs, which runs it once a level"]
+fn print_signals_of_this_level() {
+    for signal in signals() {
+        let bits: Vec<String> = signal.iter().map(|x| x.to_bits().to_string()).collect();
+        println!("signal {}", bits.join(" "));
+    }
+}
+
+fn signals_at(level: &str) -> Vec<Vec<f64>> {
+    let child = Command::new(std::env::current_exe().unwrap())
+        .args([CHILD, "--exact", "--ignored", "--nocapture"])
+        .env("BALLRACE_SIMD", level)
+        .output()
+        .unwrap();
+    let text = String::from_utf8(child.stdout).unwrap();
+    assert!(child.status.success(), "{level}: {text}");
+    let number = |bits: &str| f64::from_bits(bits.parse().unwrap());
+    // The test program writes the name of the test before the first line.
+    let signals = text.lines().filter_map(|line| line.split_once("signal "));
+    signals
+        .map(|(_, bits)| bits.split(' ').map(number).collect())
+        .collect()
+}
+
+/// Analytic: levels differ by rounding, which grows by a factor of e a millisecond; contacts that a level loses differ by
+/// all.
+#[test]
+fn levels_agree_over_whole_runs() {
+    let names: Vec<String> = scenes().into_iter().map(|(name, _)| name).collect();
+    let truth = signals_at("baseline");
+    assert_eq!(truth.len(), names.len());
+    for level in Level::available() {
+        let found = signals_at(level.name());
+        for ((name, found), truth) in names.iter().zip(&found).zip(&truth) {
+            let error = apart(found, truth);
+            println!("{name}, {level}: {error:.1e}");
+            assert!(error < 1e-5, "{name}, {level}: {error:.1e}");
+        }
+    }
+}
+
+/// Tells the log which levels were tested and which this machine lacks; `tests/run` shows it.
+#[test]
+fn levels_of_this_machine() {
+    let here: Vec<&str> = Level::available().iter().map(Level::name).collect();
+    let known = Level::known().iter().copied();
+    let missing: Vec<&str> = known.filter(|name| !here.contains(name)).collect();
+    println!("vector levels tested: {}", here.join(", "));
+    println!(
+        "vector levels not on this machine, so not tested: {}",
+        if missing.is_empty() {
+            "none".to_owned()
+        } else {
+            missing.join(", ")
+        }
+    );
+    assert!(here.contains(&"baseline"));
+}
