@@ -90,7 +90,7 @@ class Touched:
     touched : int
         In how many of these a contact was loaded within its length.
     largest_load : float
-        Largest normal force of a contact within its length [N].
+        Largest normal force of a contact within its length, to about a percent [N].
     contact_offset : float or None
         Where the most loaded contact ran that passed, measured as `axial_offset` [m]; None without load.
     """

@@ -7,6 +7,7 @@
 //! `walk` visits the slices, `feature` decides what each one meets. `press` does the same for eight contacts at once
 //! where all surfaces are whole; `octet` says which those are. `closed` has whole contacts in one formula, `level` evaluates
 //! it for balls that keep their axial places.
+//! `within` tells what a contact carries within a defect.
 //! `still` holds contacts at one place for any velocities; `tangent` gives force and stiffness at rest.
 
 mod closed;
@@ -27,6 +28,7 @@ pub mod slices;
 mod still;
 mod tangent;
 mod walk;
+mod within;
 
 use nalgebra::Vector2;
 
@@ -43,6 +45,7 @@ pub use race::{Torus, Waves};
 pub use slices::{Rules, Slices};
 pub(crate) use still::{Held, Pack, Packing, Plane, Reaction, Still, in_contact};
 pub(crate) use tangent::Tangent;
+pub(crate) use within::Sighted;
 
 /// A vector in the x-y plane.
 pub type V2 = Vector2<f64>;

@@ -45,7 +45,14 @@ def grid(values: Mapping[str, Iterable[object]]) -> pl.DataFrame:
     if not lists:
         raise SceneError("values", "{}", "at least one column")
     rows = list(itertools.product(*lists.values()))
-    return pl.DataFrame(rows, schema=list(lists), orient="row", infer_schema_length=None)
+    # A number beside a word would become a word.
+    kinds = {name: pl.Object if _is_mixed(column) else None for name, column in lists.items()}
+    return pl.DataFrame(rows, schema=kinds, orient="row", infer_schema_length=None)
+
+
+def _is_mixed(column: list[object]) -> bool:
+    present = [value for value in column if value is not None]
+    return len({isinstance(value, str) for value in present}) > 1
 
 
 def latin_hypercube(
