@@ -35,7 +35,7 @@
 //! * `equilibrium` ([`equilibrium()`], [`stiffness()`], [`load_distribution()`]) — the static solve and what follows
 //!   from it; `start` ([`start()`]) — how a run begins.
 //! * `signals` ([`Signals`]) — probes read on a uniform grid from the dense output.
-//! * `residual`, `collapse`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
+//! * `residual`, `collapse`, `escape`, `orbit`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
 //! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
 //! * `method` — the method a run asked for, and the switch between two of them.
 //! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
@@ -74,11 +74,13 @@ pub mod contact;
 pub mod dynamics;
 mod equilibrium;
 mod error;
+mod escape;
 mod explain;
 mod features;
 pub mod integrate;
 mod method;
 mod model;
+mod orbit;
 mod pool;
 mod residual;
 pub mod scene;

@@ -71,6 +71,9 @@ pub struct Statistics {
     pub acceleration_residual: Option<f64>,
     /// Wall time of the integration \[s\].
     pub wall_time: f64,
+    /// Share of their orbit rate that the balls lost in a run in which nothing drives them, for want of friction; absent in
+    /// any other. Above 0.005 is warned of.
+    pub orbit_slowed: Option<f64>,
 }
 
 /// What produced the signals.

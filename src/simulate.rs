@@ -11,9 +11,11 @@ use crate::accuracy;
 use crate::collapse::{Crawl, culprits};
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
+use crate::escape;
 use crate::integrate::{self, DenseStep, Failure, FailureKind, Options, Tolerance};
 use crate::method::{self, Choice, Task};
 use crate::model::{Model, Reduction};
+use crate::orbit;
 use crate::pool::pool;
 use crate::scene::{Drive, Method, SCHEMA, Scene};
 use crate::signals::{Provenance, Recorder, Signals, Statistics};
@@ -234,9 +236,9 @@ fn follow(
             last_time = step.t1();
             let crawls = crawl.after(step.h());
             if let Some(body) = lost {
-                halt = Some((step.t1(), step.h(), Some(body), ESCAPED));
+                halt = Some((step.t1(), step.h(), Some(body)));
             } else if crawls {
-                halt = Some((step.t1(), step.h(), None, CRAWLING));
+                halt = Some((step.t1(), step.h(), None));
             }
             if halt.is_some() {
                 return ControlFlow::Break(());
@@ -260,7 +262,9 @@ fn follow(
     let mut full = y0.to_vec();
     dynamics.expand(last_time, &last, &mut full);
     let (solution, choice) = solved.map_err(|failure| broken(model, &full, &failure))?;
-    if let Some((time, step, body, reason)) = halt {
+    if let Some((time, step, body)) = halt {
+        let escaped = body.map(|ball| escape::reason(model, &full, ball));
+        let reason = escaped.as_deref().unwrap_or(CRAWLING);
         return Err(stopped(model, &full, (time, step), body, reason));
     }
     if solution.interrupted {
@@ -283,6 +287,7 @@ fn follow(
         truncated_contacts: truncated,
         acceleration_residual: recorder.residual.value(),
         wall_time: begun.elapsed().as_secs_f64(),
+        orbit_slowed: orbit::slowed(model, y0, &full),
     };
     Ok((recorder, statistics, choice))
 }
@@ -415,8 +420,6 @@ pub(crate) fn tolerance(dynamics: &Dynamics<'_>) -> Result<Tolerance> {
 }
 
 /// Why a run ends though the integrator could go on.
-const ESCAPED: &str =
-    "the ball has left its groove; check loads, clearance and shoulders, or use a smaller rtol";
 const CRAWLING: &str = "the step has collapsed to less than 1e-5 of the contacts' period and stays there; \
                         raise slip_speed, lower the damping, or soften the contacts";
 

@@ -10,6 +10,9 @@ use crate::signals::Signals;
 /// undamped run with an error of 11 % stays below.
 const LARGEST_RESIDUAL: f64 = 0.05;
 
+/// Share of the orbit's rate above which its loss is warned of: with friction balls slip by less than that.
+const LARGEST_LOSS: f64 = 0.005;
+
 /// A reason to look twice at the signals of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -32,6 +35,11 @@ pub enum Warning {
         /// Accepted steps.
         steps: usize,
     },
+    /// Nothing drives the balls along their orbit, and they have lost some of its rate.
+    FreeOrbit {
+        /// [`crate::Statistics::orbit_slowed`].
+        slowed: f64,
+    },
 }
 
 impl Warning {
@@ -39,6 +47,7 @@ impl Warning {
     pub fn category(&self) -> &'static str {
         match self {
             Self::Accelerations { .. } | Self::Shoulders { .. } => "accuracy",
+            Self::FreeOrbit { .. } => "scene",
         }
     }
 }
@@ -63,6 +72,13 @@ impl std::fmt::Display for Warning {
                 "contacts rode over a shoulder {contacts} times in {steps} steps: the part beyond it carries \
                  nothing, and the pressure at the edge is not modelled. Lower the axial load, raise the \
                  shoulders, or look at the truncated contacts"
+            ),
+            Self::FreeOrbit { slowed } => write!(
+                f,
+                "nothing drives the balls along their orbit, since contacts have no friction: they lost {:.1} % of its rate, \
+                 and fault frequencies moved with them. Give the scene a friction, or approximations.rolling, which keeps the \
+                 orbit kinematic",
+                100.0 * slowed
             ),
         }
     }
@@ -94,6 +110,11 @@ impl Signals {
             contacts: stats.truncated_contacts,
             steps: stats.accepted,
         });
-        accelerations.into_iter().chain(shoulders).collect()
+        let orbit = stats
+            .orbit_slowed
+            .filter(|slowed| *slowed > LARGEST_LOSS)
+            .map(|slowed| Warning::FreeOrbit { slowed });
+        let all = accelerations.into_iter().chain(shoulders);
+        all.chain(orbit).collect()
     }
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 20] = [
+const ORDER: [&str; 22] = [
     "error",
     "simd",
     "scene",
@@ -20,6 +20,8 @@ const ORDER: [&str; 20] = [
     "signals",
     "warning",
     "collapse",
+    "orbit",
+    "escape",
     "method",
     "simulate",
     "explain",

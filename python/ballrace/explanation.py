@@ -38,6 +38,8 @@ class Explanation(Record):
     variants : list of dict
         Changes of the scene that would help, the cheapest first: ``change``, ``note`` on what it does to the
         answer, states ``kept``, estimated ``seconds`` for a simulated second.
+    notes : list of str
+        What to know of the scene before believing a long run: that nothing drives the balls' orbit.
     """
 
     def __init__(self, entries: Mapping[str, Any], text: str) -> None:

@@ -10,6 +10,7 @@ use serde::Serialize;
 use crate::dynamics::Dynamics;
 use crate::error::Result;
 use crate::model::{Model, Obstacle, Omission, Reduction};
+use crate::orbit;
 use crate::scene::Scene;
 use crate::start::{Start, start};
 
@@ -43,6 +44,8 @@ pub struct Explanation {
     pub cost: Cost,
     /// Changes that would make it cheaper, the cheapest first.
     pub variants: Vec<Variant>,
+    /// What to know of the scene before believing a long run.
+    pub notes: Vec<&'static str>,
 }
 
 /// How the contacts of a race are evaluated.
@@ -93,6 +96,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         absent: of(crate::dynamics::Use::Absent),
         variants: variants::of(&model, &y0, &cost),
         cost,
+        notes: orbit::note(&model).into_iter().collect(),
     })
 }
 
@@ -130,6 +134,9 @@ impl fmt::Display for Explanation {
         }
         for Obstacle { what, reason } in &self.obstacles {
             writeln!(f, "  no       {what}: {reason}")?;
+        }
+        for note in &self.notes {
+            writeln!(f, "  note     {note}")?;
         }
         writeln!(f, "contacts")?;
         for kind in &self.contacts {
