@@ -67,6 +67,8 @@ class _Equilibrium(_Turning):
     inner_deflection: _Array
     inner_zone_centre: _Array
     iterations: int
+    residual: float
+    residual_share: float
 
 class _Stiffness(TypedDict):
     inner: _Array

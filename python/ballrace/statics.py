@@ -51,6 +51,11 @@ class Equilibrium:
         Axial place of the zone's middle of force, in the ring's frame [m]; not a number without load.
     iterations : int
         Iterations of the solver.
+    residual : float
+        Force left unbalanced on the body that is worst off: on a ring along its free directions, on a
+        ball along its radius and z [N].
+    residual_share : float
+        The same over the largest load, of a contact or on a ring; at most 1e-4, or there is no equilibrium.
     """
 
     outer: NDArray[np.float64]
@@ -69,6 +74,8 @@ class Equilibrium:
     inner_deflection: NDArray[np.float64]
     inner_zone_centre: NDArray[np.float64]
     iterations: int
+    residual: float
+    residual_share: float
 
     def __repr__(self) -> str:
         loaded = int(np.count_nonzero(self.outer_load > 0.0))
@@ -104,7 +111,8 @@ def equilibrium(scene: Scene) -> Equilibrium:
     SceneError
         A field of the scene is not usable.
     EquilibriumError
-        There is no stable equilibrium: the load cannot be carried.
+        There is no stable equilibrium: the load cannot be carried, or more than 1e-4 of the largest
+        load stays unbalanced on a body.
     """
     return Equilibrium(**_core.equilibrium(scene._document()))
 

@@ -87,6 +87,8 @@ fn arrays<'py>(py: Python<'py>, found: &Equilibrium) -> PyResult<Bound<'py, PyDi
         set(&all, name, values, &[found.balls.len()])?;
     }
     all.set_item("iterations", found.iterations)?;
+    all.set_item("residual", found.residual)?;
+    all.set_item("residual_share", found.residual_share)?;
     Ok(all)
 }
 
