@@ -71,6 +71,8 @@ class _Equilibrium(_Turning):
     outer_pressure: _Array
     inner_pressure: _Array
     iterations: int
+    residual: float
+    residual_share: float
 
 class _Stiffness(TypedDict):
     inner: _Array

@@ -321,6 +321,7 @@ def _equilibrium(options: argparse.Namespace) -> None:
     for ring in ("outer", "inner"):
         x, y, z = 1e6 * getattr(eq, ring)
         print(f"{ring} ring: x {x:.3f} µm, y {y:.3f} µm, z {z:.3f} µm")
+    print(f"balanced to {eq.residual:.1e} N, {eq.residual_share:.1e} of the largest load")
     print()
     columns = [
         [f"row{row}.ball{ball}" for row, ball in zip(eq.row, eq.ball, strict=True)],

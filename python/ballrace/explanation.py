@@ -48,6 +48,8 @@ class Explanation(Record):
         Where defects lie and what contacts carry there at the healthy bearing's equilibrium, the fields as of
         :class:`ballrace.Touched`; ``passes`` counts the contacts looked at: over a turn of the inner race or the
         ball past all balls, or of a ball at the angle of a defect on the outer race.
+    notes : list of str
+        What to know of the scene before believing a long run: that nothing drives the balls' orbit.
     """
 
     def __init__(self, entries: Mapping[str, Any], text: str) -> None:

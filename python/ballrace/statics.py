@@ -58,6 +58,11 @@ class Equilibrium:
         Iterations of the solver.
     warnings : tuple of str
         What was warned of.
+    residual : float
+        Force left unbalanced on the body that is worst off: on a ring along its free directions, on a
+        ball along its radius and z [N].
+    residual_share : float
+        The same over the largest load, of a contact or on a ring; at most 1e-4, or there is no equilibrium.
     """
 
     outer: NDArray[np.float64]
@@ -78,6 +83,8 @@ class Equilibrium:
     outer_pressure: NDArray[np.float64]
     inner_pressure: NDArray[np.float64]
     iterations: int
+    residual: float
+    residual_share: float
     warnings: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
@@ -114,7 +121,8 @@ def equilibrium(scene: Scene) -> Equilibrium:
     SceneError
         A field of the scene is not usable.
     EquilibriumError
-        There is no stable equilibrium: the load cannot be carried.
+        There is no stable equilibrium: the load cannot be carried, or more than 1e-4 of the largest
+        load stays unbalanced on a body.
 
     Warns
     -----

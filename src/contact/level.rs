@@ -23,8 +23,8 @@ pub(crate) struct LevelRace<'a, S: Simd> {
     margin: Vector<S>,
     /// Approach up to which the form holds \[m\].
     limit: Vector<S>,
-    /// Half the ball's radius \[m\].
-    deepest: Vector<S>,
+    /// Where balls are lost \[m\], see [`Torus::farthest`].
+    farthest: Vector<S>,
     /// 3/2 of the damping \[s/m\].
     damping: Vector<S>,
     centre: [Vector<S>; 2],
@@ -55,8 +55,9 @@ pub(crate) struct LevelForces<S: Simd> {
     pub pulls: Choice<S>,
     /// Which touch but are left out here: the form does not hold, or they are not whole.
     pub careful: Choice<S>,
-    /// \[m\]
-    approach: Vector<S>,
+    /// From the groove's centre to the ball's along their line; in the middle of the groove less than nothing beyond the
+    /// centre \[m\].
+    l: Vector<S>,
 }
 
 impl<'a, S: Simd> LevelRace<'a, S> {
@@ -72,7 +73,7 @@ impl<'a, S: Simd> LevelRace<'a, S> {
             offset_squared: all(of.offset * of.offset),
             margin: all(of.radius - r),
             limit: all(of.limit),
-            deepest: all(0.5 * of.radius),
+            farthest: all(pair.race.farthest(of.radius)),
             damping: all(1.5 * pair.damping),
             centre: [all(ring.centre.x), all(ring.centre.y)],
             velocity: [all(ring.velocity.x), all(ring.velocity.y)],
@@ -129,15 +130,14 @@ impl<'a, S: Simd> LevelRace<'a, S> {
             y: push * n.1,
             pulls: damped.below(zero),
             careful,
-            approach,
+            l,
         }
     }
 
-    /// Which balls are pressed deeper than half their radius, among those that need care.
+    /// Which balls are lost, among those that need care.
     #[inline(always)]
     pub fn lost(&self, forces: &LevelForces<S>) -> Choice<S> {
-        forces
-            .careful
-            .and(forces.approach.below(self.deepest).not())
+        let inside = forces.l.abs().below(self.farthest);
+        forces.careful.and(inside.not())
     }
 }

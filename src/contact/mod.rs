@@ -41,7 +41,7 @@ pub(crate) use level::{LevelBalls, LevelRace};
 pub(crate) use octet::{Constants, Octet, Places};
 pub use pair::{BallSide, Pair};
 pub(crate) use press::Press;
-pub use race::{Torus, Waves};
+pub use race::{Meridian, Torus, Waves};
 pub use slices::{Rules, Slices};
 pub(crate) use still::{Held, Pack, Packing, Plane, Reaction, Still, in_contact};
 pub(crate) use tangent::Tangent;

@@ -17,7 +17,7 @@ pub(crate) struct Places {
 }
 
 /// Which of eight balls of a row touch a race, which of these may see a defect of it, how the race is raised
-/// there, and which balls have left the groove.
+/// there, and which balls are lost ([`Torus::farthest`]).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Near {
     pub touching: Mask,
@@ -102,7 +102,8 @@ impl Pair {
         };
         let e = (d - wave - race.a) * race.sigma;
         let c = balls.q[2] - (race.centre + ring.z);
-        let approach = e.mul_add::<FMA>(e, c * c).sqrt() + balls.radius - race.r;
+        let l = e.mul_add::<FMA>(e, c * c).sqrt();
+        let approach = l + balls.radius - race.r;
         // Negated, so that what is not a number counts as touching and stays one.
         let clear = e.above(Lanes::ZERO).and((-approach).above(Lanes::ZERO));
         let touching = clear.not();
@@ -116,10 +117,8 @@ impl Pair {
                 faulted = faulted.or((x * cos + y * sin).above(d * bound));
             }
         }
-        // Pressed deeper than half the radius, or beside the groove; what is not a number counts as lost.
-        let inside = (balls.radius * 0.5)
-            .above(approach)
-            .and(Lanes::all(race.r).above(c.abs()));
+        // Negated, so that what is not a number counts as lost.
+        let inside = balls.radius.map(|radius| race.farthest(radius)).above(l);
         Near {
             touching,
             faulted: faulted.and(touching),

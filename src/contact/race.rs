@@ -26,7 +26,24 @@ pub struct Torus {
     pub highest: f64,
 }
 
+/// Share of its radius by which a ball is pressed into a race, or past the point where it would touch behind the
+/// groove's centre, when it is lost.
+const LOST: f64 = 0.5;
+
 impl Torus {
+    /// Distance \[m\] from the groove's centre, in the meridional plane, at which the centre of a ball of some radius is
+    /// lost. Whichever way it went, no contact means anything from there on: it is pressed into the race by half its
+    /// radius, stands beside the groove, or is off the race and half out at the other side.
+    ///
+    /// ```
+    /// use ballrace::contact::Torus;
+    /// let outer = Torus { sigma: 1.0, a: 30e-3, centre: 0.0, r: 6e-3, lowest: -6e-3, highest: 6e-3 };
+    /// assert!((outer.farthest(5e-3) - 3.5e-3).abs() < 1e-15);
+    /// ```
+    pub fn farthest(&self, radius: f64) -> f64 {
+        self.r - LOST * radius
+    }
+
     /// Race radius \[m\] at an axial place of the ring's frame \[m\], whether or not a shoulder has
     /// cut it off; none where |z − z₀| ≥ r.
     pub fn radius(&self, z: f64) -> Option<f64> {

@@ -7,6 +7,8 @@ mod energy;
 mod grip;
 mod implicit;
 mod kept;
+#[cfg(test)]
+mod lost;
 mod others;
 mod plane;
 mod rolling;
@@ -26,6 +28,7 @@ use crate::scene::Drive;
 
 pub use contacts::{ContactSummary, SliceForce};
 pub use energy::Energy;
+pub(crate) use others::link;
 pub(crate) use uses::Use;
 
 use batch::{Batch, Kind};
@@ -184,7 +187,7 @@ impl<'m> Dynamics<'m> {
     }
 
     /// The first body among the balls that had left its groove in the last evaluation, if any: pressed deeper than
-    /// half its radius, or beside the groove.
+    /// half its radius, beside the groove, or off the race ([`crate::contact::Torus::farthest`]).
     pub fn lost(&self) -> Option<usize> {
         self.contacts.lost().map(|ball| 2 + ball)
     }

@@ -9,14 +9,14 @@ use crate::scene::{Cage, Drive, TimeFunction};
 use crate::simd::{Simd, Vector, Wide};
 
 /// A cage link between two balls: force on the first (positive in tension), stored energy and dissipated power.
-pub(super) struct Link {
+pub(crate) struct Link {
     pub force: f64,
     pub energy: f64,
     pub power: f64,
 }
 
 /// The link between two balls, model section 6.
-pub(super) fn link(cage: &Cage, nominal: f64, first: &Motion, second: &Motion) -> Link {
+pub(crate) fn link(cage: &Cage, nominal: f64, first: &Motion, second: &Motion) -> Link {
     let apart = second.centre - first.centre;
     let extension = apart.norm() - nominal;
     let half = cage.play / 2.0;

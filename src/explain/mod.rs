@@ -14,6 +14,7 @@ use crate::dynamics::{Dynamics, motion};
 use crate::equilibrium::{Meeting, Placed, describe, place};
 use crate::error::Result;
 use crate::model::{Model, Obstacle, Omission, Reduction};
+use crate::orbit;
 use crate::scene::{Defect, Doubt, Scene, Surface};
 use crate::start::{Start, start};
 use crate::touched::{Touched, compiled, is_there};
@@ -56,6 +57,8 @@ pub struct Explanation {
     /// Where defects are placed, and what contacts carry there at the healthy bearing's equilibrium: over a turn of
     /// the inner race or the ball past all balls; of one on the outer race with a ball at its angle.
     pub defects: Vec<Touched>,
+    /// What to know of the scene before believing a long run.
+    pub notes: Vec<&'static str>,
 }
 
 /// How the contacts of a race are evaluated.
@@ -111,6 +114,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         law: law::of(&model, &at_start),
         doubts: at_start.doubts,
         defects: defects(&scene, &placed)?,
+        notes: orbit::note(&model).into_iter().collect(),
     })
 }
 
@@ -187,6 +191,9 @@ impl fmt::Display for Explanation {
         }
         for Obstacle { what, reason } in &self.obstacles {
             writeln!(f, "  no       {what}: {reason}")?;
+        }
+        for note in &self.notes {
+            writeln!(f, "  note     {note}")?;
         }
         writeln!(f, "contacts")?;
         for kind in &self.contacts {

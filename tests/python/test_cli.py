@@ -104,6 +104,7 @@ def test_equilibrium_prints_a_table(capsys: pytest.CaptureFixture[str], scene_fi
     assert main(["equilibrium", str(scene_file)]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len([line for line in lines if line.startswith("row0.ball")]) == 9
+    assert any(line.startswith("balanced to ") for line in lines)
     assert not any(line.startswith(("stiffness", "equivalent")) for line in lines)
 
 
