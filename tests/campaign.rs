@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use ballrace::scene::presets;
 use ballrace::{
+    Bandwidth,
     Case, Error, FeatureOptions, Outcome, Run, Start, campaign, feature_columns, simulate, stream,
 };
 
@@ -206,6 +207,7 @@ fn a_stop_is_heard() {
         let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
         let mut run = run(duration);
         run.fs = 2.0 / duration;
+        run.bandwidth = Bandwidth::Raw;
         Some(Case { scene, run })
     });
     let mut seen = Vec::new();

@@ -240,7 +240,9 @@ fn ordinary_bearings_raise_no_doubt() {
         presets::deep_groove_6205(500.0, 0.0, 1800.0),
     ] {
         assert_eq!(equilibrium(&scene).unwrap().doubts, []);
-        assert_eq!(run(&scene, &short(2e-4)).warnings(), []);
+        let warnings = run(&scene, &short(2e-4)).warnings();
+        let doubtful = |warning: &&Warning| matches!(warning, Warning::Doubtful(_));
+        assert_eq!(warnings.iter().find(doubtful), None);
     }
     for size in SIZES {
         let scene = of_size(size, 0.2);

@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use ballrace::scene::{
     Approximations, Component, Drive, Friction, Mount, Probe, Profile, Scene, TimeFunction, presets,
 };
-use ballrace::{Model, Run, Signals, Start, start};
+use ballrace::{Bandwidth, Model, Run, Signals, Start, start};
 use common::{rms, run};
 
 /// The time in which a ball of row 0 takes the place of the next one \[s\].
@@ -121,6 +121,7 @@ fn the_phase_is_the_scenes() {
         &scene,
         &Run {
             duration: 1e-4,
+            bandwidth: Bandwidth::Raw,
             ..Run::default()
         },
     );
