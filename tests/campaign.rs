@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use ballrace::scene::presets;
 use ballrace::{
-    Bandwidth,
-    Case, Error, FeatureOptions, Outcome, Run, Start, campaign, feature_columns, simulate, stream,
+    Bandwidth, Case, Error, FeatureOptions, Outcome, Run, Start, campaign, feature_columns,
+    simulate, stream,
 };
 
 fn run(duration: f64) -> Run {

@@ -113,7 +113,11 @@ fn signals() -> Vec<Vec<f64>> {
         };
         let out = run(scene, &short);
         let inaccurate = |warning: &Warning| warning.category() == "accuracy";
-        assert!(!out.warnings().iter().any(inaccurate), "{:?}", out.warnings());
+        assert!(
+            !out.warnings().iter().any(inaccurate),
+            "{:?}",
+            out.warnings()
+        );
         out.get("outer.ay").unwrap().to_vec()
     };
     scenes().iter().map(of).collect()

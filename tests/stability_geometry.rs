@@ -84,7 +84,11 @@ fn carried(scene: &Scene, duration: f64) -> usize {
     }
     // Some of these scenes are meant to be odd; that is told of the scene.
     let inaccurate = |warning: &Warning| warning.category() == "accuracy";
-    assert!(!out.warnings().iter().any(inaccurate), "{:?}", out.warnings());
+    assert!(
+        !out.warnings().iter().any(inaccurate),
+        "{:?}",
+        out.warnings()
+    );
     out.stats.nfev
 }
 
