@@ -43,6 +43,19 @@ pub enum Error {
         /// Time reached \[s\].
         time: f64,
     },
+    /// The run cost more than [`crate::Run::time_limit`] or [`crate::Run::max_steps`] allows.
+    #[error(
+        "stopped at t = {time:.6e} s: {name} = {limit} is spent; allow more, or make the run cheaper \
+         (`ballrace explain` tells how)"
+    )]
+    Budget {
+        /// Simulated time reached \[s\].
+        time: f64,
+        /// The limit, `time_limit` or `max_steps`.
+        name: &'static str,
+        /// Its value, in seconds or steps.
+        limit: f64,
+    },
     /// A fault of this crate, caught where one of many cases must not cost the others.
     #[error("internal error, please report it: {message}")]
     Internal {
@@ -61,11 +74,40 @@ impl Error {
     ) -> Self {
         Self::Scene {
             path: path.into(),
-            value: value.to_string(),
+            value: readable(value.to_string()),
             allowed: allowed.into(),
         }
     }
 }
 
+/// A number that would print as a long row of digits, such as 1e300, as one with an exponent; other text as it is.
+fn readable(text: String) -> String {
+    if text.len() < 16 {
+        return text;
+    }
+    match text.parse::<f64>() {
+        Ok(x) if x != 0.0 && x.is_finite() && !(1e-5..1e16).contains(&x.abs()) => format!("{x:e}"),
+        _ => text,
+    }
+}
+
 /// Shorthand for results of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_print_as_people_write_them() {
+        let shown = |value: f64| match Error::scene("a", value, "") {
+            Error::Scene { value, .. } => value,
+            other => panic!("{other}"),
+        };
+        assert_eq!(shown(1e300), "1e300");
+        assert_eq!(shown(-2.5e-300), "-2.5e-300");
+        assert_eq!(shown(0.1), "0.1");
+        assert_eq!(shown(1234567.012345678), "1234567.012345678");
+        assert_eq!(shown(f64::INFINITY), "inf");
+    }
+}

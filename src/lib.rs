@@ -37,6 +37,7 @@
 //! * `signals` ([`Signals`]) — probes read on a uniform grid from the dense output.
 //! * `residual`, `collapse`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
 //! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
+//! * `budget` — wall time and steps that a run may cost at most.
 //! * `method` — the method a run asked for, and the switch between two of them.
 //! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
 //! * `explain` ([`explain()`]) — what a scene is compiled to, what it costs, what would make it cheaper.
@@ -68,6 +69,7 @@
 mod python;
 
 mod accuracy;
+mod budget;
 mod campaign;
 mod collapse;
 pub mod contact;

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use rayon::ThreadPool;
 
 use crate::accuracy;
+use crate::budget::{self, StepBudget};
 use crate::collapse::{Crawl, culprits};
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
@@ -37,6 +38,12 @@ pub struct Run {
     pub method: Option<Method>,
     /// Threads that share the balls of one evaluation; 0: as many as pay. The bits are the same for any.
     pub threads: usize,
+    /// Wall time that the run may take \[s\], looked at about every 20 ms; absent: any. What it ends depends on the
+    /// machine, what finishes within it does not.
+    pub time_limit: Option<f64>,
+    /// Steps that the run may take, accepted and rejected ones; absent: any. Pilot runs for an accuracy have as
+    /// many each.
+    pub max_steps: Option<usize>,
 }
 
 impl Default for Run {
@@ -50,6 +57,8 @@ impl Default for Run {
             accuracy: None,
             method: None,
             threads: 0,
+            time_limit: None,
+            max_steps: None,
         }
     }
 }
@@ -80,8 +89,31 @@ const ASK_EVERY: usize = 8;
 ///
 /// # Errors
 /// [`Error::Scene`] for bad input, [`Error::Equilibrium`] from the start, [`Error::Integration`] where the
-/// integration cannot go on, [`Error::Interrupted`] if `progress` broke off.
+/// integration cannot go on, [`Error::Budget`] where it costs more than the run allows,
+/// [`Error::Interrupted`] if `progress` broke off.
 pub fn simulate(
+    scene: &Scene,
+    run: &Run,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Signals> {
+    check(run)?;
+    budget::within(run.time_limit, progress, |progress| {
+        unlimited(scene, run, progress)
+    })
+}
+
+/// Checks what can be said of a run without its scene.
+pub(crate) fn check(run: &Run) -> Result<()> {
+    samples(run)?;
+    if let (Some(_), Some(rtol)) = (run.accuracy, run.rtol) {
+        let allowed = "absent where `accuracy` is given, which chooses it";
+        return Err(Error::scene("rtol", rtol, allowed));
+    }
+    budget::check(run.time_limit, run.max_steps)
+}
+
+/// Simulates for as long as it takes.
+fn unlimited(
     scene: &Scene,
     run: &Run,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
@@ -89,21 +121,14 @@ pub fn simulate(
     let mut scene = scene.clone();
     scene.solver.rtol = run.rtol.unwrap_or(scene.solver.rtol);
     scene.solver.method = run.method.unwrap_or(scene.solver.method);
-    let accuracy = match (run.accuracy, run.rtol) {
-        (Some(_), Some(rtol)) => {
-            return Err(Error::scene(
-                "rtol",
-                rtol,
-                "absent where `accuracy` is given, which chooses it",
-            ));
-        }
-        (Some(requested), None) => Some(accuracy::choose(
+    let accuracy = match run.accuracy {
+        Some(requested) => Some(accuracy::choose(
             requested,
             &mut scene,
             &run.start,
             &mut |scene, from| pilot(scene, from, run, progress),
         )?),
-        (None, _) => None,
+        None => None,
     };
     let model = Model::new(&scene)?;
     let count = samples(run)?;
@@ -119,10 +144,10 @@ pub fn simulate(
         let pool = pool(threads)?;
         let dynamics = dynamics.shared(Arc::clone(&pool));
         inside(&pool, progress, |progress| {
-            follow(dynamics, recorder, &y0, run.duration, &options, progress)
+            follow(dynamics, recorder, &y0, run, &options, progress)
         })?
     } else {
-        follow(dynamics, recorder, &y0, run.duration, &options, progress)?
+        follow(dynamics, recorder, &y0, run, &options, progress)?
     };
     let start = match run.start {
         Start::Equilibrium => "equilibrium",
@@ -167,6 +192,8 @@ fn pilot(
         fs: accuracy::FS,
         start: from.clone(),
         accuracy: None,
+        // The clock of the run goes on.
+        time_limit: None,
         ..run.clone()
     };
     let mut out = simulate(scene, &first, &mut |_| progress(0.0))?;
@@ -210,15 +237,16 @@ fn follow(
     mut dynamics: Dynamics<'_>,
     mut recorder: Recorder,
     y0: &[f64],
-    duration: f64,
+    run: &Run,
     options: &Options,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<(Recorder, Statistics, Choice)> {
-    let model = dynamics.model();
+    let (model, duration) = (dynamics.model(), run.duration);
     let begun = Instant::now();
     let mut told = begun;
     let (mut pulls, mut truncated, mut halt) = (0, 0, None);
     let mut crawl = Crawl::new(model, options.max_step);
+    let (mut steps, mut spent) = (StepBudget::new(run.max_steps), false);
     let tolerance = tolerance(&dynamics)?;
     let own = dynamics.compress(y0);
     let (mut last, mut last_time) = (own.clone(), 0.0);
@@ -238,7 +266,8 @@ fn follow(
             } else if crawls {
                 halt = Some((step.t1(), step.h(), None, CRAWLING));
             }
-            if halt.is_some() {
+            spent = steps.spent(stats) && step.t1() < duration;
+            if halt.is_some() || spent {
                 return ControlFlow::Break(());
             }
             if stats.accepted.is_multiple_of(ASK_EVERY) && told.elapsed() >= TELL_EVERY {
@@ -262,6 +291,9 @@ fn follow(
     let (solution, choice) = solved.map_err(|failure| broken(model, &full, &failure))?;
     if let Some((time, step, body, reason)) = halt {
         return Err(stopped(model, &full, (time, step), body, reason));
+    }
+    if spent {
+        return Err(steps.error(solution.t));
     }
     if solution.interrupted {
         return Err(Error::Interrupted { time: solution.t });

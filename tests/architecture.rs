@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 20] = [
+const ORDER: [&str; 21] = [
     "error",
     "simd",
     "scene",
@@ -21,6 +21,7 @@ const ORDER: [&str; 20] = [
     "warning",
     "collapse",
     "method",
+    "budget",
     "simulate",
     "explain",
     "features",

@@ -6,6 +6,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from .scene import checked_scene
 from .signals import Record
 
 if TYPE_CHECKING:
@@ -80,5 +81,5 @@ def explain(scene: Scene) -> Explanation:
     >>> [omission["what"] for omission in told.omissions]
     ['held directions', 'rotation of the inner ring', 'z']
     """
-    entries, text = _core.explain(scene.to_json())
+    entries, text = _core.explain(checked_scene(scene).to_json())
     return Explanation(json.loads(entries), text)

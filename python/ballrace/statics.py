@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from .errors import SceneError
+from .scene import checked_scene
 
 if TYPE_CHECKING:
     import polars as pl
@@ -106,7 +107,7 @@ def equilibrium(scene: Scene) -> Equilibrium:
     EquilibriumError
         There is no stable equilibrium: the load cannot be carried.
     """
-    return Equilibrium(**_core.equilibrium(scene._document()))
+    return Equilibrium(**_core.equilibrium(checked_scene(scene)._document()))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -175,7 +176,7 @@ def stiffness(scene: Scene) -> Stiffness:
     >>> loaded.inner.shape, bool(loaded.radial[1] > loaded.axial)
     ((3, 3), True)
     """
-    found = _core.stiffness(scene._document())
+    found = _core.stiffness(checked_scene(scene)._document())
     return Stiffness(
         inner=found["inner"],
         rings=found["rings"],
@@ -275,4 +276,4 @@ def load_distribution(scene: Scene, *, positions: int = 16) -> LoadDistribution:
     """
     if isinstance(positions, bool) or not isinstance(positions, int) or positions < 1:
         raise SceneError("positions", repr(positions), "a whole number, at least 1 per ball pitch")
-    return LoadDistribution(**_core.load_distribution(scene._document(), positions))
+    return LoadDistribution(**_core.load_distribution(checked_scene(scene)._document(), positions))

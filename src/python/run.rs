@@ -115,6 +115,9 @@ impl Model {
 
 /// Run a scene; returns a dict of `fs`, `t`, `columns`, `slices`, `stats`, `provenance` and `scene`.
 #[pyfunction]
+#[pyo3(signature = (
+    scene, duration, fs, kind, state, rtol, accuracy, method, threads, progress, time_limit = None, max_steps = None
+))]
 #[allow(clippy::too_many_arguments)]
 pub(super) fn simulate<'py>(
     py: Python<'py>,
@@ -128,6 +131,8 @@ pub(super) fn simulate<'py>(
     method: Option<&str>,
     threads: usize,
     progress: Option<Py<PyAny>>,
+    time_limit: Option<f64>,
+    max_steps: Option<usize>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let scene = Scene::from_json(scene).or_raise(py)?;
     let state = state.map(|y| y.as_array().iter().copied().collect());
@@ -139,6 +144,8 @@ pub(super) fn simulate<'py>(
         accuracy,
         method: method.map(self::method).transpose().or_raise(py)?,
         threads,
+        time_limit,
+        max_steps,
     };
     let mut raised = None;
     let result = py.detach(|| {
