@@ -107,7 +107,7 @@ mod tests {
         assert_eq!(shown(1e300), "1e300");
         assert_eq!(shown(-2.5e-300), "-2.5e-300");
         assert_eq!(shown(0.1), "0.1");
-        assert_eq!(shown(1234567.012345678), "1234567.012345678");
+        assert_eq!(shown(1234.012_345_678_9), "1234.0123456789");
         assert_eq!(shown(f64::INFINITY), "inf");
     }
 }

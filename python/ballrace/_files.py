@@ -6,17 +6,12 @@ import errno
 import os
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from .errors import SceneError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from io import BytesIO
-
-    import polars as pl
-
-T = TypeVar("T")
+    from collections.abc import Iterator
 
 PARQUET = (".parquet", ".pq", "")
 """What the name of a Parquet file may end in."""
@@ -78,26 +73,3 @@ def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
         temporary.replace(path)
     finally:
         temporary.unlink(missing_ok=True)
-
-
-def parquet(source: Path | BytesIO) -> pl.DataFrame:
-    """Read a Parquet file; a damaged one is a ``ValueError`` however polars meets it."""
-    import polars as pl
-
-    return _unless_damaged(lambda: pl.read_parquet(source, glob=False))
-
-
-def parquet_metadata(source: Path | BytesIO) -> dict[str, str]:
-    """Read the metadata of a Parquet file; a damaged one is a ``ValueError``."""
-    import polars as pl
-
-    return _unless_damaged(lambda: pl.read_parquet_metadata(source))
-
-
-def _unless_damaged(read: Callable[[], T]) -> T:
-    import polars as pl
-
-    try:
-        return read()
-    except (pl.exceptions.PolarsError, pl.exceptions.PanicException) as error:
-        raise ValueError(str(error)) from error

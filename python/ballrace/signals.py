@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._files import parquet, parquet_metadata, whole
+from ._files import whole
+from ._parquet import read_bytes, read_sealed, seal
 from ._text import printable
 from .errors import BallraceError, FileError
 from .scene import Scene
@@ -227,7 +228,8 @@ class Signals(Mapping[str, NDArray[np.float64]]):
     def write_parquet(self, path: str | os.PathLike[str]) -> None:
         """Write a Parquet file; units, scene, statistics and provenance go into its metadata.
 
-        The file appears at once when it is whole; one of the same name is replaced.
+        The file appears at once when it is whole; one of the same name is replaced. A hash of all of it stands
+        where other readers of Parquet do not look.
 
         Raises
         ------
@@ -249,6 +251,8 @@ class Signals(Mapping[str, NDArray[np.float64]]):
             metadata["slices"] = base64.b64encode(table.getvalue()).decode()
         with whole(path) as temporary:
             self.to_polars().write_parquet(temporary, metadata=metadata)
+            with temporary.open("r+b") as file:
+                seal(file)
 
     @classmethod
     def read_parquet(cls, path: str | os.PathLike[str]) -> Signals:
@@ -263,7 +267,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
         """
         path = Path(path)
         try:
-            metadata, table = parquet_metadata(path), parquet(path)
+            table, metadata = read_sealed(path)
         except ValueError as error:
             raise FileError(str(path), f"not a Parquet file, or damaged ({error})") from error
         if metadata.get("ballrace") != _FORMAT:
@@ -337,7 +341,7 @@ def _texts(text: str) -> list[str]:
 
 
 def _table(text: str) -> pl.DataFrame | None:
-    return parquet(io.BytesIO(base64.b64decode(text))) if text else None
+    return read_bytes(base64.b64decode(text)) if text else None
 
 
 def _shortened(names: list[str], limit: int) -> str:

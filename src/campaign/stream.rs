@@ -18,7 +18,7 @@ use crate::features::FeatureOptions;
 const ATTENTION: Duration = Duration::from_millis(50);
 
 /// How long a stop waits at most for cases that finish meanwhile, of what Ctrl-C may take: half a second.
-const PATIENCE: Duration = Duration::from_millis(250);
+const PATIENCE: Duration = Duration::from_millis(150);
 
 /// Cases handed out a thread: one that runs and one that waits.
 const AHEAD: usize = 2;
@@ -27,7 +27,7 @@ const AHEAD: usize = 2;
 ///
 /// `watch` is called on this thread at least about every 50 ms with the outcomes that have come in since, in any
 /// order (see [`Outcome::index`]), or none; it may stop everything. Cases interrupted by that are not reported;
-/// those that finish within a quarter of a second are, in one last call. No more than two cases a thread are held at a time.
+/// those that finish within 150 ms are, in one last call. No more than two cases a thread are held at a time.
 ///
 /// # Errors
 /// [`Error::Scene`] for more than 1024 threads, or more than the system grants.

@@ -171,7 +171,7 @@ def test_other_files_are_refused(tmp_path: Path) -> None:
     ("entry", "text", "message"),
     [
         ("units", None, "its metadata has no units"),
-        ("units", "{}", "its metadata has no unit of outer.x"),
+        ("units", "{}", "its metadata has no unit of cage"),
         ("units", "[1", "the entry units of its metadata cannot be read"),
         ("stats", "3", r"the entry stats of its metadata cannot be read \(it is no mapping\)"),
         ("provenance", None, "its metadata has no provenance"),
@@ -214,3 +214,32 @@ def test_damaged_columns_are_told(out: br.Signals, tmp_path: Path) -> None:
     table.cast({"outer.ay": pl.String}).write_parquet(path, metadata=metadata)
     with pytest.raises(br.FileError, match=r"the column outer\.ay has other entries than numbers"):
         br.Signals.read_parquet(path)
+
+
+def test_bit_rot_is_found(out: br.Signals, tmp_path: Path) -> None:
+    """Any flipped bit is told, before polars meets it: one of a length asks it for exabytes of memory."""
+    path = tmp_path / "run.parquet"
+    out.write_parquet(path)
+    data = path.read_bytes()
+    mark = data.index(b"ballrace blake2b")
+    for place in [*range(0, len(data), len(data) // 100), *range(mark, mark + 32), len(data) - 6]:
+        path.write_bytes(data[:place] + bytes([data[place] ^ 0x20]) + data[place + 1 :])
+        if mark <= place < mark + 16:
+            # Where the mark is gone, the file counts as one of others, and is right.
+            same(br.Signals.read_parquet(path), out)
+        else:
+            with pytest.raises(br.FileError, match=r"run\.parquet: .* not what was written"):
+                br.Signals.read_parquet(path)
+    for length in (0, 7, len(data) // 2, len(data) - 1):
+        path.write_bytes(data[:length])
+        with pytest.raises(br.FileError, match=r"run\.parquet: "):
+            br.Signals.read_parquet(path)
+
+
+def test_other_programs_read_a_sealed_file(out: br.Signals, tmp_path: Path) -> None:
+    pyarrow = pytest.importorskip("pyarrow.parquet")
+    path = tmp_path / "run.parquet"
+    out.write_parquet(path)
+    table = pyarrow.read_table(path)
+    np.testing.assert_array_equal(table["outer.ay"].to_numpy(), out["outer.ay"])
+    assert pl.scan_parquet(path).select("t").collect()["t"].to_numpy().tolist() == out.t.tolist()

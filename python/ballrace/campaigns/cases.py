@@ -229,7 +229,12 @@ def budget_document(budget: Mapping[str, Any]) -> dict[str, float | int]:
     """
     document: dict[str, float | int] = {}
     if budget.get("time_limit") is not None:
-        document["time_limit"] = _number("time_limit", budget["time_limit"])
+        seconds = _number("time_limit", budget["time_limit"])
+        if not 0.0 < seconds < math.inf:
+            raise SceneError(
+                "time_limit", _shown(budget["time_limit"]), "a finite time above 0 [s]"
+            )
+        document["time_limit"] = seconds
     if budget.get("max_steps") is not None:
         document["max_steps"] = whole_number("max_steps", budget["max_steps"])
         if document["max_steps"] < 1:

@@ -204,4 +204,4 @@ def warn_of_labels(cases: Cases, scenes: Mapping[str, str]) -> None:
                 f"the column {label} is no field: it changes nothing and is carried along as a label; if it is "
                 f"meant to change the case, call it {near}"
             )
-            warnings.warn(printable(text), CampaignWarning, stacklevel=4)
+            warnings.warn(printable(text), CampaignWarning, stacklevel=3)

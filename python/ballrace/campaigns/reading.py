@@ -65,7 +65,9 @@ def resembling(label: str, scenes: Iterable[Any], arguments: Iterable[str]) -> s
     A name resembles a field whose last word it is, or whose path has all its words (``axial_load``,
     ``radial_force``), or that it is a misspelling of.
     """
-    paths = [path for scene in scenes for path in _paths(scene, "")]
+    # A load is meant by its force rather than by the ring it acts on.
+    found = [pair for scene in scenes for pair in _fields(scene, "")]
+    paths = [path for path, _ in sorted(found, key=lambda pair: not _is_number(pair[1]))]
     wanted = _words(label)
     for path in paths:
         last = path.rpartition(".")[2]
@@ -77,16 +79,20 @@ def resembling(label: str, scenes: Iterable[Any], arguments: Iterable[str]) -> s
     return by_name[near[0]] if near else None
 
 
-def _paths(document: Any, path: str) -> Iterator[str]:
-    """Yield the dotted paths of the fields of a document that hold one value."""
+def _fields(document: Any, path: str) -> Iterator[tuple[str, Any]]:
+    """Yield the dotted paths and values of the fields of a document that hold one value."""
     if isinstance(document, dict):
         for key, value in document.items():
-            yield from _paths(value, f"{path}.{key}" if path else key)
+            yield from _fields(value, f"{path}.{key}" if path else key)
     elif isinstance(document, list) and any(isinstance(value, dict) for value in document):
         for i, value in enumerate(document):
-            yield from _paths(value, f"{path}[{i}]")
+            yield from _fields(value, f"{path}[{i}]")
     elif "." in path:
-        yield path
+        yield path, document
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _words(text: str) -> set[str]:

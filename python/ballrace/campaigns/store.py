@@ -27,7 +27,7 @@ import uuid
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from .._files import parquet, parquet_metadata
+from .._parquet import read_bytes, read_sealed, seal
 from ..errors import CampaignError
 from .disk import put, sweep
 
@@ -40,7 +40,6 @@ if TYPE_CHECKING:
 _FORMAT = 1
 _SHARD = re.compile(r"[0-9a-f]{32}\.parquet")
 _FOLDERS = ("locks", "results", "signals", "tmp")
-_DIGEST = "ballrace.blake2b"
 _NOT_WRITTEN = "its content is not what was written"
 
 STATISTICS = {
@@ -149,7 +148,8 @@ class Store:
     def _check_writable(self) -> None:
         probe = self.root / "tmp" / uuid.uuid4().hex
         probe.touch()
-        probe.unlink()
+        # Another process may have swept it away.
+        probe.unlink(missing_ok=True)
 
     def write(self, folder: str, frame: pl.DataFrame) -> str:
         """Write a shard and return its name."""
@@ -163,7 +163,8 @@ class Store:
     def write_table(self, name: str, frame: pl.DataFrame) -> None:
         """Write or replace a table at the root."""
         buffer = io.BytesIO()
-        frame.write_parquet(buffer, metadata={_DIGEST: _digest_of(frame)})
+        frame.write_parquet(buffer)
+        seal(buffer)
         put(self.root, name, buffer.getvalue())
 
     def read_table(self, name: str) -> pl.DataFrame:
@@ -176,16 +177,11 @@ class Store:
         """
         path = self.root / name
         try:
-            data = path.read_bytes()
-            digest = parquet_metadata(io.BytesIO(data)).get(_DIGEST)
-            frame = parquet(io.BytesIO(data))
+            frame, _ = read_sealed(path)
         except FileNotFoundError:
             raise CampaignError(f"{path}: missing; run the campaign again") from None
         except (OSError, ValueError) as error:
             raise CampaignError(f"{path}: damaged ({error}); run the campaign again") from None
-        # Folders of versions before this have none.
-        if digest is not None and digest != _digest_of(frame):
-            raise CampaignError(f"{path}: damaged ({_NOT_WRITTEN}); run the campaign again")
         return frame
 
     def results(self, damaged: list[Path] | None = None) -> pl.DataFrame:
@@ -223,7 +219,7 @@ class Store:
         if hashlib.blake2b(data, digest_size=16).hexdigest() != path.stem:
             raise CampaignError(_damaged(path, _NOT_WRITTEN))
         try:
-            frame = parquet(io.BytesIO(data))
+            frame = read_bytes(data)
             _check_results(frame)
         except ValueError as error:
             raise CampaignError(_damaged(path, str(error))) from None
@@ -312,12 +308,6 @@ def _check_results(frame: pl.DataFrame) -> None:
     for name, found in frame.schema.items():
         if found != base.get(name, pl.Float64):
             raise ValueError(f"its column {name} is of type {found}")
-
-
-def _digest_of(frame: pl.DataFrame) -> str:
-    """Return a hash of what a table says, whatever wrote its file."""
-    text = json.dumps(frame.to_dict(as_series=False), default=repr)
-    return hashlib.blake2b(text.encode(), digest_size=16).hexdigest()
 
 
 def _damaged(path: Path, why: str) -> str:

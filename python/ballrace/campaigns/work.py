@@ -6,6 +6,7 @@ import importlib.metadata
 import json
 import os
 import time
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -162,6 +163,11 @@ def run_here(
 
     try:
         _core.campaign(documents(), job.threads, job.features, job.keep_signals, done)
+    except KeyboardInterrupt:
+        # Of one Ctrl-C polars tells as it writes, and then Python, in the midst of what follows.
+        with suppress(KeyboardInterrupt):
+            writer.flush()
+        raise
     finally:
         writer.flush()
 
