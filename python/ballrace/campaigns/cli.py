@@ -83,6 +83,8 @@ def _command(options: argparse.Namespace) -> None:
         return
     if options.sweep is None or options.output is None:
         raise SceneError("campaign", "no sweep", "SWEEP -o FOLDER, or --status FOLDER")
+    if str(options.output) == "-":
+        raise SceneError("output", "-", "a folder; a campaign is more than a stream")
     sweep = read(options.sweep)
     # What is asked for now goes before what the sweep says: a budget is no part of what a campaign is.
     for name in ("time_limit", "max_steps"):
