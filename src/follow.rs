@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use crate::budget::StepBudget;
 use crate::collapse::Crawl;
 use crate::dynamics::Dynamics;
 use crate::ending::{Halt, broken};
@@ -26,6 +27,8 @@ const ASK_EVERY: usize = 8;
 pub(crate) struct Stretch {
     pub begins: f64,
     pub length: f64,
+    /// Steps that it may take.
+    pub max_steps: Option<usize>,
 }
 
 /// Sees the first state of a stretch and every accepted step, on the integrator's clock.
@@ -69,12 +72,17 @@ pub(crate) fn follow(
     options: &Options,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<(Vec<f64>, Statistics, Choice)> {
-    let Stretch { begins, length } = stretch;
+    let Stretch {
+        begins,
+        length,
+        max_steps,
+    } = stretch;
     let model = dynamics.model();
     let begun = Instant::now();
     let mut told = begun;
     let (mut pulls, mut truncated, mut halt) = (0, 0, None);
     let mut crawl = Crawl::new(model, options.max_step);
+    let (mut steps, mut spent) = (StepBudget::new(max_steps), false);
     let bounds = runaway::Bounds::new(&dynamics, y0);
     let tolerance = tolerance(&dynamics)?;
     let own = dynamics.compress(y0);
@@ -101,6 +109,10 @@ pub(crate) fn follow(
                 halt = Some((step.t1(), step.h(), why));
                 return ControlFlow::Break(());
             }
+            spent = steps.spent(stats) && step.t1() < length;
+            if spent {
+                return ControlFlow::Break(());
+            }
             if stats.accepted.is_multiple_of(ASK_EVERY) && told.elapsed() >= TELL_EVERY {
                 told = Instant::now();
                 return progress(step.t1() / length);
@@ -122,6 +134,9 @@ pub(crate) fn follow(
     let (solution, choice) = solved.map_err(|failure| broken(model, &full, begins, &failure))?;
     if let Some((time, step, why)) = halt {
         return Err(why.error(model, &full, (begins + time, step)));
+    }
+    if spent {
+        return Err(steps.error(begins + solution.t));
     }
     if solution.interrupted {
         let time = begins + solution.t;

@@ -41,6 +41,7 @@
 //!   up, and what its error says.
 //! * `selftest` — whether this processor's vector instructions compute what they should, once a process.
 //! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
+//! * `budget` — wall time and steps that a run may cost at most.
 //! * `method` — the method a run asked for, and the switch between two of them; `step_limit` — the largest step of each.
 //! * `run` ([`Run`]) — what a run is asked for; `follow` — steps over a stretch of time, and when to stop.
 //! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
@@ -74,6 +75,7 @@
 mod python;
 
 mod accuracy;
+mod budget;
 mod campaign;
 mod collapse;
 pub mod contact;

@@ -29,6 +29,12 @@ pub struct Run {
     /// that at t = 0 they stand where the scene says but for what the balls have slipped. From a given state nothing is
     /// wound back: that state is the one before.
     pub settle: Option<f64>,
+    /// Wall time that the run may take \[s\], looked at about every 20 ms; absent: any. What it ends depends on the
+    /// machine, what finishes within it does not.
+    pub time_limit: Option<f64>,
+    /// Steps that the run may take, accepted and rejected ones; absent: any. Settling, and pilot runs for an accuracy, have
+    /// as many each.
+    pub max_steps: Option<usize>,
 }
 
 impl Default for Run {
@@ -44,6 +50,8 @@ impl Default for Run {
             threads: 0,
             bandwidth: Bandwidth::Auto,
             settle: None,
+            time_limit: None,
+            max_steps: None,
         }
     }
 }

@@ -78,6 +78,7 @@ pub(crate) fn settle(
     let stretch = Stretch {
         begins: -seconds,
         length: seconds,
+        max_steps: run.max_steps,
     };
     let share = seconds / (seconds + run.duration);
     let mut progress = |done: f64| progress(share * done);

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::accuracy;
+use crate::budget;
 use crate::dynamics::Dynamics;
 use crate::equilibrium::place;
 use crate::error::{Error, Result};
@@ -32,8 +33,31 @@ const MEMORY_LIMIT: f64 = 8.0 * (1u64 << 30) as f64;
 ///
 /// # Errors
 /// [`Error::Scene`] for bad input, [`Error::Equilibrium`] from the start, [`Error::Integration`] where the
-/// integration cannot go on, [`Error::Interrupted`] if `progress` broke off.
+/// integration cannot go on, [`Error::Budget`] where it costs more than the run allows,
+/// [`Error::Interrupted`] if `progress` broke off.
 pub fn simulate(
+    scene: &Scene,
+    run: &Run,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Signals> {
+    check(run)?;
+    budget::within(run.time_limit, progress, |progress| {
+        unlimited(scene, run, progress)
+    })
+}
+
+/// Checks what can be said of a run without its scene.
+pub(crate) fn check(run: &Run) -> Result<()> {
+    samples(run)?;
+    if let (Some(_), Some(rtol)) = (run.accuracy, run.rtol) {
+        let allowed = "absent where `accuracy` is given, which chooses it";
+        return Err(Error::scene("rtol", rtol, allowed));
+    }
+    budget::check(run.time_limit, run.max_steps)
+}
+
+/// Simulates for as long as it takes.
+fn unlimited(
     scene: &Scene,
     run: &Run,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
@@ -42,10 +66,6 @@ pub fn simulate(
     let mut scene = scene.into_owned();
     scene.solver.rtol = run.rtol.unwrap_or(scene.solver.rtol);
     scene.solver.method = run.method.unwrap_or(scene.solver.method);
-    if let (Some(_), Some(rtol)) = (run.accuracy, run.rtol) {
-        let allowed = "absent where `accuracy` is given, which chooses it";
-        return Err(Error::scene("rtol", rtol, allowed));
-    }
     if let Some(requested) = run.accuracy {
         accuracy::check(requested, &scene)?;
     }
@@ -72,6 +92,7 @@ pub fn simulate(
     let stretch = Stretch {
         begins: 0.0,
         length: run.duration,
+        max_steps: run.max_steps,
     };
     let (_, mut stats, choice) = on(threads, dynamics, &mut progress, |dynamics, progress| {
         follow(dynamics, &mut recorder, &y0, stretch, &options, progress)
@@ -129,6 +150,8 @@ fn pilot(
         accuracy: None,
         bandwidth: Bandwidth::Raw,
         settle: Some(0.0),
+        // The clock of the run goes on.
+        time_limit: None,
         ..run.clone()
     };
     let mut out = simulate(scene, &first, &mut |_| progress(0.0))?;

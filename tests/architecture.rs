@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 31] = [
+const ORDER: [&str; 32] = [
     "error",
     "simd",
     "scene",
@@ -25,6 +25,7 @@ const ORDER: [&str; 31] = [
     "run",
     "warning",
     "collapse",
+    "budget",
     "runaway",
     "orbit",
     "escape",

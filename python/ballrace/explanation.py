@@ -6,6 +6,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from .scene import checked_scene
 from .signals import Record
 
 if TYPE_CHECKING:
@@ -94,5 +95,5 @@ def explain(scene: Scene) -> Explanation:
     >>> told.law.law, round(told.law.approach / told.law.hertz_approach, 2)
     ('hertz', 1.0)
     """
-    entries, text = _core.explain(scene.to_json())
+    entries, text = _core.explain(checked_scene(scene).to_json())
     return Explanation(json.loads(entries), text)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from .errors import SceneError, SceneWarning
+from .scene import checked_scene
 
 if TYPE_CHECKING:
     import polars as pl
@@ -130,7 +131,7 @@ def equilibrium(scene: Scene) -> Equilibrium:
         A number of the scene is one that no bearing is likely to have, or a contact's pressure exceeds the static
         rating.
     """
-    return Equilibrium(**_warned(dict(_core.equilibrium(scene._document()))))
+    return Equilibrium(**_warned(dict(_core.equilibrium(checked_scene(scene)._document()))))
 
 
 def _warned(found: dict[str, Any]) -> dict[str, Any]:
@@ -212,7 +213,7 @@ def stiffness(scene: Scene) -> Stiffness:
     >>> loaded.inner.shape, bool(loaded.radial[1] > loaded.axial)
     ((3, 3), True)
     """
-    found = _core.stiffness(scene._document())
+    found = _core.stiffness(checked_scene(scene)._document())
     return Stiffness(
         inner=found["inner"],
         rings=found["rings"],
@@ -320,4 +321,6 @@ def load_distribution(scene: Scene, *, positions: int = 16) -> LoadDistribution:
     """
     if isinstance(positions, bool) or not isinstance(positions, int) or positions < 1:
         raise SceneError("positions", repr(positions), "a whole number, at least 1 per ball pitch")
-    return LoadDistribution(**_warned(dict(_core.load_distribution(scene._document(), positions))))
+    return LoadDistribution(
+        **_warned(dict(_core.load_distribution(checked_scene(scene)._document(), positions)))
+    )
