@@ -33,12 +33,12 @@
 //!   in one order; smooth plane rows in one loop, without tables between; forces by name, energies.
 //! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
 //! * `equilibrium` ([`equilibrium()`], [`stiffness()`], [`load_distribution()`]) — the static solve and what follows
-//!   from it; `start` ([`start()`]) — how a run begins; `settle` — what is left of that dies down before t = 0.
+//!   from it; `start` ([`start()`]) — how a run begins.
 //! * `signals` ([`Signals`]) — probes read on a uniform grid from the dense output.
 //! * `residual`, `collapse`, `warning` ([`Warning`]) — whether a run can be believed, and who held it up.
 //! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
 //! * `method` — the method a run asked for, and the switch between two of them.
-//! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
+//! * `simulate` ([`simulate()`]) — the run itself, the lines to read first; what its start leaves dies down before t = 0.
 //! * `explain` ([`explain()`]) — what a scene is compiled to, what it costs, what would make it cheaper.
 //! * `features` ([`Feature`]) — the few numbers a case is known by: moments, fault lines, contact loads.
 //! * `campaign` ([`campaign()`]) — many cases on all cores; a case that fails is an outcome.
@@ -82,7 +82,6 @@ mod model;
 mod pool;
 mod residual;
 pub mod scene;
-mod settle;
 mod signals;
 pub mod simd;
 mod simulate;

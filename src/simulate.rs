@@ -1,5 +1,7 @@
 //! A run: scene → model → start → settle → integrate → signals. The lines to read first.
 
+mod settle;
+
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
@@ -12,7 +14,6 @@ use crate::method::{self, Choice, Task};
 use crate::model::{Model, Reduction};
 use crate::pool::on;
 use crate::scene::{Drive, Method, SCHEMA, Scene};
-use crate::settle;
 use crate::signals::{Provenance, Recorder, Signals, Statistics};
 use crate::start::{Start, start};
 
@@ -180,13 +181,13 @@ fn pilot(
 
 /// A time to integrate over: it begins at 0 on the integrator's clock and, maybe before it, on that of the run \[s\].
 #[derive(Clone, Copy)]
-pub(crate) struct Stretch {
-    pub begins: f64,
-    pub length: f64,
+struct Stretch {
+    begins: f64,
+    length: f64,
 }
 
 /// Sees the first state of a stretch and every accepted step, on the integrator's clock.
-pub(crate) trait Watch: Send {
+trait Watch: Send {
     fn first(&mut self, dynamics: &mut Dynamics<'_>, y: &[f64]);
     fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>);
 }
@@ -202,7 +203,7 @@ impl Watch for Recorder {
 }
 
 /// Integrates over a stretch from a state of all bodies; returns the last one.
-pub(crate) fn follow(
+fn follow(
     mut dynamics: Dynamics<'_>,
     watch: &mut dyn Watch,
     y0: &[f64],
@@ -329,7 +330,7 @@ fn check_memory(run: &Run, count: usize, width: usize) -> Result<()> {
     Ok(())
 }
 
-pub(crate) fn threads(model: &Model, asked: usize) -> Result<usize> {
+fn threads(model: &Model, asked: usize) -> Result<usize> {
     if asked > 1024 {
         return Err(Error::scene("threads", asked, "at most 1024; 0 chooses"));
     }

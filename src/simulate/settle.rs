@@ -9,13 +9,13 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
+use super::{Run, Stretch, Watch, follow, options, threads};
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
 use crate::integrate::{DenseStep, Options};
 use crate::model::{Degree, Model};
 use crate::pool::on;
 use crate::scene::{Drive, RingName, Scene, Surface, TimeFunction};
-use crate::simulate::{Run, Stretch, Watch, follow, options, threads};
 use crate::start::{Start, start};
 
 /// Decay times of the slowest ring to wait for. Measured on a 6205 under thrust: what the start leaves is 3000 times
@@ -31,7 +31,7 @@ const PASSES: f64 = 2.0;
 const MOST: f64 = 1e3;
 
 /// From where a run goes on at t = 0, and what it took to get there.
-pub(crate) struct Settled {
+pub(super) struct Settled {
     pub from: Start,
     /// Time before t = 0 \[s\].
     pub seconds: f64,
@@ -41,7 +41,7 @@ pub(crate) struct Settled {
 
 /// Lets a scene settle from the start of a run, for as long as asked or needed. `progress` is told the share of
 /// settling and run together.
-pub(crate) fn settle(
+pub(super) fn settle(
     scene: &Scene,
     run: &Run,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
