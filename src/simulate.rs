@@ -1,5 +1,7 @@
 //! A run: scene → model → start → settle → integrate → signals. The lines to read first.
 
+mod settle;
+
 use std::ops::ControlFlow;
 
 use crate::accuracy;
