@@ -1,7 +1,5 @@
 //! A run: scene → model → start → settle → integrate → signals. The lines to read first.
 
-mod settle;
-
 use std::ops::ControlFlow;
 
 use crate::accuracy;

@@ -40,6 +40,8 @@ pub(crate) struct LevelBalls<S: Simd> {
     pub vy: Vector<S>,
     /// Raise of the race under them \[m\].
     pub raise: Vector<S>,
+    /// Its derivative by the angle \[m\]; none where races are round.
+    pub slope: Option<Vector<S>>,
     /// Where there is a ball, whose contact sees no defect. If there is no telling, all are to be left out as soon as
     /// one needs care.
     pub whole: Option<Choice<S>>,
@@ -51,6 +53,8 @@ pub(crate) struct LevelForces<S: Simd> {
     /// Along x and y \[N\].
     pub x: Vector<S>,
     pub y: Vector<S>,
+    /// About the ring's centre \[N m\].
+    pub moment: Vector<S>,
     /// Which contacts wanted to pull.
     pub pulls: Choice<S>,
     /// Which touch but are left out here: the form does not hold, or they are not whole.
@@ -111,12 +115,13 @@ impl<'a, S: Simd> LevelRace<'a, S> {
         let damped = elastic * rate.mul_add(self.damping, one);
         // What is not a number is not beyond and stays one.
         let beyond = self.limit.below(approach).or(e.below(zero));
-        let (damped, careful) = if let Some(whole) = balls.whole {
+        let (elastic, damped, careful) = if let Some(whole) = balls.whole {
             let apart = zero.below(e).and(approach.below(zero));
             let simple = beyond.not().and(whole);
-            (simple.choose(damped, zero), apart.or(simple).not())
+            let [elastic, damped] = [elastic, damped].map(|force| simple.choose(force, zero));
+            (elastic, damped, apart.or(simple).not())
         } else {
-            (damped, beyond)
+            (elastic, damped, beyond)
         };
         let normal = if self.clamp {
             damped.or_more(zero)
@@ -125,9 +130,19 @@ impl<'a, S: Simd> LevelRace<'a, S> {
         };
         let normal = tilt.map_or(normal, |tilt| normal * tilt);
         let push = zero - normal;
+        let (mut force, mut moment) = ((push * n.0, push * n.1), zero);
+        if let Some(slope) = balls.slope {
+            // The waves' slope: σ F R'(φ) about the ring's centre, F the elastic force in the plane (see `gradient`).
+            let radial = tilt.map_or(elastic, |tilt| elastic * tilt);
+            let turning = radial * slope;
+            let across = turning / d;
+            force = (force.0 - across * n.1, force.1 + across * n.0);
+            moment = turning * self.sigma;
+        }
         LevelForces {
-            x: push * n.0,
-            y: push * n.1,
+            x: force.0,
+            y: force.1,
+            moment,
             pulls: damped.below(zero),
             careful,
             l,

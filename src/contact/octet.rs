@@ -4,6 +4,7 @@
 #![allow(clippy::inline_always)]
 
 use super::fault::Sight;
+use super::race::Raise;
 use super::{Law, Motion, Pair};
 use crate::simd::{Lanes, Mask};
 
@@ -22,7 +23,7 @@ pub(crate) struct Places {
 pub(crate) struct Near {
     pub touching: Mask,
     pub faulted: Mask,
-    pub wave: Lanes,
+    pub raise: Raise<Lanes>,
     pub lost: Mask,
 }
 
@@ -30,8 +31,10 @@ pub(crate) struct Near {
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Octet {
     pub constants: Constants<Lanes>,
-    /// Raise of the race by its waves \[m\].
-    pub wave: Lanes,
+    /// Of the race by its waves.
+    pub raise: Raise<Lanes>,
+    /// Whether any race here has waves.
+    pub wavy: bool,
     /// Position x, y, z of the ball \[m\].
     pub q: [Lanes; 3],
     /// Velocity \[m/s\] and angular speed \[rad/s\] of the ball.
@@ -95,12 +98,12 @@ impl Pair {
         let race = &self.race;
         let (x, y) = (balls.q[0] - ring.centre.x, balls.q[1] - ring.centre.y);
         let d = x.mul_add::<FMA>(x, y * y).sqrt();
-        let wave = if self.waves.is_round() {
-            Lanes::ZERO
+        let raise = if self.waves.is_round() {
+            Raise::default()
         } else {
-            x.zip(y, |x, y| self.waves.at(y.atan2(x) - ring.theta))
+            Raise::each(|i| self.waves.raise(y[i].atan2(x[i]) - ring.theta))
         };
-        let e = (d - wave - race.a) * race.sigma;
+        let e = (d - raise.height - race.a) * race.sigma;
         let c = balls.q[2] - (race.centre + ring.z);
         let l = e.mul_add::<FMA>(e, c * c).sqrt();
         let approach = l + balls.radius - race.r;
@@ -122,7 +125,7 @@ impl Pair {
         Near {
             touching,
             faulted: faulted.and(touching),
-            wave,
+            raise,
             lost: inside.not(),
         }
     }

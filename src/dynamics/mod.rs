@@ -302,8 +302,8 @@ impl<'m> Dynamics<'m> {
         let (state, forces) = (&self.state, &mut self.forces);
         others::supports(&self.springs, state, forces);
         others::loads(self.model, false, t, forces);
-        others::unbalances(self.model, t, state, forces);
         others::drive(self.model, t, forces);
+        others::unbalances(self.model, t, state, forces);
     }
 
     /// M⁻¹ F of a body. Directions that are fixed do not accelerate; the driven ring's rotation accelerates as
@@ -341,8 +341,12 @@ impl<'m> Dynamics<'m> {
         for constant in [true, false] {
             others::loads(model, constant, t, &mut parts[6]);
         }
-        others::unbalances(model, t, &state, &mut parts[6]);
         others::drive(model, t, &mut parts[7]);
+        for ring in 0..2 {
+            let of = |i: usize| parts.iter().map(|part| part.get(ring, i)).sum();
+            let all = std::array::from_fn(of);
+            parts[6].add(ring, &others::unbalance(model, t, &state, ring, &all));
+        }
         let listed = |part: Table| (0..bodies).flat_map(|body| part.of(body)).collect();
         CONTRIBUTIONS
             .into_iter()
