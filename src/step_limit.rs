@@ -117,6 +117,7 @@ mod tests {
         let most = |method, rate| largest(method, &scales(1e5, rate));
         assert_eq!(most(Method::RungeKutta4, 1e7), 2e-7);
         assert_eq!(most(Method::VelocityVerlet, 1e7), 0.8e-7);
-        assert!(most(Method::BogackiShampine, 1e7) > 1e-6);
+        let pair = Method::BogackiShampine;
+        assert_eq!(most(pair, 1e7), most(pair, 0.0));
     }
 }
