@@ -223,6 +223,7 @@ fn thrown(law: &NormalLaw, outer: bool, damping: f64, speed: f64, fs: f64) -> (V
             accuracy: None,
             method: None,
             threads: 1,
+            ..Run::default()
         },
     );
     // Hunt and Crossley's force never attracts.
