@@ -158,7 +158,7 @@ mod tests {
         assert_eq!(value_of(1e300), "1e300");
         assert_eq!(value_of(-2.5e-300), "-2.5e-300");
         assert_eq!(value_of(0.1), "0.1");
-        assert_eq!(value_of(1234.012_345_678_9), "1234.0123456789");
+        assert_eq!(value_of(0.012_345_678_901_234_5), "0.0123456789012345");
         assert_eq!(value_of(f64::INFINITY), "inf");
     }
 }

@@ -157,3 +157,16 @@ fn gather(outcomes: &Receiver<Outcome>) -> Vec<Outcome> {
     done.extend(outcomes.try_iter());
     done
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As of a thread in a large static solve, which does not hear the stop: to wait for it would be for ever.
+    #[test]
+    fn a_stop_does_not_wait_for_the_deaf() {
+        let (deaf, outcomes) = channel::<Outcome>();
+        assert!(await_last(&outcomes).is_empty());
+        drop(deaf);
+    }
+}
