@@ -83,7 +83,9 @@ def test_a_campaign_tells_doubts_once_and_pressures_a_case(
 ) -> None:
     table = br.grid({"loads.radial.force": [500.0, 4000.0]})
     with pytest.warns(br.SceneWarning, match="start_angle") as told:
-        done = br.campaign(table, tmp_path, scene=doubtful, duration=1e-3, progress=False)
+        done = br.campaign(
+            table, tmp_path, scene=doubtful, duration=1e-3, settle=0.0, progress=False
+        )
     assert len(told) == 1
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", br.SceneWarning)
