@@ -30,6 +30,15 @@ pub(super) struct CageSpring {
 }
 
 impl CageSpring {
+    /// A pull at a radius that does not change nearby.
+    pub(super) fn held(force: f64, radius: f64) -> Self {
+        Self {
+            force,
+            stiffness: 0.0,
+            radius,
+        }
+    }
+
     pub(super) fn pull(&self, radius: f64) -> f64 {
         self.force - self.stiffness * (radius - self.radius)
     }

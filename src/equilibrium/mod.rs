@@ -17,6 +17,7 @@ mod cage;
 mod distribution;
 mod guess;
 mod place;
+mod polish;
 mod problem;
 mod residual;
 mod rings;
@@ -254,10 +255,16 @@ fn solve_from(mut problem: Problem, mut rings: SVector<f64, 6>) -> Result<Solved
             iterations += more;
         }
     }
-    let (state, more) = problem.balance(&mut rings, &state.balls, unbalanced, TOLERANCE)?;
+    let (mut state, more) = problem.balance(&mut rings, &state.balls, unbalanced, TOLERANCE)?;
     iterations += more;
+    let mut residual = problem.residual(&rings, &state.balls);
+    if model.scene.cage.is_some() && problem.is_off(&residual) {
+        let mut places = state.balls.clone();
+        problem.polish(&mut rings, &mut places);
+        state = problem.rings(&rings, &places, 0.0, FINE * TOLERANCE)?;
+        residual = problem.residual(&rings, &state.balls);
+    }
     problem.check(&state, &rings)?;
-    let residual = problem.residual(&rings, &state.balls);
     problem.accept(&residual)?;
     Ok(Solved {
         residual,

@@ -74,7 +74,7 @@ impl Problem<'_> {
     }
 
     /// What the cage pulls every ball outwards, link by link.
-    fn cage_pulls(&self, places: &[Vector2<f64>]) -> Vec<f64> {
+    pub(super) fn cage_pulls(&self, places: &[Vector2<f64>]) -> Vec<f64> {
         let mut pulls = vec![0.0; places.len()];
         let Some(cage) = &self.model.scene.cage else {
             return pulls;
@@ -95,9 +95,14 @@ impl Problem<'_> {
         pulls
     }
 
+    /// Whether that is too much.
+    pub(super) fn is_off(&self, residual: &Residual) -> bool {
+        residual.share() > REFUSED
+    }
+
     /// Refuses what is not balanced.
     pub(super) fn accept(&self, residual: &Residual) -> Result<()> {
-        if residual.share() <= REFUSED {
+        if !self.is_off(residual) {
             return Ok(());
         }
         Err(Error::Equilibrium {
