@@ -30,11 +30,11 @@ pub(super) struct CageSpring {
 }
 
 impl CageSpring {
-    /// A pull at a radius that does not change nearby.
-    pub(super) fn held(force: f64, radius: f64) -> Self {
+    /// A pull at a radius, with a stiffness there.
+    pub(super) fn held(force: f64, stiffness: f64, radius: f64) -> Self {
         Self {
             force,
-            stiffness: 0.0,
+            stiffness,
             radius,
         }
     }

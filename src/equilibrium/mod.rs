@@ -45,9 +45,9 @@ const ON_THE_WAY: f64 = 1e-5;
 const FINE: f64 = 1e-2;
 /// Residual that is still accepted where a slice that enters a defect makes the force jump.
 const STALLED: f64 = 1e-3;
-/// Solves with the cage's pull renewed, at most: three or four do, but balls that hang on the cage by next to no load of
-/// their own, or a cage stiffer than the contacts, take many.
-const CAGE_ROUNDS: usize = 300;
+/// Solves with the cage's pull renewed, at most: three or four do. Where balls that hang on the cage by next to no load of
+/// their own, or a cage stiffer than the contacts, would take many, Newton's method on all bodies ends it.
+const CAGE_ROUNDS: usize = 30;
 /// Change of the cage's pull on any ball, over the sum of the acting forces, at which the cage counts as engaged.
 const ENGAGED: f64 = 1e-7;
 

@@ -49,9 +49,16 @@ impl Problem<'_> {
             (*rings, *places) = moved;
             whole = trial;
         }
-        let held = self.cage_pulls(places).into_iter().zip(&*places);
+        let first = self.free.len();
+        let pulls = self.cage_pulls(places);
+        let mut against = DMatrix::zeros(first + 2 * places.len(), first + 2 * places.len());
+        self.add_cage(places, &pulls, &mut against);
+        let held = pulls.into_iter().zip(&*places).enumerate();
         self.cage_spring = held
-            .map(|(pull, place)| CageSpring::held(pull, place.x))
+            .map(|(j, (pull, place))| {
+                let own = against[(first + 2 * j, first + 2 * j)];
+                CageSpring::held(pull, own.max(0.0), place.x)
+            })
             .collect();
     }
 
