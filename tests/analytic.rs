@@ -153,6 +153,7 @@ fn energy_is_kept_without_damping_and_friction() {
                 accuracy: None,
                 method: None,
                 threads: 1,
+                bandwidth: Bandwidth::Raw,
             },
         );
         let (e, y, z) = (

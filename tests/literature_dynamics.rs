@@ -20,7 +20,7 @@ use ballrace::scene::{
     Component, Contact, ContactQuantity, Friction, Material, Mount, NormalLaw, Probe, Row, Scene,
     Support, presets,
 };
-use ballrace::{Model, Run, Signals, Start, simulate, start};
+use ballrace::{Bandwidth, Model, Run, Signals, Start, simulate, start};
 use common::meets;
 
 fn run(scene: &Scene, run: &Run) -> Signals {
@@ -223,6 +223,7 @@ fn thrown(law: &NormalLaw, outer: bool, damping: f64, speed: f64, fs: f64) -> (V
             accuracy: None,
             method: None,
             threads: 1,
+            bandwidth: Bandwidth::Raw,
         },
     );
     // Hunt and Crossley's force never attracts.

@@ -255,6 +255,7 @@ fn restitution_stays_positive_and_free_impacts_never_pull() {
                 accuracy: None,
                 rtol: Some(1e-9),
                 threads: 1,
+                bandwidth: Bandwidth::Raw,
             },
         );
         let ratio = -out.get("ball.vx").unwrap().last().unwrap() / speed;
