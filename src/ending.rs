@@ -2,25 +2,42 @@
 
 use crate::collapse::culprits;
 use crate::error::Error;
+use crate::escape;
 use crate::integrate::{Failure, FailureKind};
 use crate::method;
 use crate::model::Model;
 use crate::step_limit;
 
-/// The step is too small to wait for.
-pub(crate) const CRAWLING: &str = "the step has collapsed to less than 1e-5 of the contacts' period and stays there; \
+const CRAWLING: &str = "the step has collapsed to less than 1e-5 of the contacts' period and stays there; \
                         raise slip_speed, lower the damping, or soften the contacts";
 
-/// A ball is where its groove does not hold it.
-pub(crate) fn escaped(model: &Model, step: f64) -> String {
-    let finer = finer(model, step);
-    format!("the ball has left its groove; check loads, clearance and shoulders, or {finer}")
+/// Why a run ends though the integrator could go on.
+pub(crate) enum Halt {
+    /// A body, a ball, is where its groove does not hold it.
+    Escaped(usize),
+    /// A body does what no bearing does.
+    RanAway(usize, String),
+    /// The step is too small to wait for.
+    Crawls,
 }
 
-/// A body does what no bearing does.
-pub(crate) fn ran_away(model: &Model, does: &str, step: f64) -> String {
-    let finer = finer(model, step);
-    format!("the body {does}, which no bearing does; check loads, drive and supports, or {finer}")
+impl Halt {
+    /// The error in the last state of all bodies, at a time and after a step \[s\].
+    pub fn error(&self, model: &Model, last: &[f64], (time, step): (f64, f64)) -> Error {
+        let finer = finer(model, step);
+        let (body, reason) = match self {
+            Self::Escaped(ball) => (Some(*ball), escape::reason(model, last, *ball, &finer)),
+            Self::RanAway(body, does) => {
+                let advice = format!("check loads, drive and supports, or {finer}");
+                (
+                    Some(*body),
+                    format!("the body {does}, which no bearing does; {advice}"),
+                )
+            }
+            Self::Crawls => (None, CRAWLING.to_owned()),
+        };
+        stopped(model, last, (time, step), body, &reason)
+    }
 }
 
 /// How a run is made more accurate: the one thing that a method of fixed steps has is its step.
@@ -59,7 +76,7 @@ pub(crate) fn broken(model: &Model, last: &[f64], begins: f64, failure: &Failure
 }
 
 /// The error with what held up the run in its last state: a body's contacts, or the fastest of all.
-pub(crate) fn stopped(
+fn stopped(
     model: &Model,
     last: &[f64],
     (time, step): (f64, f64),

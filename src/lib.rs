@@ -37,11 +37,13 @@
 //!   dies down before t = 0.
 //! * `touched` ([`Touched`]) — which defects balls met in a run, and what their contacts carried there.
 //! * `signals` ([`Signals`]) — probes read from the dense output on a uniform grid, through a low-pass ([`Bandwidth`]).
-//! * `residual`, `collapse`, `runaway`, `ending`, `warning` ([`Warning`]) — whether a run can be believed, who held it
+//! * `residual`, `collapse`, `escape`, `orbit`, `runaway`, `ending`, `warning` ([`Warning`]) — whether a run can be believed, who held it
 //!   up, and what its error says.
 //! * `selftest` — whether this processor's vector instructions compute what they should, once a process.
 //! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
+//! * `budget` — wall time and steps that a run may cost at most.
 //! * `method` — the method a run asked for, and the switch between two of them; `step_limit` — the largest step of each.
+//! * `run` ([`Run`]) — what a run is asked for; `follow` — steps over a stretch of time, and when to stop.
 //! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
 //! * `explain` ([`explain()`]) — what a scene is compiled to, what it costs, what would make it cheaper.
 //! * `features` ([`Feature`]) — the few numbers a case is known by: moments, fault lines, contact loads.
@@ -73,6 +75,7 @@
 mod python;
 
 mod accuracy;
+mod budget;
 mod campaign;
 mod collapse;
 pub mod contact;
@@ -80,13 +83,17 @@ pub mod dynamics;
 mod ending;
 mod equilibrium;
 mod error;
+mod escape;
 mod explain;
 mod features;
+mod follow;
 pub mod integrate;
 mod method;
 mod model;
+mod orbit;
 mod pool;
 mod residual;
+mod run;
 mod runaway;
 pub mod scene;
 mod selftest;
@@ -109,9 +116,10 @@ pub use error::{Error, Result};
 pub use explain::{ContactKind, Cost, Explanation, LawExplanation, Variant, explain};
 pub use features::{Feature, FeatureOptions, feature_columns};
 pub use model::{Body, Degree, Model, Obstacle, Omission, Reduction, Scales};
+pub use run::Run;
 pub use scene::Scene;
 pub use signals::{Bandwidth, Column, Provenance, Signals, SliceRow, Statistics};
-pub use simulate::{Run, simulate};
+pub use simulate::simulate;
 pub use start::{Start, start};
 pub use touched::Touched;
 pub use warning::Warning;

@@ -11,12 +11,13 @@ use std::ops::ControlFlow;
 
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
+use crate::follow::{Stretch, Watch, follow, options, threads};
 use crate::integrate::{DenseStep, Options};
 use crate::model::{Degree, Model};
 use crate::pool::on;
+use crate::run::Run;
 use crate::scene::{Drive, RingName, Scene, Surface, TimeFunction};
 use crate::selftest;
-use crate::simulate::{Run, Stretch, Watch, follow, options, threads};
 use crate::start::{Start, start};
 
 /// Decay times of the slowest ring to wait for. Measured on a 6205 under thrust: what the start leaves is 3000 times
@@ -77,6 +78,7 @@ pub(crate) fn settle(
     let stretch = Stretch {
         begins: -seconds,
         length: seconds,
+        max_steps: run.max_steps,
     };
     let share = seconds / (seconds + run.duration);
     let mut progress = |done: f64| progress(share * done);

@@ -21,8 +21,8 @@ struct Bounds {
 }
 
 /// Error of the fastest oscillation when it has rung out \[rad\]; those that matter are slower by a half and more.
-/// With it no undamped scene of the test below is off by more than 5 %.
-const LAG: f64 = 0.13;
+/// With 0.13 Verlet is off by up to 5.8 % in three of 133 scenes of `tests/method_defaults.rs`.
+const LAG: f64 = 0.09;
 /// Longest ringing that is looked at \[s\]: beyond it a trajectory cannot be foretold.
 const HORIZON: f64 = 3e-3;
 /// How much longer than the heaviest loaded ball the lightest one rings that is still heard.
@@ -101,10 +101,10 @@ mod tests {
     #[test]
     fn low_orders_want_less_where_nothing_is_damped() {
         for (method, damped, undamped) in [
-            (Method::BogackiShampine, 0.2499, 0.1514),
-            (Method::ImplicitFriction, 0.5285, 0.3628),
-            (Method::RungeKutta4, 0.5, 0.3628),
-            (Method::VelocityVerlet, 0.1249, 0.0589),
+            (Method::BogackiShampine, 0.2210, 0.1339),
+            (Method::ImplicitFriction, 0.4821, 0.3310),
+            (Method::RungeKutta4, 0.4821, 0.3310),
+            (Method::VelocityVerlet, 0.1039, 0.0490),
         ] {
             let share = |damping| 3e5 * largest(method, &scales(damping, 0.0));
             assert!((share(0.3 * 3e5) - damped).abs() < 1e-3, "{method:?}");
@@ -117,6 +117,7 @@ mod tests {
         let most = |method, rate| largest(method, &scales(1e5, rate));
         assert_eq!(most(Method::RungeKutta4, 1e7), 2e-7);
         assert_eq!(most(Method::VelocityVerlet, 1e7), 0.8e-7);
-        assert!(most(Method::BogackiShampine, 1e7) > 1e-6);
+        let adaptive = Method::BogackiShampine;
+        assert_eq!(most(adaptive, 1e7), most(adaptive, 0.0));
     }
 }

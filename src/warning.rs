@@ -14,6 +14,9 @@ use crate::touched::Touched;
 /// undamped run with an error of 11 % stays below.
 const LARGEST_RESIDUAL: f64 = 0.05;
 
+/// Share of the orbit's rate above which its loss is warned of: with friction balls slip by less than that.
+const LARGEST_LOSS: f64 = 0.005;
+
 /// A reason to look twice at the signals of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -76,6 +79,11 @@ pub enum Warning {
         /// The longest by which the method is stable and accurate there \[s\].
         limit: f64,
     },
+    /// Nothing drives the balls along their orbit, and they have lost some of its rate.
+    FreeOrbit {
+        /// [`crate::Statistics::orbit_slowed`].
+        slowed: f64,
+    },
 }
 
 impl Warning {
@@ -89,7 +97,8 @@ impl Warning {
             Self::SamplingRate { .. }
             | Self::Doubtful(_)
             | Self::Untouched { .. }
-            | Self::Unpassed { .. } => "scene",
+            | Self::Unpassed { .. }
+            | Self::FreeOrbit { .. } => "scene",
         }
     }
 }
@@ -170,6 +179,13 @@ impl std::fmt::Display for Warning {
                 "no ball passed defect {defect:?} in {duration} s: the signals show nothing of it; simulate for \
                  longer, or move it by its angle"
             ),
+            Self::FreeOrbit { slowed } => write!(
+                f,
+                "nothing drives the balls along their orbit, since contacts have no friction: they lost {:.1} % of its rate, \
+                 and fault frequencies moved with them. Give the scene a friction, or approximations.rolling, which keeps the \
+                 orbit kinematic",
+                100.0 * slowed
+            ),
         }
     }
 }
@@ -221,12 +237,23 @@ impl Signals {
         let too_long = fixed_step
             .filter(|step| *step > limit)
             .map(|step| Warning::FixedStep { step, limit });
-        [accelerations, shoulders, too_long, instructions, unheard]
-            .into_iter()
-            .flatten()
-            .chain(untouched)
-            .chain(doubts.map(Warning::Doubtful))
-            .collect()
+        let orbit = stats
+            .orbit_slowed
+            .filter(|slowed| *slowed > LARGEST_LOSS)
+            .map(|slowed| Warning::FreeOrbit { slowed });
+        [
+            accelerations,
+            shoulders,
+            too_long,
+            instructions,
+            unheard,
+            orbit,
+        ]
+        .into_iter()
+        .flatten()
+        .chain(untouched)
+        .chain(doubts.map(Warning::Doubtful))
+        .collect()
     }
 }
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 21] = [
+const ORDER: [&str; 32] = [
     "error",
     "simd",
     "scene",
@@ -16,16 +16,27 @@ const ORDER: [&str; 21] = [
     "equilibrium",
     "start",
     "accuracy",
+    "selftest",
     "residual",
     "touched",
+    "step_limit",
+    "method",
     "signals",
+    "run",
     "warning",
     "collapse",
-    "method",
+    "budget",
+    "runaway",
+    "orbit",
+    "escape",
+    "ending",
+    "follow",
+    "settle",
     "simulate",
     "explain",
     "features",
     "campaign",
+    "python",
 ];
 fn sources(folder: &Path, found: &mut Vec<(String, String)>) {
     for entry in fs::read_dir(folder).unwrap() {

@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 
 use ballrace::scene::presets;
 use ballrace::{
-    Case, Error, FeatureOptions, Outcome, Run, Start, campaign, feature_columns, simulate, stream,
+    Bandwidth, Case, Error, FeatureOptions, Outcome, Run, Start, campaign, feature_columns,
+    simulate, stream,
 };
 
 fn run(duration: f64) -> Run {
@@ -206,6 +207,7 @@ fn a_stop_is_heard() {
         let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
         let mut run = run(duration);
         run.fs = 2.0 / duration;
+        run.bandwidth = Bandwidth::Raw;
         Some(Case { scene, run })
     });
     let mut seen = Vec::new();
@@ -223,4 +225,33 @@ fn a_stop_is_heard() {
     assert!(begun.elapsed().as_secs_f64() < 10.0);
     assert!(pulled <= 6, "{pulled}");
     assert!(!seen.is_empty() && seen.iter().all(|o| o.index % 2 == 0 && o.result.is_ok()));
+}
+
+/// A number of steps ends a run where it has taken them, on any machine; one that it does not need changes nothing.
+#[test]
+fn a_budget_of_steps_is_an_outcome() {
+    let case = |max_steps| Case {
+        scene: presets::deep_groove_6205(500.0, 0.0, 1800.0),
+        run: Run {
+            max_steps,
+            ..run(2e-3)
+        },
+    };
+    let cases = [
+        case(None),
+        case(Some(30)),
+        case(Some(30)),
+        case(Some(1_000_000)),
+    ];
+    let options = FeatureOptions::default();
+    let found = campaign(cases, 2, &options, &mut |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!(bits(&found[0]), bits(&found[3]));
+    match (&found[1].result, &found[2].result) {
+        (Err(Error::Budget { time, name, limit }), Err(again)) => {
+            assert!(*time > 0.0 && *time < 2e-3);
+            assert_eq!((*name, *limit), ("max_steps", 30.0));
+            assert_eq!(found[1].result.as_ref().err(), Some(again));
+        }
+        other => panic!("{other:?}"),
+    }
 }

@@ -125,7 +125,7 @@ fn balls_that_hang_on_the_cage_are_balanced_soon() {
         for ball in (2..model.body_count()).map(|body| 4 * body) {
             let radius = y[ball].hypot(y[ball + 1]);
             let outwards = (sum[ball] * y[ball] + sum[ball + 1] * y[ball + 1]) / radius;
-            let centrifugal = mass * orbit * orbit * row.pitch_diameter / 2.0;
+            let centrifugal = mass * orbit * orbit * radius;
             let left = (outwards + centrifugal).hypot(sum[ball + 2]);
             // A ball weighs 0.07 N.
             assert!(left < 1e-2, "{axial}, {ball}: {left}");

@@ -105,7 +105,20 @@ fn scenes() -> Vec<(String, Scene)> {
             },
         );
     }
+    let mut hertz = scene.clone();
     add("defects everywhere", scene);
+    hertz.contact.law = NormalLaw::Hertz;
+    for row in &mut hertz.rows {
+        row.outer_waviness = vec![Waviness {
+            order: 11,
+            amplitude: 2e-6,
+            phase: -0.3,
+        }];
+    }
+    add("defects everywhere on waves, Hertz", hertz.clone());
+    (hertz.friction, hertz.cage) = (Friction::None, None);
+    hertz.defects.clear();
+    add("waves without friction, Hertz", hertz);
     scenes
 }
 

@@ -8,7 +8,7 @@ use std::process::Command;
 
 use ballrace::scene::{Approximations, Defect, Friction, NormalLaw, Scene, Surface, presets};
 use ballrace::simd::Level;
-use ballrace::{Run, Start};
+use ballrace::{Run, Start, Warning};
 use common::{apart, run, soon_over_the_spall};
 
 /// A spall of 1.5 mm, as wide as half a millimetre, in the middle of a surface; on the outer race ahead of the ball that
@@ -112,7 +112,12 @@ fn signals() -> Vec<Vec<f64>> {
             ..common::short(1.5e-3)
         };
         let out = run(scene, &short);
-        assert!(out.warnings().is_empty(), "{:?}", out.warnings());
+        let inaccurate = |warning: &Warning| warning.category() == "accuracy";
+        assert!(
+            !out.warnings().iter().any(inaccurate),
+            "{:?}",
+            out.warnings()
+        );
         out.get("outer.ay").unwrap().to_vec()
     };
     scenes().iter().map(of).collect()

@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use ballrace::scene::{
     Approximations, Component, Drive, Friction, Mount, Probe, Profile, Scene, TimeFunction, presets,
 };
-use ballrace::{Model, Run, Signals, Start, start};
+use ballrace::{Bandwidth, Model, Run, Signals, Start, start};
 use common::{rms, run};
 
 /// The time in which a ball of row 0 takes the place of the next one \[s\].
@@ -60,8 +60,10 @@ fn begins_as_it_goes_on(scene: &Scene, passes: usize, factor: f64) {
             later.fold(0.0, f64::max),
         );
         let first = all[0][i];
+        // A ring's own vibration comes and goes; a pass with few strikes in it is no remnant of the start.
+        let calm = name != "rms" || first >= low / factor;
         assert!(
-            first >= low / factor && first <= high * factor,
+            calm && first <= high * factor,
             "{}: {name} of the first pass {first:.3}, later {low:.3} to {high:.3}",
             scene.name
         );
@@ -121,6 +123,7 @@ fn the_phase_is_the_scenes() {
         &scene,
         &Run {
             duration: 1e-4,
+            bandwidth: Bandwidth::Raw,
             ..Run::default()
         },
     );

@@ -82,7 +82,13 @@ fn carried(scene: &Scene, duration: f64) -> usize {
             column.name
         );
     }
-    assert!(out.warnings().is_empty(), "{:?}", out.warnings());
+    // Some of these scenes are meant to be odd; that is told of the scene.
+    let inaccurate = |warning: &Warning| warning.category() == "accuracy";
+    assert!(
+        !out.warnings().iter().any(inaccurate),
+        "{:?}",
+        out.warnings()
+    );
     out.stats.nfev
 }
 

@@ -8,6 +8,7 @@ __all__ = [
     "Model",
     "available_threads",
     "campaign",
+    "check_run",
     "equilibrium",
     "explain",
     "feature_columns",
@@ -71,6 +72,8 @@ class _Equilibrium(_Turning):
     outer_pressure: _Array
     inner_pressure: _Array
     iterations: int
+    residual: float
+    residual_share: float
 
 class _Stiffness(TypedDict):
     inner: _Array
@@ -95,6 +98,8 @@ def simulate(
     progress: Callable[[float], object] | None,
     bandwidth: str | None,
     settle: float | None,
+    time_limit: float | None = None,
+    max_steps: int | None = None,
 ) -> _Signals: ...
 def campaign(
     cases: Iterable[tuple[str, str]],
@@ -103,6 +108,7 @@ def campaign(
     keep_signals: bool,
     done: Callable[[list[tuple[int, str, _Signals | None]]], object],
 ) -> None: ...
+def check_run(run: str, options: str) -> None: ...
 def feature_columns(scene: str, options: str) -> list[str]: ...
 def available_threads() -> int: ...
 def equilibrium(scene: str) -> _Equilibrium: ...

@@ -99,6 +99,17 @@ def encode(value: object, path: str) -> Any:
             )
 
 
+def whole_number(path: str, value: object) -> int:
+    """Return a whole number, also one that a table had to make a float."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, bool) or not (
+        isinstance(value, int) or (isinstance(value, float) and value.is_integer())
+    ):
+        raise SceneError(path, repr(value), "a whole number")
+    return int(value)
+
+
 def _encode_fields(part: Part, path: str) -> dict[str, Any]:
     return {key: encode(getattr(part, name), _join(path, key)) for name, key in _names(type(part))}
 

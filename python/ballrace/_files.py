@@ -8,12 +8,20 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from .errors import SceneError
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+PARQUET = (".parquet", ".pq", "")
+"""What the name of a Parquet file may end in."""
+
 
 def check_writable(path: Path) -> None:
-    """Raise the ``OSError`` that writing a file to ``path`` would meet, as far as it can be known before."""
+    """Raise the ``OSError`` that writing a file to ``path`` would meet, as far as it can be known before.
+
+    What is there and no regular file, such as ``/dev/null`` or a pipe, is refused: it would be replaced.
+    """
     folder = path.parent
     if folder.exists() and not folder.is_dir():
         raise NotADirectoryError(errno.ENOTDIR, "is a file, not a folder", str(folder))
@@ -21,15 +29,44 @@ def check_writable(path: Path) -> None:
         raise FileNotFoundError(errno.ENOENT, "no such folder", str(folder))
     if path.is_dir():
         raise IsADirectoryError(errno.EISDIR, "is a folder, not a file", str(path))
+    if path.exists() and not path.is_file():
+        raise OSError(
+            errno.EINVAL, "is a device or a pipe, not a file; give the name of a file", str(path)
+        )
     if not os.access(folder, os.W_OK | os.X_OK):
         raise PermissionError(errno.EACCES, "folder is not writable", str(folder))
 
 
+def check_output(path: Path, *, read: Path) -> None:
+    """Refuse a place for signals that cannot be meant: the file they come from, or one of another format.
+
+    Raises
+    ------
+    SceneError
+        It is standard output, the file ``read``, or ends as files of another format do.
+    OSError
+        It cannot be written.
+    """
+    if str(path) == "-":
+        raise SceneError("output", "-", "the name of a file; Parquet is no text to stream")
+    if path.suffix.lower() not in PARQUET:
+        raise SceneError(
+            "output", str(path), "a file that ends in .parquet, which is what is written"
+        )
+    check_writable(path)
+    if path.exists() and read.exists() and path.samefile(read):
+        raise SceneError("output", str(path), "another file than the scene, which it would replace")
+
+
 @contextmanager
 def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Give a temporary name beside ``path``, renamed to it at the end, or removed after an error."""
+    """Give a temporary name beside ``path``, renamed to it at the end, or removed after an error.
+
+    Where ``path`` is a link, what it leads to is replaced, not the link.
+    """
     path = Path(path)
     check_writable(path)
+    path = path.resolve()
     temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
         yield temporary

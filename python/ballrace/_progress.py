@@ -6,6 +6,8 @@ import sys
 import time
 from typing import TYPE_CHECKING, Self, TextIO
 
+from ._text import printable
+
 if TYPE_CHECKING:
     from types import TracebackType
 
@@ -16,7 +18,7 @@ class Bar:
     """One line on standard error that grows, and goes away at the end; silent where there is no terminal."""
 
     def __init__(self, label: str, stream: TextIO | None = None) -> None:
-        self._label = label
+        self._label = printable(label)
         self._stream = sys.stderr if stream is None else stream
         self._shown = self._stream.isatty()
         self._began = time.monotonic()

@@ -15,8 +15,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from . import paper, presets
-from ._files import check_writable, whole
+from ._files import check_output, check_writable, whole
 from ._progress import Bar
+from ._text import printable
+from .campaigns.cli import add_budget
 from .campaigns.cli import add_command as add_campaign
 from .errors import BallraceError, SceneError
 from .explanation import explain
@@ -66,7 +68,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _fail(message: str, status: int) -> int:
-    print(f"ballrace: {' '.join(message.split())}", file=sys.stderr)
+    print(f"ballrace: {' '.join(printable(message).split())}", file=sys.stderr)
     return status
 
 
@@ -139,6 +141,7 @@ def _parser() -> argparse.ArgumentParser:
         "--bandwidth", choices=("auto", "none"), default="auto",
         help="auto: signals through a low-pass of 0.4 fs; none: point samples (default: %(default)s)",
     )  # fmt: skip
+    add_budget(run, "the run")
     run.set_defaults(command=_run)
 
     scene = commands.add_parser("scene", help="print a ready-made scene as TOML, to start from")
@@ -287,7 +290,7 @@ def _paper(options: argparse.Namespace) -> None:
 
 
 def _run(options: argparse.Namespace) -> None:
-    check_writable(options.output)
+    check_output(options.output, read=options.scene)
     out = simulate(
         Scene.load(options.scene),
         duration=options.duration,
@@ -299,9 +302,11 @@ def _run(options: argparse.Namespace) -> None:
         progress=True,
         bandwidth="auto" if options.bandwidth == "auto" else None,
         settle=options.settle,
+        time_limit=options.time_limit,
+        max_steps=options.max_steps,
     )
     out.write_parquet(options.output)
-    print(f"{options.output}: {len(out)} columns, {out.t.size} samples")
+    print(f"{printable(str(options.output))}: {len(out)} columns, {out.t.size} samples")
 
 
 def _scene(options: argparse.Namespace) -> None:
@@ -321,6 +326,7 @@ def _equilibrium(options: argparse.Namespace) -> None:
     for ring in ("outer", "inner"):
         x, y, z = 1e6 * getattr(eq, ring)
         print(f"{ring} ring: x {x:.3f} µm, y {y:.3f} µm, z {z:.3f} µm")
+    print(f"balanced to {eq.residual:.1e} N, {eq.residual_share:.1e} of the largest load")
     print()
     columns = [
         [f"row{row}.ball{ball}" for row, ball in zip(eq.row, eq.ball, strict=True)],
@@ -370,7 +376,7 @@ def _equilibrium_json(options: argparse.Namespace, scene: Scene, eq: Equilibrium
 
 def _explain(options: argparse.Namespace) -> None:
     told = explain(Scene.load(options.scene))
-    print(json.dumps(told.to_dict(), indent=2) if options.json else str(told).rstrip())
+    print(json.dumps(told.to_dict(), indent=2) if options.json else printable(str(told)).rstrip())
 
 
 def _numbers(values: NDArray[np.float64], digits: int) -> list[str]:

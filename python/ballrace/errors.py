@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
+
+from ._text import printable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -10,9 +13,11 @@ if TYPE_CHECKING:
 __all__ = [
     "AccuracyWarning",
     "BallraceError",
+    "BudgetError",
     "CampaignError",
     "CampaignWarning",
     "EquilibriumError",
+    "FileError",
     "IntegrationError",
     "SceneError",
     "SceneWarning",
@@ -20,7 +25,14 @@ __all__ = [
 
 
 class BallraceError(Exception):
-    """Base of every error of this package."""
+    """Base of every error of this package.
+
+    Names that a scene or a file brings along stand in the messages with their control characters written out,
+    so that they do not steer a terminal.
+    """
+
+    def __str__(self) -> str:
+        return printable(super().__str__())
 
 
 class SceneError(BallraceError, ValueError):
@@ -44,7 +56,27 @@ class SceneError(BallraceError, ValueError):
         self.allowed = allowed
 
     def __str__(self) -> str:
-        return f"{self.path} = {self.value}: {self.allowed}"
+        return printable(f"{self.path} = {self.value}: {self.allowed}")
+
+
+class FileError(BallraceError, ValueError):
+    """A file is not what it should be: damaged, or written by something else.
+
+    Attributes
+    ----------
+    path : str
+        The file.
+    reason : str
+        What is wrong with it, and what to do if anything helps.
+    """
+
+    def __init__(self, path: str, reason: str) -> None:
+        super().__init__(path, reason)
+        self.path = path
+        self.reason = reason
+
+    def __str__(self) -> str:
+        return printable(f"{self.path}: {self.reason}")
 
 
 class EquilibriumError(BallraceError, RuntimeError):
@@ -78,7 +110,27 @@ class IntegrationError(BallraceError, RuntimeError):
         self.contacts = tuple(contacts)
 
     def __str__(self) -> str:
-        return self.message
+        return printable(self.message)
+
+
+class BudgetError(IntegrationError):
+    """A run has cost more than its ``time_limit`` or ``max_steps`` allows, and was ended.
+
+    Attributes
+    ----------
+    time : float
+        Simulated time reached [s].
+    budget : str
+        What was spent: ``time_limit`` or ``max_steps``.
+    limit : float
+        What was allowed, in seconds or steps.
+    """
+
+    def __init__(self, message: str, time: float, budget: str, limit: float) -> None:
+        super().__init__(message, time, math.nan, "")
+        self.args = (message, time, budget, limit)
+        self.budget = budget
+        self.limit = limit
 
 
 class AccuracyWarning(UserWarning):

@@ -6,6 +6,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from .scene import checked_scene
 from .signals import Record
 
 if TYPE_CHECKING:
@@ -48,6 +49,8 @@ class Explanation(Record):
         Where defects lie and what contacts carry there at the healthy bearing's equilibrium, the fields as of
         :class:`ballrace.Touched`; ``passes`` counts the contacts looked at: over a turn of the inner race or the
         ball past all balls, or of a ball at the angle of a defect on the outer race.
+    notes : list of str
+        What to know of the scene before believing a long run: that nothing drives the balls' orbit.
     """
 
     def __init__(self, entries: Mapping[str, Any], text: str) -> None:
@@ -92,5 +95,5 @@ def explain(scene: Scene) -> Explanation:
     >>> told.law.law, round(told.law.approach / told.law.hertz_approach, 2)
     ('hertz', 1.0)
     """
-    entries, text = _core.explain(scene.to_json())
+    entries, text = _core.explain(checked_scene(scene).to_json())
     return Explanation(json.loads(entries), text)

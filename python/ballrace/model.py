@@ -9,6 +9,7 @@ import numpy as np
 from . import _core
 from .errors import SceneError
 from .explanation import Explanation, explain
+from .scene import checked_scene
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -40,7 +41,7 @@ class Model:
     """
 
     def __init__(self, scene: Scene) -> None:
-        self._core = _core.Model(scene.to_json())
+        self._core = _core.Model(checked_scene(scene).to_json())
         self._scene = scene
         self._names = tuple(self._core.names)
         self._bodies = tuple(self._core.bodies)

@@ -29,7 +29,7 @@ _MANY = 20_000
 
 
 def signals(
-    out: Signals, names: Iterable[str], fig: go.Figure | None = None, **layout: Any
+    out: Signals, names: str | Iterable[str], fig: go.Figure | None = None, **layout: Any
 ) -> go.Figure:
     """Draw columns of a run one below the other, on one time axis.
 
@@ -37,14 +37,14 @@ def signals(
     ----------
     out : Signals
         The run.
-    names : iterable of str
-        Columns.
+    names : str or iterable of str
+        A column, or several.
     fig : plotly.graph_objects.Figure, optional
         A figure of ``make_subplots`` with as many rows as there are names.
     **layout
         For ``fig.update_layout``.
     """
-    names = tuple(names)
+    names = (names,) if isinstance(names, str) else tuple(names)
     fig = fig if fig is not None else _stack(names)
     for place, name in enumerate(names, start=1):
         fig.add_trace(_line(out.t, out[name], name, place - 1), row=place, col=1)

@@ -8,8 +8,11 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from . import _core
+from ._document import whole_number
 from ._progress import Bar
+from ._text import printable
 from .errors import AccuracyWarning, SceneError, SceneWarning
+from .scene import checked_scene
 from .signals import Signals
 
 if TYPE_CHECKING:
@@ -17,6 +20,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ._core import _Signals
     from .scene import Method, Scene
 
 __all__ = ["simulate"]
@@ -38,6 +42,8 @@ def simulate(
     progress: bool | Callable[[float], object] | None = None,
     bandwidth: Literal["auto"] | None = "auto",
     settle: float | None = None,
+    time_limit: float | None = None,
+    max_steps: int | None = None,
 ) -> Signals:
     """Run a scene and record its probes.
 
@@ -93,6 +99,12 @@ def simulate(
         cost. Meanwhile loads and drive are as at t = 0 (a driving torque: the initial speed), and rings and cage
         are wound back, so that at t = 0 they stand where the scene says but for what the balls have slipped. From
         a given state nothing is wound back.
+    time_limit : float, optional
+        Wall time that the run may take, equilibrium and pilot runs included [s], looked at about every 20 ms; by
+        default any.
+    max_steps : int, optional
+        Steps that the run may take, accepted and rejected ones; by default any. The same run ends at the same
+        step everywhere.
 
     Returns
     -------
@@ -107,6 +119,8 @@ def simulate(
         There is no stable equilibrium to start from.
     IntegrationError
         The integration could not go on; it names the contacts that held it up.
+    BudgetError
+        The run cost more than `time_limit` or `max_steps` allows; an IntegrationError that has the time reached.
 
     Warns
     -----
@@ -128,44 +142,28 @@ def simulate(
     kind, state = (start, None) if isinstance(start, str) else ("state", _state(start))
     if threads < 0:
         raise SceneError("threads", str(threads), "0 to choose, or a number of threads")
+    steps = None if max_steps is None else whole_number("max_steps", max_steps)
+    if steps is not None and steps < 1:
+        raise SceneError("max_steps", str(max_steps), "at least 1 step, or None for no limit")
+    scene = checked_scene(scene)
     if reduce is not None:
         scene = scene.replace({"solver.reduce": reduce})
     document = scene.to_json()
+
+    def run(callback: Callable[[float], object] | None) -> _Signals:
+        return _core.simulate(
+            document, duration, fs, kind, state, rtol, accuracy, method, threads, callback,
+            bandwidth, settle, time_limit, steps,
+        )  # fmt: skip
+
     if progress is True:
         with Bar(scene.name or "simulating") as bar:
-            raw = _core.simulate(
-                document,
-                duration,
-                fs,
-                kind,
-                state,
-                rtol,
-                accuracy,
-                method,
-                threads,
-                bar.show,
-                bandwidth,
-                settle,
-            )
+            raw = run(bar.show)
     else:
-        callback = progress or None
-        raw = _core.simulate(
-            document,
-            duration,
-            fs,
-            kind,
-            state,
-            rtol,
-            accuracy,
-            method,
-            threads,
-            callback,
-            bandwidth,
-            settle,
-        )
+        raw = run(progress or None)
     out = Signals._from_core(raw)
     for category, text in raw["warnings"]:
-        warnings.warn(text, _CATEGORIES[category], stacklevel=2)
+        warnings.warn(printable(text), _CATEGORIES[category], stacklevel=2)
     return out
 
 

@@ -12,18 +12,16 @@ Where a field may be one of several things, its type says so: ``friction="none"`
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from . import _core
 from ._document import Part, Variant, decode, encode
 from .errors import SceneError
-
-if TYPE_CHECKING:
-    import os
 
 __all__ = [
     "AccurateSlices",
@@ -1024,8 +1022,8 @@ class Scene(Part):
         ----------
         changes : mapping of str to object
             Paths such as ``loads.axial.force`` or ``rows[0].clearance``, and new values: numbers, text,
-            lists, or parts of a scene. A named entry (``defects.spall``) must exist; to add or remove
-            one, use :func:`dataclasses.replace`.
+            lists, or parts of a scene. ``defects.new`` adds an entry to loads, unbalances, defects or
+            probes and takes the whole of it; to remove one, use :func:`dataclasses.replace`.
 
         Raises
         ------
@@ -1048,3 +1046,23 @@ class Scene(Part):
             text = json.dumps(encode(self, ""))
             object.__setattr__(self, "_text", text)
         return text
+
+
+def checked_scene(given: object) -> Scene:
+    """Return a scene where one is meant.
+
+    Raises
+    ------
+    SceneError
+        It is something else; the message says how to come by a scene.
+    """
+    if isinstance(given, Scene):
+        return given
+    if isinstance(given, str | os.PathLike):
+        allowed = (
+            "a Scene; ballrace.Scene.load(path) reads one from a file, ballrace.presets has some"
+        )
+        raise SceneError("scene", repr(os.fspath(given)), allowed)
+    raise SceneError(
+        "scene", f"a {type(given).__name__}", "a Scene, as ballrace.Scene.load reads it"
+    )

@@ -16,11 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._files import whole
-from .errors import SceneError
+from ._parquet import read_bytes, read_sealed, seal
+from ._text import printable
+from .errors import BallraceError, FileError
 from .scene import Scene, Surface
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Callable
 
     import polars as pl
 
@@ -90,7 +93,7 @@ class Touched:
     touched : int
         In how many of these a contact was loaded within its length.
     largest_load : float
-        Largest normal force of a contact within its length [N].
+        Largest normal force of a contact within its length, to about a percent [N].
     contact_offset : float or None
         Where the most loaded contact ran that passed, measured as `axial_offset` [m]; None without load.
     """
@@ -158,7 +161,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
             scene=raw["scene"],
             stats=json.loads(raw["stats"]),
             provenance=json.loads(raw["provenance"]),
-            warnings=[text for _, text in raw["warnings"]],
+            warnings=[printable(text) for _, text in raw["warnings"]],
             slices=raw["slices"],
         )
 
@@ -193,7 +196,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
             group, _, column = name.partition(".")
             groups.setdefault(group, []).append(column)
         lines = [f"  {group}: {_shortened(columns, 12)}" for group, columns in groups.items()]
-        return "\n".join([title, *lines]) + ">"
+        return printable("\n".join([title, *lines])) + ">"
 
     @property
     def t(self) -> NDArray[np.float64]:
@@ -272,7 +275,8 @@ class Signals(Mapping[str, NDArray[np.float64]]):
     def write_parquet(self, path: str | os.PathLike[str]) -> None:
         """Write a Parquet file; units, scene, statistics and provenance go into its metadata.
 
-        The file appears at once when it is whole; one of the same name is replaced.
+        The file appears at once when it is whole; one of the same name is replaced. A hash of all of it stands
+        where other readers of Parquet do not look.
 
         Raises
         ------
@@ -294,6 +298,8 @@ class Signals(Mapping[str, NDArray[np.float64]]):
             metadata["slices"] = base64.b64encode(table.getvalue()).decode()
         with whole(path) as temporary:
             self.to_polars().write_parquet(temporary, metadata=metadata)
+            with temporary.open("r+b") as file:
+                seal(file)
 
     @classmethod
     def read_parquet(cls, path: str | os.PathLike[str]) -> Signals:
@@ -301,36 +307,88 @@ class Signals(Mapping[str, NDArray[np.float64]]):
 
         Raises
         ------
-        SceneError
-            The file is not such a file.
+        FileError
+            The file is not such a file, or damaged; the message says what of it.
         OSError
             The file cannot be read.
         """
-        import polars as pl
-
         path = Path(path)
         try:
-            metadata = pl.read_parquet_metadata(path)
-            table = pl.read_parquet(path)
-        except pl.exceptions.PolarsError as error:
-            raise SceneError("path", str(path), f"a Parquet file ({error})") from error
+            table, metadata = read_sealed(path)
+        except ValueError as error:
+            raise FileError(str(path), f"not a Parquet file, or damaged ({error})") from error
         if metadata.get("ballrace") != _FORMAT:
-            raise SceneError(
-                "path", str(path), "a Parquet file written by this version of ballrace"
+            raise FileError(
+                str(path), "a Parquet file, but not written by this version of ballrace"
             )
-        slices = metadata.get("slices")
-        units = json.loads(metadata["units"])
+        times = _samples(path, table, "t")
         return cls(
-            fs=float(metadata["sampling_rate"]),
-            t=table["t"].to_numpy(),
-            columns={name: table[name].to_numpy() for name in table.columns if name != "t"},
-            units={name: unit for name, unit in units.items() if name != "t"},
-            scene=metadata["scene"],
-            stats=json.loads(metadata["stats"]),
-            provenance=json.loads(metadata["provenance"]),
-            warnings=json.loads(metadata.get("warnings", "[]")),
-            slices=None if slices is None else pl.read_parquet(base64.b64decode(slices)),
+            t=times,
+            columns={name: _samples(path, table, name) for name in table.columns if name != "t"},
+            **_described(path, metadata, table.columns),
         )
+
+
+def _samples(path: Path, table: pl.DataFrame, name: str) -> NDArray[np.float64]:
+    import polars as pl
+
+    if name not in table.columns:
+        raise FileError(str(path), f"damaged: the column {name} is missing")
+    column = table[name]
+    if column.dtype != pl.Float64 or column.null_count():
+        raise FileError(str(path), f"damaged: the column {name} has other entries than numbers")
+    return column.to_numpy()
+
+
+def _described(path: Path, metadata: Mapping[str, str], columns: list[str]) -> dict[str, Any]:
+    """Return what the metadata of a file says beside its samples, as :class:`Signals` takes it."""
+    readers: dict[str, Callable[[str], Any]] = {
+        "sampling_rate": _rate, "units": _mapping, "scene": _scene, "stats": _mapping,
+        "provenance": _mapping, "warnings": _texts, "slices": _table,
+    }  # fmt: skip
+    found = {}
+    for entry, read in readers.items():
+        text = metadata.get(entry, {"warnings": "[]", "slices": ""}.get(entry))
+        if text is None:
+            raise FileError(str(path), f"damaged: its metadata has no {entry}")
+        try:
+            found[entry] = read(text)
+        except (ValueError, TypeError, BallraceError) as error:
+            reason = f"damaged: the entry {entry} of its metadata cannot be read ({error})"
+            raise FileError(str(path), reason) from error
+    units = found.pop("units")
+    missing = [name for name in columns if name not in units and name != "t"]
+    if missing:
+        raise FileError(str(path), f"damaged: its metadata has no unit of {missing[0]}")
+    found["units"] = {name: str(units[name]) for name in columns if name != "t"}
+    found["fs"] = found.pop("sampling_rate")
+    return found
+
+
+def _rate(text: str) -> float:
+    fs = float(text)
+    if not 0.0 < fs < float("inf"):
+        raise ValueError(f"{text} is no rate")
+    return fs
+
+
+def _mapping(text: str) -> dict[str, Any]:
+    document = json.loads(text)
+    if not isinstance(document, dict):
+        raise TypeError("it is no mapping")
+    return document
+
+
+def _scene(text: str) -> str:
+    return Scene.from_json(text).to_json()
+
+
+def _texts(text: str) -> list[str]:
+    return [str(warning) for warning in json.loads(text)]
+
+
+def _table(text: str) -> pl.DataFrame | None:
+    return read_bytes(base64.b64decode(text)) if text else None
 
 
 def _shortened(names: list[str], limit: int) -> str:

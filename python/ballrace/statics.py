@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from .errors import SceneError, SceneWarning
+from .scene import checked_scene
 
 if TYPE_CHECKING:
     import polars as pl
@@ -58,6 +59,11 @@ class Equilibrium:
         Iterations of the solver.
     warnings : tuple of str
         What was warned of.
+    residual : float
+        Force left unbalanced on the body that is worst off: on a ring along its free directions, on a
+        ball along its radius and z [N].
+    residual_share : float
+        The same over the largest load, of a contact or on a ring; at most 1e-4, or there is no equilibrium.
     """
 
     outer: NDArray[np.float64]
@@ -78,6 +84,8 @@ class Equilibrium:
     outer_pressure: NDArray[np.float64]
     inner_pressure: NDArray[np.float64]
     iterations: int
+    residual: float
+    residual_share: float
     warnings: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
@@ -114,7 +122,8 @@ def equilibrium(scene: Scene) -> Equilibrium:
     SceneError
         A field of the scene is not usable.
     EquilibriumError
-        There is no stable equilibrium: the load cannot be carried.
+        There is no stable equilibrium: the load cannot be carried, or more than 1e-4 of the largest
+        load stays unbalanced on a body.
 
     Warns
     -----
@@ -122,7 +131,7 @@ def equilibrium(scene: Scene) -> Equilibrium:
         A number of the scene is one that no bearing is likely to have, or a contact's pressure exceeds the static
         rating.
     """
-    return Equilibrium(**_warned(dict(_core.equilibrium(scene._document()))))
+    return Equilibrium(**_warned(dict(_core.equilibrium(checked_scene(scene)._document()))))
 
 
 def _warned(found: dict[str, Any]) -> dict[str, Any]:
@@ -204,7 +213,7 @@ def stiffness(scene: Scene) -> Stiffness:
     >>> loaded.inner.shape, bool(loaded.radial[1] > loaded.axial)
     ((3, 3), True)
     """
-    found = _core.stiffness(scene._document())
+    found = _core.stiffness(checked_scene(scene)._document())
     return Stiffness(
         inner=found["inner"],
         rings=found["rings"],
@@ -312,4 +321,6 @@ def load_distribution(scene: Scene, *, positions: int = 16) -> LoadDistribution:
     """
     if isinstance(positions, bool) or not isinstance(positions, int) or positions < 1:
         raise SceneError("positions", repr(positions), "a whole number, at least 1 per ball pitch")
-    return LoadDistribution(**_warned(dict(_core.load_distribution(scene._document(), positions))))
+    return LoadDistribution(
+        **_warned(dict(_core.load_distribution(checked_scene(scene)._document(), positions)))
+    )

@@ -10,9 +10,10 @@ use crate::features::{
     Feature, FeatureOptions, check, feature_columns, features, with_load_probes,
     without_load_probes,
 };
+use crate::run::Run;
 use crate::scene::Scene;
 use crate::signals::Signals;
-use crate::simulate::{Run, simulate};
+use crate::simulate::simulate;
 
 /// What to run.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,13 +1,14 @@
 //! Cases in, outcomes out, with a bounded number on the way.
 //!
-//! The threads are the campaign's own and end with it. A shared pool would let campaigns in one process (a Dask
-//! worker has several) wait for each other, and a forked child would inherit one without its threads.
+//! The threads are the campaign's own. A shared pool would let campaigns in one process (a Dask worker has several)
+//! wait for each other, and a forked child would inherit one without its threads. A stop does not wait long for a
+//! case that does not hear it, such as one in a large static solve: its thread ends by itself with that case.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Mutex, PoisonError};
-use std::time::Duration;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use super::{Case, Outcome};
 use crate::error::{Error, Result};
@@ -16,6 +17,9 @@ use crate::features::FeatureOptions;
 /// How long the calling thread waits at most before it looks up.
 const ATTENTION: Duration = Duration::from_millis(50);
 
+/// How long a stop waits at most for cases that finish meanwhile, of what Ctrl-C may take: half a second.
+const PATIENCE: Duration = Duration::from_millis(150);
+
 /// Cases handed out a thread: one that runs and one that waits.
 const AHEAD: usize = 2;
 
@@ -23,7 +27,7 @@ const AHEAD: usize = 2;
 ///
 /// `watch` is called on this thread at least about every 50 ms with the outcomes that have come in since, in any
 /// order (see [`Outcome::index`]), or none; it may stop everything. Cases interrupted by that are not reported;
-/// those that finish meanwhile are, in one last call. No more than two cases a thread are held at a time.
+/// those that finish within 150 ms are, in one last call. No more than two cases a thread are held at a time.
 ///
 /// # Errors
 /// [`Error::Scene`] for more than 1024 threads, or more than the system grants.
@@ -34,27 +38,41 @@ pub fn stream(
     watch: &mut dyn FnMut(Vec<Outcome>) -> ControlFlow<()>,
 ) -> Result<()> {
     let threads = count(threads)?;
-    let stop = AtomicBool::new(false);
     let (hand_out, queue) = channel::<(usize, Case)>();
-    let queue = Mutex::new(queue);
     let (hand_in, outcomes) = channel::<Outcome>();
-    std::thread::scope(|scope| {
-        for i in 0..threads {
-            let (queue, stop, hand_in) = (&queue, &stop, hand_in.clone());
-            std::thread::Builder::new()
-                .name(format!("ballrace-case-{i}"))
-                .spawn_scoped(scope, move || work(queue, &hand_in, options, stop))
-                .map_err(|e| {
-                    // The queue ends with this function's return, and so do the threads there are.
-                    stop.store(true, Ordering::Relaxed);
-                    let allowed = format!("a number of threads the system grants ({e})");
-                    Error::scene("threads", threads, allowed)
-                })?;
-        }
-        drop(hand_in);
-        feed(cases, AHEAD * threads, hand_out, &outcomes, &stop, watch);
-        Ok(())
-    })
+    let shared = Arc::new(Shared {
+        queue: Mutex::new(queue),
+        options: options.clone(),
+        stop: AtomicBool::new(false),
+    });
+    for i in 0..threads {
+        let (shared, hand_in) = (Arc::clone(&shared), hand_in.clone());
+        // Where one cannot be had, the queue ends with this function's return, and so do the threads there are.
+        std::thread::Builder::new()
+            .name(format!("ballrace-case-{i}"))
+            .spawn(move || work(&shared, &hand_in))
+            .map_err(|e| {
+                let allowed = format!("a number of threads the system grants ({e})");
+                Error::scene("threads", threads, allowed)
+            })?;
+    }
+    drop(hand_in);
+    feed(
+        cases,
+        AHEAD * threads,
+        hand_out,
+        &outcomes,
+        &shared.stop,
+        watch,
+    );
+    Ok(())
+}
+
+/// What the threads have in common.
+struct Shared {
+    queue: Mutex<Receiver<(usize, Case)>>,
+    options: FeatureOptions,
+    stop: AtomicBool,
 }
 
 /// Number of threads asked for, or of cores.
@@ -67,12 +85,12 @@ fn count(threads: usize) -> Result<usize> {
 }
 
 /// One thread's life: cases until there are no more.
-fn work(
-    queue: &Mutex<Receiver<(usize, Case)>>,
-    hand_in: &Sender<Outcome>,
-    options: &FeatureOptions,
-    stop: &AtomicBool,
-) {
+fn work(shared: &Shared, hand_in: &Sender<Outcome>) {
+    let Shared {
+        queue,
+        options,
+        stop,
+    } = shared;
     loop {
         // The lock is let go before the case runs.
         let next = queue.lock().unwrap_or_else(PoisonError::into_inner).recv();
@@ -120,11 +138,17 @@ fn feed(
     }
     stop.store(true, Ordering::Relaxed);
     drop(hand_out);
-    // Ends when every thread has let go of its sender.
-    let last: Vec<Outcome> = outcomes.iter().collect();
+    let last = await_last(outcomes);
     if !last.is_empty() {
         let _ = watch(last);
     }
+}
+
+/// What comes in until every thread has let go of its sender, or patience ends.
+fn await_last(outcomes: &Receiver<Outcome>) -> Vec<Outcome> {
+    let end = Instant::now() + PATIENCE;
+    let left = || end.saturating_duration_since(Instant::now());
+    std::iter::from_fn(|| outcomes.recv_timeout(left()).ok()).collect()
 }
 
 /// What has come in, or within the time of attention comes in.
@@ -132,4 +156,17 @@ fn gather(outcomes: &Receiver<Outcome>) -> Vec<Outcome> {
     let mut done: Vec<Outcome> = outcomes.recv_timeout(ATTENTION).into_iter().collect();
     done.extend(outcomes.try_iter());
     done
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As of a thread in a large static solve, which does not hear the stop: to wait for it would be for ever.
+    #[test]
+    fn a_stop_does_not_wait_for_the_deaf() {
+        let (deaf, outcomes) = channel::<Outcome>();
+        assert!(await_last(&outcomes).is_empty());
+        drop(deaf);
+    }
 }

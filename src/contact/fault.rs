@@ -76,22 +76,32 @@ impl Fault {
         wrapped(self.angle - direction).abs() <= self.reach
     }
 
+    /// Its two axial ends, in the ring's frame or from the ball's centre \[m\].
+    pub(super) fn ends(&self) -> [f64; 2] {
+        [-0.5, 0.5].map(|share| self.middle + share * self.length)
+    }
+
     /// Whether the surface is absent at an axial place where it has this radius, in a direction this far from the
     /// fault's own \[rad\].
     pub(crate) fn covers(&self, z: f64, radius: f64, aside: f64) -> bool {
-        self.arc(z, radius, self.angle + aside)
+        let at = Station {
+            z,
+            beside: 0.0,
+            radius,
+        };
+        self.arc(&at, self.angle + aside)
             .is_some_and(|arc| arc.low.angle <= 0.0 && arc.high.angle >= 0.0)
     }
 
-    /// The arc at an axial place where the surface has this radius, seen from a direction.
-    fn arc(&self, z: f64, radius: f64, direction: f64) -> Option<Arc> {
-        let from_middle = z - self.middle;
-        if from_middle.abs() > self.length / 2.0 {
+    /// The arc at an axial place, seen from a direction.
+    fn arc(&self, at: &Station, direction: f64) -> Option<Arc> {
+        let from_middle = at.z - self.middle;
+        if (from_middle + at.beside).abs() > self.length / 2.0 {
             return None;
         }
         let (width, slope) = self.width.at(from_middle);
         (width > 0.0).then(|| {
-            let half = width / (2.0 * radius);
+            let half = width / (2.0 * at.radius);
             let middle = wrapped(self.angle - direction);
             let edge = |angle: f64, side: f64| Edge {
                 angle,
@@ -106,6 +116,17 @@ impl Fault {
             }
         })
     }
+}
+
+/// An axial place and the radius of the surface there \[m\].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Station {
+    /// In the ring's frame or from the ball's centre.
+    pub z: f64,
+    /// By how much beside it defects are looked for: a hair to either side of an end, else 0.
+    pub beside: f64,
+    /// Radius of the surface.
+    pub radius: f64,
 }
 
 /// An end of an arc.
@@ -123,6 +144,13 @@ pub struct Edge {
     pub slope: f64,
 }
 
+impl Edge {
+    /// How its angle turns along the axis \[rad/m\], on a surface of some radius and slope of that radius.
+    pub fn turn(&self, radius: f64, slope: f64) -> f64 {
+        self.side * (self.slope - self.width * slope / radius) / (2.0 * radius)
+    }
+}
+
 /// The connected part of the absent arcs that holds a direction; overlapping defects are one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arc {
@@ -132,16 +160,12 @@ pub struct Arc {
     pub high: Edge,
 }
 
-/// The absent arc around a direction \[rad, frame of the body\] at an axial place where the surface has
-/// this radius; none where the surface is whole.
-pub fn absent(faults: &[Fault], z: f64, radius: f64, direction: f64) -> Option<Arc> {
+/// The absent arc around a direction \[rad, frame of the body\] at an axial place; none where the surface is whole.
+pub fn absent(faults: &[Fault], at: &Station, direction: f64) -> Option<Arc> {
     let mut around: Option<Arc> = None;
     loop {
         let before = around;
-        for arc in faults
-            .iter()
-            .filter_map(|fault| fault.arc(z, radius, direction))
-        {
+        for arc in faults.iter().filter_map(|fault| fault.arc(at, direction)) {
             let (low, high) = around.map_or((0.0, 0.0), |a| (a.low.angle, a.high.angle));
             if arc.low.angle <= high && arc.high.angle >= low {
                 let whole = around.get_or_insert(arc);
@@ -162,15 +186,14 @@ pub fn absent(faults: &[Fault], z: f64, radius: f64, direction: f64) -> Option<A
 /// The recessed circles within an absent arc: edge data and depth of each.
 pub fn floors<'a>(
     faults: &'a [Fault],
-    z: f64,
-    radius: f64,
+    at: Station,
     direction: f64,
     whole: &Arc,
 ) -> impl Iterator<Item = (Edge, f64)> + use<'a> {
     let (low, high) = (whole.low.angle, whole.high.angle);
     faults.iter().flat_map(move |fault| {
         let arc = fault
-            .arc(z, radius, direction)
+            .arc(&at, direction)
             .filter(|arc| arc.low.angle >= low && arc.high.angle <= high);
         let floor = fault.floor.zip(arc);
         floor.into_iter().flat_map(|((depth, count), arc)| {

@@ -13,18 +13,81 @@
 //!
 //! so that edges carry the law at s_j less the law at s₁₂ = s₁ + s₂ − s_race and the race the law at s₁₂
 //! (the narrow rule of model section 7). A ball defect splits each of these terms once more in the same way.
+//! What the gradients of these energies have beside forces along normals stands in `gradient`.
+
+use std::ops::{Add, Sub};
 
 use super::fault::{Arc, Edge, absent, floors};
 use super::law::hunt_crossley;
 use super::pair::Contact;
+use super::race::Raise;
 use super::walk::Node;
-use super::{Sink, Touch, V2, turned};
+use super::{Aside, Sink, Touch, V2, turned};
 
 /// The ring's side of a feature.
 #[derive(Clone, Copy)]
 enum Shape {
     Race,
-    Circle { from_ring: V2, radius: f64 },
+    Circle {
+        from_ring: V2,
+        radius: f64,
+        /// How its centre moves along z, by length.
+        slope: V2,
+    },
+}
+
+/// By how much an element stands behind another \[m\].
+#[derive(Clone, Copy)]
+pub(super) struct Drop {
+    pub(super) value: f64,
+    /// Its derivative by the place z in the ring's frame, at a fixed slice of the ball.
+    pub(super) by_z: f64,
+    /// Its derivative by the slice ζ, at a fixed place in the ring's frame.
+    pub(super) by_zeta: f64,
+}
+
+impl Drop {
+    const NONE: Self = Self {
+        value: 0.0,
+        by_z: 0.0,
+        by_zeta: 0.0,
+    };
+    /// Out of reach.
+    const NEVER: Self = Self {
+        value: f64::INFINITY,
+        ..Self::NONE
+    };
+}
+
+impl Add for Drop {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            value: self.value + other.value,
+            by_z: self.by_z + other.by_z,
+            by_zeta: self.by_zeta + other.by_zeta,
+        }
+    }
+}
+
+impl Sub for Drop {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self {
+            value: self.value - other.value,
+            by_z: self.by_z - other.by_z,
+            by_zeta: self.by_zeta - other.by_zeta,
+        }
+    }
+}
+
+/// The tangential force that the slope of the waves adds, over the force along n_e, and its arm from the ball's centre.
+#[derive(Clone, Copy)]
+struct Lean {
+    force: V2,
+    arm: V2,
 }
 
 /// A surface of the ring that a slice can meet.
@@ -34,17 +97,18 @@ struct Feature {
     /// Unit vector out of the ball.
     n_e: V2,
     /// Penetration of the smooth ball against it, by geometry.
-    s: f64,
-    drops: (f64, f64),
+    s: Drop,
+    drops: (Drop, Drop),
     arm_ring: V2,
+    lean: Lean,
 }
 
 /// One feature of the ring against one of the ball.
 #[derive(Clone, Copy)]
-struct Meeting {
+pub(super) struct Meeting {
     feature: Feature,
     /// Drops of the ball's side.
-    ball_drops: (f64, f64),
+    ball_drops: (Drop, Drop),
     tan: f64,
 }
 
@@ -52,13 +116,13 @@ impl Meeting {
     fn smooth(feature: Feature, node: &Node) -> Self {
         Self {
             feature,
-            ball_drops: (0.0, f64::INFINITY),
+            ball_drops: (Drop::NONE, Drop::NEVER),
             tan: node.zeta / node.rho,
         }
     }
 
     /// The four drops of the law's argument and their signs; an infinite one does not count.
-    fn terms(&self) -> [(f64, f64); 4] {
+    pub(super) fn terms(&self) -> [(f64, Drop); 4] {
         let ((a, b), (p, q)) = (self.feature.drops, self.ball_drops);
         [(1.0, a + p), (-1.0, a + q), (-1.0, b + p), (1.0, b + q)]
     }
@@ -101,8 +165,8 @@ impl Contact<'_> {
         let share = self.drop_share();
         self.meetings(node, &mut |meeting| {
             for (_, drop) in meeting.terms() {
-                if drop < f64::INFINITY && levels.count < MOST_LEVELS {
-                    levels.values[levels.count] = node.depth - share * drop;
+                if drop.value < f64::INFINITY && levels.count < MOST_LEVELS {
+                    levels.values[levels.count] = node.depth - share * drop.value;
                     levels.count += 1;
                 }
             }
@@ -111,14 +175,14 @@ impl Contact<'_> {
     }
 
     /// Fall of the law's penetration over that of the geometry: 1, or cos α' for the Hertz law.
-    fn drop_share(&self) -> f64 {
+    pub(super) fn drop_share(&self) -> f64 {
         self.common.map_or(1.0, |(cos, _)| cos)
     }
 
     fn ring_arc(&self, node: &Node) -> Option<Arc> {
         let faults = &self.pair.faults;
         if self.ring_open {
-            absent(faults, node.z, node.torus_radius, self.on_ring)
+            absent(faults, &node.on_ring(), self.on_ring)
         } else {
             None
         }
@@ -129,73 +193,93 @@ impl Contact<'_> {
             return None;
         }
         let angle = direction.y.atan2(direction.x) - self.b.theta;
-        absent(&self.ball.faults, node.zeta, node.rho, angle)
+        absent(&self.ball.faults, &node.on_ball(), angle)
     }
 
     /// All pairs of features that stand against each other at a slice.
-    fn meetings(&self, node: &Node, visit: &mut impl FnMut(&Meeting)) {
-        let s_race = self.race_penetration(node);
-        let race = |drops| Feature {
-            shape: Shape::Race,
-            n_e: self.n * self.pair.race.sigma,
-            s: s_race,
-            drops,
-            arm_ring: self.n * (node.torus_radius + self.wave),
-        };
+    pub(super) fn meetings(&self, node: &Node, visit: &mut impl FnMut(&Meeting)) {
+        let race = self.race_feature(node);
         let Some(arc) = self.ring_arc(node) else {
-            self.feature(node, &race((0.0, f64::INFINITY)), visit);
+            self.feature(node, &race, visit);
             return;
         };
         let [first, second] = [arc.low, arc.high].map(|edge| self.ring_circle(node, &edge, 0.0));
-        let (drop_1, drop_2) = (s_race - first.s, s_race - second.s);
-        let both = drop_1 + drop_2;
-        self.feature(
-            node,
-            &Feature {
-                drops: (drop_1, both),
-                ..first
-            },
-            visit,
-        );
-        self.feature(
-            node,
-            &Feature {
-                drops: (drop_2, both),
-                ..second
-            },
-            visit,
-        );
-        self.feature(node, &race((both, f64::INFINITY)), visit);
-        for (edge, depth) in floors(
-            &self.pair.faults,
-            node.z,
-            node.torus_radius,
-            self.on_ring,
-            &arc,
-        ) {
+        let drops = [race.s - first.s, race.s - second.s];
+        let both = drops[0] + drops[1];
+        for (edge, drop) in [first, second].into_iter().zip(drops) {
+            let drops = (drop, both);
+            self.feature(node, &Feature { drops, ..edge }, visit);
+        }
+        let drops = (both, Drop::NEVER);
+        self.feature(node, &Feature { drops, ..race }, visit);
+        for (edge, depth) in floors(&self.pair.faults, node.on_ring(), self.on_ring, &arc) {
             let circle = self.ring_circle(node, &edge, depth);
-            let drops = (s_race - circle.s, f64::INFINITY);
+            let drops = (race.s - circle.s, Drop::NEVER);
             self.feature(node, &Feature { drops, ..circle }, visit);
         }
     }
 
+    /// The race, whole.
+    fn race_feature(&self, node: &Node) -> Feature {
+        let sigma = self.pair.race.sigma;
+        Feature {
+            shape: Shape::Race,
+            n_e: self.n * sigma,
+            s: Drop {
+                value: self.race_penetration(node),
+                by_z: -sigma * self.race_slope(node),
+                by_zeta: -node.zeta / node.rho,
+            },
+            drops: (Drop::NONE, Drop::NEVER),
+            arm_ring: self.n * (node.torus_radius + self.raise.height),
+            lean: Lean {
+                force: turned(self.n) * (sigma * self.raise.slope / self.distance),
+                arm: V2::zeros(),
+            },
+        }
+    }
+
+    /// Slope of the race's radius along z.
+    fn race_slope(&self, node: &Node) -> f64 {
+        self.pair.race.slope(node.z, node.torus_radius)
+    }
+
     /// A fault circle of the ring against the smooth slice.
     fn ring_circle(&self, node: &Node, edge: &Edge, depth: f64) -> Feature {
-        let wave = self.pair.waves.at(self.on_ring + edge.angle);
-        let reach = node.torus_radius + wave + self.pair.race.sigma * (edge.radius + depth);
-        let from_ring = rotated(self.n, edge.angle) * reach;
+        let raise = self.pair.waves.raise(self.on_ring + edge.angle);
+        let sigma = self.pair.race.sigma;
+        let reach = node.torus_radius + raise.height + sigma * (edge.radius + depth);
+        let u = rotated(self.n, edge.angle);
+        let from_ring = u * reach;
         let away = from_ring - self.apart;
         let distance = away.norm();
         let n_e = away / distance;
+        // How the centre moves along z: to the Hertz law alone it matters.
+        let slope = if self.common.is_some() {
+            let race_slope = self.race_slope(node);
+            let turn = edge.turn(node.torus_radius, race_slope);
+            u * (race_slope + raise.slope * turn) + turned(u) * (reach * turn)
+        } else {
+            V2::zeros()
+        };
         Feature {
             shape: Shape::Circle {
                 from_ring,
                 radius: edge.radius,
+                slope,
             },
             n_e,
-            s: node.rho + edge.radius - distance,
-            drops: (0.0, f64::INFINITY),
+            s: Drop {
+                value: node.rho + edge.radius - distance,
+                by_z: -n_e.dot(&slope),
+                by_zeta: -node.zeta / node.rho,
+            },
+            drops: (Drop::NONE, Drop::NEVER),
             arm_ring: from_ring - n_e * edge.radius,
+            lean: Lean {
+                force: V2::zeros(),
+                arm: V2::zeros(),
+            },
         }
     }
 
@@ -222,17 +306,17 @@ impl Contact<'_> {
             ball_drops: (drop_2, both),
             tan: tan_2,
         });
-        let ball_drops = (both, f64::INFINITY);
+        let ball_drops = (both, Drop::NEVER);
         visit(&Meeting {
             ball_drops,
             ..Meeting::smooth(*feature, node)
         });
         let angle = feature.n_e.y.atan2(feature.n_e.x) - self.b.theta;
-        for (edge, depth) in floors(&self.ball.faults, node.zeta, node.rho, angle, &arc) {
+        for (edge, depth) in floors(&self.ball.faults, node.on_ball(), angle, &arc) {
             let (drop, circle, tan) = meet(&edge, depth);
             visit(&Meeting {
                 feature: circle,
-                ball_drops: (drop, f64::INFINITY),
+                ball_drops: (drop, Drop::NEVER),
                 tan,
             });
         }
@@ -248,46 +332,71 @@ impl Contact<'_> {
     ) -> (Feature, f64) {
         let u = rotated(feature.n_e, edge.angle);
         let lever = node.rho - edge.radius - depth;
-        let from_ring = self.apart + u * lever;
-        let met = match feature.shape {
-            Shape::Race => {
-                let distance = from_ring.norm();
-                let m = from_ring / distance;
-                let waves = &self.pair.waves;
-                let wave = if waves.is_round() {
-                    0.0
-                } else {
-                    waves.at(m.y.atan2(m.x) - self.r.theta)
-                };
-                let radius = node.torus_radius + wave;
-                let sigma = self.pair.race.sigma;
-                Feature {
-                    n_e: m * sigma,
-                    s: sigma * (distance - radius) + edge.radius,
-                    arm_ring: m * radius,
-                    ..*feature
-                }
-            }
-            Shape::Circle {
-                from_ring: other,
-                radius,
-            } => {
-                let away = other - from_ring;
-                let distance = away.norm();
-                let n_e = away / distance;
-                Feature {
-                    n_e,
-                    s: radius + edge.radius - distance,
-                    arm_ring: other - n_e * radius,
-                    ..*feature
-                }
-            }
-        };
+        let arm = u * lever;
         // ∂c/∂ζ of c = (ρ − R_f − depth) u(ψ), ψ = φ ± w/(2ρ), ρ' = −ζ/ρ.
         let rho_slope = -node.zeta / node.rho;
-        let turn = edge.side * (edge.slope - edge.width * rho_slope / node.rho) / (2.0 * node.rho);
+        let turn = edge.turn(node.rho, rho_slope);
         let slope = u * rho_slope + turned(u) * (lever * turn);
-        (met, -met.n_e.dot(&slope))
+        let mut met = match feature.shape {
+            Shape::Race => self.circle_on_race(node, feature, edge, arm),
+            Shape::Circle { .. } => self.circle_on_circle(feature, edge, arm),
+        };
+        let tan = met.lean.force.dot(&slope) - met.n_e.dot(&slope);
+        met.s.by_zeta = -tan;
+        (met, tan)
+    }
+
+    /// A fault circle of the ball, its centre at some arm, against the race.
+    fn circle_on_race(&self, node: &Node, feature: &Feature, edge: &Edge, arm: V2) -> Feature {
+        let from_ring = self.apart + arm;
+        let distance = from_ring.norm();
+        let m = from_ring / distance;
+        let waves = &self.pair.waves;
+        let raise = if waves.is_round() {
+            Raise::default()
+        } else {
+            waves.raise(m.y.atan2(m.x) - self.r.theta)
+        };
+        let radius = node.torus_radius + raise.height;
+        let sigma = self.pair.race.sigma;
+        Feature {
+            n_e: m * sigma,
+            s: Drop {
+                value: sigma * (distance - radius) + edge.radius,
+                ..feature.s
+            },
+            arm_ring: m * radius,
+            lean: Lean {
+                force: turned(m) * (sigma * raise.slope / distance),
+                arm,
+            },
+            ..*feature
+        }
+    }
+
+    /// The same against a fault circle of the ring.
+    fn circle_on_circle(&self, feature: &Feature, edge: &Edge, arm: V2) -> Feature {
+        let Shape::Circle {
+            from_ring: other,
+            radius,
+            slope,
+        } = feature.shape
+        else {
+            return *feature;
+        };
+        let away = other - self.apart - arm;
+        let distance = away.norm();
+        let n_e = away / distance;
+        Feature {
+            n_e,
+            s: Drop {
+                value: radius + edge.radius - distance,
+                by_z: -n_e.dot(&slope),
+                ..feature.s
+            },
+            arm_ring: other - n_e * radius,
+            ..*feature
+        }
     }
 
     /// Elastic force, damping and friction of one feature of the ring against one of the ball.
@@ -296,9 +405,9 @@ impl Contact<'_> {
         let share = self.drop_share();
         let (feature, tan) = (&meeting.feature, meeting.tan);
         let split = |law: &dyn Fn(f64) -> f64| {
-            let at = |(sign, drop): (f64, f64)| {
-                if drop < f64::INFINITY {
-                    sign * law(node.depth - share * drop)
+            let at = |(sign, drop): (f64, Drop)| {
+                if drop.value < f64::INFINITY {
+                    sign * law(node.depth - share * drop.value)
                 } else {
                     0.0
                 }
@@ -324,7 +433,7 @@ impl Contact<'_> {
             zeta: node.zeta,
             z: node.z,
             width: node.width,
-            depth: node.depth - share * (feature.drops.0 + meeting.ball_drops.0),
+            depth: node.depth - share * (feature.drops.0.value + meeting.ball_drops.0.value),
             elastic,
             normal,
             energy: if S::ENERGY {
@@ -360,6 +469,18 @@ impl Contact<'_> {
             touch.friction_power = factor * slip * slip;
         }
         sink.touch(&touch);
+        if self.ring_open || self.ball_open {
+            self.tilt(node, meeting, sink);
+        }
+        if !pair.waves.is_round() {
+            let Lean { force, arm } = feature.lean;
+            sink.aside(&Aside {
+                plane: force * (elastic * direction.0),
+                axial: 0.0,
+                arm_ball: arm,
+                arm_ring: self.apart + arm,
+            });
+        }
     }
 }
 

@@ -23,8 +23,8 @@ pub(crate) struct LevelRace<'a, S: Simd> {
     margin: Vector<S>,
     /// Approach up to which the form holds \[m\].
     limit: Vector<S>,
-    /// Half the ball's radius \[m\].
-    deepest: Vector<S>,
+    /// Where balls are lost \[m\], see [`Torus::farthest`].
+    farthest: Vector<S>,
     /// 3/2 of the damping \[s/m\].
     damping: Vector<S>,
     centre: [Vector<S>; 2],
@@ -40,6 +40,8 @@ pub(crate) struct LevelBalls<S: Simd> {
     pub vy: Vector<S>,
     /// Raise of the race under them \[m\].
     pub raise: Vector<S>,
+    /// Its derivative by the angle \[m\]; none where races are round.
+    pub slope: Option<Vector<S>>,
     /// Where there is a ball, whose contact sees no defect. If there is no telling, all are to be left out as soon as
     /// one needs care.
     pub whole: Option<Choice<S>>,
@@ -51,12 +53,15 @@ pub(crate) struct LevelForces<S: Simd> {
     /// Along x and y \[N\].
     pub x: Vector<S>,
     pub y: Vector<S>,
+    /// About the ring's centre \[N m\].
+    pub moment: Vector<S>,
     /// Which contacts wanted to pull.
     pub pulls: Choice<S>,
     /// Which touch but are left out here: the form does not hold, or they are not whole.
     pub careful: Choice<S>,
-    /// \[m\]
-    approach: Vector<S>,
+    /// From the groove's centre to the ball's along their line; in the middle of the groove less than nothing beyond the
+    /// centre \[m\].
+    l: Vector<S>,
 }
 
 impl<'a, S: Simd> LevelRace<'a, S> {
@@ -72,7 +77,7 @@ impl<'a, S: Simd> LevelRace<'a, S> {
             offset_squared: all(of.offset * of.offset),
             margin: all(of.radius - r),
             limit: all(of.limit),
-            deepest: all(0.5 * of.radius),
+            farthest: all(pair.race.farthest(of.radius)),
             damping: all(1.5 * pair.damping),
             centre: [all(ring.centre.x), all(ring.centre.y)],
             velocity: [all(ring.velocity.x), all(ring.velocity.y)],
@@ -110,12 +115,13 @@ impl<'a, S: Simd> LevelRace<'a, S> {
         let damped = elastic * rate.mul_add(self.damping, one);
         // What is not a number is not beyond and stays one.
         let beyond = self.limit.below(approach).or(e.below(zero));
-        let (damped, careful) = if let Some(whole) = balls.whole {
+        let (elastic, damped, careful) = if let Some(whole) = balls.whole {
             let apart = zero.below(e).and(approach.below(zero));
             let simple = beyond.not().and(whole);
-            (simple.choose(damped, zero), apart.or(simple).not())
+            let [elastic, damped] = [elastic, damped].map(|force| simple.choose(force, zero));
+            (elastic, damped, apart.or(simple).not())
         } else {
-            (damped, beyond)
+            (elastic, damped, beyond)
         };
         let normal = if self.clamp {
             damped.or_more(zero)
@@ -124,20 +130,29 @@ impl<'a, S: Simd> LevelRace<'a, S> {
         };
         let normal = tilt.map_or(normal, |tilt| normal * tilt);
         let push = zero - normal;
+        let (mut force, mut moment) = ((push * n.0, push * n.1), zero);
+        if let Some(slope) = balls.slope {
+            // The waves' slope: σ F R'(φ) about the ring's centre, F the elastic force in the plane (see `gradient`).
+            let radial = tilt.map_or(elastic, |tilt| elastic * tilt);
+            let turning = radial * slope;
+            let across = turning / d;
+            force = (force.0 - across * n.1, force.1 + across * n.0);
+            moment = turning * self.sigma;
+        }
         LevelForces {
-            x: push * n.0,
-            y: push * n.1,
+            x: force.0,
+            y: force.1,
+            moment,
             pulls: damped.below(zero),
             careful,
-            approach,
+            l,
         }
     }
 
-    /// Which balls are pressed deeper than half their radius, among those that need care.
+    /// Which balls are lost, among those that need care.
     #[inline(always)]
     pub fn lost(&self, forces: &LevelForces<S>) -> Choice<S> {
-        forces
-            .careful
-            .and(forces.approach.below(self.deepest).not())
+        let inside = forces.l.abs().below(self.farthest);
+        forces.careful.and(inside.not())
     }
 }

@@ -4,9 +4,11 @@
 //! [`race`] (model section 3), an elastic force by a [`law`] (section 4), Hunt–Crossley damping and
 //! [`friction`] (section 5). Where a [`fault`] removes the surface, fault circles take the slice's
 //! place (section 7). [`pair`] puts these together and hands every single force to a [`Sink`]:
-//! `walk` visits the slices, `feature` decides what each one meets. `press` does the same for eight contacts at once
+//! `walk` visits the slices, `feature` decides what each one meets, `gradient` adds what makes their forces conservative.
+//! `press` does the same for eight contacts at once
 //! where all surfaces are whole; `octet` says which those are. `closed` has whole contacts in one formula, `level` evaluates
 //! it for balls that keep their axial places.
+//! `within` tells what a contact carries within a defect.
 //! `still` holds contacts at one place for any velocities; `tangent` gives force and stiffness at rest.
 
 mod closed;
@@ -14,6 +16,7 @@ pub mod elliptic;
 pub mod fault;
 mod feature;
 pub mod friction;
+mod gradient;
 pub mod hertz;
 pub mod iso16281;
 pub mod law;
@@ -27,6 +30,7 @@ pub mod slices;
 mod still;
 mod tangent;
 mod walk;
+mod within;
 
 use nalgebra::Vector2;
 
@@ -39,10 +43,11 @@ pub(crate) use level::{LevelBalls, LevelRace};
 pub(crate) use octet::{Constants, Octet, Places};
 pub use pair::{BallSide, Pair};
 pub(crate) use press::Press;
-pub use race::{Torus, Waves};
+pub use race::{Meridian, Raise, Torus, Waves};
 pub use slices::{Rules, Slices};
 pub(crate) use still::{Held, Pack, Packing, Plane, Reaction, Still, in_contact};
 pub(crate) use tangent::Tangent;
+pub(crate) use within::Sighted;
 
 /// A vector in the x-y plane.
 pub type V2 = Vector2<f64>;
@@ -137,8 +142,36 @@ impl Touch {
     /// normal force given by its magnitude and with friction scaled by `friction` (0 or 1).
     pub fn wrenches(&self, normal: f64, friction: f64) -> ([f64; 4], [f64; 4]) {
         // (6), (7): the ball gets −F_r n_e − F_a ẑ and the ring the opposite; all at one point.
-        let plane = self.n_e * (-normal * self.share.0) + self.friction * friction;
-        let axial = -normal * self.share.1 + self.friction_z * friction;
+        let aside = Aside {
+            plane: self.n_e * (-normal * self.share.0) + self.friction * friction,
+            axial: -normal * self.share.1 + self.friction_z * friction,
+            arm_ball: self.arm_ball,
+            arm_ring: self.arm_ring,
+        };
+        aside.wrenches()
+    }
+}
+
+/// A force between ball and ring at one point.
+///
+/// By itself, what makes elastic forces the gradient of their energy beside those along normals: of waves, and of the
+/// axial ends of defects. Damping and friction do not follow it.
+#[derive(Debug, Clone, Copy)]
+pub struct Aside {
+    /// On the ball in the plane \[N\].
+    pub plane: V2,
+    /// On the ball along z \[N\].
+    pub axial: f64,
+    /// The point from the ball's centre \[m\].
+    pub arm_ball: V2,
+    /// The point from the ring's centre \[m\].
+    pub arm_ring: V2,
+}
+
+impl Aside {
+    /// Force and moment about z on the ball and the opposite on the ring, (x, y, z, θ) each.
+    pub fn wrenches(&self) -> ([f64; 4], [f64; 4]) {
+        let (plane, axial) = (self.plane, self.axial);
         (
             [plane.x, plane.y, axial, cross(self.arm_ball, plane)],
             [-plane.x, -plane.y, -axial, -cross(self.arm_ring, plane)],
@@ -153,6 +186,9 @@ pub trait Sink {
 
     /// One force.
     fn touch(&mut self, touch: &Touch);
+
+    /// A force beside those along normals.
+    fn aside(&mut self, _force: &Aside) {}
 
     /// A slice would touch but lies beyond a shoulder.
     fn truncated(&mut self) {}

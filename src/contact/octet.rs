@@ -4,6 +4,7 @@
 #![allow(clippy::inline_always)]
 
 use super::fault::Sight;
+use super::race::Raise;
 use super::{Law, Motion, Pair};
 use crate::simd::{Lanes, Mask};
 
@@ -17,12 +18,12 @@ pub(crate) struct Places {
 }
 
 /// Which of eight balls of a row touch a race, which of these may see a defect of it, how the race is raised
-/// there, and which balls have left the groove.
+/// there, and which balls are lost ([`Torus::farthest`]).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Near {
     pub touching: Mask,
     pub faulted: Mask,
-    pub wave: Lanes,
+    pub raise: Raise<Lanes>,
     pub lost: Mask,
 }
 
@@ -30,8 +31,10 @@ pub(crate) struct Near {
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Octet {
     pub constants: Constants<Lanes>,
-    /// Raise of the race by its waves \[m\].
-    pub wave: Lanes,
+    /// Of the race by its waves.
+    pub raise: Raise<Lanes>,
+    /// Whether any race here has waves.
+    pub wavy: bool,
     /// Position x, y, z of the ball \[m\].
     pub q: [Lanes; 3],
     /// Velocity \[m/s\] and angular speed \[rad/s\] of the ball.
@@ -95,14 +98,15 @@ impl Pair {
         let race = &self.race;
         let (x, y) = (balls.q[0] - ring.centre.x, balls.q[1] - ring.centre.y);
         let d = x.mul_add::<FMA>(x, y * y).sqrt();
-        let wave = if self.waves.is_round() {
-            Lanes::ZERO
+        let raise = if self.waves.is_round() {
+            Raise::default()
         } else {
-            x.zip(y, |x, y| self.waves.at(y.atan2(x) - ring.theta))
+            Raise::each(|i| self.waves.raise(y[i].atan2(x[i]) - ring.theta))
         };
-        let e = (d - wave - race.a) * race.sigma;
+        let e = (d - raise.height - race.a) * race.sigma;
         let c = balls.q[2] - (race.centre + ring.z);
-        let approach = e.mul_add::<FMA>(e, c * c).sqrt() + balls.radius - race.r;
+        let l = e.mul_add::<FMA>(e, c * c).sqrt();
+        let approach = l + balls.radius - race.r;
         // Negated, so that what is not a number counts as touching and stays one.
         let clear = e.above(Lanes::ZERO).and((-approach).above(Lanes::ZERO));
         let touching = clear.not();
@@ -116,14 +120,12 @@ impl Pair {
                 faulted = faulted.or((x * cos + y * sin).above(d * bound));
             }
         }
-        // Pressed deeper than half the radius, or beside the groove; what is not a number counts as lost.
-        let inside = (balls.radius * 0.5)
-            .above(approach)
-            .and(Lanes::all(race.r).above(c.abs()));
+        // Negated, so that what is not a number counts as lost.
+        let inside = balls.radius.map(|radius| race.farthest(radius)).above(l);
         Near {
             touching,
             faulted: faulted.and(touching),
-            wave,
+            raise,
             lost: inside.not(),
         }
     }

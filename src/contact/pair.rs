@@ -1,5 +1,6 @@
 //! One ball on one race: finds the zone that touches, and lets `walk` and `feature` do the rest.
 
+use super::race::Raise;
 use super::walk::Line;
 use super::{Fault, Friction, Law, Motion, Sink, Slices, Torus, V2, Waves};
 
@@ -47,8 +48,8 @@ impl Pair {
             !(self.waves.is_round() && self.faults.is_empty() && ball.faults.is_empty());
         let angle = if needs_angle { n.y.atan2(n.x) } else { 0.0 };
         let on_ring = angle - r.theta;
-        let wave = self.waves.at(on_ring);
-        let meridian = self.race.meridian(distance, b.z - r.z, wave);
+        let raise = self.waves.raise(on_ring);
+        let meridian = self.race.meridian(distance, b.z - r.z, raise.height);
         if meridian.approach(ball.radius) <= 0.0 && meridian.e > 0.0 {
             return;
         }
@@ -76,11 +77,12 @@ impl Pair {
             distance,
             n,
             on_ring,
-            wave,
+            raise,
             ring_open,
             // A ring edge is met in another direction than the race.
             ball_open: ball_near || ring_open && !ball.faults.is_empty(),
             common,
+            centres: meridian.distance(),
         };
         contact.walk(&line, sink);
     }
@@ -99,9 +101,12 @@ pub(super) struct Contact<'a> {
     pub(super) n: V2,
     /// Direction of the ball in the ring's frame.
     pub(super) on_ring: f64,
-    pub(super) wave: f64,
+    /// Of the race by its waves.
+    pub(super) raise: Raise<f64>,
     pub(super) ring_open: bool,
     pub(super) ball_open: bool,
     /// (cos α', sin α') of the common normal for the Hertz law.
     pub(super) common: Option<(f64, f64)>,
+    /// Distance of ball's and groove's centre in the meridional plane.
+    pub(super) centres: f64,
 }

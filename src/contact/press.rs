@@ -83,6 +83,9 @@ pub(super) struct Place {
     /// Unit vector in the plane from the ring's centre to the ball's, and their distance there.
     pub n: (Lanes, Lanes),
     pub d: Lanes,
+    /// Slope of the waves along the race, R'(φ)/d, if there are any: the force along t_e over that along n_e (see
+    /// `gradient`).
+    pub lean: Option<Lanes>,
     /// Contacts whose nodes are these; the others get none that press.
     pub simple: Mask,
 }
@@ -106,6 +109,9 @@ struct Sums {
     tangential: Lanes,
     axial: Lanes,
     moment: Lanes,
+    /// Elastic part of the force along n_e, where waves ask for it.
+    elastic: Lanes,
+    wavy: bool,
     pulls: Counters,
 }
 
@@ -122,10 +128,16 @@ impl Pair {
         stiffness: Option<f64>,
     ) -> Press {
         let (circles, place) = self.place::<FMA, PLANE>(octet, ring, skip);
-        let mut sums = Sums::default();
+        let mut sums = Sums {
+            wavy: octet.wavy,
+            ..Sums::default()
+        };
         match stiffness {
             Some(stiffness) => self.whole::<FMA>(&circles, stiffness, &mut sums),
             None => self.each::<FMA, PLANE, _>(&circles, &mut sums),
+        }
+        if let Some(lean) = place.lean {
+            sums.tangential += sums.elastic * lean;
         }
         let (sigma, n) = (self.race.sigma, place.n);
         let (along, across) = (sums.normal * sigma, sums.tangential * sigma);
@@ -155,7 +167,7 @@ impl Pair {
         let d = dx.mul_add::<FMA>(dx, dy * dy).sqrt();
         let over = one / d;
         let n = (dx * over, dy * over);
-        let raised = of.a + octet.wave;
+        let raised = of.a + octet.raise.height;
         let e = (d - raised) * sigma;
         let (c, l, normal) = if PLANE {
             (zero, e, (one, zero))
@@ -191,7 +203,9 @@ impl Pair {
             slide: (v[1] * n.0 - v[0] * n.1 - d * ring.omega) * sigma,
             spin: (octet.v[3] - ring.omega) * sigma,
         };
-        (circles, Place { n, d, simple })
+        let lean = octet.wavy.then(|| octet.raise.slope * over);
+        let place = Place { n, d, lean, simple };
+        (circles, place)
     }
 
     /// The zones in closed form, as in `Meridian::zone` and `Line::along_tangent`.
@@ -308,6 +322,9 @@ impl Receiver for Sums {
         } else {
             v_e.mul_add::<FMA>(in_plane, v_z * axial)
         };
+        if self.wavy {
+            self.elastic += node.elastic * in_plane;
+        }
         let damped = node.elastic * (approach * (1.5 * pair.damping) + 1.0);
         self.pulls.add(Lanes::ZERO.above(damped), times);
         let pressed = damped.or_zero();

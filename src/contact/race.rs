@@ -1,6 +1,7 @@
 //! Races as functions R(z): the torus (model section 2).
 
 use crate::scene::Waviness;
+use crate::simd::Lanes;
 
 /// A groove that is part of a torus: R(z) = a ± √(r² − (z − z₀)²), + for the outer race.
 ///
@@ -26,13 +27,35 @@ pub struct Torus {
     pub highest: f64,
 }
 
+/// Share of its radius by which a ball is pressed into a race, or past the point where it would touch behind the
+/// groove's centre, when it is lost.
+const LOST: f64 = 0.5;
+
 impl Torus {
+    /// Distance \[m\] from the groove's centre, in the meridional plane, at which the centre of a ball of some radius is
+    /// lost. Whichever way it went, no contact means anything from there on: it is pressed into the race by half its
+    /// radius, stands beside the groove, or is off the race and half out at the other side.
+    ///
+    /// ```
+    /// use ballrace::contact::Torus;
+    /// let outer = Torus { sigma: 1.0, a: 30e-3, centre: 0.0, r: 6e-3, lowest: -6e-3, highest: 6e-3 };
+    /// assert!((outer.farthest(5e-3) - 3.5e-3).abs() < 1e-15);
+    /// ```
+    pub fn farthest(&self, radius: f64) -> f64 {
+        self.r - LOST * radius
+    }
+
     /// Race radius \[m\] at an axial place of the ring's frame \[m\], whether or not a shoulder has
     /// cut it off; none where |z − z₀| ≥ r.
     pub fn radius(&self, z: f64) -> Option<f64> {
         let x = z - self.centre;
         let square = self.r * self.r - x * x;
         (square > 0.0).then(|| self.a + self.sigma * square.sqrt())
+    }
+
+    /// dR/dz at an axial place where the race has this radius.
+    pub fn slope(&self, z: f64, radius: f64) -> f64 {
+        (self.centre - z) / (radius - self.a)
     }
 
     /// Whether the race reaches to that axial place.
@@ -169,6 +192,33 @@ impl Chord {
     }
 }
 
+/// How waves raise a race under a ball, or under eight \[m\].
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Raise<T> {
+    /// Of the radius.
+    pub height: T,
+    /// Its derivative by the angle R'(φ).
+    pub slope: T,
+}
+
+impl Raise<Lanes> {
+    /// Eight places one by one.
+    pub(super) fn each(of: impl Fn(usize) -> Raise<f64>) -> Self {
+        let mut slope = Lanes::ZERO;
+        let height = Lanes::from_fn(|lane| {
+            let raise = of(lane);
+            slope[lane] = raise.slope;
+            raise.height
+        });
+        Self { height, slope }
+    }
+
+    /// Takes over a place into a lane.
+    pub(crate) fn set(&mut self, lane: usize, of: Raise<f64>) {
+        (self.height[lane], self.slope[lane]) = (of.height, of.slope);
+    }
+}
+
 /// The harmonics of a race's radius.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Waves(pub Vec<Waviness>);
@@ -187,14 +237,24 @@ impl Waves {
             .sum()
     }
 
-    /// Its derivative by the angle \[m\].
-    pub fn slope(&self, angle: f64) -> f64 {
-        self.0
-            .iter()
-            .map(|w| {
-                let order = f64::from(w.order);
-                -w.amplitude * order * (order * angle + w.phase).sin()
-            })
-            .sum()
+    /// The same with its derivative by the angle.
+    pub fn raise(&self, angle: f64) -> Raise<f64> {
+        let mut raise = Raise::default();
+        for w in &self.0 {
+            let order = f64::from(w.order);
+            let (sin, cos) = (order * angle + w.phase).sin_cos();
+            raise.height += w.amplitude * cos;
+            raise.slope -= w.amplitude * order * sin;
+        }
+        raise
+    }
+
+    /// Second derivative of the radius by the angle \[m\].
+    pub fn bend(&self, angle: f64) -> f64 {
+        let of = |w: &Waviness| {
+            let order = f64::from(w.order);
+            -order * order * w.amplitude * (order * angle + w.phase).cos()
+        };
+        self.0.iter().map(of).sum()
     }
 }

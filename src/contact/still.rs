@@ -11,7 +11,7 @@
 
 use super::octet::Octet;
 use super::press::{Circles, Node, Receiver};
-use super::{Motion, Pair, Sink, Touch, cross, turned};
+use super::{Aside, Motion, Pair, Sink, Touch, cross, turned};
 use crate::simd::{LANES, Lanes, Mask};
 
 /// Directions in the plane.
@@ -44,6 +44,8 @@ pub(crate) struct Held {
     pub n_e: Plane,
     /// From the ring's centre to the ball's.
     pub apart: Plane,
+    /// Forces of the waves' slope through the ball's centre (see `gradient`).
+    pub aside: Plane,
     /// Contacts whose nodes are there; the others get none that press.
     pub simple: Mask,
 }
@@ -61,10 +63,14 @@ impl Pair {
         let (circles, place) = self.place::<FMA, false>(octet, ring, whole.not());
         self.each::<FMA, false, _>(&circles, nodes);
         let (simple, sigma) = (place.simple.and(whole), self.race.sigma);
+        let mut radial = Lanes::ZERO;
         for node in nodes {
             node.elastic = simple.choose(node.elastic, Lanes::ZERO);
+            radial += node.elastic * node.share[0];
         }
+        let across = radial * place.lean.unwrap_or_default() * sigma;
         Held {
+            aside: [-(across * place.n.1), across * place.n.0],
             n_e: [place.n.0 * sigma, place.n.1 * sigma],
             apart: [place.n.0 * place.d, place.n.1 * place.d],
             simple,
@@ -246,6 +252,8 @@ pub(crate) struct Packing<'a> {
     pub radius: f64,
     /// Whether all slices press along the common normal.
     pub flat: bool,
+    /// Sum of forces beside those of slices: x, y, z and about the ball's centre.
+    pub aside: [f64; 4],
     /// Slices so far.
     pub count: usize,
 }
@@ -276,6 +284,13 @@ impl Sink for Packing<'_> {
         (still.slope[0][lane], still.slope[1][lane]) = (sin, cos);
         still.levers[0][lane] = cross(arm, out);
         still.levers[1][lane] = cross(arm, turned(out));
+    }
+
+    fn aside(&mut self, force: &Aside) {
+        let (on_ball, _) = force.wrenches();
+        for (sum, part) in self.aside.iter_mut().zip(on_ball) {
+            *sum += part;
+        }
     }
 }
 

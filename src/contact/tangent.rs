@@ -8,7 +8,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::race::{Meridian, SHALLOW};
-use super::{BallSide, Law, Motion, Pair, Rules, Sink, Slices, Touch, V2, hertz, iso16281};
+use super::{Aside, BallSide, Law, Motion, Pair, Rules, Sink, Slices, Touch, V2, hertz, iso16281};
 
 /// Elastic force on the ball along x, y, z \[N\], and the stiffness −∂force/∂place of the ball against the ring
 /// \[N/m\]; a stiffness that only differences can tell is left out.
@@ -28,7 +28,8 @@ impl Pair {
         } else {
             n.y.atan2(n.x)
         };
-        let meridian = self.race.meridian(distance, place.z, self.waves.at(angle));
+        let raise = self.waves.raise(angle);
+        let meridian = self.race.meridian(distance, place.z, raise.height);
         if meridian.e > 0.0 && meridian.approach(ball.radius) <= 0.0 {
             return Tangent {
                 force: Vector3::zeros(),
@@ -46,7 +47,9 @@ impl Pair {
                 fault.in_reach(towards)
             });
         match self.meridional(ball.radius, &meridian).filter(|_| whole) {
-            Some(found) => self.in_space(&found, n, distance, angle),
+            Some(found) => {
+                self.in_space(&found, n, distance, (raise.slope, self.waves.bend(angle)))
+            }
             None => Tangent {
                 force: self.elastic(ball, place),
                 stiffness: None,
@@ -86,32 +89,43 @@ impl Pair {
         sum.0
     }
 
-    /// From the meridional plane to x, y, z: e = σ (d − a − wave), c = z₀ − z.
-    fn in_space(&self, found: &Meridional, n: V2, distance: f64, angle: f64) -> Tangent {
+    /// From the meridional plane to x, y, z: e = σ (d − a − R̃(φ)), c = z₀ − z, the waves R̃ with their first and second
+    /// derivative by the angle.
+    fn in_space(
+        &self,
+        found: &Meridional,
+        n: V2,
+        distance: f64,
+        (wave_slope, wave_bend): (f64, f64),
+    ) -> Tangent {
         let sigma = self.race.sigma;
         let [[r_e, r_c], [a_e, a_c]] = found.slope;
         let [radial, axial] = found.force;
-        // The ball gets −F_r n_e − F_a ẑ with n_e = σ n, which turns with the ball's direction. Stiffness along n,
-        // t = ẑ × n and z:
-        let wave = self.waves.slope(angle) / distance;
-        let [nn, nt, nz] = [r_e, -r_e * wave, -sigma * r_c];
-        let tt = sigma * radial / distance;
-        let [zn, zt, zz] = [sigma * a_e, -sigma * a_e * wave, -a_c];
+        // Along n, t = ẑ × n and z the ball gets −σ F_r, σ F_r R̃'/d and −F_a; n and t turn with its direction, and
+        // ∂e = σ ∂n − σ R̃'/d ∂t.
+        let (lean, bend) = (wave_slope / distance, wave_bend / distance);
+        let across = sigma * radial * lean;
+        let [nn, nt, nz] = [r_e, -r_e * lean + across / distance, -sigma * r_c];
+        let tt = r_e * lean * lean + sigma * radial * (1.0 - bend) / distance;
+        let tz = sigma * r_c * lean;
+        let [zn, zt, zz] = [sigma * a_e, -sigma * a_e * lean, -a_c];
         // The same along x, y and z.
         let (x, y) = (n.x, n.y);
+        let skew = nn * x * y + nt * (x * x - y * y) - tt * x * y;
         let stiffness = Matrix3::new(
-            nn * x * x - nt * x * y + tt * y * y,
-            nn * x * y + nt * x * x - tt * x * y,
-            nz * x,
-            nn * x * y - nt * y * y - tt * x * y,
-            nn * y * y + nt * x * y + tt * x * x,
-            nz * y,
+            nn * x * x - 2.0 * nt * x * y + tt * y * y,
+            skew,
+            nz * x - tz * y,
+            skew,
+            nn * y * y + 2.0 * nt * x * y + tt * x * x,
+            nz * y + tz * x,
             zn * x - zt * y,
             zn * y + zt * x,
             zz,
         );
+        let push = -sigma * radial;
         Tangent {
-            force: Vector3::new(-sigma * radial * x, -sigma * radial * y, -axial),
+            force: Vector3::new(push * x - across * y, push * y + across * x, -axial),
             stiffness: Some(stiffness),
         }
     }
@@ -295,6 +309,10 @@ impl Sink for Elastic {
     fn touch(&mut self, touch: &Touch) {
         let plane = touch.n_e * (touch.elastic * touch.share.0);
         self.0 -= Vector3::new(plane.x, plane.y, touch.elastic * touch.share.1);
+    }
+
+    fn aside(&mut self, force: &Aside) {
+        self.0 += Vector3::new(force.plane.x, force.plane.y, force.axial);
     }
 }
 

@@ -8,6 +8,8 @@
 //! cuts the zone, the outer pieces keep the weight at their free end only. Inside a defect the elements have
 //! zones of their own: their ends are searched for, and plain Gauss nodes lie on every smooth piece.
 
+use super::fault::Station;
+use super::gradient::{HAIR, Owner};
 use super::hertz::Hertz;
 use super::pair::Contact;
 use super::race::{Chord, Meridian};
@@ -106,6 +108,28 @@ pub(super) struct Node {
     pub(super) depth: f64,
     /// Radius of the round race at z.
     pub(super) torus_radius: f64,
+    /// By how much beside it defects are looked for (see [`Station`]).
+    pub(super) beside: f64,
+}
+
+impl Node {
+    /// On the race.
+    pub(super) fn on_ring(&self) -> Station {
+        Station {
+            z: self.z,
+            beside: self.beside,
+            radius: self.torus_radius,
+        }
+    }
+
+    /// On the ball.
+    pub(super) fn on_ball(&self) -> Station {
+        Station {
+            z: self.zeta,
+            beside: self.beside,
+            radius: self.rho,
+        }
+    }
 }
 
 /// A stretch of the zone and how the penetration ends on both sides.
@@ -128,6 +152,36 @@ impl Contact<'_> {
             Slices::Fixed(count) => self.fixed(line, *count, sink),
             Slices::Fitted(rules) => self.fitted(line, rules, sink),
         }
+        if self.ring_open && self.feels_ring_ends() {
+            // Of all: one out of reach may overlap one in reach.
+            for zeta in different(self.ends_on_race(|_| true)) {
+                self.end(line, zeta, Owner::Ring, sink);
+            }
+        }
+        if self.ball_open {
+            for zeta in different(self.ends_on_ball()) {
+                self.end(line, zeta, Owner::Ball, sink);
+            }
+        }
+    }
+
+    /// Places ζ where defects of the race end, of those that are wanted.
+    fn ends_on_race(
+        &self,
+        wanted: impl Fn(&Fault) -> bool + Clone,
+    ) -> impl Iterator<Item = f64> + Clone {
+        let dz = self.b.z - self.r.z;
+        let faults = self.pair.faults.iter();
+        faults
+            .filter(move |fault| wanted(fault))
+            .flat_map(Fault::ends)
+            .map(move |z| z - dz)
+    }
+
+    /// Places ζ where defects of the ball end.
+    fn ends_on_ball(&self) -> impl Iterator<Item = f64> + Clone {
+        let faults = self.ball.faults.iter();
+        faults.filter(|_| self.ball_open).flat_map(Fault::ends)
     }
 
     fn fixed<S: Sink>(&self, line: &Line, count: usize, sink: &mut S) {
@@ -149,30 +203,12 @@ impl Contact<'_> {
         let race = &self.pair.race;
         let dz = self.b.z - self.r.z;
         let shoulders = [race.centre + race.lowest, race.centre + race.highest];
-        let ends = |fault: &Fault| {
-            [
-                fault.middle - fault.length / 2.0,
-                fault.middle + fault.length / 2.0,
-            ]
-        };
-        let on_race = self
-            .pair
-            .faults
-            .iter()
-            .filter(|f| f.in_reach(self.on_ring))
-            .flat_map(ends);
-        let on_ball = self
-            .ball
-            .faults
-            .iter()
-            .filter(|_| self.ball_open)
-            .flat_map(ends);
         // Few, so the next one is found by looking at all.
         let cuts = shoulders
             .into_iter()
-            .chain(on_race)
             .map(|z| z - dz)
-            .chain(on_ball)
+            .chain(self.ends_on_race(|fault| fault.in_reach(self.on_ring)))
+            .chain(self.ends_on_ball())
             .filter_map(|zeta| line.u(zeta));
         let mut low = line.low;
         while low < line.high {
@@ -259,6 +295,12 @@ impl Contact<'_> {
         self.node_at(line, zeta, u, stretch * width)
     }
 
+    /// The node at ζ within the zone, for a length of 1.
+    pub(super) fn node_of(&self, line: &Line, zeta: f64) -> Option<Node> {
+        let u = line.u(zeta).filter(|u| (line.low..line.high).contains(u))?;
+        self.node_at(line, zeta, u, 1.0)
+    }
+
     fn node_at(&self, line: &Line, zeta: f64, u: f64, width: f64) -> Option<Node> {
         let square = self.ball.radius * self.ball.radius - zeta * zeta;
         if square <= 0.0 {
@@ -273,6 +315,7 @@ impl Contact<'_> {
             width,
             depth: 0.0,
             torus_radius,
+            beside: 0.0,
         };
         node.depth = match line.along {
             Along::Surface(_) => self.race_penetration(&node),
@@ -287,9 +330,18 @@ impl Contact<'_> {
 
     /// s_k of model section 3: d + ρ − R_o or R_i + ρ − d.
     pub(super) fn race_penetration(&self, node: &Node) -> f64 {
-        let radius = node.torus_radius + self.wave;
+        let radius = node.torus_radius + self.raise.height;
         self.pair.race.sigma * (self.distance - radius) + node.rho
     }
+}
+
+/// Places without those that are a rounding from one before them: defects may end together.
+fn different(places: impl Iterator<Item = f64> + Clone) -> impl Iterator<Item = f64> {
+    let all = places.clone();
+    places.enumerate().filter_map(move |(i, place)| {
+        let known = |other: f64| (other - place).abs() <= 2.0 * HAIR;
+        (!all.clone().take(i).any(known)).then_some(place)
+    })
 }
 
 /// A zero between two places of opposite sign, by the Illinois variant of regula falsi.

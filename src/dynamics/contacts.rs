@@ -1,8 +1,7 @@
 //! What a probe wants to know of a contact.
 
-use crate::contact::{Fault, Sink, Torus, Touch, V2};
+use crate::contact::{Sink, Touch, V2};
 use crate::model::Model;
-use crate::scene::Surface;
 
 /// A contact in a few numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,47 +57,6 @@ impl Sink for Summary {
         self.slip += touch.normal * touch.slip;
         self.low = self.low.min(touch.z - half);
         self.high = self.high.max(touch.z + half);
-    }
-}
-
-/// Normal force of a contact that stands over a defect \[N\].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct LoadWithin {
-    /// Of all slices.
-    pub load: f64,
-    /// Of those where the surface is absent.
-    pub within: f64,
-    /// Axial place of their middle of force, in the frame of the defect's body \[m\]; NaN without load.
-    pub place: f64,
-}
-
-/// Sums what [`LoadWithin`] tells.
-struct Within<'a> {
-    fault: &'a Fault,
-    /// How far the contact's direction is from the defect's.
-    aside: f64,
-    /// Radius of the ball, if the defect is on it.
-    ball: Option<f64>,
-    race: &'a Torus,
-    load: f64,
-    within: f64,
-    moment: f64,
-}
-
-impl Sink for Within<'_> {
-    fn touch(&mut self, touch: &Touch) {
-        let (place, radius) = match self.ball {
-            Some(radius) => {
-                let square = radius * radius - touch.zeta * touch.zeta;
-                (touch.zeta, square.max(0.0).sqrt())
-            }
-            None => (touch.z, self.race.radius(touch.z).unwrap_or(self.race.a)),
-        };
-        self.load += touch.normal;
-        self.moment += touch.normal * place;
-        if self.fault.covers(place, radius, self.aside) {
-            self.within += touch.normal;
-        }
     }
 }
 
@@ -160,34 +118,6 @@ impl Model {
         let mut list = List(Vec::new());
         self.visit(y, j, race, &mut list);
         list.0
-    }
-
-    /// What a contact carries within a defect, whose direction is `aside` \[rad\] from the contact's: ball among all
-    /// balls, and race.
-    pub(crate) fn load_within(
-        &self,
-        y: &[f64],
-        (j, race): (usize, usize),
-        fault: &Fault,
-        on: Surface,
-        aside: f64,
-    ) -> LoadWithin {
-        let ball = &self.balls[j];
-        let mut sum = Within {
-            fault,
-            aside,
-            ball: (on == Surface::Ball).then_some(ball.side.radius),
-            race: &self.rows[ball.row].pairs[race].race,
-            load: 0.0,
-            within: 0.0,
-            moment: 0.0,
-        };
-        self.visit(y, j, race, &mut sum);
-        LoadWithin {
-            load: sum.load,
-            within: sum.within,
-            place: sum.moment / sum.load,
-        }
     }
 
     fn visit<S: Sink>(&self, y: &[f64], j: usize, race: usize, sink: &mut S) -> f64 {

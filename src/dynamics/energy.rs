@@ -82,6 +82,14 @@ impl Model {
                 energy.gravity -= body.mass[i] * g * y[4 * b + i];
             }
         }
+        for unbalance in &self.unbalances {
+            let ring = motion(y, unbalance.ring);
+            let (sin, cos) = (ring.theta + unbalance.angle).sin_cos();
+            let [gx, gy, _] = self.scene.gravity;
+            let along = ring.velocity.y * cos - ring.velocity.x * sin;
+            energy.kinetic += unbalance.moment * ring.omega * along;
+            energy.gravity -= unbalance.moment * (gx * cos + gy * sin);
+        }
         let mut contacts = Contacts::default();
         for (j, ball) in self.balls.iter().enumerate() {
             for (race, pair) in self.rows[ball.row].pairs.iter().enumerate() {

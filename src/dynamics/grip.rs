@@ -4,7 +4,7 @@ use std::array::from_fn;
 
 use super::batch::{SideConstants, Touching};
 use super::state::State;
-use crate::contact::{Held, Law, Motion, Pack, Packing, Plane, Reaction, Still, in_contact};
+use crate::contact::{Held, Law, Motion, Pack, Packing, Plane, Raise, Reaction, Still, in_contact};
 use crate::model::Model;
 use crate::simd::{LANES, Lanes, Mask, Task};
 
@@ -14,7 +14,7 @@ pub(super) enum Meeting {
     #[default]
     Nothing,
     /// A whole race, raised by so much.
-    Whole(f64),
+    Whole(Raise<f64>),
     /// Perhaps a defect: evaluated alone.
     Faulted,
 }
@@ -35,6 +35,8 @@ pub(super) struct Side {
     nodes: Vec<Still>,
     /// Slices of contacts that are evaluated alone, and the lanes of these.
     packs: Vec<(usize, Pack)>,
+    /// What does not depend on velocities beside the nodes, (x, y, z, about z) on the balls.
+    aside: [Lanes; 4],
     /// Whether any touches.
     pub touches: bool,
     /// What they do, in (x, y, z, about z).
@@ -88,9 +90,9 @@ impl Grip {
                 side: s,
                 contacts: &from_fn(|lane| Touching {
                     ball: self.balls[lane],
-                    wave: match meetings[lane] {
-                        Meeting::Whole(wave) => wave,
-                        Meeting::Nothing | Meeting::Faulted => 0.0,
+                    raise: match meetings[lane] {
+                        Meeting::Whole(raise) => raise,
+                        Meeting::Nothing | Meeting::Faulted => Raise::default(),
                     },
                 }),
                 whole: Mask::from_fn(whole),
@@ -99,6 +101,8 @@ impl Grip {
                 state,
                 rings,
             });
+            let [x, y] = side.held.aside;
+            side.aside = [x, y, Lanes::ZERO, Lanes::ZERO];
             for (lane, ball) in self.balls[..self.count].iter().enumerate() {
                 if meetings[lane] != Meeting::Nothing && !side.held.simple.lane(lane) {
                     side.single(lane, model, *ball, s, state, rings);
@@ -146,6 +150,7 @@ impl Side {
             packs: &mut self.packs,
             radius: compiled.side.radius,
             flat: matches!(pair.law, Law::Hertz(_)),
+            aside: [0.0; 4],
             count: 0,
         };
         pair.evaluate(
@@ -154,6 +159,9 @@ impl Side {
             &rings[side],
             &mut packing,
         );
+        for (sum, part) in self.aside.iter_mut().zip(packing.aside) {
+            sum[lane] += part;
+        }
     }
 }
 
@@ -235,6 +243,9 @@ impl<const SLOPE: bool> Task for React<'_, SLOPE> {
                 pair.react::<FMA, SLOPE>(node, &local, secant, sum);
             }
             sum.turn::<SLOPE>(n_e);
+            for (wrench, aside) in sum.wrench.iter_mut().zip(side.aside) {
+                *wrench += aside;
+            }
             for (lane, pack) in &side.packs {
                 let mut all = twist;
                 for w in &mut all {

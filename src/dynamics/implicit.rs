@@ -149,7 +149,7 @@ impl ImplicitVelocity for Dynamics<'_> {
 mod tests {
     use super::*;
     use crate::integrate::System;
-    use crate::scene::{Friction, Slices, presets};
+    use crate::scene::{Friction, NormalLaw, Slices, Waviness, presets};
     use crate::{Model, Scene, Start, start};
 
     fn accelerations(model: &Model, y: &[f64]) -> Vec<f64> {
@@ -195,7 +195,15 @@ mod tests {
         pulling.contact.slices = Slices::Fixed(30);
         let mut smooth = wheel.clone();
         smooth.friction = Friction::None;
-        vec![wheel, hertz, traction, pulling, smooth]
+        // Forces of places alone: of waves, and of a defect's ends.
+        let mut uneven = wheel.clone();
+        uneven.contact.law = NormalLaw::Hertz;
+        uneven.rows[0].inner_waviness = vec![Waviness {
+            order: 20,
+            amplitude: 2e-6,
+            phase: 0.3,
+        }];
+        vec![wheel, hertz, traction, pulling, smooth, uneven]
     }
 
     /// (1 − γh ∂a/∂v) x = r holds for the correction x of any residual r, with ∂a/∂v by central differences.

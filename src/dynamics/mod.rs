@@ -7,6 +7,8 @@ mod energy;
 mod grip;
 mod implicit;
 mod kept;
+#[cfg(test)]
+mod lost;
 mod others;
 mod plane;
 mod rolling;
@@ -26,6 +28,7 @@ use crate::scene::Drive;
 
 pub use contacts::{ContactSummary, SliceForce};
 pub use energy::Energy;
+pub(crate) use others::link;
 pub(crate) use uses::Use;
 
 use batch::{Batch, Kind};
@@ -184,7 +187,7 @@ impl<'m> Dynamics<'m> {
     }
 
     /// The first body among the balls that had left its groove in the last evaluation, if any: pressed deeper than
-    /// half its radius, or beside the groove.
+    /// half its radius, beside the groove, or off the race ([`crate::contact::Torus::farthest`]).
     pub fn lost(&self) -> Option<usize> {
         self.contacts.lost().map(|ball| 2 + ball)
     }
@@ -299,8 +302,8 @@ impl<'m> Dynamics<'m> {
         let (state, forces) = (&self.state, &mut self.forces);
         others::supports(&self.springs, state, forces);
         others::loads(self.model, false, t, forces);
-        others::unbalances(self.model, t, state, forces);
         others::drive(self.model, t, forces);
+        others::unbalances(self.model, t, state, forces);
     }
 
     /// M⁻¹ F of a body. Directions that are fixed do not accelerate; the driven ring's rotation accelerates as
@@ -338,8 +341,12 @@ impl<'m> Dynamics<'m> {
         for constant in [true, false] {
             others::loads(model, constant, t, &mut parts[6]);
         }
-        others::unbalances(model, t, &state, &mut parts[6]);
         others::drive(model, t, &mut parts[7]);
+        for ring in 0..2 {
+            let of = |i: usize| parts.iter().map(|part| part.get(ring, i)).sum();
+            let all = std::array::from_fn(of);
+            parts[6].add(ring, &others::unbalance(model, t, &state, ring, &all));
+        }
         let listed = |part: Table| (0..bodies).flat_map(|body| part.of(body)).collect();
         CONTRIBUTIONS
             .into_iter()

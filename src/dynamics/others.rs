@@ -1,22 +1,22 @@
-//! Forces that are not contacts: cage, supports, gravity, loads, drive.
+//! Forces that are not contacts: cage, supports, gravity, loads, unbalances, drive.
 
 use std::ops::Range;
 
 use super::state::{State, Table};
-use crate::contact::Motion;
-use crate::model::{Model, RowModel, Spring};
+use crate::contact::{Motion, V2, cross};
+use crate::model::{Model, RowModel, Spring, UnbalanceModel};
 use crate::scene::{Cage, Drive, TimeFunction};
 use crate::simd::{Simd, Vector, Wide};
 
 /// A cage link between two balls: force on the first (positive in tension), stored energy and dissipated power.
-pub(super) struct Link {
+pub(crate) struct Link {
     pub force: f64,
     pub energy: f64,
     pub power: f64,
 }
 
 /// The link between two balls, model section 6.
-pub(super) fn link(cage: &Cage, nominal: f64, first: &Motion, second: &Motion) -> Link {
+pub(crate) fn link(cage: &Cage, nominal: f64, first: &Motion, second: &Motion) -> Link {
     let apart = second.centre - first.centre;
     let extension = apart.norm() - nominal;
     let half = cage.play / 2.0;
@@ -162,18 +162,71 @@ pub(super) fn loads(model: &Model, constant: bool, t: f64, forces: &mut Table) {
     }
 }
 
+/// What the unbalances of a ring do, x, y, z and about z, from all other forces on it.
+///
+/// The ring's mass m and its inertia I about its own centre are those of the whole, its centre of mass stands at
+/// u/m = Σ m e r̂ / m from the centre, so with ψ the angle of each r̂ (Lagrange)
+///
+/// ```text
+/// m ẍ = F_x + m e (ω² cos ψ + ω̇ sin ψ)        m ÿ = F_y + m e (ω² sin ψ − ω̇ cos ψ)
+/// I ω̇ = T + u × g − u × (ẍ, ÿ)
+/// ```
+///
+/// A driven speed tells ω̇. Else the first two in the third give it, over 1 − (u_x²/m_y + u_y²/m_x)/I, which is above 0
+/// where the ring's inertia about its centre of mass is.
+pub(super) fn unbalance(
+    model: &Model,
+    t: f64,
+    state: &State,
+    ring: usize,
+    others: &[f64; 4],
+) -> [f64; 4] {
+    let mut sum = [0.0; 4];
+    let of_ring = model.unbalances.iter().filter(|u| u.ring == ring);
+    if of_ring.clone().next().is_none() {
+        return sum;
+    }
+    let motion = state.motion(ring);
+    let square = motion.omega * motion.omega;
+    let direction = |u: &UnbalanceModel| (motion.theta + u.angle).sin_cos();
+    let mut whole = V2::zeros();
+    for unbalance in of_ring.clone() {
+        let (sin, cos) = direction(unbalance);
+        whole += V2::new(cos, sin) * unbalance.moment;
+    }
+    let [gx, gy, _] = model.scene.gravity;
+    let mobility = &model.mobility[ring];
+    let accelerate = |spin: f64| {
+        V2::new(
+            mobility[0] * (others[0] + square * whole.x + spin * whole.y),
+            mobility[1] * (others[1] + square * whole.y - spin * whole.x),
+        )
+    };
+    let weight = cross(whole, V2::new(gx, gy));
+    let spin = match (&model.scene.drive, ring) {
+        (Drive::Speed(speed), 1) => speed.rate(t),
+        _ => {
+            let coupled = mobility[1] * whole.x * whole.x + mobility[0] * whole.y * whole.y;
+            let torque = others[3] + weight - cross(whole, accelerate(0.0));
+            mobility[3] * torque / (1.0 - mobility[3] * coupled)
+        }
+    };
+    for unbalance in of_ring {
+        let (sin, cos) = direction(unbalance);
+        sum[0] += unbalance.moment * (square * cos + spin * sin);
+        sum[1] += unbalance.moment * (square * sin - spin * cos);
+    }
+    sum[3] = weight - cross(whole, accelerate(spin));
+    sum
+}
+
+/// Adds them to the forces on both rings, after all others.
 pub(super) fn unbalances(model: &Model, t: f64, state: &State, forces: &mut Table) {
-    for unbalance in &model.unbalances {
-        let ring = state.motion(unbalance.ring);
-        let rate = match (&model.scene.drive, unbalance.ring) {
-            (Drive::Speed(speed), 1) => speed.rate(t),
-            _ => 0.0,
-        };
-        let (sin, cos) = (ring.theta + unbalance.angle).sin_cos();
-        let (radial, tangential) = (ring.omega * ring.omega, -rate);
-        let x = unbalance.moment * (radial * cos - tangential * sin);
-        let y = unbalance.moment * (radial * sin + tangential * cos);
-        forces.add(unbalance.ring, &[x, y, 0.0, 0.0]);
+    if !model.unbalances.is_empty() {
+        for ring in 0..2 {
+            let others = forces.of(ring);
+            forces.add(ring, &unbalance(model, t, state, ring, &others));
+        }
     }
 }
 

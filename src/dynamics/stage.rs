@@ -76,7 +76,7 @@ impl Stage {
         self.meetings.fill(<[Meeting; 2]>::default());
         for side in 0..2 {
             for contact in self.search.touching(side) {
-                self.meetings[contact.ball][side] = Meeting::Whole(contact.wave);
+                self.meetings[contact.ball][side] = Meeting::Whole(contact.raise);
             }
         }
         for (side, ball) in self.search.faulted() {

@@ -1,7 +1,7 @@
 //! What the forces of a contact add up to.
 
 use super::add;
-use crate::contact::{Sink, Touch};
+use crate::contact::{Aside, Sink, Touch};
 
 /// Force and moment on ball and ring.
 #[derive(Debug, Clone, Copy, Default)]
@@ -18,6 +18,12 @@ impl Sink for Sum {
         add(&mut self.ball, &ball);
         add(&mut self.ring, &ring);
         self.pulls += u32::from(touch.pull);
+    }
+
+    fn aside(&mut self, force: &Aside) {
+        let (ball, ring) = force.wrenches();
+        add(&mut self.ball, &ball);
+        add(&mut self.ring, &ring);
     }
 
     fn truncated(&mut self) {
@@ -51,5 +57,11 @@ impl Sink for Named {
             add(&mut self.ball[i], &ball);
             add(&mut self.ring[i], &ring);
         }
+    }
+
+    fn aside(&mut self, force: &Aside) {
+        let (ball, ring) = force.wrenches();
+        add(&mut self.ball[0], &ball);
+        add(&mut self.ring[0], &ring);
     }
 }

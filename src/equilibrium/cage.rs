@@ -14,7 +14,8 @@ const LENGTH_ITERATIONS: usize = 10;
 /// Iterations for a row's tension, at most, and its precision over the sum of the acting forces.
 const TENSION_ITERATIONS: usize = 60;
 const TENSION: f64 = 1e-10;
-/// Passes over a row's balls that let each follow its neighbours.
+/// Passes over a row's balls that let each follow its neighbours. Few: balls side by side that hang on the cage take many,
+/// but under a tension that is held they would all end on one race. So the next round goes on, with a tension of its own.
 const SWEEPS: usize = 4;
 /// How close to a race, over the contacts' approach, a loose ball counts as lying on it.
 const ON_RACE: f64 = 1e-2;
@@ -29,6 +30,15 @@ pub(super) struct CageSpring {
 }
 
 impl CageSpring {
+    /// A pull at a radius, with a stiffness there.
+    pub(super) fn held(force: f64, stiffness: f64, radius: f64) -> Self {
+        Self {
+            force,
+            stiffness,
+            radius,
+        }
+    }
+
     pub(super) fn pull(&self, radius: f64) -> f64 {
         self.force - self.stiffness * (radius - self.radius)
     }
@@ -44,6 +54,8 @@ struct Chain {
     /// Length of all links, and the length at which they are slack.
     length: f64,
     slack: f64,
+    /// Of each ball, over two: two balls have but one link.
+    links: f64,
     balls: Vec<ChainBall>,
 }
 
@@ -106,7 +118,8 @@ impl Chain {
         let before = radii[if k == 0 { last } else { k - 1 }];
         let after = radii[if k == last { 0 } else { k + 1 }];
         let (a, length) = (radii[k], self.length);
-        (0.5 * (before * before + after * after) - a * a - length * length) / (a * length)
+        let outwards = 0.5 * (before * before + after * after) - a * a - length * length;
+        self.links * outwards / (a * length)
     }
 
     /// Where the balls are under a tension, one after the other.
@@ -141,7 +154,8 @@ impl Chain {
         let mut b = a + at_a;
         let mut at_b = excess(b);
         for _ in 0..TENSION_ITERATIONS {
-            if at_b.abs() <= precision || (a - b).abs() <= precision {
+            // Balls next to no load hover on a tension that hardly changes from race to race: its last digits matter.
+            if at_b.abs() <= precision || (a - b).abs() <= f64::EPSILON * b.abs() {
                 break;
             }
             let next = b - at_b * (b - a) / (at_b - at_a);
@@ -171,7 +185,7 @@ impl Problem<'_> {
     ) -> f64 {
         let model = self.model;
         let mut left: f64 = 0.0;
-        for row in model.rows.iter().filter(|row| row.count > 2) {
+        for row in model.rows.iter().filter(|row| row.count > 1) {
             let places = &mut places[row.first..row.first + row.count];
             let (length, turned) = self.spread(row, places);
             left = left.max(self.share() * turned);
@@ -179,6 +193,7 @@ impl Problem<'_> {
             let chain = Chain {
                 length,
                 slack: row.cage_distance,
+                links: row.links().count() as f64 / row.count as f64,
                 balls: balls
                     .map(|(k, &place)| {
                         let j = row.first + k;
@@ -196,7 +211,7 @@ impl Problem<'_> {
             for (k, &radius) in radii.iter().enumerate() {
                 // What the row's cage has against all balls moving out together.
                 let chord = row.cage_distance / radius;
-                let together = cage.stiffness * chord * chord;
+                let together = cage.stiffness * chain.links * chord * chord;
                 let share = self.cage_share.max(1.0 / row.count as f64);
                 let mut spring = CageSpring::default();
                 if tension != 0.0 {
@@ -215,6 +230,9 @@ impl Problem<'_> {
 
     /// Turns the balls of a row to where all links are equally long; returns their length and the largest turn.
     fn spread(&mut self, row: &RowModel, balls: &[Vector2<f64>]) -> (f64, f64) {
+        if let [first, second] = balls {
+            return (first.x + second.x, 0.0);
+        }
         let mut turned: f64 = 0.0;
         let next = |k: usize| (k + 1) % row.count;
         // Law of cosines: the angle that a link of this length spans.
@@ -267,7 +285,7 @@ impl Problem<'_> {
             place,
             inmost: place,
             outmost: place,
-            load: self.own_load(j).x,
+            load: self.own_load_at(j, place.x).x,
             pull: self.cage_spring[j].pull(place.x),
             hold,
             most: self.model.scales.approach,

@@ -9,8 +9,8 @@ use crate::model::{Degree, Model};
 
 pub(super) struct Problem<'m> {
     pub(super) model: &'m Model,
-    /// Constant forces on each ball along its radius and along z: weight and centrifugal force.
-    pub(super) ball_loads: Vec<Vector2<f64>>,
+    /// m ω_c² of each ball: its centrifugal force over its radius \[N/m\].
+    centrifugal: Vec<f64>,
     pub(super) directions: Vec<V2>,
     /// The cage's hold on each ball.
     pub(super) cage_spring: Vec<CageSpring>,
@@ -32,7 +32,7 @@ pub(super) struct Problem<'m> {
 impl<'m> Problem<'m> {
     pub(super) fn new(model: &'m Model) -> Self {
         let gravity = model.scene.gravity;
-        let mut ball_loads = Vec::new();
+        let mut centrifugal = Vec::new();
         let mut directions = Vec::new();
         let mut magnitude = 0.0;
         for (j, ball) in model.balls.iter().enumerate() {
@@ -40,14 +40,10 @@ impl<'m> Problem<'m> {
             let place = V2::new(body.nominal[0], body.nominal[1]);
             let direction = place.normalize();
             let orbit = model.rolling_speeds(ball.row).0;
-            let centrifugal = body.mass[0] * orbit * orbit * place.norm();
             let weight = body.mass[0] * (gravity[0] * direction.x + gravity[1] * direction.y);
-            ball_loads.push(Vector2::new(
-                centrifugal + weight,
-                body.mass[0] * gravity[2],
-            ));
+            centrifugal.push(body.mass[0] * orbit * orbit);
             directions.push(direction);
-            magnitude += centrifugal.abs() + weight.abs();
+            magnitude += centrifugal[j] * place.norm() + weight.abs();
         }
         let mut loads = SVector::<f64, 6>::zeros();
         for load in &model.loads {
@@ -78,7 +74,7 @@ impl<'m> Problem<'m> {
         magnitude = magnitude.max(1e-6 * model.scales.load).max(1e-12);
         Self {
             model,
-            ball_loads,
+            centrifugal,
             cage_spring: vec![CageSpring::default(); directions.len()],
             cage_share: 0.0,
             directions,
@@ -117,9 +113,18 @@ impl<'m> Problem<'m> {
         residual.iter().map(|x| x.abs()).fold(0.0, f64::max) / self.magnitude
     }
 
-    /// Weight and centrifugal force of a ball along its radius and along z.
+    /// Weight and centrifugal force of a ball along its radius and along z, near its nominal place.
     pub(super) fn own_load(&self, j: usize) -> Vector2<f64> {
-        self.ball_loads[j]
+        let [x, y, ..] = self.model.bodies[2 + j].nominal;
+        self.own_load_at(j, x.hypot(y))
+    }
+
+    /// The same at a radius, at the angle where the cage holds it.
+    pub(super) fn own_load_at(&self, j: usize, radius: f64) -> Vector2<f64> {
+        let mass = self.model.bodies[2 + j].mass[0];
+        let (g, direction) = (self.model.scene.gravity, self.directions[j]);
+        let weight = mass * (g[0] * direction.x + g[1] * direction.y);
+        Vector2::new(self.centrifugal[j] * radius + weight, mass * g[2])
     }
 
     /// A ball at a radius and an axial place between the rings: what acts on it there.
@@ -139,7 +144,7 @@ impl<'m> Problem<'m> {
             self.model.rows[ball.row].pairs[race].tangent(&ball.side, &from_rings[race])
         });
         let pressed = contacts[0].force + contacts[1].force;
-        let own = self.own_load(j);
+        let own = self.own_load_at(j, place.x);
         let mut force = Vector2::new(
             pressed.xy().dot(&direction) + own.x + self.cage_spring[j].pull(place.x),
             pressed.z + own.y,
@@ -190,7 +195,8 @@ impl<'m> Problem<'m> {
             radial += degree.stiffness() * share;
         }
         axial += degrees[2].stiffness();
-        radial += self.cage_spring[j].stiffness();
+        // The centrifugal force grows with the radius.
+        radial += self.cage_spring[j].stiffness() - self.centrifugal[j];
         if self.level(j).is_some() {
             return Matrix2::from_diagonal(&Vector2::new(radial, self.stiffness()));
         }

@@ -135,7 +135,7 @@ impl Problem<'_> {
 
     /// Lets every ball settle to a precision, and condenses it to forces and stiffness on the rings, which have moved so
     /// far.
-    fn rings(
+    pub(super) fn rings(
         &self,
         rings: &SVector<f64, 6>,
         starts: &[Vector2<f64>],

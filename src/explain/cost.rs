@@ -8,10 +8,10 @@ use serde::Serialize;
 
 use crate::dynamics::Dynamics;
 use crate::error::Result;
+use crate::follow::{options, tolerance};
 use crate::integrate::{DenseStep, Statistics, System};
 use crate::method::{self, Task};
 use crate::model::Model;
-use crate::simulate::{options, tolerance};
 
 /// Places of the cage over a ball's pitch.
 const PLACES: usize = 8;

@@ -9,12 +9,13 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::dynamics::Dynamics;
-use crate::equilibrium::describe;
-use crate::equilibrium::{Meeting, Placed, place};
+use crate::contact::Sighted;
+use crate::dynamics::{Dynamics, motion};
+use crate::equilibrium::{Meeting, Placed, describe, place};
 use crate::error::Result;
 use crate::model::{Model, Obstacle, Omission, Reduction};
-use crate::scene::{Doubt, Scene};
+use crate::orbit;
+use crate::scene::{Defect, Doubt, Scene, Surface};
 use crate::start::{Start, start};
 use crate::touched::{Touched, compiled, is_there};
 
@@ -56,6 +57,8 @@ pub struct Explanation {
     /// Where defects are placed, and what contacts carry there at the healthy bearing's equilibrium: over a turn of
     /// the inner race or the ball past all balls; of one on the outer race with a ball at its angle.
     pub defects: Vec<Touched>,
+    /// What to know of the scene before believing a long run.
+    pub notes: Vec<&'static str>,
 }
 
 /// How the contacts of a race are evaluated.
@@ -111,6 +114,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         law: law::of(&model, &at_start),
         doubts: at_start.doubts,
         defects: defects(&scene, &placed)?,
+        notes: orbit::note(&model).into_iter().collect(),
     })
 }
 
@@ -118,27 +122,43 @@ fn listed<T: Clone>(reduction: Option<&Reduction>, list: fn(&Reduction) -> &[T])
     reduction.map_or_else(Vec::new, |reduction| list(reduction).to_vec())
 }
 
-/// What contacts at equilibrium carry within the defects of a scene.
+/// Where the defects of a scene lie, and whether contacts at equilibrium meet them.
 fn defects(scene: &Scene, placed: &BTreeMap<String, Placed>) -> Result<Vec<Touched>> {
-    let mut all = Vec::new();
-    for (name, defect) in scene.defects.iter().filter(|(_, of)| is_there(of)) {
-        let mut told = Touched::not_yet(name, defect, placed[name]);
-        if let Some(Meeting { model, y, contacts }) = Meeting::of(scene, defect)? {
-            let (fault, origin) = compiled(&model, defect);
-            let mut most = 0.0;
-            for of in contacts {
-                let found = model.load_within(&y, of, &fault, defect.on, 0.0);
-                told.passes += 1;
-                told.touched += usize::from(found.within > 0.0);
-                told.largest_load = told.largest_load.max(found.within);
-                if found.load > most {
-                    (most, told.contact_offset) = (found.load, Some(found.place - origin));
-                }
-            }
+    let defects = scene.defects.iter().filter(|(_, defect)| is_there(defect));
+    defects
+        .map(|(name, defect)| {
+            let told = Touched::not_yet(name, defect, placed[name]);
+            let meeting = Meeting::of(scene, defect)?;
+            Ok(match meeting {
+                Some(meeting) => met(told, defect, &meeting),
+                None => told,
+            })
+        })
+        .collect()
+}
+
+/// Adds what contacts at equilibrium carry within a defect.
+fn met(mut told: Touched, defect: &Defect, meeting: &Meeting) -> Touched {
+    let Meeting { model, y, contacts } = meeting;
+    let (fault, origin) = compiled(model, defect);
+    let sighted = Sighted {
+        fault: &fault,
+        on_ball: defect.on == Surface::Ball,
+        aside: 0.0,
+    };
+    let mut most = 0.0;
+    for &(j, race) in contacts {
+        let (ball, ring) = (motion(y, 2 + j), motion(y, race));
+        let pair = &model.rows[defect.row].pairs[race];
+        let found = pair.load_within(&model.balls[j].side, &ball, &ring, &sighted);
+        told.passes += 1;
+        told.touched += usize::from(found.within > 0.0);
+        told.largest_load = told.largest_load.max(found.within);
+        if found.load > most {
+            (most, told.contact_offset) = (found.load, Some(found.place - origin));
         }
-        all.push(told);
     }
-    Ok(all)
+    told
 }
 
 fn contacts(model: &Model, dynamics: &Dynamics<'_>) -> Vec<ContactKind> {
@@ -171,6 +191,9 @@ impl fmt::Display for Explanation {
         }
         for Obstacle { what, reason } in &self.obstacles {
             writeln!(f, "  no       {what}: {reason}")?;
+        }
+        for note in &self.notes {
+            writeln!(f, "  note     {note}")?;
         }
         writeln!(f, "contacts")?;
         for kind in &self.contacts {

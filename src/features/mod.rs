@@ -23,9 +23,9 @@ use rustfft::FftPlanner;
 use serde::Deserialize;
 
 use crate::error::{Error, Result};
+use crate::run::Run;
 use crate::scene::Scene;
 use crate::signals::{Signals, columns};
-use crate::simulate::Run;
 use shaft::Shaft;
 
 pub(crate) use loads::{with_load_probes, without_load_probes};

@@ -63,20 +63,13 @@ pub(crate) fn compile(scene: &Scene) -> Result<Model> {
             });
         }
     }
+    let unbalances = unbalances(scene, &bodies)?;
     let mut model = Model {
         scene: scene.clone(),
         rows,
         balls,
         loads: loads(scene),
-        unbalances: scene
-            .unbalances
-            .values()
-            .map(|u| UnbalanceModel {
-                ring: ring_body(u.ring),
-                moment: u.moment,
-                angle: u.angle,
-            })
-            .collect(),
+        unbalances,
         springs: springs(&bodies),
         mobility: bodies.iter().map(Body::mobility).collect(),
         bodies,
@@ -258,6 +251,34 @@ fn springs(bodies: &[Body]) -> Vec<Spring> {
         }
     }
     springs
+}
+
+/// Unbalances, which on a ring that turns freely must leave it an inertia about its centre of mass.
+fn unbalances(scene: &Scene, bodies: &[Body]) -> Result<Vec<UnbalanceModel>> {
+    let mut sums = [0.0; 2];
+    let mut found = Vec::new();
+    for (name, unbalance) in &scene.unbalances {
+        let ring = ring_body(unbalance.ring);
+        let body = &bodies[ring];
+        sums[ring] += unbalance.moment;
+        let most = (body.mass[0] * body.mass[3]).sqrt();
+        if matches!(body.degrees[3], Degree::Free { .. }) && sums[ring] >= most {
+            return Err(Error::scene(
+                format!("unbalances.{name}.moment"),
+                unbalance.moment,
+                format!(
+                    "all of a ring that turns freely below √(mass · inertia) = {most:.3e} kg m, \
+                     or it has no inertia about its centre of mass"
+                ),
+            ));
+        }
+        found.push(UnbalanceModel {
+            ring,
+            moment: unbalance.moment,
+            angle: unbalance.angle,
+        });
+    }
+    Ok(found)
 }
 
 fn loads(scene: &Scene) -> Vec<LoadModel> {

@@ -199,7 +199,13 @@ impl Model {
         speed
     }
 
-    /// [`Model::rolling_speeds`] over the speed of the inner ring.
+    /// The mean orbit rate of all balls over the speed of the inner ring, for pure rolling at the nominal contact angles.
+    pub(crate) fn rolling_share(&self) -> f64 {
+        let of = |ball: &Ball| self.rolling_shares(ball.row).0;
+        self.balls.iter().map(of).sum::<f64>() / self.balls.len() as f64
+    }
+
+    /// [`Self::rolling_speeds`] over the speed of the inner ring.
     fn rolling_shares(&self, row: usize) -> (f64, f64) {
         let row = &self.scene.rows[row];
         let gamma = row.ball_diameter * row.contact_angle.cos() / row.pitch_diameter;

@@ -10,7 +10,7 @@ use serde_json::json;
 
 use super::errors::{OrRaise, record};
 use super::run::{bandwidth, hand_over, method, start};
-use crate::{Case, Error, FeatureOptions, Finished, Outcome, Run, Scene};
+use crate::{Case, Error, FeatureOptions, Finished, Outcome, Run, Scene, features, simulate};
 
 /// How a case is run.
 #[derive(Deserialize)]
@@ -24,6 +24,30 @@ struct RunDocument {
     method: Option<String>,
     bandwidth: Option<String>,
     settle: Option<f64>,
+    #[serde(default)]
+    time_limit: Option<f64>,
+    #[serde(default)]
+    max_steps: Option<usize>,
+}
+
+impl RunDocument {
+    fn read(text: &str) -> crate::Result<Run> {
+        let document: Self =
+            serde_json::from_str(text).map_err(|e| Error::scene("run", text, e.to_string()))?;
+        Ok(Run {
+            duration: document.duration,
+            fs: document.fs,
+            start: start(&document.start, None)?,
+            rtol: document.rtol,
+            accuracy: document.accuracy,
+            method: document.method.as_deref().map(method).transpose()?,
+            bandwidth: bandwidth(document.bandwidth.as_deref())?,
+            settle: document.settle,
+            time_limit: document.time_limit,
+            max_steps: document.max_steps,
+            ..Run::default()
+        })
+    }
 }
 
 /// Run cases on threads of their own, each a pair of scene and run as JSON.
@@ -81,6 +105,15 @@ pub(super) fn feature_columns(py: Python<'_>, scene: &str, options: &str) -> PyR
     crate::feature_columns(&scene, &options).or_raise(py)
 }
 
+/// Refuse a run, as JSON, that no scene can be run by, or that does not give the features.
+#[pyfunction]
+pub(super) fn check_run(py: Python<'_>, run: &str, options: &str) -> PyResult<()> {
+    let checked = RunDocument::read(run).and_then(|run| {
+        simulate::check(&run).and_then(|()| features::check(&options_from(options)?, &run))
+    });
+    checked.or_raise(py)
+}
+
 /// Number of threads that the process may use at once.
 #[pyfunction]
 pub(super) fn available_threads() -> usize {
@@ -98,20 +131,7 @@ fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<
     };
     let (scene, run): (String, String) = next?.extract()?;
     let scene = Scene::from_json(&scene).or_raise(py)?;
-    let run: RunDocument = serde_json::from_str(&run)
-        .map_err(|e| Error::scene("run", run, e.to_string()))
-        .or_raise(py)?;
-    let run = Run {
-        duration: run.duration,
-        fs: run.fs,
-        start: start(&run.start, None).or_raise(py)?,
-        rtol: run.rtol,
-        accuracy: run.accuracy,
-        method: run.method.as_deref().map(method).transpose().or_raise(py)?,
-        bandwidth: bandwidth(run.bandwidth.as_deref()).or_raise(py)?,
-        settle: run.settle,
-        ..Run::default()
-    };
+    let run = RunDocument::read(&run).or_raise(py)?;
     Ok(Some(Case { scene, run }))
 }
 
@@ -147,6 +167,10 @@ fn describe(outcome: &Outcome) -> serde_json::Value {
                 "accepted": signals.stats.accepted,
                 "rejected": signals.stats.rejected,
                 "nfev": signals.stats.nfev,
+                "warnings": signals.warnings().iter().map(ToString::to_string).collect::<Vec<_>>(),
+                "acceleration_residual": signals.stats.acceleration_residual,
+                "truncated_contacts": signals.stats.truncated_contacts,
+                "simd": signals.provenance.simd,
                 "features": features,
                 "defects": signals.provenance.defects,
             })

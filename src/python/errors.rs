@@ -17,8 +17,16 @@ pub(super) fn record(error: &Error) -> Value {
         } => ("SceneError", json!([path, value, allowed])),
         Error::Equilibrium { .. } => ("EquilibriumError", json!([message])),
         Error::Integration {
-            time, step, body, ..
-        } => ("IntegrationError", json!([message, time, step, body])),
+            time,
+            step,
+            body,
+            contacts,
+            ..
+        } => (
+            "IntegrationError",
+            json!([message, time, step, body, contacts]),
+        ),
+        Error::Budget { time, name, limit } => ("BudgetError", json!([message, time, name, limit])),
         Error::Interrupted { .. } | Error::Internal { .. } => ("BallraceError", json!([message])),
     };
     json!({ "class": class, "message": message, "arguments": arguments })
@@ -44,6 +52,9 @@ pub(super) fn raise(py: Python<'_>, error: Error) -> PyErr {
             "IntegrationError",
             (error.to_string(), *time, *step, body, contacts.clone()),
         ),
+        Error::Budget { time, name, limit } => {
+            make(py, "BudgetError", (error.to_string(), time, name, limit))
+        }
         Error::Internal { .. } => make(py, "BallraceError", (error.to_string(),)),
         // The observer's own exception takes precedence over this one.
         Error::Interrupted { .. } => return PyKeyboardInterrupt::new_err(error.to_string()),

@@ -15,7 +15,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use super::campaign::{available_threads, campaign, feature_columns};
+    use super::campaign::{available_threads, campaign, check_run, feature_columns};
     #[pymodule_export]
     use super::run::{Model, explain, simulate};
     #[pymodule_export]

@@ -115,6 +115,10 @@ impl Model {
 
 /// Run a scene; returns a dict of `fs`, `t`, `columns`, `slices`, `stats`, `provenance` and `scene`.
 #[pyfunction]
+#[pyo3(signature = (
+    scene, duration, fs, kind, state, rtol, accuracy, method, threads, progress, bandwidth, settle,
+    time_limit = None, max_steps = None
+))]
 #[allow(clippy::too_many_arguments)]
 pub(super) fn simulate<'py>(
     py: Python<'py>,
@@ -130,6 +134,8 @@ pub(super) fn simulate<'py>(
     progress: Option<Py<PyAny>>,
     bandwidth: Option<&str>,
     settle: Option<f64>,
+    time_limit: Option<f64>,
+    max_steps: Option<usize>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let scene = Scene::from_json(scene).or_raise(py)?;
     let state = state.map(|y| y.as_array().iter().copied().collect());
@@ -143,6 +149,8 @@ pub(super) fn simulate<'py>(
         threads,
         bandwidth: self::bandwidth(bandwidth).or_raise(py)?,
         settle,
+        time_limit,
+        max_steps,
     };
     let mut raised = None;
     let result = py.detach(|| {

@@ -94,6 +94,8 @@ fn arrays<'py>(py: Python<'py>, found: &Equilibrium) -> PyResult<Bound<'py, PyDi
     }
     all.set_item("iterations", found.iterations)?;
     all.set_item("warnings", told(found))?;
+    all.set_item("residual", found.residual)?;
+    all.set_item("residual_share", found.residual_share)?;
     Ok(all)
 }
 

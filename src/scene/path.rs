@@ -4,10 +4,23 @@ use serde_json::Value;
 
 use crate::error::{Error, Result};
 
-/// Replaces the value at `path`. The place must exist; `null` counts as existing.
+/// Parts of a scene whose entries have names that people choose.
+const NAMED: [&str; 4] = ["loads", "unbalances", "defects", "probes"];
+
+/// Replaces the value at `path`. The place must exist (`null` counts as existing), or be a new name among loads,
+/// unbalances, defects or probes.
 pub(super) fn set(document: &mut Value, path: &str, value: Value) -> Result<()> {
+    let steps = steps(path)?;
+    if let ([Step::Key(part), Step::Key(name)], Some(root)) =
+        (steps.as_slice(), document.as_object_mut())
+        && NAMED.contains(part)
+        && let Some(entries) = root.get_mut(*part).and_then(Value::as_object_mut)
+    {
+        entries.insert((*name).to_owned(), value);
+        return Ok(());
+    }
     let mut place = document;
-    for step in steps(path)? {
+    for step in steps {
         place = match (step, place) {
             (Step::Key(key), Value::Object(map)) => {
                 let known = map.keys().cloned().collect::<Vec<_>>().join(", ");

@@ -97,6 +97,9 @@ pub struct Statistics {
     pub settling_accepted: usize,
     /// Evaluations before t = 0, while the start settled; counted nowhere else.
     pub settling_nfev: usize,
+    /// Share of their orbit rate that the balls lost in a run in which nothing drives them, for want of friction; absent in
+    /// any other. Above 0.005 is warned of.
+    pub orbit_slowed: Option<f64>,
 }
 
 /// What produced the signals.

@@ -132,9 +132,18 @@ class Groove:
         """Race radius without waviness."""
         return self.a + self.sigma * math.sqrt(self.r**2 - (z - self.z) ** 2)
 
+    def torus_slope(self, z: float) -> float:
+        """Its derivative by z."""
+        x = z - self.z
+        return -self.sigma * x / math.sqrt(self.r**2 - x**2)
+
     def waviness(self, angle: float) -> float:
         """Error of the race radius at an angle of the ring's own frame."""
         return sum(a * math.cos(order * angle + phase) for order, a, phase in self.waves)
+
+    def waviness_slope(self, angle: float) -> float:
+        """Its derivative by the angle."""
+        return -sum(a * order * math.sin(order * angle + p) for order, a, p in self.waves)
 
     def radius(self, z: float, angle: float) -> float:
         """Race radius R(z, φ)."""
@@ -232,7 +241,7 @@ class Arc:
     defect: Json
     middle: float  # φ_f
     half: float  # β
-    half_rate: float  # dβ/dζ; of ball defects only
+    half_rate: float  # dβ/dζ of a ball defect, dβ/dz of a ring's
 
 
 @dataclass(frozen=True)
@@ -240,7 +249,7 @@ class Mark:
     """The place of a fault circle on its body."""
 
     angle: float
-    angle_rate: float  # d angle / dζ
+    angle_rate: float  # d angle / dζ or dz
     radius: float  # R_f
     depth: float
 
@@ -295,19 +304,30 @@ class Body:
 
 
 @dataclass(frozen=True)
+class Lean:
+    """Tangential force of a wavy race over the radial one (section 4), and where it acts."""
+
+    share: complex
+    point: complex
+
+
+@dataclass(frozen=True)
 class Surface:
     """What a ball without defects meets in a slice: the race, or a circle of a ring defect.
 
-    `terms` are (sign, drop): the elastic force is Σ sign · law(s_race − drop).
+    `terms` are (sign, drop): the elastic force is Σ sign · law(s_race − drop). Penetrations and
+    drops come with their derivatives by z, the place on the ring, and by ζ, that on the ball.
     """
 
     kind: str
-    terms: list[tuple[float, float]]
-    s: float  # penetration of the smooth ball
+    terms: list[tuple[float, Vector]]
+    s: Vector  # penetration of the smooth ball
     normal: complex  # n_e, out of the ball
     point: complex  # p
     centre: complex | None  # of the circle
     radius: float  # of the circle
+    centre_rate: complex  # d centre / dz
+    lean: Lean
 
 
 @dataclass(frozen=True)
@@ -315,10 +335,11 @@ class Feature:
     """One pair of elements that touch in a slice."""
 
     kind: str
-    terms: list[tuple[float, float]]
+    terms: list[tuple[float, Vector]]
     normal: complex
     point: complex
     tan_alpha: float
+    lean: Lean
 
 
 @dataclass(frozen=True)
@@ -339,6 +360,11 @@ class Slice:
         """Elastic force, 0 without penetration."""
         return float(self.stiffness * max(penetration, 0.0) ** self.exponent)
 
+    def energy(self, penetration: float) -> float:
+        """Elastic energy: the integral of the force."""
+        power = self.exponent + 1
+        return float(self.stiffness * max(penetration, 0.0) ** power / power)
+
 
 class Contact:
     """One ball on one race in one state."""
@@ -358,6 +384,13 @@ class Contact:
         # n, d of section 3.
         self.d = abs(ball.centre - ring.centre)
         self.n = (ball.centre - ring.centre) / self.d
+        # Of the Hertz law, once slices are known: cos α' and sin α', δ and the distance of the centres.
+        self.direction, self.approach, self.L = (math.nan, math.nan), -math.inf, math.nan
+        self.beside = 0.0  # how far beside a slice defects are looked for
+        # Derivatives of the elastic energy by e and z, the ball's place in the meridional plane,
+        # beyond those of the forces along normals; and the sums of the magnitudes of their parts.
+        self.by_place = np.zeros(2)
+        self.parts_of_place = np.zeros(2)
 
     # -- slices and laws (section 4)
 
@@ -375,10 +408,12 @@ class Contact:
             width = self.diameter / self.model.slice_count
             nodes = [(zeta, width) for zeta in self.fixed_places()]
         return [
-            Slice(zeta, self.race_penetration(zeta), 1.0, C / D * width, 10 / 9)
-            for zeta, width in nodes
-            if self.race_exists(zeta)
+            self.iso_slice(zeta, C / D * width) for zeta, width in nodes if self.race_exists(zeta)
         ]
+
+    def iso_slice(self, zeta: float, stiffness: float) -> Slice:
+        """A slice of the law (2), (3)."""
+        return Slice(zeta, float(self.race_penetration(zeta)[0]), 1.0, stiffness, 10 / 9)
 
     def chord_nodes(self) -> list[tuple[float, float]]:
         """Places ζ and widths of nodes fitted to the chord that ball and groove have in common.
@@ -429,7 +464,7 @@ class Contact:
         self.model.near(delta)
         if delta <= 0:
             return []
-        self.direction = (cos, sin)
+        self.direction, self.approach, self.L = (cos, sin), delta, L
         if self.model.fitted:
             tau_max = math.sqrt(2 * delta / constants.kappa)
             cuts = [(zeta - self.R_b * sin) / cos for zeta in self.axial_ends()]
@@ -521,10 +556,18 @@ class Contact:
                 self.model.near(z - self.groove.z - end)
         return self.groove.exists(z)
 
-    def race_penetration(self, zeta: float) -> float:
-        """s of the race without defects."""
-        radius = self.groove.radius(self.ring_z(zeta), self.ring_angle(self.n))
-        return self.sigma * (self.d - radius) + self.rho(zeta)
+    def race_penetration(self, zeta: float) -> Vector:
+        """s of the race without defects, and its derivatives by z and ζ."""
+        z = self.ring_z(zeta)
+        radius = self.groove.radius(z, self.ring_angle(self.n))
+        s = self.sigma * (self.d - radius) + self.rho(zeta)
+        return np.array([s, -self.sigma * self.groove.torus_slope(z), -zeta / self.rho(zeta)])
+
+    def race_lean(self, from_ring: complex, point: complex) -> Lean:
+        """σ R'(φ)/d along ẑ × n, for what stands so far from the ring's centre."""
+        d = abs(from_ring)
+        slope = self.groove.waviness_slope(self.ring_angle(from_ring))
+        return Lean(self.sigma * slope / d * 1j * from_ring / d, point)
 
     # -- arcs (section 7)
 
@@ -533,9 +576,11 @@ class Contact:
         z, arcs = self.ring_z(zeta), []
         for defect in self.ring_defects:
             x = z - (self.row["axial_position"] + defect["axial_offset"])
-            w, _ = defect_width(defect, x)
+            w, slope = defect_width(defect, x)
             if self.within_length(x, defect) and w > 0:
-                arcs.append(Arc(defect, defect["angle"], w / (2 * self.groove.torus(z)), 0.0))
+                R = self.groove.torus(z)
+                rate = slope / (2 * R) - w * self.groove.torus_slope(z) / (2 * R**2)
+                arcs.append(Arc(defect, defect["angle"], w / (2 * R), rate))
         return arcs
 
     def ball_arcs(self, zeta: float) -> list[Arc]:
@@ -551,9 +596,9 @@ class Contact:
 
     def within_length(self, x: float, defect: Json) -> bool:
         """Whether a place from the middle of a defect lies within its length."""
-        if not self.model.fitted:  # fitted nodes never lie on an end
+        if not self.model.fitted and self.beside == 0.0:  # fitted nodes never lie on an end
             self.model.near(abs(x) - defect["length"] / 2)
-        return bool(abs(x) <= defect["length"] / 2)
+        return bool(abs(x + self.beside) <= defect["length"] / 2)
 
     def gap(self, arcs: list[Arc], angle: float, scale: float) -> Gap | None:
         """The connected union of arcs that holds a direction; `scale` turns angles into lengths."""
@@ -581,45 +626,59 @@ class Contact:
     def surfaces(self, zeta: float) -> list[Surface]:
         """The race and, inside a ring defect, its circles."""
         z, s_race = self.ring_z(zeta), self.race_penetration(zeta)
-        self.model.near(s_race)
+        self.model.near(s_race[0])
         if (
-            self.hertz is None and s_race <= 0.0
+            self.hertz is None and s_race[0] <= 0.0
         ):  # a slice that does not reach the race touches nothing
             return []
         angle = self.ring_angle(self.n)
         n_e = self.sigma * self.n
         p = self.ring.centre + self.groove.radius(z, angle) * self.n
+        lean = self.race_lean(self.d * self.n, self.ball.centre)
         gap = self.gap(self.ring_arcs(zeta), angle, self.groove.torus(z))
         if gap is None:
-            return [Surface("race", [(1.0, 0.0)], s_race, n_e, p, None, 0.0)]
+            return [Surface("race", [(1.0, np.zeros(3))], s_race, n_e, p, None, 0.0, 0.0, lean)]
         edges = [self.ring_circle(zeta, mark) for mark in gap.ends]
-        drops = [s_race - s for s, _ in edges]
+        drops = [s_race - s for s, *_ in edges]
         # The race keeps law(s₁₂), s₁₂ = s_race − drop₁ − drop₂; edge j carries law(s_j) − law(s₁₂).
         both = drops[0] + drops[1]
-        found = [Surface("race_in_defect", [(1.0, both)], s_race, n_e, p, None, 0.0)]
-        for (s, centre), drop, mark in zip(edges, drops, gap.ends, strict=True):
+        found = [Surface("race_in_defect", [(1.0, both)], s_race, n_e, p, None, 0.0, 0.0, lean)]
+        for circle, drop, mark in zip(edges, drops, gap.ends, strict=True):
             terms = [(1.0, drop), (-1.0, both)]
-            found.append(self.circle_surface("edge", terms, s, centre, mark.radius))
+            found.append(self.circle_surface("edge", terms, circle, mark.radius))
         for mark in gap.floor:  # bare sum
-            s, centre = self.ring_circle(zeta, mark)
-            terms = [(1.0, s_race - s)]
-            found.append(self.circle_surface("floor", terms, s, centre, mark.radius))
+            circle = self.ring_circle(zeta, mark)
+            terms = [(1.0, s_race - circle[0])]
+            found.append(self.circle_surface("floor", terms, circle, mark.radius))
         return found
 
-    def ring_circle(self, zeta: float, mark: Mark) -> tuple[float, complex]:
-        """Penetration of the smooth ball into a circle of the ring, and the circle's centre."""
-        radius = self.groove.radius(self.ring_z(zeta), mark.angle)
-        radius += self.sigma * (mark.depth + mark.radius)
-        centre = self.ring.centre + radius * unit(mark.angle + self.ring.theta)
-        return self.rho(zeta) + mark.radius - abs(self.ball.centre - centre), centre
+    def ring_circle(self, zeta: float, mark: Mark) -> tuple[Vector, complex, complex]:
+        """Penetration of the smooth ball into a circle of the ring, its centre and d centre/dz."""
+        z = self.ring_z(zeta)
+        u = unit(mark.angle + self.ring.theta)
+        radius = self.groove.radius(z, mark.angle) + self.sigma * (mark.depth + mark.radius)
+        radius_rate = self.groove.torus_slope(z)
+        radius_rate += self.groove.waviness_slope(mark.angle) * mark.angle_rate
+        centre = self.ring.centre + radius * u
+        centre_rate = radius_rate * u + radius * mark.angle_rate * 1j * u
+        line = centre - self.ball.centre
+        s = self.rho(zeta) + mark.radius - abs(line)
+        by_z = -dot(line, centre_rate) / abs(line)
+        return np.array([s, by_z, -zeta / self.rho(zeta)]), centre, centre_rate
 
     def circle_surface(
-        self, kind: str, terms: list[tuple[float, float]], s: float, centre: complex, radius: float
+        self,
+        kind: str,
+        terms: list[tuple[float, Vector]],
+        circle: tuple[Vector, complex, complex],
+        radius: float,
     ) -> Surface:
         """A circle of the ring as the smooth ball meets it."""
+        s, centre, centre_rate = circle
         line = centre - self.ball.centre
         n_e = line / abs(line)
-        return Surface(kind, terms, s, n_e, centre - radius * n_e, centre, radius)
+        p, none = centre - radius * n_e, Lean(0.0, self.ball.centre)
+        return Surface(kind, terms, s, n_e, p, centre, radius, centre_rate, none)
 
     # -- what the ball with its defects meets (section 7, ball defects)
 
@@ -630,28 +689,29 @@ class Contact:
         for x in self.surfaces(zeta):
             gap = self.gap(arcs, self.ball_angle(x.normal), self.rho(zeta)) if arcs else None
             if gap is None:
-                found.append(Feature(x.kind, x.terms, x.normal, x.point, smooth_tan))
+                found.append(Feature(x.kind, x.terms, x.normal, x.point, smooth_tan, x.lean))
                 continue
             # As the ring's edges against the race, so the ball's edges against the surface X.
             edges = [self.ball_circle(zeta, mark, x) for mark in gap.ends]
-            drops = [x.s - s for s, _, _, _ in edges]
+            drops = [x.s - s for s, *_ in edges]
             both = drops[0] + drops[1]
             terms = [(sign, drop + both) for sign, drop in x.terms]
-            found.append(Feature(f"{x.kind}+in_ball_defect", terms, x.normal, x.point, smooth_tan))
-            for (_, n_e, p, tan), own in zip(edges, drops, strict=True):
+            kind = f"{x.kind}+in_ball_defect"
+            found.append(Feature(kind, terms, x.normal, x.point, smooth_tan, x.lean))
+            for (_, n_e, p, tan, lean), own in zip(edges, drops, strict=True):
                 terms = [(sign, drop + own) for sign, drop in x.terms]
                 terms += [(-sign, drop + both) for sign, drop in x.terms]
-                found.append(Feature(f"{x.kind}+ball_edge", terms, n_e, p, tan))
+                found.append(Feature(f"{x.kind}+ball_edge", terms, n_e, p, tan, lean))
             for mark in gap.floor:  # bare sum
-                s, n_e, p, tan = self.ball_circle(zeta, mark, x)
+                s, n_e, p, tan, lean = self.ball_circle(zeta, mark, x)
                 terms = [(sign, drop + (x.s - s)) for sign, drop in x.terms]
-                found.append(Feature(f"{x.kind}+ball_floor", terms, n_e, p, tan))
+                found.append(Feature(f"{x.kind}+ball_floor", terms, n_e, p, tan, lean))
         return found
 
     def ball_circle(
         self, zeta: float, mark: Mark, x: Surface
-    ) -> tuple[float, complex, complex, float]:
-        """Penetration, normal, contact point and tan α of a circle of the ball on a surface."""
+    ) -> tuple[Vector, complex, complex, float, Lean]:
+        """Penetration, normal, contact point, tan α and lean of a circle of the ball on a surface."""
         rho, u = self.rho(zeta), unit(mark.angle + self.ball.theta)
         arm = rho - mark.radius - mark.depth
         centre = self.ball.centre + arm * u
@@ -661,14 +721,17 @@ class Contact:
             radius = self.groove.radius(self.ring_z(zeta), self.ring_angle(out))
             s = self.sigma * (abs(line) - radius) + mark.radius
             n_e, p = self.sigma * out, self.ring.centre + radius * out
+            by_z, lean = x.s[1], self.race_lean(line, centre)
         else:
             line = x.centre - centre
             s = x.radius + mark.radius - abs(line)
             n_e = line / abs(line)
             p = x.centre - x.radius * n_e
-        # tan α = −n_e · ∂c/∂ζ: the gap's own gradient.
+            by_z, lean = -dot(n_e, x.centre_rate), x.lean
+        # tan α = −∂s/∂ζ: the gap's own gradient.
         centre_rate = -zeta / rho * u + arm * mark.angle_rate * 1j * u
-        return s, n_e, p, -dot(n_e, centre_rate)
+        tan = dot(lean.share - n_e, centre_rate)
+        return np.array([s, by_z, -tan]), n_e, p, tan, lean
 
     # -- forces (sections 4 and 5)
 
@@ -677,19 +740,110 @@ class Contact:
         for part in self.slices():
             for feature in self.features(part.zeta):
                 self.apply_feature(part, feature)
+        self.apply_ends()
+        self.apply_place()
+
+    def apply_ends(self) -> None:
+        """Axial ends of defects: the energies per length on both sides, times how the end moves.
+
+        The zone is cut along τ (Hertz) or, for the ISO law, along z: there a ring's ends stand still.
+        """
+        ball, ring = self.ball, self.ring
+        of_ring = [
+            self.row["axial_position"] + x["axial_offset"] + side * x["length"] / 2
+            for x in self.ring_defects
+            for side in (-1, 1)
+        ]
+        of_ball = [
+            x["axial_offset"] + side * x["length"] / 2
+            for x in self.ball_defects
+            for side in (-1, 1)
+        ]
+        for zeta in distinct([z + ring.z - ball.z for z in of_ring]):
+            jump = self.energy_jump(zeta)
+            if self.hertz is not None and jump != 0.0:
+                cos, sin = self.direction
+                self.turn(jump * (zeta * sin - self.R_b) / cos**2)
+                self.move(0.0, -jump / cos)
+        for zeta in distinct(of_ball):
+            jump = self.energy_jump(zeta)
+            if self.hertz is None:
+                self.move(0.0, jump)
+            elif jump != 0.0:
+                cos, sin = self.direction
+                self.turn(jump * (zeta * sin - self.R_b) / cos**2)
+
+    def energy_jump(self, zeta: float) -> float:
+        """Energy per length just below a place less that just above."""
+        part = self.slice_at(zeta)
+        if part is None:
+            return 0.0
+        energies = []
+        for self.beside in (-1e-12, 1e-12):
+            penetrations = [
+                (sign, part.penetration(drop[0]))
+                for feature in self.features(zeta)
+                for sign, drop in feature.terms
+            ]
+            energies.append(sum(sign * part.energy(s) for sign, s in penetrations))
+        self.beside = 0.0
+        return energies[0] - energies[1]
+
+    def slice_at(self, zeta: float) -> Slice | None:
+        """A slice of length 1, if the zone reaches there."""
+        if abs(zeta) >= self.R_b or not self.groove.exists(self.ring_z(zeta)):
+            return None
+        if self.hertz is None:
+            D = self.row["ball_diameter"]
+            C = self.model.iso["constant"] * (self.model.iso["length_ratio"] * D) ** (8 / 9)
+            part = self.iso_slice(zeta, C / D)
+        else:
+            cos, sin = self.direction
+            tau = (zeta - self.R_b * sin) / cos
+            P = self.approach - self.hertz.kappa * tau**2 / 2
+            part = Slice(zeta, P, cos, self.hertz.k, 1.0)
+        return part if part.depth > 0 else None
+
+    def turn(self, by_angle: float, size: float = 0.0) -> None:
+        """A derivative of the energy by α', the angle of the line of centres of length L."""
+        cos, sin = self.direction
+        size = max(size, abs(by_angle))
+        self.by_place += np.array([-sin, cos]) * by_angle / self.L
+        self.parts_of_place += np.abs([-sin, cos]) * size / self.L
+
+    def move(self, by_e: float, by_z: float) -> None:
+        """Derivatives of the energy by e and z."""
+        self.by_place += [by_e, by_z]
+        self.parts_of_place += np.abs([by_e, by_z])
+
+    def apply_place(self) -> None:
+        """The force through the ball's centre that those derivatives are; e = σ (d − a − R̃(φ))."""
+        (by_e, by_z), sizes = self.by_place, self.parts_of_place
+        if not sizes.any():
+            return
+        lean = self.race_lean(self.d * self.n, self.ball.centre)
+        force = -by_e * self.sigma * self.n + by_e * lean.share
+        size = math.hypot(*sizes) / max(math.hypot(by_e, by_z), 1e-300)
+        self.model.add_pair(self.ball, self.ring, self.ball.centre, force, -by_z, parts=size)
 
     def apply_feature(self, part: Slice, feature: Feature) -> None:
         """Adds the forces of one pair of elements to both bodies."""
         model, ball, ring = self.model, self.ball, self.ring
         E = gross = 0.0
         for sign, drop in feature.terms:
-            s = part.penetration(drop)
+            s = part.penetration(drop[0])
             model.near(s)
             E += sign * part.force(s)
             gross += part.force(s)
         if E <= 0.0:  # a wavy race can make the difference of two laws negative
             return
         model.active[feature.kind] += 1
+        if self.hertz is not None:
+            self.tilt(part, feature)
+        radial = E * (1.0 if self.hertz is None else self.direction[0])
+        model.add_pair(
+            ball, ring, feature.lean.point, radial * feature.lean.share, 0.0, parts=gross / E
+        )
         n_e, p = feature.normal, feature.point
         # Relative velocity at p (section 5).
         v_p = ball.velocity + ball.omega * 1j * (p - ball.centre)
@@ -729,6 +883,29 @@ class Contact:
             f = mu * max(F, 0.0) / math.hypot(u, v_s)
             in_plane = u_t * 1j * n_e - u_m * sin * n_e
             model.add_pair(ball, ring, p, -f * in_plane, -f * u_m * cos, parts=parts)
+
+    def tilt(self, part: Slice, feature: Feature) -> None:
+        """What α' and the axial place have to say to the energy of a pair of elements (Hertz law).
+
+        p = δ − κτ²/2 − Δ cos α' at fixed τ, with Δ(z, ζ), ζ = R sin α' + τ cos α' and z = z_b − z_r + ζ.
+        """
+        cos, sin = self.direction
+        tau = (part.zeta - self.R_b * sin) / cos
+        zeta_rate = self.R_b * cos - tau * sin
+        for sign, (drop, by_z, by_zeta) in feature.terms:
+            F = sign * part.force(part.penetration(drop))
+            parts = drop * sin, -cos * (by_z + by_zeta) * zeta_rate
+            self.turn(F * sum(parts), abs(F) * sum(map(abs, parts)))
+            self.move(0.0, -F * cos * by_z)
+
+
+def distinct(places: list[float]) -> list[float]:
+    """Places without those that repeat another but for a rounding."""
+    found: list[float] = []
+    for place in places:
+        if all(abs(place - other) > 2e-12 for other in found):
+            found.append(place)
+    return found
 
 
 # ---------------------------------------------------------------------------- the whole bearing
@@ -930,12 +1107,13 @@ class Reference:
             F = time_value(load["force"], t) / math.hypot(dx, dy, dz)
             self.add(rings[load["ring"]], F * complex(dx, dy), F * dz)
         drive = self.scene["drive"]
+        self.unbalance = [0j, 0j]
         for unbalance in self.scene["unbalances"].values():
             ring = bodies[rings[unbalance["ring"]]]
-            rate = time_rate(drive["speed"], t) if ring.index == INNER and "speed" in drive else 0.0
-            r = unit(unbalance["angle"] + ring.theta)
-            self.add(ring.index, unbalance["moment"] * ring.omega**2 * r)
-            self.add(ring.index, -unbalance["moment"] * rate * 1j * r)
+            u = unbalance["moment"] * unit(unbalance["angle"] + ring.theta)
+            self.unbalance[ring.index] += u
+            self.add(ring.index, ring.omega**2 * u)
+            self.add_torque(ring.index, cross(u, complex(gx, gy)))
         if "torque" in drive:
             self.add_torque(INNER, time_value(drive["torque"]["value"], t))
 
@@ -1012,7 +1190,21 @@ class Reference:
         a[~fixed] = forces[~fixed] / self.mass[~fixed]
         if "speed" in self.scene["drive"]:
             a[INNER, 3] = time_rate(self.scene["drive"]["speed"], t)
+        for ring, u in enumerate(self.unbalance):
+            if u != 0:
+                self._accelerate_unbalanced(ring, u, forces[ring], a[ring])
         return np.concatenate([np.asarray(y, dtype=float)[4 * self.body_count :], a.ravel()])
+
+    def _accelerate_unbalanced(self, ring: int, u: complex, forces: Vector, a: Vector) -> None:
+        """Accelerations x, y, θ of a ring whose mass has its centre at u/m: what is not free is known."""
+        m, J = self.mass[ring, 0], self.mass[ring, 3]
+        matrix = np.array([[m, 0.0, -u.imag], [0.0, m, u.real], [-u.imag, u.real, J]])
+        places = [0, 1, 3]
+        free = ~self.fixed()[ring, places]
+        known = np.where(free, 0.0, a[places])
+        right = (forces[places] - matrix @ known)[free]
+        known[free] = np.linalg.solve(matrix[np.ix_(free, free)], right)
+        a[places] = known
 
     def threshold_distance(self, y: Vector) -> float:
         """Smallest distance of anything in this state from a switching threshold [m].

@@ -14,7 +14,7 @@ import pytest
 
 import ballrace as br
 from ballrace.campaigns import Progress
-from ballrace.campaigns.progress import Teller
+from ballrace.campaigns.progress import Counts, Teller
 from sweeps import DURATION, SCENE, comparable, run, same, table
 
 
@@ -254,7 +254,7 @@ def test_a_terminal_sees_a_bar() -> None:
 
     stream = Terminal()
     teller = Teller(progress=True, total=10, before=2, stream=stream)
-    teller.tell(3, 1)
+    teller.tell(Counts(done=3, failed=1))
     bar = stream.getvalue()
     assert bar.startswith(f"\r[{15 * '#'}{15 * '.'}] 5/10, 1 failed, ")
     assert bar.rstrip().endswith(" s left")

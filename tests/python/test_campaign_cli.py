@@ -103,6 +103,8 @@ def test_bad_options(tmp_path: Path, sweep: Path, capsys: pytest.CaptureFixture[
     assert "SWEEP -o FOLDER" in capsys.readouterr().err
     assert main(["campaign", str(sweep), "-o", str(tmp_path)]) == 1
     assert "not a campaign's folder" in capsys.readouterr().err
+    assert main(["campaign", str(sweep), "-o", "-"]) == 2
+    assert "output = -: a folder" in capsys.readouterr().err
     assert main(["campaign", "--status", str(tmp_path / "nowhere")]) == 1
     assert "holds no campaign" in capsys.readouterr().err
     with pytest.raises(SystemExit):

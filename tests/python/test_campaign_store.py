@@ -52,10 +52,10 @@ def start(
 
 
 def read_until(stream: IO[str] | None, count: int, seconds: float = 0.0) -> list[tuple[int, float]]:
-    """Read what the campaign prints until so many cases are done, and so much time has passed."""
+    """Read what the campaign prints until so many cases are done, and so much time has passed since the first."""
     assert stream is not None
-    seen = [(0, time.time())]
-    while seen[-1][0] < count or seen[-1][1] < seen[0][1] + seconds:
+    seen: list[tuple[int, float]] = []
+    while not seen or seen[-1][0] < count or seen[-1][1] < seen[0][1] + seconds:
         done, at = stream.readline().split()
         seen.append((int(done), float(at)))
     return seen
@@ -252,14 +252,15 @@ def test_a_damaged_shard_of_results(damage: str, tmp_path: Path) -> None:
         data[100] ^= 1
     shard.write_bytes(data)
     with pytest.raises(
-        br.CampaignError, match=rf"{shard.name}: damaged .*; delete it and call again"
+        br.CampaignError, match=rf"{shard.name}: damaged .*; run the campaign again"
     ):
-        run(table(6), tmp_path)
-    shard.unlink()
+        _ = br.Campaign.open(tmp_path).manifest
     seen: list[Progress] = []
-    again = run(table(6), tmp_path, progress=seen.append)
+    with pytest.warns(br.CampaignWarning, match=rf"damaged files are set aside.*: {shard.name}"):
+        again = run(table(6), tmp_path, progress=seen.append)
     assert (seen[-1].before, seen[-1].done) == (4, 2)
     assert same(again, whole)
+    assert shard.with_name(f"{shard.name}.damaged").read_bytes() == data
 
 
 def test_a_damaged_or_lost_shard_of_signals(tmp_path: Path) -> None:
@@ -267,11 +268,13 @@ def test_a_damaged_or_lost_shard_of_signals(tmp_path: Path) -> None:
     signals = whole.scan().collect()
     (shard,) = (tmp_path / "signals").iterdir()
     shard.write_bytes(shard.read_bytes()[:1000])
-    with pytest.raises(
-        br.CampaignError, match=rf"{shard.name}: damaged .*; delete it and call again"
-    ):
-        run(table(6), tmp_path, keep="signals")
+    with pytest.warns(br.CampaignWarning, match=rf"damaged files are set aside.*: {shard.name}"):
+        again = run(table(6), tmp_path, keep="signals")
+    assert same(again, whole)
+    assert again.scan().collect().equals(signals)
     shard.unlink()
+    with pytest.raises(br.CampaignError, match=rf"{shard.name}: damaged \(No such file"):
+        br.Campaign.open(tmp_path).scan()
     again = run(table(6), tmp_path, keep="signals")
     assert same(again, whole)
     assert again.scan().collect().equals(signals)
@@ -301,7 +304,7 @@ def test_a_case_that_ran_twice_is_there_once(
         scene = whole.scene(case_id).to_json()
         run_document = json.dumps(whole._store.identity["run"])
         document = (case_id, scene, run_document)
-        run_here(whole._store, [document], job, lambda done, failed: None)
+        run_here(whole._store, [document], job, lambda counts: None)
     again = br.Campaign.open(tmp_path)
     assert len(list((tmp_path / "results").iterdir())) == 3
     assert again.manifest["signals"].n_unique() == 4, "three shards, and none of the failed case"

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
+import os
 import re
+import stat
 import subprocess
 import sys
 from pathlib import Path
@@ -104,6 +107,7 @@ def test_equilibrium_prints_a_table(capsys: pytest.CaptureFixture[str], scene_fi
     assert main(["equilibrium", str(scene_file)]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len([line for line in lines if line.startswith("row0.ball")]) == 9
+    assert any(line.startswith("balanced to ") for line in lines)
     assert not any(line.startswith(("stiffness", "equivalent")) for line in lines)
 
 
@@ -175,3 +179,54 @@ def test_a_reader_that_leaves_is_no_error() -> None:
         assert child.stderr is not None
         child.stdout.close()
         assert child.stderr.read() == ""
+
+
+def test_outputs_that_cannot_be_meant(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, scene_file: Path
+) -> None:
+    """Refused before anything runs: the input, what would be replaced, and names of other formats."""
+    text = scene_file.read_text()
+    good = str(scene_file)
+    as_parquet = tmp_path / "scene.parquet"
+    as_parquet.symlink_to(scene_file)
+    plain = tmp_path / "scene"
+    os.link(scene_file, plain)
+    before = set(tmp_path.iterdir())
+    assert "a file that ends in .parquet" in refused(capsys, "run", good, "-o", good)
+    for same in (as_parquet, plain):
+        assert "another file than the scene" in refused(capsys, "run", good, "-o", str(same))
+    for name in ("out.csv", "out.mat", "out.html", "out.toml"):
+        assert "a file that ends in .parquet" in refused(capsys, "run", good, "-o", name)
+    assert "no text to stream" in refused(capsys, "run", good, "-o", "-")
+    assert scene_file.read_text() == text
+    assert set(tmp_path.iterdir()) == before
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no such files")
+def test_devices_and_pipes_are_not_replaced(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, scene_file: Path, out: br.Signals
+) -> None:
+    """Root could: the device node /dev/null became a regular file."""
+    pipe = tmp_path / "pipe.parquet"
+    os.mkfifo(pipe)
+    targets = [pipe, Path(os.devnull)]
+    null = tmp_path / "null.parquet"
+    with contextlib.suppress(PermissionError):
+        os.mknod(null, stat.S_IFCHR | 0o666, os.makedev(1, 3))
+        targets.append(null)
+    kinds = [stat.S_IFMT(path.stat().st_mode) for path in targets]
+    for path in targets:
+        told = refused(capsys, "run", str(scene_file), "-o", str(path))
+        assert "is a device or a pipe, not a file" in told
+        with pytest.raises(OSError, match="is a device or a pipe"):
+            out.write_parquet(path)
+    assert [stat.S_IFMT(path.stat().st_mode) for path in targets] == kinds
+
+
+def test_a_link_is_followed(tmp_path: Path, out: br.Signals) -> None:
+    (tmp_path / "far").mkdir()
+    link = tmp_path / "out.parquet"
+    link.symlink_to(tmp_path / "far" / "real.parquet")
+    out.write_parquet(link)
+    assert link.is_symlink()
+    assert br.Signals.read_parquet(tmp_path / "far" / "real.parquet").names == out.names

@@ -85,8 +85,15 @@ def test_integration_error_says_when_and_where(wheel: br.Scene) -> None:
         br.SceneError("a.b", "1", "2"),
         br.EquilibriumError("no equilibrium"),
         br.IntegrationError("stopped", 0.1, 1e-9, "outer"),
+        br.FileError("a.parquet", "damaged"),
     ],
 )
 def test_errors_cross_processes(error: br.BallraceError) -> None:
     again = pickle.loads(pickle.dumps(error))
     assert (type(again), str(again), vars(again)) == (type(error), str(error), vars(error))
+
+
+def test_a_budget_error_crosses_processes() -> None:
+    error = br.BudgetError("spent", 0.1, "max_steps", 50.0)
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), again.time, again.budget, again.limit) == ("spent", 0.1, "max_steps", 50.0)

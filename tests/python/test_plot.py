@@ -39,3 +39,8 @@ def test_load_distribution(wheel: br.Scene) -> None:
     both = plot.load_distribution({"a": eq, "b": eq})
     assert len(both.data) == 4
     assert both.layout.polar.radialaxis.range == both.layout.polar2.radialaxis.range
+
+
+def test_one_name_is_a_column(out: br.Signals) -> None:
+    fig = plot.signals(out, "outer.ay")
+    assert [trace.name for trace in fig.data] == ["outer.ay"]

@@ -52,6 +52,8 @@ def test_a_scene_is_explained() -> None:
     seconds = [v["seconds"] for v in told.variants]
     assert seconds == sorted(seconds)
     assert "44 of 88 are integrated" in str(told)
+    assert "note     nothing drives the balls' orbit" in str(told)
+    assert br.explain(br.presets.deep_groove_6205()).notes == []
 
     thrust = br.explain(plane().replace({"loads.axial.force": 1.0}))
     reasons = {o["what"]: o["reason"] for o in thrust.obstacles}

@@ -625,7 +625,7 @@ def test_reference_tan_alpha_is_the_gradient_of_the_gap(kind: str) -> None:
                 near = contact.gap(contact.ball_arcs(zeta + step), gap.ends[0].angle + 1e-3, 1.0)
                 assert near is not None
                 mark = [*near.ends, *near.floor][index]
-                s.append(contact.ball_circle(zeta + step, mark, x)[0])
+                s.append(contact.ball_circle(zeta + step, mark, x)[0][0])
             tan = here.ball_circle(zeta, [*gap.ends, *gap.floor][index], x)[3]
             assert tan == pytest.approx(-(s[1] - s[0]) / (2 * h), abs=1e-6)
             seen += 1

@@ -26,6 +26,14 @@ def test_stiffness_arrays(scene: br.Scene) -> None:
     np.testing.assert_array_equal(found.equilibrium.outer_load, br.equilibrium(scene).outer_load)
 
 
+def test_the_residual_is_told(scene: br.Scene) -> None:
+    """Truth: forces balance to the precision of the solve; what is left is told beside the largest load."""
+    eq = br.equilibrium(scene)
+    assert 0.0 <= eq.residual < 1e-6 * eq.outer_load.max()
+    assert eq.residual_share == pytest.approx(eq.residual / 500.0, rel=0.5)
+    assert br.stiffness(scene).equilibrium.residual == eq.residual
+
+
 def test_stiffness_rises_with_load(scene: br.Scene) -> None:
     """Truth: contacts that stiffen. Thrust makes a deep-groove bearing stiffer axially."""
     loads = (100.0, 300.0, 1000.0)

@@ -7,7 +7,9 @@
 
 ============  =====================================================================
 ``cases``     a table and its scenes: what each row means, and its case id
-``store``     the folder: shards that are there whole or not at all
+``reading``   tables of any kind, and what their columns may have meant
+``store``     the folder: shards that are what was written, or are set aside
+``disk``      files that are there whole or not at all
 ``work``      cases run in this process, results written as they come
 ``spread``    the same work handed to an executor, chunk by chunk
 ============  =====================================================================

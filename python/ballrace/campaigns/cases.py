@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 from .. import _core
-from .._document import encode
+from .._document import encode, whole_number
 from ..errors import SceneError
-from ..scene import Scene
+from ..scene import Method, Scene
+from .reading import EMPTY, rows_of
 from .store import BASE
 
 if TYPE_CHECKING:
@@ -21,11 +23,16 @@ if TYPE_CHECKING:
 RUN = ("duration", "fs", "start", "rtol", "accuracy", "method", "bandwidth", "settle")
 """Columns that say how a case is run, instead of the campaign's own arguments."""
 
+BUDGET = ("time_limit", "max_steps")
+"""Columns that say what a case may cost: no part of what it is known by, since no result depends on them."""
+
 RESULTS = (*BASE, "changes")
 """Columns of the manifest that a table may not have."""
 
 _FIELDS = frozenset(field.name for field in fields(Scene))
 _STEP = re.compile(r"[^.\[\]]+")
+_NEW = re.compile(r"(loads|unbalances|defects|probes)\.[^.\[\]]+")
+"""Paths of entries whose names people choose."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,12 +49,27 @@ class Cases:
     Nothing but ids and the table itself is held; documents are made when they are asked for.
     """
 
-    def __init__(self, table: object, scenes: Mapping[str, str], run: Mapping[str, Any]) -> None:
+    def __init__(
+        self,
+        table: object,
+        scenes: Mapping[str, str],
+        run: Mapping[str, Any],
+        *,
+        budget: Mapping[str, Any],
+        features: str,
+    ) -> None:
         self._scenes = scenes
         self._run = dict(run)
-        self._rows, self.names = _rows(table)
+        self._budget = dict(budget)
+        self._features = features
+        self._rows, self.names = rows_of(table)
         self._parameters = [name for name in self.names if _is_parameter(name)]
-        self._check_columns()
+        documents = [json.loads(scene) for scene in scenes.values()]
+        self._check_columns(documents)
+        whole = [name for name in self._parameters if any(_is_whole(d, name) for d in documents)]
+        if whole:
+            self._rows = [_made_whole(row, whole) for row in self._rows]
+        self.labels = [name for name in self.names if name not in self._meant()]
         self.cases = [self._case(row) for row in self._rows]
 
     def __len__(self) -> int:
@@ -61,7 +83,18 @@ class Cases:
         SceneError
             A value of the row is not usable.
         """
-        return apply(self.changes(index), self._scenes, self._run)
+        scene, run = apply(self.changes(index), self._scenes, self._run)
+        return scene, json.dumps({**json.loads(run), **self.budget(index)})
+
+    def budget(self, index: int) -> dict[str, float | int]:
+        """Return what a case may cost, as far as that is limited.
+
+        Raises
+        ------
+        SceneError
+            A limit is not usable.
+        """
+        return self._limits(self._rows[index])
 
     def changes(self, index: int) -> dict[str, Any]:
         """Return what the row changes: ``scene``, fields by their paths, and arguments of the run."""
@@ -82,17 +115,29 @@ class Cases:
         wanted = (*self._parameters, *RUN, "scene")
         return {name: row[name] for name in wanted if row.get(name) is not None}
 
+    def _limits(self, row: Mapping[str, Any]) -> dict[str, float | int]:
+        own = {name: row[name] for name in BUDGET if row.get(name) is not None}
+        return budget_document({**self._budget, **own})
+
+    def _meant(self) -> set[str]:
+        """Return the columns that mean something to a case."""
+        return {*self._parameters, *RUN, *BUDGET, "scene"}
+
     def _case(self, row: Mapping[str, Any]) -> Case:
         changes = self._changes(row)
         try:
             scene, run = apply(changes, self._scenes, self._run)
+            limited = {**json.loads(run), **self._limits(row)}
+            _core.check_run(json.dumps(limited), self._features)
         except SceneError as error:
             # It has no document to be known by, but what it was made from.
-            made_from = json.dumps([dict(self._scenes), self._run, _plain(changes)])
-            return Case(_digest("not usable", made_from), error)
+            parts = [dict(self._scenes), self._run, _plain(changes)]
+            if error.path in BUDGET:
+                parts.append(_plain({name: row.get(name) for name in BUDGET}))
+            return Case(_digest("not usable", json.dumps(parts)), error)
         return Case(_digest(scene, run), None)
 
-    def _check_columns(self) -> None:
+    def _check_columns(self, documents: list[Any]) -> None:
         for name in self.names:
             if name in RESULTS:
                 raise SceneError(name, "a column of cases", "another name; the manifest has it")
@@ -101,7 +146,9 @@ class Cases:
         if "scene" not in self.names and len(self._scenes) > 1:
             known = ", ".join(self._scenes)
             raise SceneError("cases", "no column scene", f"a column scene that says which: {known}")
-        documents = [json.loads(scene) for scene in self._scenes.values()]
+        if not {*RUN, *BUDGET}.intersection(self.names):
+            # Arguments that fail every case fail before the first.
+            _core.check_run(json.dumps({**self._run, **self._budget}), self._features)
         for name in self._parameters:
             if not any(_exists(document, name) for document in documents):
                 # The core says what there is instead.
@@ -123,6 +170,9 @@ def apply(
     if name not in scenes:
         raise SceneError("scene", str(name), f"one of {', '.join(scenes)}")
     own = {key: rest.pop(key) for key in RUN if key in rest}
+    for path, value in rest.items():
+        if isinstance(value, float) and math.isnan(value):
+            raise SceneError(path, "nan", f"a finite number; {EMPTY}")
     pairs = [(path, encode(value, path)) for path, value in rest.items()]
     scene = _core.scene_replace(scenes[name], json.dumps(pairs))
     return scene, json.dumps(run_document({**run, **own}))
@@ -138,9 +188,12 @@ def run_document(run: Mapping[str, Any]) -> dict[str, Any]:
     """
     document: dict[str, Any] = {"start": run["start"]}
     if document["start"] not in ("equilibrium", "rolling"):
-        raise SceneError("start", repr(document["start"]), "'equilibrium' or 'rolling'")
+        raise SceneError("start", _shown(document["start"]), "'equilibrium' or 'rolling'")
     document["method"] = run.get("method")
     document["bandwidth"] = _bandwidth(run["bandwidth"])
+    if document["method"] not in (None, *get_args(Method)):
+        methods = ", ".join(get_args(Method))
+        raise SceneError("method", _shown(document["method"]), f"one of {methods}")
     limits = {
         "duration": (0.0, 1e6),
         "fs": (0.0, 1e9),
@@ -153,14 +206,11 @@ def run_document(run: Mapping[str, Any]) -> dict[str, Any]:
         if value is None and name in ("rtol", "accuracy", "settle"):
             document[name] = None
             continue
-        try:
-            number = float(value)
-        except (TypeError, ValueError):
-            raise SceneError(name, repr(value), "a number") from None
+        number = _number(name, value)
         ends_count = low > 0.0 or name == "settle"
         if not (low < number <= high or (number == low and ends_count)):
             least = "at least 0" if name == "settle" else f"above {low:g}"
-            raise SceneError(name, str(value), f"{least} and at most {high:g}")
+            raise SceneError(name, _shown(value), f"{least} and at most {high:g}")
         document[name] = number
     return document
 
@@ -168,55 +218,81 @@ def run_document(run: Mapping[str, Any]) -> dict[str, Any]:
 def _bandwidth(value: object) -> str | None:
     """Return what the core takes; a table, whose empty cells change nothing, and TOML say "none"."""
     if value not in ("auto", "none", None):
-        raise SceneError("bandwidth", repr(value), "'auto' or None ('none' in tables and sweeps)")
+        raise SceneError("bandwidth", _shown(value), "'auto' or None ('none' in tables and sweeps)")
     return "auto" if value == "auto" else None
 
 
-def _rows(table: object) -> tuple[list[dict[str, Any]], list[str]]:
-    """Return the rows of a table of any kind, and the names of its columns."""
-    import polars as pl
+def budget_document(budget: Mapping[str, Any]) -> dict[str, float | int]:
+    """Return the limits of a case as JSON has them, those that there are.
 
-    if isinstance(table, Sequence) and all(isinstance(row, Mapping) for row in table):
-        rows = [dict(row) for row in table]
-        names = list(dict.fromkeys(name for row in rows for name in row))
-    else:
-        frame = _frame(table, pl)
-        rows, names = frame.to_dicts(), frame.columns
-    for name in names:
-        if not isinstance(name, str):
-            raise SceneError("cases", f"a column {name!r}", "columns with names")
-    if not rows:
-        raise SceneError("cases", "an empty table", "at least one row")
-    return rows, names
+    Raises
+    ------
+    SceneError
+        One is not usable.
+    """
+    document: dict[str, float | int] = {}
+    if budget.get("time_limit") is not None:
+        seconds = _number("time_limit", budget["time_limit"])
+        if not 0.0 < seconds < math.inf:
+            raise SceneError(
+                "time_limit", _shown(budget["time_limit"]), "a finite time above 0 [s]"
+            )
+        document["time_limit"] = seconds
+    if budget.get("max_steps") is not None:
+        document["max_steps"] = whole_number("max_steps", budget["max_steps"])
+        if document["max_steps"] < 1:
+            raise SceneError("max_steps", _shown(budget["max_steps"]), "at least 1 step")
+    return document
 
 
-def _frame(table: Any, pl: Any) -> Any:
-    if isinstance(table, pl.LazyFrame):
-        return table.collect()
+def _number(name: str, value: Any) -> float:
     try:
-        if type(table).__module__.partition(".")[0] == "pandas":
-            # Pandas says "not a number" where there is nothing.
-            return pl.from_pandas(table)
-        return pl.DataFrame(table)
-    except (TypeError, ValueError, pl.exceptions.PolarsError) as error:
-        kinds = "a table: polars, pandas, Arrow, a list of dicts or a dict of columns"
-        raise SceneError("cases", type(table).__name__, f"{kinds} ({error})") from error
+        return float(value)
+    except (TypeError, ValueError):
+        raise SceneError(name, _shown(value), "a number") from None
+
+
+def _shown(value: Any) -> str:
+    """Return a cell as a message shows it; for one that is not a number, how to leave it empty."""
+    if isinstance(value, float) and math.isnan(value):
+        return f"{value} ({EMPTY})"
+    return repr(value)
 
 
 def _is_parameter(name: str) -> bool:
     return (name in _FIELDS and name != "scene") or "." in name or "[" in name
 
 
-def _exists(document: Any, path: str) -> bool:
-    """Say whether a dotted path leads somewhere in a document."""
+_NOWHERE = object()
+
+
+def _at(document: Any, path: str) -> Any:
+    """Return what stands at a dotted path in a document."""
     for step in _STEP.findall(path):
         if isinstance(document, dict) and step in document:
             document = document[step]
         elif isinstance(document, list) and step.isdigit() and int(step) < len(document):
             document = document[int(step)]
         else:
-            return False
-    return True
+            return _NOWHERE
+    return document
+
+
+def _exists(document: Any, path: str) -> bool:
+    """Say whether a dotted path leads somewhere in a document, or to where a new entry may stand."""
+    return _at(document, path) is not _NOWHERE or _NEW.fullmatch(path) is not None
+
+
+def _is_whole(document: Any, path: str) -> bool:
+    """Say whether a whole number stands at a path."""
+    found = _at(document, path)
+    return isinstance(found, int) and not isinstance(found, bool)
+
+
+def _made_whole(row: dict[str, Any], names: list[str]) -> dict[str, Any]:
+    """Return a row with whole numbers where tables with empty cells have had to make them floats."""
+    floats = {name: row[name] for name in names if isinstance(row.get(name), float)}
+    return {**row, **{name: int(x) for name, x in floats.items() if x.is_integer()}}
 
 
 def _digest(scene: str, run: str) -> str:
@@ -238,7 +314,8 @@ def _series(name: str, values: Iterable[Any]) -> pl.Series:
     """Return a column; where its cells are of different kinds, as JSON text."""
     import polars as pl
 
-    cells = [_plain(value) for value in values]
+    # A label may well be no number.
+    cells = [value if isinstance(value, float) else _plain(value) for value in values]
     present = [cell for cell in cells if cell is not None]
     if any(isinstance(cell, float) for cell in present) and all(
         isinstance(cell, float | int) and not isinstance(cell, bool) for cell in present

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import presets
+from .._text import printable
 from ..errors import SceneError
 from ..scene import Scene
 from .bearings import scatter
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 _ARGUMENTS = (
     "duration", "fs", "start", "rtol", "accuracy", "method", "bandwidth", "settle", "keep", "columns", "skip",
-    "band", "contact_loads",
+    "band", "contact_loads", "time_limit", "max_steps",
 )  # fmt: skip
 _BUILDERS = ("table", "grid", "latin_hypercube", "sobol", "scatter")
 _PLAN = (
@@ -60,7 +61,20 @@ def add_command(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
         "--on-error", choices=("record", "raise"), default="record",
         help="a case that fails is a row, or ends the campaign (default: %(default)s)",
     )  # fmt: skip
+    add_budget(parser, "a case")
     parser.set_defaults(command=_command)
+
+
+def add_budget(parser: argparse.ArgumentParser, what: str) -> None:
+    """Add the options that limit what a run may cost."""
+    parser.add_argument(
+        "--time-limit", type=float, metavar="SECONDS",
+        help=f"wall time that {what} may take (default: any)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--max-steps", type=int, metavar="N",
+        help=f"steps that {what} may take, rejected ones included (default: any)",
+    )  # fmt: skip
 
 
 def _command(options: argparse.Namespace) -> None:
@@ -69,7 +83,13 @@ def _command(options: argparse.Namespace) -> None:
         return
     if options.sweep is None or options.output is None:
         raise SceneError("campaign", "no sweep", "SWEEP -o FOLDER, or --status FOLDER")
+    if str(options.output) == "-":
+        raise SceneError("output", "-", "a folder; a campaign is more than a stream")
     sweep = read(options.sweep)
+    # What is asked for now goes before what the sweep says: a budget is no part of what a campaign is.
+    for name in ("time_limit", "max_steps"):
+        if getattr(options, name) is not None:
+            sweep[name] = getattr(options, name)
     # What a plan may not say, the command does.
     found = campaign(
         sweep.pop("cases"),
@@ -89,10 +109,12 @@ def _command(options: argparse.Namespace) -> None:
 
 def _show(found: Campaign) -> None:
     print(found.status())
+    for text in found.warned["warnings"][:1]:
+        print(f"  {found.warned.height} with warnings, the first: {printable(text)}")
     kinds = found.failed.group_by("error").len().sort("error")
     for error, count in kinds.iter_rows():
         first = found.failed.filter(error=error)["message"][0]
-        print(f"  {count} × {error}, the first: {first}")
+        print(printable(f"  {count} × {error}, the first: {first}"))
 
 
 def _shard(text: str) -> tuple[int, int]:

@@ -62,9 +62,9 @@ def estimate(plan: Plan, out: Path) -> Estimate:
     """
     total = len(plan.ids())
     there = (out / "campaign.json").exists()
-    missing = (
-        plan.missing(Store.opened(out, plan.identity)) if there else sorted(plan.ids().values())
-    )
+    missing = sorted(plan.ids().values())
+    if there:
+        missing, _ = plan.missing(Store.opened(out, plan.identity))
     todo = [i for i in missing if plan.cases.cases[i].error is None]
     place = next(path for path in [out.absolute(), *out.absolute().parents] if path.exists())
     seconds, size = _first(plan, todo)
@@ -93,7 +93,7 @@ def _try(plan: Plan, index: int) -> tuple[float, int]:
     with tempfile.TemporaryDirectory() as folder:
         store = Store.prepare(Path(folder), plan.identity)
         began = time.monotonic()
-        run_here(store, plan.documents([index]), job, lambda done, failed: None)
+        run_here(store, plan.documents([index]), job, lambda counts: None)
         seconds = time.monotonic() - began
         signals = sum(path.stat().st_size for path in (store.root / "signals").iterdir())
         return seconds, signals + _ROW * store.results().width

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import sys
 import warnings
 from contextlib import contextmanager, suppress
@@ -21,13 +22,20 @@ if sys.platform == "win32":
     def _grab(file: int) -> None:
         msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
 
+    def _await(file: int) -> None:
+        msvcrt.locking(file, msvcrt.LK_LOCK, 1)
+
 else:
     import fcntl
 
     def _grab(file: int) -> None:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
+    def _await(file: int) -> None:
+        fcntl.flock(file, fcntl.LOCK_EX)
 
+
+_PART = re.compile(r"\d+-of-\d+")
 _WITHOUT_LOCKS = (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP)
 """Some parallel file systems are mounted so."""
 
@@ -47,11 +55,32 @@ def hold(folder: Path, part: int, parts: int) -> Iterator[None]:
         if not _try(file):
             raise CampaignError(_busy(folder, own))
         for other in sorted(folder.iterdir()):
-            if not other.name.endswith(f"-of-{parts}") and _is_held(other):
+            own_division = other.name.endswith(f"-of-{parts}")
+            if _PART.fullmatch(other.name) and not own_division and _is_held(other):
                 raise CampaignError(_busy(folder, other.name))
         yield
     finally:
         os.close(file)
+
+
+@contextmanager
+def in_turn(folder: Path, name: str) -> Iterator[None]:
+    """Work on what all parts share, one after the other; without turns where the file system has no locks."""
+    file = _open(folder / name)
+    try:
+        with suppress(OSError):
+            _await(file)
+        yield
+    finally:
+        os.close(file)
+
+
+def grab(file: int) -> bool:
+    """Lock a file and say whether that worked; not where another has it, or the file system has no locks."""
+    with suppress(OSError):
+        _grab(file)
+        return True
+    return False
 
 
 def _open(path: Path) -> int:

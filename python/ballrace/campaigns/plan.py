@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from .. import _core
+from .._document import whole_number
+from .._text import printable
 from ..errors import CampaignError, CampaignWarning, SceneError, SceneWarning
-from ..scene import Scene
-from .cases import Cases
+from ..scene import Scene, checked_scene
+from .cases import BUDGET, RUN, Cases
+from .reading import resembling
 from .spread import Executor
 from .work import Job, version
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
     from .store import Store
     from .work import Document
@@ -68,23 +72,42 @@ class Plan:
         for i in indices:
             yield self.cases.cases[i].id, *self.cases.document(i)
 
-    def missing(self, store: Store) -> list[int]:
-        """Return the cases of the shard that have not finished, in the order of the table.
+    def missing(self, store: Store) -> tuple[list[int], list[Path]]:
+        """Return the cases of the shard that have not finished, in the order of the table, and damaged files.
+
+        Not finished are those whose rows or, where they are kept, signals are not there or damaged, and those
+        that have spent a smaller budget than they would have now.
 
         Raises
         ------
         CampaignError
-            A shard is damaged, or what is there may not be built upon.
+            The results cannot be read, or what is there may not be built upon.
         """
-        results = store.results()
+        damaged: list[Path] = []
+        results = store.results(damaged)
         self._check_results(store, results)
-        shards = store.kept_signals() if self.job.keep_signals else set()
-        finished = set()
-        for case_id, status, signals in results.select("case_id", "status", "signals").iter_rows():
-            kept = not self.job.keep_signals or signals in shards
-            if (status == "ok" and kept) or (status == "failed" and not self.job.raise_errors):
-                finished.add(case_id)
-        return sorted(i for case_id, i in self.ids().items() if case_id not in finished)
+        ids = self.ids()
+        rows = [row for row in results.iter_rows(named=True) if row["case_id"] in ids]
+        shards = None
+        if self.job.keep_signals:
+            shards = {row["signals"] for row in rows if row["signals"] is not None}
+            broken = store.damaged_signals(shards)
+            damaged += broken
+            shards = store.names("signals") - {path.name for path in broken}
+        finished = {
+            row["case_id"] for row in rows if self._has_finished(row, ids[row["case_id"]], shards)
+        }
+        return sorted(i for case_id, i in ids.items() if case_id not in finished), damaged
+
+    def _has_finished(self, row: dict[str, Any], index: int, shards: set[str] | None) -> bool:
+        if row["status"] == "ok":
+            return shards is None or row["signals"] in shards
+        if self.job.raise_errors:
+            return False
+        if row["budget"] is None:
+            return True
+        limit = self.cases.budget(index).get(row["budget"])
+        return limit is not None and limit <= row["budget_limit"]
 
     def _check_results(self, store: Store, results: Any) -> None:
         if self.resume is False and not results.is_empty():
@@ -114,12 +137,8 @@ def check_choices(**given: object) -> None:
 
 def scenes_of(given: Scene | Mapping[str, Scene], features: dict[str, Any]) -> dict[str, str]:
     """Return the scenes as JSON, having checked that they give the features; warn of what is doubtful in them."""
-    scenes = {"": given} if isinstance(given, Scene) else given
-    if (
-        not isinstance(scenes, Mapping)
-        or not scenes
-        or not all(isinstance(scene, Scene) for scene in scenes.values())
-    ):
+    scenes = given if isinstance(given, Mapping) else {"": checked_scene(given)}
+    if not scenes or not all(isinstance(scene, Scene) for scene in scenes.values()):
         raise SceneError("scene", repr(given), "a Scene, or Scenes by name")
     documents = {str(name): scene.to_json() for name, scene in scenes.items()}
     for document in documents.values():
@@ -133,14 +152,58 @@ def threads_of(threads: int | None, executor: object) -> int:
     """Return the threads of a process; 0: all."""
     if threads is None:
         return 0 if executor is None else 1
-    if threads < 1:
-        raise SceneError("threads", str(threads), "at least 1")
-    return threads
+    return at_least_one("threads", threads)
 
 
 def shard_of(shard: tuple[int, int]) -> tuple[int, int]:
     """Return which part of how many."""
-    part, parts = shard
+    try:
+        part, parts = (whole_number("shard", number) for number in shard)
+    except (TypeError, ValueError):
+        raise SceneError("shard", repr(shard), "a pair (i, n) of whole numbers") from None
     if not 0 <= part < parts:
         raise SceneError("shard", f"{part}/{parts}", "i/n with i from 0 to n - 1")
     return part, parts
+
+
+def at_least_one(name: str, value: int) -> int:
+    """Return a number of things of which there must be some."""
+    number = whole_number(name, value)
+    if number < 1:
+        raise SceneError(name, str(value), "at least 1")
+    return number
+
+
+def features_of(
+    columns: Sequence[str] | str | None, skip: float, band: Sequence[float] | None, loads: object
+) -> dict[str, Any]:
+    """Return the options of the features as the core reads them."""
+    if not isinstance(loads, bool):
+        raise SceneError("contact_loads", repr(loads), "True or False")
+    columns = [columns] if isinstance(columns, str) else columns
+    try:
+        low, high = (0.0, 0.0) if band is None else map(float, band)
+    except (TypeError, ValueError):
+        raise SceneError("band", repr(band), "two frequencies [Hz]") from None
+    try:
+        return {
+            "columns": None if columns is None else [str(name) for name in columns],
+            "skip": float(skip),
+            "band": None if band is None else [low, high],
+            "contact_loads": loads,
+        }
+    except (TypeError, ValueError):
+        raise SceneError("skip", repr(skip), "a time [s]") from None
+
+
+def warn_of_labels(cases: Cases, scenes: Mapping[str, str]) -> None:
+    """Warn of columns that are carried along as labels, but may have been meant for fields."""
+    documents = [json.loads(scene) for scene in scenes.values()]
+    for label in cases.labels:
+        near = resembling(label, documents, (*RUN, *BUDGET))
+        if near is not None:
+            text = (
+                f"the column {label} is no field: it changes nothing and is carried along as a label; if it is "
+                f"meant to change the case, call it {near}"
+            )
+            warnings.warn(printable(text), CampaignWarning, stacklevel=3)

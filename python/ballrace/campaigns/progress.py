@@ -5,16 +5,30 @@ from __future__ import annotations
 import sys
 import time
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, NamedTuple, TextIO
+
+from .._text import printable
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
 __all__ = ["Progress"]
 
 _WIDTH = 30
 _OFTEN = 0.2
 """The bar is drawn no more often than this [s]."""
+
+
+class Counts(NamedTuple):
+    """How many cases have come to their end."""
+
+    done: int = 0
+    failed: int = 0
+    warned: int = 0
+
+    def plus(self, other: Counts) -> Counts:
+        """Return the sums."""
+        return Counts(*(a + b for a, b in zip(self, other, strict=True)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +47,8 @@ class Progress:
         Failed in this call.
     elapsed : float
         Time since this call began [s].
+    warned : int
+        Finished by this call with something to look at twice: the column ``warnings`` of the manifest says what.
     """
 
     total: int
@@ -40,6 +56,7 @@ class Progress:
     done: int
     failed: int
     elapsed: float
+    warned: int = 0
 
     @property
     def rate(self) -> float:
@@ -55,10 +72,11 @@ class Progress:
     def line(self) -> str:
         """Return the whole in one line."""
         failed = f", {self.failed} failed" if self.failed else ""
+        warned = f", {self.warned} with warnings" if self.warned else ""
         before = f", {self.before} from before" if self.before else ""
         rate = f" ({self.rate:.3g} cases/s)" if self.done else ""
         return (
-            f"campaign: {self.before + self.done} of {self.total} cases{before}{failed}, "
+            f"campaign: {self.before + self.done} of {self.total} cases{before}{failed}{warned}, "
             f"{duration(self.elapsed)}{rate}"
         )
 
@@ -80,6 +98,7 @@ class Teller:
         total: int,
         before: int,
         stream: TextIO | None = None,
+        labels: Sequence[str] = (),
     ) -> None:
         self._callback = progress if callable(progress) else None
         self._stream = None if progress is False or self._callback else stream or sys.stderr
@@ -90,12 +109,16 @@ class Teller:
         self._began = time.monotonic()
         self._drawn = 0.0
         self.now = Progress(total, before, 0, 0, 0.0)
+        if labels:
+            names = printable(", ".join(labels))
+            self._write(f"campaign: columns that are labels and change nothing: {names}\n")
 
-    def tell(self, done: int, failed: int) -> None:
-        """Take note of the numbers of cases done and failed, and show them."""
+    def tell(self, counts: Counts) -> None:
+        """Take note of how many cases have come to their end, and show it."""
+        done, failed, warned = counts
         elapsed = time.monotonic() - self._began
         news = done != self.now.done
-        self.now = Progress(self._total, self._before, done, failed, elapsed)
+        self.now = Progress(self._total, self._before, done, failed, elapsed, warned)
         if self._callback is not None and (news or done == 0):
             self._callback(self.now)
         if self._bar and time.monotonic() - self._drawn >= _OFTEN:

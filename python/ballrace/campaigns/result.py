@@ -7,9 +7,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .._text import printable
 from ..scene import Scene
 from .cases import apply
-from .store import BASE, Store
+from .store import BASE, BUDGET, Store
 
 if TYPE_CHECKING:
     import os
@@ -55,17 +56,20 @@ class Campaign:
 
         ``case_id``; the table's own columns; ``fault_outer_race``, ``fault_inner_race``, ``fault_ball``: whether a
         loaded contact met such a defect in the run, empty where no ball passed it or there was no run;
-        ``status``: ``ok``, ``failed`` or ``missing``; ``error`` and ``message`` of a
-        failed case; ``version`` of the solver; ``accepted``, ``rejected``, ``nfev``: its effort; ``wall_time``
-        [s]; ``signals``: the shard that holds them; the features (see :func:`ballrace.campaign`); and of every
-        defect with a width, such as ``defects.spall``: ``.placed_at``, its axial place [m], ``.passes`` of balls,
-        ``.touched``, the share of them in which a contact was loaded within it, and its ``.largest_load`` [N] (see
-        :class:`ballrace.Touched`).
+        ``status``: ``ok``, ``failed`` or ``missing``; ``error`` and ``message`` of a failed case; ``warnings``:
+        why to look twice at one that ran, empty for most (those of :class:`ballrace.AccuracyWarning` and
+        :class:`ballrace.SceneWarning`, joined by semicolons); ``version`` of the solver; ``accepted``,
+        ``rejected``, ``nfev``: its effort; ``wall_time`` [s]; ``acceleration_residual``, ``truncated_contacts``:
+        what accuracy is judged by, as in ``out.stats``; ``simd``: the vector instructions it ran on;
+        ``signals``: the shard that holds them; the features (see :func:`ballrace.campaign`); and of every defect
+        with a width, such as ``defects.spall``: ``.placed_at``, its axial place [m], ``.passes`` of balls,
+        ``.touched``, the share of them in which a contact was loaded within it, and its ``.largest_load`` [N]
+        (see :class:`ballrace.Touched`).
         """
         import polars as pl
 
         results = self._results
-        features = sorted(name for name in results.columns if name not in BASE)
+        features = sorted(name for name in results.columns if name not in (*BASE, *BUDGET))
         return (
             self._cases.drop("changes")
             .join(
@@ -82,16 +86,25 @@ class Campaign:
         """The rows of the manifest that failed."""
         return self.manifest.filter(status="failed")
 
+    @property
+    def warned(self) -> pl.DataFrame:
+        """The rows of the manifest that ran, but want a second look."""
+        import polars as pl
+
+        return self.manifest.filter(pl.col("warnings").is_not_null())
+
     def scan(self) -> pl.LazyFrame:
         """Return the kept signals of all cases, lazily: ``case_id``, ``t`` [s] and the probes' columns.
 
         Sorted by case and time. Only what a query needs is read: filter by ``case_id`` and select columns before
-        collecting.
+        collecting. Before that every shard is checked against its hash, once: about a second a gigabyte.
 
         Raises
         ------
         FileNotFoundError
-            No signals were kept, or a shard of them has gone.
+            No signals were kept.
+        CampaignError
+            A shard is missing or damaged.
         """
         import polars as pl
 
@@ -102,7 +115,7 @@ class Campaign:
             raise FileNotFoundError(f'{self.folder}: no signals; run with keep="signals"')
         frames = []
         for (name,), rows in kept.group_by("signals", maintain_order=True):
-            shard = pl.scan_parquet(self.folder / "signals" / str(name), glob=False)
+            shard = pl.scan_parquet(self._store.signals(str(name)), glob=False)
             # Not those of a case that another shard has as well.
             frames.append(shard.filter(pl.col("case_id").is_in(rows["case_id"].to_list())))
         return pl.concat(frames, how="diagonal").sort("case_id", "t")
@@ -114,13 +127,15 @@ class Campaign:
         ------
         KeyError
             There is no such case with signals.
+        CampaignError
+            The shard that holds them is missing or damaged.
         """
         import polars as pl
 
         row = self.manifest.filter(pl.col("case_id") == case_id, pl.col("signals").is_not_null())
         if row.is_empty():
             raise KeyError(f"no case {case_id!r} with signals")
-        shard = pl.scan_parquet(self.folder / "signals" / row["signals"][0], glob=False)
+        shard = pl.scan_parquet(self._store.signals(row["signals"][0]), glob=False)
         return shard.filter(pl.col("case_id") == case_id).drop("case_id").sort("t").collect()
 
     def scene(self, case_id: str) -> Scene:
@@ -145,7 +160,9 @@ class Campaign:
         """Return how many cases have finished, failed and are missing, in one line."""
         counts = dict(self.manifest["status"].value_counts().iter_rows())
         parts = [f"{counts.get(kind, 0)} {kind}" for kind in ("ok", "failed", "missing")]
-        return f"{self.folder}: {self.manifest.height} cases: {', '.join(parts)}"
+        warned = f" ({self.warned.height} with warnings)" if self.warned.height else ""
+        parts[0] += warned
+        return printable(f"{self.folder}: {self.manifest.height} cases: {', '.join(parts)}")
 
     def __repr__(self) -> str:
         return f"<Campaign {self.status()}>"

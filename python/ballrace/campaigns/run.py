@@ -2,17 +2,29 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
 
-from ..errors import CampaignError
-from .cases import Cases, run_document
+from .._text import printable
+from ..errors import CampaignError, CampaignWarning, SceneError
+from .cases import Cases, budget_document, run_document
 from .estimate import Estimate, estimate
-from .locks import hold
-from .plan import Plan, check_choices, scenes_of, shard_of, threads_of
-from .progress import Progress, Teller
+from .locks import hold, in_turn
+from .plan import (
+    Plan,
+    at_least_one,
+    check_choices,
+    features_of,
+    scenes_of,
+    shard_of,
+    threads_of,
+    warn_of_labels,
+)
+from .progress import Counts, Progress, Teller
 from .result import Campaign
 from .spread import executor_of, run_spread
 from .store import Store, schema
@@ -20,6 +32,8 @@ from .work import Job, check_process, record_of, row, run_here
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
+
+    import polars as pl
 
     from ..scene import Method, Scene
 
@@ -49,6 +63,8 @@ class _Options(TypedDict, total=False):
     resume: Literal["auto", "strict", False]
     on_error: Literal["record", "raise"]
     progress: bool | Callable[[Progress], object]
+    time_limit: float | None
+    max_steps: int | None
 
 
 @overload
@@ -95,11 +111,15 @@ def campaign(
     on_error: Literal["record", "raise"] = "record",
     progress: bool | Callable[[Progress], object] = True,
     dry_run: bool = False,
+    time_limit: float | None = None,
+    max_steps: int | None = None,
 ) -> Campaign | Estimate:
     """Run a table of cases into a folder, and return the table of results.
 
     Finished cases are written as they come. Called again, after a kill, Ctrl-C or with more rows, it runs only
-    those that are missing: a case is known by the hash of its scene and of the arguments of its run.
+    those that are missing or damaged: a case is known by the hash of its scene and of the arguments of its run.
+    The manifest tells which rows to trust: ``status``, ``error`` and ``message`` of cases that failed, and
+    ``warnings`` of those that ran but want a second look.
 
     Parameters
     ----------
@@ -107,8 +127,9 @@ def campaign(
         One row a case: polars, pandas, Arrow, a list of dicts or a dict of columns. Columns with a dot or an
         index are fields of the scene (``loads.axial.force``, ``rows[0].clearance``), as are its own fields;
         ``duration``, ``fs``, ``start``, ``rtol``, ``accuracy``, ``method``, ``bandwidth`` (``"auto"`` or
-        ``"none"``) and ``settle`` replace the arguments of that name; ``scene`` says which one if there are
-        several. Every other column is a label, and only carried along. An empty cell changes nothing.
+        ``"none"``), ``settle``, ``time_limit`` and ``max_steps`` replace the arguments of that name; ``scene``
+        says which one if there are several. Every other column is a label, and only carried along; one that
+        resembles a field is warned of. An empty cell changes nothing.
     out : path
         Folder of the campaign, made if it does not exist. With an executor all workers must see it under this
         name.
@@ -159,6 +180,10 @@ def campaign(
         :class:`~ballrace.campaigns.Progress` as cases finish; what it raises stops the campaign.
     dry_run : bool
         Run the first missing case, write nothing, and return an :class:`~ballrace.campaigns.Estimate`.
+    time_limit, max_steps
+        What a case may cost, as for :func:`ballrace.simulate`; one that costs more is a row with a BudgetError.
+        Results do not depend on it, so a case is not known by it: called again with a larger limit, or none,
+        the cases run again that had spent the smaller one, and no others.
 
     Returns
     -------
@@ -169,6 +194,8 @@ def campaign(
     ------
     SceneError
         An argument or a column is not usable; nothing was written.
+    TypeError
+        The executor is none; nothing was written.
     CampaignError
         The folder is not usable, or a worker failed. What has finished is safe.
     OSError
@@ -180,6 +207,9 @@ def campaign(
     -----
     SceneWarning
         A number of ``scene`` is one that no bearing is likely to have, or a probe records what cannot move.
+    CampaignWarning
+        A column that is no field resembles one; cases of another version are there; files were damaged, and
+        their cases run again.
 
     Examples
     --------
@@ -205,17 +235,16 @@ def campaign(
             "settle": settle,
         }
     )
-    features = {
-        "columns": None if columns is None else list(columns),
-        "skip": float(skip),
-        "band": None if band is None else [float(edge) for edge in band],
-        "contact_loads": contact_loads,
-    }
+    budget = budget_document({"time_limit": time_limit, "max_steps": max_steps})
+    if not (isinstance(progress, bool) or callable(progress)):
+        raise SceneError("progress", repr(progress), "True, False or a callable")
+    features = features_of(columns, skip, band, contact_loads)
     scenes = scenes_of(scene, features)
     schema_version = json.loads(next(iter(scenes.values())))["schema"]
     engine, workers = (None, None) if executor is None else executor_of(executor)
+    most = None if in_flight is None else at_least_one("in_flight", in_flight)
     plan = Plan(
-        cases=Cases(cases, scenes, run),
+        cases=Cases(cases, scenes, run, budget=budget, features=json.dumps(features)),
         identity={"schema": schema_version, "scenes": scenes, "run": run, "features": features},
         job=Job(
             threads=threads_of(threads, executor),
@@ -228,12 +257,13 @@ def campaign(
         shard=shard_of(shard),
         resume=resume,
     )
+    warn_of_labels(plan.cases, scenes)
     if dry_run:
         return estimate(plan, Path(out))
     failed = [case.error for case in plan.cases.cases if case.error is not None]
     if failed and on_error == "raise":
         raise failed[0]
-    return _run(plan, Path(out), in_flight, progress)
+    return _run(plan, Path(out), most, progress)
 
 
 def _run(
@@ -241,10 +271,11 @@ def _run(
 ) -> Campaign:
     store = Store.prepare(out, plan.identity)
     with hold(store.root / "locks", *plan.shard):
-        missing = plan.missing(store)
+        missing, damaged = plan.missing(store)
         _write_table(plan, store)
+        _set_aside(store, damaged)
         total = len(plan.ids())
-        teller = Teller(progress, total, total - len(missing))
+        teller = Teller(progress, total, total - len(missing), labels=plan.cases.labels)
         try:
             if missing:
                 _guarded(plan, store, missing, in_flight, teller)
@@ -262,7 +293,7 @@ def _guarded(
     """Run what is missing; whatever stops it says what is safe and how to go on."""
 
     def safe() -> str:
-        count = len(plan.ids().keys() & set(store.results()["case_id"]))
+        count = len(plan.ids().keys() & set(store.results([])["case_id"]))
         return f"{count} of {teller.now.total} cases are safe in {store.root}; call again to go on"
 
     try:
@@ -280,10 +311,12 @@ def _work(
     todo = [i for i in missing if plan.cases.cases[i].error is None]
     if unusable:
         _record_unusable(plan, store, unusable)
-        teller.tell(len(unusable), len(unusable))
+    refused = Counts(len(unusable), len(unusable))
+    if unusable:
+        teller.tell(refused)
 
-    def told(done: int, failed: int) -> None:
-        teller.tell(done + len(unusable), failed + len(unusable))
+    def told(counts: Counts) -> None:
+        teller.tell(counts.plus(refused))
 
     documents = plan.documents(todo)
     if plan.executor is None:
@@ -304,9 +337,42 @@ def _record_unusable(plan: Plan, store: Store, indices: list[int]) -> None:
     store.write("results", pl.DataFrame(rows, schema=schema()).sort("case_id"))
 
 
-def _write_table(plan: Plan, store: Store) -> None:
-    """Write the table of cases, once for all shards."""
-    frame = plan.cases.frame()
-    if (store.root / "cases.parquet").exists() and store.read_table("cases.parquet").equals(frame):
+def _set_aside(store: Store, damaged: list[Path]) -> None:
+    """Take damaged files out of the way, and say so."""
+    if not damaged:
         return
-    store.write_table("cases.parquet", frame)
+    store.set_aside(damaged)
+    names = ", ".join(path.name for path in damaged[:3]) + (", …" if len(damaged) > 3 else "")
+    text = f"{store.root}: damaged files are set aside, and their cases run again: {names}"
+    warnings.warn(printable(text), CampaignWarning, stacklevel=4)
+
+
+def _write_table(plan: Plan, store: Store) -> None:
+    """Write the table of cases, once for all shards.
+
+    A whole campaign may replace the table that is there; a shard only by one that has all its cases and more,
+    since others may be at work on them.
+    """
+    frame = plan.cases.frame()
+    with contextlib.ExitStack() as turn:
+        if plan.shard[1] > 1:
+            turn.enter_context(in_turn(store.root / "locks", "table"))
+        there = _table_there(store)
+        if there is not None and there.equals(frame):
+            return
+        if there is not None and plan.shard[1] > 1:
+            lost = set(there["case_id"]) - set(frame["case_id"])
+            if lost:
+                raise CampaignError(
+                    f"{store.root}: its table has {len(lost)} cases that this one has not; give all shards the "
+                    "same table, or a shard all those cases and more"
+                )
+        store.write_table("cases.parquet", frame)
+
+
+def _table_there(store: Store) -> pl.DataFrame | None:
+    """Return the table of cases that is there, if there is one that can be read; this call has its own."""
+    try:
+        return store.read_table("cases.parquet")
+    except CampaignError:
+        return None

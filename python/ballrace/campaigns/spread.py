@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from .._core import available_threads
 from ..errors import BallraceError, CampaignError
+from .progress import Counts
 from .store import Store
 from .work import Job, check_process, exception, run_here, version
 
@@ -67,7 +68,7 @@ def run_spread(
     *,
     executor: Executor,
     in_flight: int,
-    told: Callable[[int, int], object],
+    told: Callable[[Counts], object],
 ) -> None:
     """Run ``count`` cases on an executor; workers write into the store and return counts.
 
@@ -78,14 +79,13 @@ def run_spread(
         "root": str(store.root), "key": store.key, "version": version(), "job": asdict(job),
     }  # fmt: skip
     pending: set[Future[str]] = set()
-    done = failed = handed = 0
+    counts, handed = Counts(), 0
     seconds = 0.0
     try:
         while True:
             while len(pending) < in_flight and handed < count:
-                size = _size(
-                    seconds / done if done else None, job.threads, count - handed, in_flight
-                )
+                mean = seconds / counts.done if counts.done else None
+                size = _size(mean, job.threads, count - handed, in_flight)
                 chunk = list(islice(cases, size))
                 handed += len(chunk)
                 pending.add(executor.submit(run_task, json.dumps({**common, "cases": chunk})))
@@ -94,13 +94,12 @@ def run_spread(
             ended, pending = wait(pending, timeout=0.1, return_when=FIRST_COMPLETED)
             for future in ended:
                 result = _result(future)
-                done += result["done"]
-                failed += result["failed"]
+                counts = counts.plus(Counts(*result["counts"]))
                 seconds += result["wall_time"]
-                told(done, failed)
+                told(counts)
                 if result["error"]:
                     raise exception(result["error"])
-            told(done, failed)
+            told(counts)
     finally:
         for future in pending:
             future.cancel()
@@ -137,16 +136,16 @@ def run_task(text: str) -> str:
     if store.key != task["key"]:
         raise CampaignError(f"{task['root']} is not the same folder for this worker; share it")
     job = Job(**task["job"])
-    counts = {"done": 0, "failed": 0, "error": None}
+    result: dict[str, Any] = {"counts": Counts(), "error": None, "wall_time": 0.0}
 
-    def told(done: int, failed: int) -> None:
-        counts.update(done=done, failed=failed)
+    def told(counts: Counts) -> None:
+        result["counts"] = counts
 
     began = time.monotonic()
     try:
         run_here(store, task["cases"], job, told)
     except BallraceError as error:
         arguments = {"class": type(error).__name__, "arguments": list(error.args)}
-        return json.dumps({**counts, "error": arguments, "wall_time": 0.0})
-    seconds = (time.monotonic() - began) * (job.threads or available_threads())
-    return json.dumps({**counts, "wall_time": seconds})
+        return json.dumps({**result, "error": arguments})
+    result["wall_time"] = (time.monotonic() - began) * (job.threads or available_threads())
+    return json.dumps(result)

@@ -11,7 +11,9 @@
     locks/               who is at work
 
 A file is written in ``tmp/``, synced and renamed, so that what stands in the other folders is whole whatever
-happens. Rows are written after the signals they name. Nothing is ever changed in place.
+happens. Rows are written after the signals they name. Nothing is ever changed in place. Reading a shard checks
+that its content has the hash it is named by; a campaign that goes on sets those that have not aside, as
+``<hash>.parquet.damaged``, and runs their cases again.
 """
 
 from __future__ import annotations
@@ -22,12 +24,15 @@ import json
 import os
 import re
 import uuid
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from .._parquet import read_bytes, read_sealed, seal
 from ..errors import CampaignError
+from .disk import put, sweep
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
     from pathlib import Path
 
     import polars as pl
@@ -35,15 +40,26 @@ if TYPE_CHECKING:
 _FORMAT = 1
 _SHARD = re.compile(r"[0-9a-f]{32}\.parquet")
 _FOLDERS = ("locks", "results", "signals", "tmp")
+_NOT_WRITTEN = "its content is not what was written"
 
 SURFACES = ("outer_race", "inner_race", "ball")
 """Surfaces that may have a defect."""
 
 FAULTS = tuple(f"fault_{surface}" for surface in SURFACES)
 
-BASE = ("case_id", *FAULTS, "status", "error", "message", "version", "accepted", "rejected", "nfev",
-        "wall_time", "signals")  # fmt: skip
+STATISTICS = {
+    "accepted": "Int64", "rejected": "Int64", "nfev": "Int64", "wall_time": "Float64",
+    "acceleration_residual": "Float64", "truncated_contacts": "Int64", "simd": "String",
+}  # fmt: skip
+"""What the core tells of every run beside its features, as it is called there, with the type of its column."""
+
+BASE = (
+    "case_id", *FAULTS, "status", "error", "message", "warnings", "version", *STATISTICS, "signals",
+)  # fmt: skip
 """Columns of every row of results; features follow."""
+
+BUDGET = {"budget": "String", "budget_limit": "Float64"}
+"""Which limit a case has spent, and what it was: columns of results that the manifest leaves out."""
 
 
 class Store:
@@ -60,9 +76,12 @@ class Store:
             self.identity: dict[str, Any] = json.loads(text)
             form = self.identity["format"]
         except (ValueError, TypeError, KeyError):
-            raise CampaignError(f"{path}: damaged, not the description of a campaign") from None
+            raise CampaignError(
+                f"{path}: damaged, not the description of a campaign; give another folder"
+            ) from None
         if form != _FORMAT:
             raise CampaignError(f"{path}: format {form}; this version of ballrace reads {_FORMAT}")
+        self._verified: set[tuple[str, int, int]] = set()
         self.key = hashlib.blake2b(text.encode(), digest_size=16).hexdigest()
 
     @classmethod
@@ -76,23 +95,32 @@ class Store:
         OSError
             The folder cannot be made or written to.
         """
-        if (root / "campaign.json").exists():
-            store = cls.opened(root, identity)
-            for folder in _FOLDERS:
-                (store.root / folder).mkdir(exist_ok=True)
-            store._check_writable()
-            return store
+        if not (root / "campaign.json").exists():
+            cls._found(root, identity)
+        store = cls.opened(root, identity)
+        for folder in _FOLDERS:
+            (store.root / folder).mkdir(exist_ok=True)
+        store._check_writable()
+        sweep(store.root / "tmp")
+        return store
+
+    @staticmethod
+    def _found(root: Path, identity: Mapping[str, Any]) -> None:
+        """Make the folder of a campaign; of several processes one does, in one step: that of its description."""
         root.mkdir(parents=True, exist_ok=True)
         strangers = sorted(path.name for path in root.iterdir() if path.name not in _FOLDERS)
-        if strangers or any((root / "results").glob("*")):
-            found = ", ".join(strangers[:3]) or "results"
+        if any((root / "results").glob("*")):
+            strangers.append("results")
+        # What is there may be of a process that was faster.
+        if strangers and not (root / "campaign.json").exists():
+            found = ", ".join(strangers[:3])
             raise CampaignError(
                 f"{root}: not a campaign's folder, it holds {found}; give a new or an empty one"
             )
         for folder in _FOLDERS:
             (root / folder).mkdir(exist_ok=True)
-        put(root, "campaign.json", json.dumps(_description(identity), indent=1).encode())
-        return cls(root)
+        text = json.dumps(_description(identity), indent=1)
+        put(root, "campaign.json", text.encode(), new=True)
 
     @classmethod
     def opened(cls, root: Path, identity: Mapping[str, Any]) -> Store:
@@ -127,7 +155,8 @@ class Store:
     def _check_writable(self) -> None:
         probe = self.root / "tmp" / uuid.uuid4().hex
         probe.touch()
-        probe.unlink()
+        # Another process may have swept it away.
+        probe.unlink(missing_ok=True)
 
     def write(self, folder: str, frame: pl.DataFrame) -> str:
         """Write a shard and return its name."""
@@ -142,6 +171,7 @@ class Store:
         """Write or replace a table at the root."""
         buffer = io.BytesIO()
         frame.write_parquet(buffer)
+        seal(buffer)
         put(self.root, name, buffer.getvalue())
 
     def read_table(self, name: str) -> pl.DataFrame:
@@ -152,66 +182,114 @@ class Store:
         CampaignError
             It is not there, or damaged.
         """
-        import polars as pl
-
         path = self.root / name
         try:
-            return pl.read_parquet(path.read_bytes())
+            frame, _ = read_sealed(path)
         except FileNotFoundError:
             raise CampaignError(f"{path}: missing; run the campaign again") from None
-        except pl.exceptions.PolarsError as error:
+        except (OSError, ValueError) as error:
             raise CampaignError(f"{path}: damaged ({error}); run the campaign again") from None
+        return frame
 
-    def results(self) -> pl.DataFrame:
+    def results(self, damaged: list[Path] | None = None) -> pl.DataFrame:
         """Return the rows of all finished cases, one a case.
+
+        Shards that are damaged are appended to ``damaged`` if it is given, and their rows left out.
 
         Raises
         ------
         CampaignError
-            A shard is damaged.
+            A shard is damaged, or the folder cannot be read.
         """
         import polars as pl
 
         # A shard of an older version may lack columns.
         frames = [pl.DataFrame(schema=schema())]
-        frames += [self._read_result(path) for path in self._shards("results")]
+        for name in sorted(self.names("results")):
+            try:
+                frames.append(self._read_result(self.root / "results" / name))
+            except CampaignError:
+                if damaged is None:
+                    raise
+                damaged.append(self.root / "results" / name)
         rows = pl.concat(frames, how="diagonal")
-        # Of a case that was run twice, the row with signals counts; the order does not depend on the files'.
-        order = ("case_id", pl.col("signals").is_null(), "version", "signals", "wall_time")
-        return rows.sort(*order).unique("case_id", keep="first", maintain_order=True)
+        # Of a case that was run twice, the row with signals that are there counts, and one that did not run out
+        # of budget; the order does not depend on the files'.
+        kept = pl.col("signals").is_in(sorted(self.names("signals"))).fill_null(value=False)
+        order = (~kept, pl.col("budget").is_not_null(), "version", "signals", "wall_time")
+        return rows.sort("case_id", *order).unique("case_id", keep="first", maintain_order=True)
 
     def _read_result(self, path: Path) -> pl.DataFrame:
-        import polars as pl
-
-        data = path.read_bytes()
+        try:
+            data = path.read_bytes()
+        except OSError as error:
+            raise CampaignError(_damaged(path, error.strerror or str(error))) from None
         if hashlib.blake2b(data, digest_size=16).hexdigest() != path.stem:
-            raise CampaignError(_damaged(path, "its content is not what was written"))
-        return pl.read_parquet(data)
+            raise CampaignError(_damaged(path, _NOT_WRITTEN))
+        try:
+            frame = read_bytes(data)
+            _check_results(frame)
+        except ValueError as error:
+            raise CampaignError(_damaged(path, str(error))) from None
+        return frame
 
-    def kept_signals(self) -> set[str]:
-        """Return the names of the shards of signals.
+    def signals(self, name: str) -> Path:
+        """Return the path of a shard of signals, having checked that it is what was written.
 
         Raises
         ------
         CampaignError
-            One is damaged, as far as its beginning and end tell.
+            It is missing or damaged, or the name is none of a shard.
         """
-        import polars as pl
+        if not _SHARD.fullmatch(name):
+            # It could lead anywhere.
+            text = f"{self.root}: not written by ballrace, rows name {name!r} as their signals"
+            raise CampaignError(text)
+        path = self.root / "signals" / name
+        try:
+            with path.open("rb") as file:
+                status = os.fstat(file.fileno())
+                known = (name, status.st_size, status.st_mtime_ns)
+                if known in self._verified:
+                    return path
+                found = hashlib.file_digest(file, lambda: hashlib.blake2b(digest_size=16))
+        except OSError as error:
+            raise CampaignError(_damaged(path, error.strerror or str(error))) from None
+        if found.hexdigest() != path.stem:
+            raise CampaignError(_damaged(path, _NOT_WRITTEN))
+        self._verified.add(known)
+        return path
 
-        names = set()
-        for path in self._shards("signals"):
+    def damaged_signals(self, names: Iterable[str]) -> list[Path]:
+        """Return those of the named shards of signals that are there but not what was written."""
+        damaged = []
+        for name in sorted(self.names("signals").intersection(names)):
             try:
-                pl.read_parquet_schema(path)
-            except pl.exceptions.PolarsError as error:
-                raise CampaignError(_damaged(path, str(error))) from None
-            names.add(path.name)
-        return names
+                self.signals(name)
+            except CampaignError:
+                damaged.append(self.root / "signals" / name)
+        return damaged
 
-    def _shards(self, folder: str) -> list[Path]:
-        """Return the shards of a folder; files of other names are none of ours."""
-        return sorted(
-            path for path in (self.root / folder).glob("*") if _SHARD.fullmatch(path.name)
-        )
+    def set_aside(self, damaged: Iterable[Path]) -> None:
+        """Give damaged shards a name by which they are not read; another process may have done so."""
+        for path in damaged:
+            with suppress(FileNotFoundError):
+                path.replace(path.with_name(f"{path.name}.damaged"))
+
+    def names(self, folder: str) -> set[str]:
+        """Return the names of the shards of a folder; files of other names are none of ours.
+
+        Raises
+        ------
+        CampaignError
+            The folder cannot be read.
+        """
+        try:
+            paths = list((self.root / folder).iterdir())
+        except OSError as error:
+            text = f"{self.root / folder}: cannot be read ({error.strerror or error})"
+            raise CampaignError(f"{text}; nothing is known of the finished cases") from None
+        return {path.name for path in paths if _SHARD.fullmatch(path.name)}
 
 
 def _description(identity: Mapping[str, Any]) -> dict[str, Any]:
@@ -224,47 +302,24 @@ def schema() -> dict[str, Any]:
     """Return the types of the columns that every row of results has."""
     import polars as pl
 
-    counts = ("accepted", "rejected", "nfev")
-    types = {**dict.fromkeys(counts, pl.Int64), **dict.fromkeys(FAULTS, pl.Boolean)}
-    types["wall_time"] = pl.Float64
-    return {name: types.get(name, pl.String) for name in BASE}
+    types = {**STATISTICS, **BUDGET, **dict.fromkeys(FAULTS, "Boolean")}
+    return {name: getattr(pl, types.get(name, "String")) for name in (*BASE, *BUDGET)}
 
 
-def put(root: Path, name: str, data: bytes) -> None:
-    """Write a file within ``root`` that is there whole or not at all, also after a loss of power.
+def _check_results(frame: pl.DataFrame) -> None:
+    """Refuse a table that has the right hash but was not written as rows of results."""
+    import polars as pl
 
-    Raises
-    ------
-    CampaignError
-        It cannot be written.
-    """
-    temporary = root / "tmp" / uuid.uuid4().hex
-    try:
-        with temporary.open("xb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        temporary.replace(root / name)
-        _sync((root / name).parent)
-    except OSError as error:
-        raise CampaignError(f"cannot write to {root}: {error.strerror or error}") from error
-    finally:
-        temporary.unlink(missing_ok=True)
-
-
-def _sync(folder: Path) -> None:
-    """Make the new name itself last, where a folder can be synced."""
-    if os.name == "nt":
-        return
-    file = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(file)
-    finally:
-        os.close(file)
+    base = schema()
+    if not {"case_id", "status"} <= set(frame.columns):
+        raise ValueError("it has no rows of results")
+    for name, found in frame.schema.items():
+        if found != base.get(name, pl.Float64):
+            raise ValueError(f"its column {name} is of type {found}")
 
 
 def _damaged(path: Path, why: str) -> str:
-    return f"{path}: damaged ({why}); delete it and call again, and its cases run again"
+    return f"{path}: damaged ({why}); run the campaign again, and its cases run again"
 
 
 def _short(value: object) -> str:

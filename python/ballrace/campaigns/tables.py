@@ -45,7 +45,14 @@ def grid(values: Mapping[str, Iterable[object]]) -> pl.DataFrame:
     if not lists:
         raise SceneError("values", "{}", "at least one column")
     rows = list(itertools.product(*lists.values()))
-    return pl.DataFrame(rows, schema=list(lists), orient="row", infer_schema_length=None)
+    # A number beside a word would become a word.
+    kinds = {name: pl.Object if _is_mixed(column) else None for name, column in lists.items()}
+    return pl.DataFrame(rows, schema=kinds, orient="row", infer_schema_length=None)
+
+
+def _is_mixed(column: list[object]) -> bool:
+    present = [value for value in column if value is not None]
+    return len({isinstance(value, str) for value in present}) > 1
 
 
 def latin_hypercube(
@@ -76,8 +83,7 @@ def latin_hypercube(
     >>> sorted((table["loads.axial.force"] // 750).cast(int).to_list())
     [-4, -3, -2, -1, 0, 1, 2, 3]
     """
-    from scipy.stats import qmc
-
+    qmc = _qmc()
     _check(ranges, n)
     return _scaled(qmc.LatinHypercube(len(ranges), rng=seed).random(n), ranges)
 
@@ -105,12 +111,20 @@ def sobol(ranges: Mapping[str, tuple[float, float]], n: int, *, seed: int) -> pl
     >>> br.sobol({"loads.axial.force": (-3e3, 3e3), "rows[0].clearance": (0.0, 2e-5)}, 64, seed=1).shape
     (64, 2)
     """
-    from scipy.stats import qmc
-
+    qmc = _qmc()
     _check(ranges, n)
     if n & (n - 1):
         raise SceneError("n", str(n), "a power of two")
     return _scaled(qmc.Sobol(len(ranges), rng=seed).random(n), ranges)
+
+
+def _qmc() -> Any:
+    try:
+        from scipy.stats import qmc
+    except ImportError as error:
+        text = f'sampled tables need scipy ({error}): pip install "ballrace[campaign]"; grid does without'
+        raise ImportError(text, name="scipy") from error
+    return qmc
 
 
 def _check(ranges: Mapping[str, tuple[float, float]], n: int) -> None:

@@ -6,12 +6,15 @@ import importlib.metadata
 import json
 import os
 import time
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from .. import _core, errors
+from .._text import printable
 from ..errors import BallraceError, CampaignError
-from .store import FAULTS, SURFACES, schema
+from .progress import Counts
+from .store import BUDGET, FAULTS, STATISTICS, SURFACES, schema
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -131,16 +134,16 @@ class Writer:
 
 
 def run_here(
-    store: Store, cases: Iterable[Document], job: Job, told: Callable[[int, int], object]
+    store: Store, cases: Iterable[Document], job: Job, told: Callable[[Counts], object]
 ) -> None:
     """Run cases on threads of this process and write what they give.
 
-    Cases are drawn as threads become free; ``told`` is given the numbers of cases done and failed so far, some
-    twenty times a second.
+    Cases are drawn as threads become free; ``told`` is given the numbers of cases so far, some twenty times a
+    second.
     """
     ids: list[str] = []
     writer = Writer(store, keep_signals=job.keep_signals)
-    counts = [0, 0]
+    counts = Counts()
 
     def documents() -> Iterator[tuple[str, str]]:
         for case_id, scene, run in cases:
@@ -148,18 +151,23 @@ def run_here(
             yield scene, run
 
     def done(outcomes: list[tuple[int, str, _Signals | None]]) -> None:
+        nonlocal counts
         for index, text, signals in outcomes:
             record = json.loads(text)
             if "error" in record and job.raise_errors:
                 raise exception(record["error"])
-            counts[0] += 1
-            counts[1] += "error" in record
+            counts = counts.plus(Counts(1, "error" in record, bool(record.get("warnings"))))
             writer.add(ids[index], record, signals)
         writer.flush_when_due()
-        told(*counts)
+        told(counts)
 
     try:
         _core.campaign(documents(), job.threads, job.features, job.keep_signals, done)
+    except KeyboardInterrupt:
+        # Of one Ctrl-C polars tells as it writes, and then Python, in the midst of what follows.
+        with suppress(KeyboardInterrupt):
+            writer.flush()
+        raise
     finally:
         writer.flush()
 
@@ -167,15 +175,18 @@ def run_here(
 def row(case_id: str, record: dict[str, Any]) -> dict[str, Any]:
     """Return what the manifest says of a finished case."""
     error = record.get("error")
+    spent = error["arguments"][2:] if error and error["class"] == "BudgetError" else (None, None)
     return {
         "case_id": case_id,
         **_faults(record.get("defects")),
         "status": "failed" if error else "ok",
         "error": error and error["class"],
-        "message": error and error["message"],
+        "message": error and printable(error["message"]),
+        "warnings": printable("; ".join(record.get("warnings", ()))) or None,
         "version": version(),
-        **{name: record.get(name) for name in ("accepted", "rejected", "nfev", "wall_time")},
+        **{name: record.get(name) for name in STATISTICS},
         "signals": None,
+        **dict(zip(BUDGET, spent, strict=True)),
         **dict(record.get("features", ())),
         **dict(_touched(record.get("defects", ()))),
     }

@@ -21,8 +21,8 @@ How each number is taken:
   the defect the place depends on where in the defect it is: a tenth of a degree moves the shift by 0.06 mm.
 - *Transient*, of the rolling start: the last time at which the healthy bearing's rms over 2 ms, about its mean, is
   above that of a vibration with a twentieth of the mean impact under purely radial load as its amplitude; the
-  latest of the three loads. Of the equilibrium start: the healthy bearing's rms over the first passage of a ball
-  against that of the rolling start.
+  latest of the three loads. Of the equilibrium start, unsettled: the healthy bearing's rms over the first
+  passage of a ball against that of the rolling start.
 """
 
 from .case import Balls, Case, Dynamic, Snapshot, Static

@@ -1,7 +1,7 @@
 //! Eight contacts gathered from anywhere, and evaluated together.
 
 use super::Single;
-use crate::contact::{Constants, Motion, Octet, Press};
+use crate::contact::{Constants, Motion, Octet, Press, Raise};
 use crate::dynamics::state::State;
 use crate::model::{Ball, Model};
 use crate::simd::{LANES, Lanes, Mask, Task};
@@ -15,13 +15,15 @@ pub(in crate::dynamics) struct SideConstants {
     first: Constants<Lanes>,
     /// Whether all are the same but for the axial place, so that nothing else need be gathered.
     alike: bool,
+    /// Whether any race has waves.
+    wavy: bool,
 }
 
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::dynamics) struct Touching {
     pub ball: usize,
-    /// Raise of the race there.
-    pub wave: f64,
+    /// Of the race there.
+    pub raise: Raise<f64>,
 }
 
 /// Up to eight contacts with one ring; the last one fills the lanes that are left.
@@ -47,6 +49,10 @@ impl SideConstants {
             balls,
             first,
             alike,
+            wavy: model
+                .rows
+                .iter()
+                .any(|row| !row.pairs[side].waves.is_round()),
         }
     }
 
@@ -62,6 +68,7 @@ impl SideConstants {
         );
         let mut octet = Octet {
             constants: self.first,
+            wavy: self.wavy,
             ..Octet::default()
         };
         for (lane, contact) in contacts.iter().enumerate() {
@@ -71,7 +78,7 @@ impl SideConstants {
             } else {
                 octet.constants.set(lane, of);
             }
-            octet.wave[lane] = contact.wave;
+            octet.raise.set(lane, contact.raise);
             let body = 2 + contact.ball;
             for (to, from) in octet.q.iter_mut().zip(q) {
                 to[lane] = from[body];

@@ -3,7 +3,7 @@
 use std::array::from_fn;
 
 use super::{Batch, SideConstants, Single, Touching};
-use crate::contact::{Constants, Motion, Octet, Places};
+use crate::contact::{Constants, Motion, Octet, Places, Raise};
 use crate::dynamics::state::{State, Table};
 use crate::model::Model;
 use crate::simd::{LANES, Lanes, Mask, Task};
@@ -77,7 +77,7 @@ impl Task for Find<'_> {
             state,
             rings,
         } = self;
-        let mut on_rings = [[Lanes::ZERO; 3]; 2];
+        let mut on_rings = [[Lanes::ZERO; 4]; 2];
         for stretch in &batch.stretches {
             let q = [
                 stretch.lanes(&state.q, 0),
@@ -102,7 +102,8 @@ impl Task for Find<'_> {
                     let skip = faulted.or(touching.not());
                     let octet = Octet {
                         constants: stretch.constants[side],
-                        wave: near.wave,
+                        raise: near.raise,
+                        wavy: !pair.waves.is_round(),
                         q,
                         v: [
                             stretch.lanes(&state.v, 0),
@@ -115,8 +116,9 @@ impl Task for Find<'_> {
                     let press = pair.press::<FMA, false>(&octet, ring, skip, Some(stiffness));
                     for (i, force) in press.ball.into_iter().take(3).enumerate() {
                         forces.add_eight(2 + stretch.first, i, force);
-                        on_rings[side][i] += force;
+                        on_rings[side][i] = on_rings[side][i] - force;
                     }
+                    on_rings[side][3] += press.ring[3];
                     batch.pulls += press.pulls;
                     let careful = press.careful.or(faulted).and(touching);
                     if careful.any() {
@@ -131,8 +133,11 @@ impl Task for Find<'_> {
                     if faulted.lane(lane) {
                         batch.singles.push(Single::new(side, ball));
                     } else {
-                        let wave = near.wave[lane];
-                        batch.touching[side].push(Touching { ball, wave });
+                        let raise = Raise {
+                            height: near.raise.height[lane],
+                            slope: near.raise.slope[lane],
+                        };
+                        batch.touching[side].push(Touching { ball, raise });
                     }
                 }
             }
@@ -141,8 +146,8 @@ impl Task for Find<'_> {
                 batch.lost = lost.lanes().map(|lane| stretch.first + lane).next();
             }
         }
-        for (ring, [x, y, z]) in batch.rings.iter_mut().zip(on_rings) {
-            *ring = [-x.sum(), -y.sum(), -z.sum(), 0.0];
+        for (ring, sums) in batch.rings.iter_mut().zip(on_rings) {
+            *ring = sums.map(Lanes::sum);
         }
     }
 }

@@ -22,8 +22,9 @@ struct LevelSide {
     form: InPlane,
     /// 1 where ball and race are whole; all are where there is nothing to look for.
     whole: Vec<f64>,
-    /// Raise of the race under the balls \[m\], likewise.
+    /// Raise of the race under the balls and its slope R'(φ) \[m\], likewise.
     raise: Vec<f64>,
+    slope: Vec<f64>,
 }
 
 impl LevelRow {
@@ -43,6 +44,7 @@ impl LevelRow {
                 form: InPlane::new(&compiled.pairs[side], radius, offset)?,
                 whole: vec![1.0; padded],
                 raise: vec![0.0; padded],
+                slope: vec![0.0; padded],
             })
         };
         Some(Self {
@@ -83,11 +85,14 @@ impl LevelRow {
         for ((side, pair), ring) in self.races.iter_mut().zip(&row.pairs).zip(rings) {
             let balls = row.first..row.first + row.count;
             let apart = |j: usize| state.motion(2 + j).centre - ring.centre;
-            for (j, (raise, whole)) in balls.zip(side.raise.iter_mut().zip(&mut side.whole)) {
-                if !pair.waves.is_round() {
-                    *raise = pair.waves.at(apart(j).y.atan2(apart(j).x) - ring.theta);
-                }
+            for (j, whole) in balls.clone().zip(&mut side.whole) {
                 *whole = f64::from(model.balls[j].side.faults.is_empty());
+            }
+            if !pair.waves.is_round() {
+                for (j, (height, slope)) in balls.zip(side.raise.iter_mut().zip(&mut side.slope)) {
+                    let raise = pair.waves.raise(apart(j).y.atan2(apart(j).x) - ring.theta);
+                    (*height, *slope) = (raise.height, raise.slope);
+                }
             }
             for fault in &pair.faults {
                 let Sight { middle, bound } = fault.sight(ring.theta);
@@ -162,7 +167,7 @@ impl EvaluateLevel<'_> {
             LevelRace::new(simd, &pairs[0], &outer.form, &rings[0]),
             LevelRace::new(simd, &pairs[1], &inner.form, &rings[1]),
         ];
-        let mut on_rings = [[zero; 2]; 2];
+        let mut on_rings = [[zero; 3]; 2];
         let mut pulls = [zero; 2];
         let [x, y, ..] = state.q.directions();
         let [vx, vy, ..] = state.v.directions();
@@ -176,13 +181,15 @@ impl EvaluateLevel<'_> {
                 vx: Vector::load(simd, &vx[body..]),
                 vy: Vector::load(simd, &vy[body..]),
                 raise: zero,
+                slope: None,
                 whole: Some(there),
             };
             let mut sides = [balls; 2];
             if LOOK {
-                for (balls, LevelSide { raise, whole, .. }) in sides.iter_mut().zip(&row.races) {
-                    balls.raise = Vector::load(simd, &raise[at..]);
-                    let whole = zero.below(Vector::load(simd, &whole[at..]));
+                for (balls, race) in sides.iter_mut().zip(&row.races) {
+                    balls.raise = Vector::load(simd, &race.raise[at..]);
+                    balls.slope = Some(Vector::load(simd, &race.slope[at..]));
+                    let whole = zero.below(Vector::load(simd, &race.whole[at..]));
                     balls.whole = Some(whole.and(there));
                 }
             }
@@ -198,6 +205,9 @@ impl EvaluateLevel<'_> {
             for side in 0..2 {
                 on_rings[side][0] += found[side].x;
                 on_rings[side][1] += found[side].y;
+                if LOOK {
+                    on_rings[side][2] += found[side].moment;
+                }
                 pulls[side] += found[side].pulls.choose(one, zero);
             }
             if outer.careful.or(inner.careful).and(there).any() {
@@ -211,9 +221,10 @@ impl EvaluateLevel<'_> {
                 }
             }
         }
-        for (side, [x, y]) in on_rings.into_iter().enumerate() {
+        for (side, [x, y, moment]) in on_rings.into_iter().enumerate() {
             sums.rings[side][0] -= x.sum();
             sums.rings[side][1] -= y.sum();
+            sums.rings[side][3] -= moment.sum();
             // A count that fits: at most a thousand balls.
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
             let pulls = pulls[side].sum() as u32;

@@ -369,7 +369,7 @@ impl Batch {
         cut.count() * (1 + usize::from(self.kind.mirrored))
     }
 
-    /// The first ball that has left its groove: pressed deeper than half its radius, or beside the groove.
+    /// The first ball that is lost ([`contact::Torus::farthest`]).
     pub fn lost(&self) -> Option<usize> {
         self.lost
     }

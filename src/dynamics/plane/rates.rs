@@ -150,6 +150,7 @@ impl Balls {
                 vx: Vector::load(simd, &vx[at..]),
                 vy: Vector::load(simd, &vy[at..]),
                 raise: zero,
+                slope: None,
                 whole: None,
             };
             let outer = races[0].press::<MIDDLE>(&balls);

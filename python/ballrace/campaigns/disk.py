@@ -1,0 +1,117 @@
+"""Files of a campaign's folder: there whole or not at all, whatever ends the process that writes them."""
+
+from __future__ import annotations
+
+import errno
+import os
+import re
+import uuid
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING
+
+from ..errors import CampaignError
+from .locks import grab
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from io import BufferedWriter
+    from pathlib import Path
+
+_NAME = re.compile(r"[0-9a-f]{32}")
+"""A file that is being written, or was when its process was killed."""
+
+_NO_SYNC = (errno.EINVAL, errno.ENOSYS, errno.EOPNOTSUPP, errno.EBADF)
+"""Of a folder: file systems that keep names without being asked say so, in one of these ways."""
+
+_NO_LINKS = (errno.EPERM, errno.ENOSYS, errno.EOPNOTSUPP, errno.EMLINK, errno.EXDEV)
+
+
+def put(root: Path, name: str, data: bytes, *, new: bool = False) -> bool:
+    """Write a file within ``root`` that is there whole or not at all, also after a loss of power.
+
+    With ``new`` it is written only where there is none, in one step: of several processes one succeeds.
+
+    Returns
+    -------
+    bool
+        Whether it was written.
+
+    Raises
+    ------
+    CampaignError
+        It cannot be written.
+    """
+    try:
+        with _temporary(root / "tmp") as (temporary, file):
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+            if os.name == "nt":
+                # A file that is open cannot be renamed there.
+                file.close()
+            written = True
+            if new:
+                written = _link(temporary, root / name)
+            else:
+                temporary.replace(root / name)
+            _sync((root / name).parent)
+            return written
+    except OSError as error:
+        raise CampaignError(f"cannot write to {root}: {error.strerror or error}") from error
+
+
+@contextmanager
+def _temporary(folder: Path) -> Iterator[tuple[Path, BufferedWriter]]:
+    """Give a new file that is locked as long as it is written, so that :func:`sweep` knows it from a leftover."""
+    while True:
+        path = folder / uuid.uuid4().hex
+        try:
+            with path.open("xb") as file:
+                grab(file.fileno())
+                # Unless it was swept away between its creation and its lock.
+                if path.exists():
+                    yield path, file
+                    return
+        finally:
+            path.unlink(missing_ok=True)
+
+
+def _link(temporary: Path, path: Path) -> bool:
+    """Give a file its name unless there is one of that name already."""
+    try:
+        os.link(temporary, path)
+    except FileExistsError:
+        return False
+    except OSError as error:
+        if error.errno not in _NO_LINKS:
+            raise
+        if path.exists():
+            return False
+        temporary.replace(path)
+    return True
+
+
+def _sync(folder: Path) -> None:
+    """Make the new name itself last, where a folder can be synced."""
+    if os.name == "nt":
+        return
+    file = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(file)
+    except OSError as error:
+        if error.errno not in _NO_SYNC:
+            raise
+    finally:
+        os.close(file)
+
+
+def sweep(folder: Path) -> None:
+    """Remove what killed processes have left half written; what is being written is locked, and stays."""
+    if os.name == "nt":
+        # Nothing tells there whether a file is still being written.
+        return
+    for path in folder.iterdir():
+        if _NAME.fullmatch(path.name):
+            with suppress(OSError), path.open("r+b") as file:
+                if grab(file.fileno()):
+                    path.unlink()

@@ -1,0 +1,126 @@
+//! What a run may cost at most: wall time, and steps.
+
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use crate::error::{Error, Result};
+use crate::integrate::Statistics;
+
+/// Checks the limits of a run.
+pub(crate) fn check(time_limit: Option<f64>, max_steps: Option<usize>) -> Result<()> {
+    if let Some(limit) = time_limit.filter(|s| !(*s > 0.0 && s.is_finite())) {
+        let allowed = "a finite wall time above 0 [s], or absent for no limit";
+        return Err(Error::scene("time_limit", limit, allowed));
+    }
+    if max_steps == Some(0) {
+        let allowed = "at least 1 step, or absent for no limit";
+        return Err(Error::scene("max_steps", 0, allowed));
+    }
+    Ok(())
+}
+
+/// Works under a limit of wall time \[s\], looked at as often as `progress` is told, so about every 20 ms.
+///
+/// # Errors
+/// Those of the work, with [`Error::Budget`] in place of the interruption that a spent limit causes.
+pub(crate) fn within<T>(
+    limit: Option<f64>,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    work: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<T>,
+) -> Result<T> {
+    let Some(seconds) = limit else {
+        return work(progress);
+    };
+    // A limit beyond what a duration can say is none.
+    let allowed = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
+    let begun = Instant::now();
+    let mut spent = false;
+    let result = work(&mut |share| {
+        progress(share)?;
+        spent = begun.elapsed() >= allowed;
+        if spent {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    match result {
+        Err(Error::Interrupted { time }) if spent => Err(Error::Budget {
+            time,
+            name: "time_limit",
+            limit: seconds,
+        }),
+        other => other,
+    }
+}
+
+/// Counts steps, accepted and rejected ones, over the parts that `auto` integrates a run in.
+#[derive(Debug)]
+pub(crate) struct StepBudget {
+    limit: Option<usize>,
+    /// Steps of the parts before this one, and of this one.
+    before: usize,
+    now: usize,
+}
+
+impl StepBudget {
+    pub fn new(limit: Option<usize>) -> Self {
+        Self {
+            limit,
+            before: 0,
+            now: 0,
+        }
+    }
+
+    /// Whether no step is left after an accepted one.
+    pub fn spent(&mut self, stats: &Statistics) -> bool {
+        if stats.accepted == 1 {
+            self.before += self.now;
+        }
+        self.now = stats.accepted + stats.rejected;
+        self.limit
+            .is_some_and(|limit| self.before + self.now >= limit)
+    }
+
+    /// The error of a run that has spent them at a time \[s\].
+    pub fn error(&self, time: f64) -> Error {
+        Error::Budget {
+            time,
+            name: "max_steps",
+            limit: self.limit.unwrap_or_default() as f64,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn counted(accepted: usize, rejected: usize) -> Statistics {
+        Statistics {
+            accepted,
+            rejected,
+            ..Statistics::default()
+        }
+    }
+
+    #[test]
+    fn steps_of_all_parts_count() {
+        let mut budget = StepBudget::new(Some(10));
+        assert!(!budget.spent(&counted(1, 0)));
+        assert!(!budget.spent(&counted(2, 4)));
+        // Another part begins, as it does where `auto` changes the method.
+        assert!(!budget.spent(&counted(1, 2)));
+        assert!(budget.spent(&counted(2, 2)));
+        assert!(!StepBudget::new(None).spent(&counted(1 << 40, 0)));
+    }
+
+    #[test]
+    fn an_interruption_of_another_kind_stays_one() {
+        let stopped = within::<()>(Some(1e3), &mut |_| ControlFlow::Break(()), |progress| {
+            assert!(progress(0.5).is_break());
+            Err(Error::Interrupted { time: 1.0 })
+        });
+        assert_eq!(stopped, Err(Error::Interrupted { time: 1.0 }));
+    }
+}

@@ -1,0 +1,76 @@
+//! What a contact carries within a defect.
+
+use super::{BallSide, Fault, Motion, Pair, Sink, Torus, Touch};
+
+/// A defect as a contact sees it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sighted<'a> {
+    pub fault: &'a Fault,
+    /// Whether the ball has it, and not the race.
+    pub on_ball: bool,
+    /// How far the contact's direction is from the defect's \[rad\].
+    pub aside: f64,
+}
+
+/// Normal force of a contact that stands over a defect \[N\].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LoadWithin {
+    /// Of all slices.
+    pub load: f64,
+    /// Of those where the surface is absent.
+    pub within: f64,
+    /// Axial place of the middle of all force, in the frame of the defect's body \[m\]; NaN without load.
+    pub place: f64,
+}
+
+struct Sum<'a> {
+    defect: &'a Sighted<'a>,
+    radius: f64,
+    race: &'a Torus,
+    load: f64,
+    within: f64,
+    moment: f64,
+}
+
+impl Sink for Sum<'_> {
+    fn touch(&mut self, touch: &Touch) {
+        let (place, radius) = if self.defect.on_ball {
+            let square = self.radius * self.radius - touch.zeta * touch.zeta;
+            (touch.zeta, square.max(0.0).sqrt())
+        } else {
+            (touch.z, self.race.radius(touch.z).unwrap_or(self.race.a))
+        };
+        self.load += touch.normal;
+        self.moment += touch.normal * place;
+        let Sighted { fault, aside, .. } = self.defect;
+        if fault.covers(place, radius, *aside) {
+            self.within += touch.normal;
+        }
+    }
+}
+
+impl Pair {
+    /// The load of a ball and the race of its ring, and how much of it is within a defect.
+    pub(crate) fn load_within(
+        &self,
+        ball: &BallSide,
+        b: &Motion,
+        r: &Motion,
+        defect: &Sighted<'_>,
+    ) -> LoadWithin {
+        let mut sum = Sum {
+            defect,
+            radius: ball.radius,
+            race: &self.race,
+            load: 0.0,
+            within: 0.0,
+            moment: 0.0,
+        };
+        self.evaluate(ball, b, r, &mut sum);
+        LoadWithin {
+            load: sum.load,
+            within: sum.within,
+            place: sum.moment / sum.load,
+        }
+    }
+}

@@ -1,0 +1,266 @@
+//! A ball that has left its groove is noticed, whatever path an evaluation takes and by whatever instructions.
+
+use std::f64::consts::FRAC_PI_2;
+use std::ops::ControlFlow;
+
+use super::{Dynamics, Order};
+use crate::integrate::System;
+use crate::scene::{
+    Defect, Friction, Method, Profile, Scene, Slices, Surface, TimeFunction, Waviness, presets,
+};
+use crate::simd::Level;
+use crate::{Error, Model, Run, Start, simulate, start};
+
+/// Truth: geometry. Where a ball is, by what it was moved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Way {
+    /// Into the outer race by more than half its radius.
+    Pressed,
+    /// Along the axis, out of the groove.
+    Beside,
+    /// All balls at the bottom, and the inner ring lifted off them.
+    Off,
+}
+
+const WAYS: [Way; 3] = [Way::Pressed, Way::Beside, Way::Off];
+
+/// A way to evaluate contacts: a scene that takes it, and in how many ways a ball may be lost there; where axial places
+/// are kept by symmetry none gets beside its groove.
+struct Path {
+    name: &'static str,
+    scene: Scene,
+    ways: &'static [Way],
+    /// Whether one loop does all at the start.
+    is_loop: bool,
+}
+
+fn path(name: &'static str, scene: &Scene, change: impl FnOnce(&mut Scene)) -> Path {
+    let mut scene = scene.clone();
+    change(&mut scene);
+    Path {
+        name,
+        scene,
+        ways: &WAYS,
+        is_loop: false,
+    }
+}
+
+/// The same where all stays in a plane.
+fn plane(name: &'static str, scene: &Scene, change: impl FnOnce(&mut Scene)) -> Path {
+    Path {
+        ways: &[Way::Pressed, Way::Off],
+        ..path(name, scene, change)
+    }
+}
+
+fn in_one_loop(path: Path) -> Path {
+    Path {
+        is_loop: true,
+        ..path
+    }
+}
+
+fn spall() -> Defect {
+    Defect {
+        on: Surface::OuterRace,
+        row: 0,
+        ball: None,
+        angle: -FRAC_PI_2,
+        axial_offset: 0.0.into(),
+        length: 4e-3,
+        width: 1e-3.into(),
+        edge_radius: 0.1e-3,
+        floor: None,
+    }
+}
+
+fn two_rows() -> Scene {
+    let mut scene = presets::wheel_bearing(0.0);
+    (scene.cage, scene.friction) = (None, Friction::None);
+    scene.defects.clear();
+    let angle = scene.rows[0].start_angle;
+    for row in &mut scene.rows {
+        (row.contact_angle, row.start_angle) = (0.0, angle);
+    }
+    scene
+}
+
+fn paths() -> Vec<Path> {
+    let mut rough = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    rough.cage = None;
+    let mut smooth = rough.clone();
+    smooth.friction = Friction::None;
+    let mut thrust = smooth.clone();
+    thrust.loads.get_mut("axial").unwrap().force = 200.0.into();
+    let wave = Waviness {
+        order: 12,
+        amplitude: 1e-6,
+        phase: 0.0,
+    };
+    let sine = Profile::Sine {
+        mean: 500.0,
+        amplitude: 10.0,
+        frequency: 50.0,
+        phase: 0.0,
+    };
+    let whole = |s: &mut Scene| s.solver.reduce = false;
+    vec![
+        path("all, by eights", &rough, whole),
+        path("all, on fixed slices", &rough, |s| {
+            s.contact.slices = Slices::Fixed(50);
+            whole(s);
+        }),
+        path("all, one by one", &rough, |s| {
+            s.defects.insert("spall".to_owned(), spall());
+            whole(s);
+        }),
+        plane("halves of zones by eights", &rough, |_| {}),
+        path("closed forms anywhere", &thrust, |_| {}),
+        plane("closed forms in the plane", &smooth, |s| {
+            let radial = s.loads.get_mut("radial").unwrap();
+            radial.force = TimeFunction::Profile(sine);
+        }),
+        plane("the same on wavy and spalled races", &smooth, |s| {
+            s.rows[0].inner_waviness = vec![wave];
+            s.defects.insert("spall".to_owned(), spall());
+        }),
+        in_one_loop(plane("one loop", &smooth, |_| {})),
+        in_one_loop(plane("one loop for two rows", &two_rows(), |_| {})),
+        in_one_loop(path("one loop off the groove's middle", &thrust, |s| {
+            s.approximations.plane = true;
+        })),
+        path("balls that roll", &thrust, |s| {
+            s.approximations.rolling = true
+        }),
+        path("balls that roll at their axial places", &thrust, |s| {
+            (s.approximations.rolling, s.approximations.plane) = (true, true);
+        }),
+    ]
+}
+
+/// A state of all bodies with balls lost one way, and the first of them.
+fn lose(model: &Model, way: Way) -> Vec<f64> {
+    let mut y = start(model, &Start::Equilibrium).unwrap();
+    for (j, ball) in model.balls.iter().enumerate() {
+        let (radius, q) = (ball.side.radius, 4 * (2 + j));
+        let distance = y[q].hypot(y[q + 1]);
+        match way {
+            // One of each row, so that rows stay images.
+            Way::Pressed if ball.index == 0 => {
+                let further = 1.0 + 0.6 * radius / distance;
+                (y[q], y[q + 1]) = (further * y[q], further * y[q + 1]);
+            }
+            // All of them, so that all keep the same place.
+            Way::Beside => y[q + 2] += 2.2 * radius,
+            Way::Off => {
+                let angle = -FRAC_PI_2 + 5e-3 * ball.index as f64;
+                (y[q], y[q + 1]) = (distance * angle.cos(), distance * angle.sin());
+            }
+            Way::Pressed => {}
+        }
+    }
+    if way == Way::Off {
+        y[4 + 1] += 0.8 * model.balls[0].side.radius;
+    }
+    y
+}
+
+/// One evaluation notices it, at every level of instructions that there is.
+#[test]
+fn an_evaluation_notices_lost_balls_on_every_path() {
+    for path in paths() {
+        for level in Level::available() {
+            let model = Model::new(&path.scene).unwrap().with_level(level);
+            let fine = start(&model, &Start::Equilibrium).unwrap();
+            let dynamics = Dynamics::begin(&model, model.reduction(&fine).as_ref(), &fine);
+            let by_loop = match &dynamics.order {
+                Order::Bodies => false,
+                Order::Kept(kept) => kept.plane.is_some(),
+            };
+            assert_eq!(by_loop, path.is_loop, "{}, {level}", path.name);
+            assert_eq!(first_lost(&model, &fine), None, "{}, {level}", path.name);
+            for way in path.ways {
+                let lost = first_lost(&model, &lose(&model, *way));
+                assert_eq!(lost, Some(2), "{}, {level}, {way:?}", path.name);
+            }
+        }
+    }
+}
+
+fn first_lost(model: &Model, y: &[f64]) -> Option<usize> {
+    let mut dynamics = Dynamics::begin(model, model.reduction(y).as_ref(), y);
+    let own = dynamics.compress(y);
+    dynamics.rhs(0.0, &own, &mut vec![0.0; own.len()]);
+    dynamics.lost()
+}
+
+fn ends(name: &str, scene: &Scene, begin: Start, duration: f64) -> (String, String, f64) {
+    let run = Run {
+        duration,
+        fs: 10e3,
+        start: begin,
+        ..Run::default()
+    };
+    match simulate(scene, &run, &mut |_| ControlFlow::Continue(())) {
+        Err(Error::Integration {
+            body, reason, time, ..
+        }) => (body, reason, time),
+        Err(other) => panic!("{name}: {other}"),
+        Ok(_) => panic!("{name}: came to its end"),
+    }
+}
+
+/// A run ends by name, by whatever method, and says how the ball left.
+#[test]
+fn a_run_ends_when_a_ball_is_lost() {
+    let mut all = paths();
+    for method in [
+        Method::BogackiShampine,
+        Method::Verner,
+        Method::RungeKutta4,
+        Method::VelocityVerlet,
+        Method::ImplicitFriction,
+        Method::Auto,
+    ] {
+        let mut other = paths().swap_remove(0);
+        other.scene.solver.method = method;
+        all.push(other);
+    }
+    for path in all {
+        let model = Model::new(&path.scene).unwrap();
+        for way in path.ways {
+            let told = match way {
+                Way::Pressed => "m into the outer race",
+                Way::Beside => "m beside the middle of the",
+                Way::Off => "m off the inner race",
+            };
+            let name = format!("{}, {:?}, {way:?}", path.name, path.scene.solver.method);
+            let begin = Start::State(lose(&model, *way));
+            let (body, reason, time) = ends(&name, &path.scene, begin, 1e-3);
+            assert_eq!(body, "row0.ball0", "{name}: {reason}");
+            // A step that is fixed throws a ball that is pressed so hard half a metre off.
+            let is_fixed = matches!(
+                path.scene.solver.method,
+                Method::VelocityVerlet | Method::RungeKutta4
+            );
+            let is_thrown = is_fixed && *way == Way::Pressed;
+            assert!(is_thrown || reason.contains(told), "{name}: {reason}");
+            assert!(time < 1e-4, "{name}: {time}");
+        }
+    }
+}
+
+/// Nothing keeps frictionless balls without a cage apart. They gather in the load zone, the ring that they hold on one side
+/// only falls off at the other, and the run ends there on every path, by whatever instructions.
+#[test]
+fn a_ring_that_falls_off_its_balls_ends_the_run() {
+    let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    (scene.friction, scene.cage) = (Friction::None, None);
+    for reduce in [true, false] {
+        scene.solver.reduce = reduce;
+        let (body, reason, time) = ends("6205", &scene, Start::Equilibrium, 0.3);
+        println!("{reduce}: {time} s, {body}: {reason}");
+        assert!(body.starts_with("row0.ball"), "{body}");
+        assert!(reason.contains("give the scene a cage"), "{reason}");
+    }
+}

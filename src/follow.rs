@@ -1,0 +1,304 @@
+//! Follows a motion over a stretch of time, step by step, and sees when it leaves reality.
+
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use crate::budget::StepBudget;
+use crate::collapse::Crawl;
+use crate::dynamics::Dynamics;
+use crate::ending::{Halt, broken};
+use crate::error::{Error, Result};
+use crate::integrate::{self, DenseStep, Options, Tolerance};
+use crate::method::{self, Choice, Task};
+use crate::model::Model;
+use crate::orbit;
+use crate::runaway;
+use crate::scene::Drive;
+use crate::signals::{Recorder, Statistics};
+use crate::step_limit;
+
+/// How often progress is told, and after how many steps the clock is asked: of a small model's step that would take a
+/// fiftieth.
+const TELL_EVERY: Duration = Duration::from_millis(20);
+const ASK_EVERY: usize = 8;
+
+/// A time to integrate over: it begins at 0 on the integrator's clock and, maybe before it, on that of the run \[s\].
+#[derive(Clone, Copy)]
+pub(crate) struct Stretch {
+    pub begins: f64,
+    pub length: f64,
+    /// Steps that it may take.
+    pub max_steps: Option<usize>,
+}
+
+/// Sees the first state of a stretch and every accepted step, on the integrator's clock.
+pub(crate) trait Watch: Send {
+    fn first(&mut self, dynamics: &mut Dynamics<'_>, y: &[f64]);
+    fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>);
+
+    /// Until when it wants to see steps of a stretch with this end \[s\].
+    fn until(&self, end: f64) -> f64 {
+        end
+    }
+
+    /// There are no more steps.
+    fn finish(&mut self) {}
+}
+
+impl Watch for Recorder {
+    fn first(&mut self, dynamics: &mut Dynamics<'_>, y: &[f64]) {
+        Recorder::first(self, dynamics, 0.0, y);
+    }
+
+    fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) {
+        Recorder::step(self, dynamics, step);
+    }
+
+    fn until(&self, end: f64) -> f64 {
+        Recorder::until(self, end)
+    }
+
+    fn finish(&mut self) {
+        Recorder::finish(self);
+    }
+}
+
+/// Integrates over a stretch from a state of all bodies; returns the last one.
+pub(crate) fn follow(
+    mut dynamics: Dynamics<'_>,
+    watch: &mut dyn Watch,
+    y0: &[f64],
+    stretch: Stretch,
+    options: &Options,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<(Vec<f64>, Statistics, Choice)> {
+    let Stretch {
+        begins,
+        length,
+        max_steps,
+    } = stretch;
+    let model = dynamics.model();
+    let begun = Instant::now();
+    let mut told = begun;
+    let (mut pulls, mut truncated, mut halt) = (0, 0, None);
+    let mut crawl = Crawl::new(model, options.max_step);
+    let (mut steps, mut spent) = (StepBudget::new(max_steps), false);
+    let bounds = runaway::Bounds::new(&dynamics, y0);
+    let tolerance = tolerance(&dynamics)?;
+    let own = dynamics.compress(y0);
+    let (mut last, mut last_time) = (own.clone(), 0.0);
+    watch.first(&mut dynamics, &own);
+    let mut observe =
+        |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, stats: &integrate::Statistics| {
+            // The last evaluation was at the accepted state.
+            pulls += dynamics.pulls();
+            truncated += dynamics.truncated();
+            let lost = dynamics.lost();
+            watch.step(dynamics, step);
+            last.copy_from_slice(step.y1());
+            last_time = step.t1();
+            let crawls = crawl.after(step.h());
+            let why = if let Some(ball) = lost {
+                Some(Halt::Escaped(ball))
+            } else if let Some((body, does)) = bounds.left(step.y1()) {
+                Some(Halt::RanAway(body, does))
+            } else {
+                crawls.then_some(Halt::Crawls)
+            };
+            if let Some(why) = why {
+                halt = Some((step.t1(), step.h(), why));
+                return ControlFlow::Break(());
+            }
+            spent = steps.spent(stats) && step.t1() < length;
+            if spent {
+                return ControlFlow::Break(());
+            }
+            if stats.accepted.is_multiple_of(ASK_EVERY) && told.elapsed() >= TELL_EVERY {
+                told = Instant::now();
+                return progress(step.t1() / length);
+            }
+            ControlFlow::Continue(())
+        };
+    let solved = method::run(
+        &mut dynamics,
+        Task {
+            span: (0.0, length),
+            y0: &own,
+            tolerance: &tolerance,
+            options,
+        },
+        &mut observe,
+    );
+    let mut full = y0.to_vec();
+    dynamics.expand(last_time, &last, &mut full);
+    let (solution, choice) = solved.map_err(|failure| broken(model, &full, begins, &failure))?;
+    if let Some((time, step, why)) = halt {
+        return Err(why.error(model, &full, (begins + time, step)));
+    }
+    if spent {
+        return Err(steps.error(begins + solution.t));
+    }
+    if solution.interrupted {
+        let time = begins + solution.t;
+        return Err(Error::Interrupted { time });
+    }
+    let end = (solution.t, &solution.y[..]);
+    let nfev_past_end = go_on(&mut dynamics, watch, end, (&tolerance, options), progress)?;
+    watch.finish();
+    let _ = progress(1.0);
+    let stats = solution.stats;
+    let statistics = Statistics {
+        accepted: stats.accepted,
+        rejected: stats.rejected,
+        nfev: stats.nfev,
+        iterations: stats.iterations,
+        smallest_step: Some(stats.smallest_step).filter(|h| h.is_finite()),
+        smallest_step_time: Some(stats.smallest_step_time).filter(|t| t.is_finite()),
+        largest_step: stats.largest_step,
+        stiff_share: stats.share_stiff(),
+        implicit_share: choice.implicit as f64 / stats.accepted.max(1) as f64,
+        capped_share: stats.capped as f64 / stats.accepted.max(1) as f64,
+        clamped_pulls: pulls,
+        truncated_contacts: truncated,
+        acceleration_residual: None,
+        wall_time: begun.elapsed().as_secs_f64(),
+        nfev_past_end,
+        largest_pressure: model
+            .largest_pressure(y0)
+            .max(model.largest_pressure(&full)),
+        settling_accepted: 0,
+        settling_nfev: 0,
+        orbit_slowed: orbit::slowed(model, y0, &full),
+    };
+    Ok((full, statistics, choice))
+}
+
+/// Follows the motion beyond the end of the run for what the last samples take from there; returns the evaluations.
+/// Where it cannot go on, the samples make do with what there is.
+fn go_on(
+    dynamics: &mut Dynamics<'_>,
+    watch: &mut dyn Watch,
+    (end, y): (f64, &[f64]),
+    (tolerance, options): (&Tolerance, &Options),
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<usize> {
+    let until = watch.until(end);
+    if until <= end {
+        return Ok(0);
+    }
+    let mut crawl = Crawl::new(dynamics.model(), options.max_step);
+    let (mut told, mut stopped) = (Instant::now(), false);
+    let mut observe =
+        |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &integrate::Statistics| {
+            if dynamics.lost().is_some() || crawl.after(step.h()) {
+                return ControlFlow::Break(());
+            }
+            watch.step(dynamics, step);
+            if told.elapsed() >= TELL_EVERY {
+                told = Instant::now();
+                stopped = progress(1.0).is_break();
+            }
+            if stopped {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+    let task = Task {
+        span: (end, until),
+        y0: y,
+        tolerance,
+        options,
+    };
+    let beyond = method::run(dynamics, task, &mut observe);
+    if stopped {
+        return Err(Error::Interrupted { time: end });
+    }
+    Ok(beyond.map_or(0, |(solution, _)| solution.stats.nfev))
+}
+
+/// How many threads share an evaluation.
+pub(crate) fn threads(model: &Model, asked: usize) -> Result<usize> {
+    if asked > 1024 {
+        return Err(Error::scene("threads", asked, "at most 1024; 0 chooses"));
+    }
+    if asked > 0 {
+        return Ok(asked);
+    }
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    Ok(if model.is_large() {
+        cores.min(model.balls.len())
+    } else {
+        1
+    })
+}
+
+/// Step cap, first step, breakpoints of loads and drive.
+pub(crate) fn options(model: &Model) -> Result<Options> {
+    let scene = &model.scene;
+    let solver = &scene.solver;
+    let cap = if solver.frequency_cap {
+        step_limit::largest(solver.method, &model.scales)
+    } else {
+        f64::INFINITY
+    };
+    let mut breakpoints: Vec<f64> = model
+        .loads
+        .iter()
+        .flat_map(|load| load.force.breakpoints())
+        .collect();
+    breakpoints.extend(match &scene.drive {
+        Drive::Speed(value) | Drive::Torque { value, .. } => value.breakpoints(),
+    });
+    let max_step = solver.max_step.unwrap_or(f64::INFINITY).min(cap);
+    let fixed = method::is_fixed(solver.method);
+    if fixed && max_step.is_infinite() {
+        return Err(Error::scene(
+            "solver.max_step",
+            "absent",
+            "a step [s], since the method has a fixed one and solver.frequency_cap is false",
+        ));
+    }
+    Ok(Options {
+        first_step: solver.first_step,
+        max_step,
+        fixed_step: fixed.then_some(max_step),
+        breakpoints,
+        ..Options::default()
+    })
+}
+
+/// Every body is a group; lengths are measured by the contact's approach δ, speeds by δ ω of the highest
+/// contact frequency, angles by the arc on a ball. A position itself (36 mm) says nothing about what error
+/// of it matters.
+pub(crate) fn tolerance(dynamics: &Dynamics<'_>) -> Result<Tolerance> {
+    let model = dynamics.model();
+    let (scales, rtol) = (&model.scales, model.scene.solver.rtol);
+    let degrees = dynamics.degrees();
+    let mut kept = vec![0; model.body_count()];
+    for (body, _) in &degrees {
+        kept[*body] += 1;
+    }
+    let half = |length: f64| {
+        degrees.iter().map(move |&(body, direction)| {
+            (
+                body,
+                if direction == 3 {
+                    length / model.radius(body)
+                } else {
+                    length
+                },
+            )
+        })
+    };
+    let length = rtol * scales.approach;
+    let atol = half(length)
+        .chain(half(length * scales.frequency))
+        // What is left out has no error: it counts in a body's mean as if it were there.
+        .map(|(body, atol)| atol * (4.0 / f64::from(kept[body])).sqrt())
+        .collect();
+    let bodies = degrees.iter().map(|(body, _)| *body);
+    let group = bodies.clone().chain(bodies).collect();
+    Tolerance::new(0.0, atol, &vec![false; 2 * degrees.len()], group)
+        .map_err(|invalid| Error::scene("solver.rtol", rtol, invalid.to_string()))
+}

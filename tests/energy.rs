@@ -1,0 +1,254 @@
+//! Analytic: what is conservative conserves. Without damping, friction and drive the energy stays — kinetic, contacts,
+//! supports, gravity, less the work of the loads — over both normal laws, with defects on each body, with waves, and
+//! with two rows that are not alike: to 1e-5 of the swing of the kinetic energy.
+
+mod common;
+
+use std::f64::consts::FRAC_PI_2;
+
+use ballrace::scene::{
+    Defect, Drive, Floor, Friction, Mount, NormalLaw, Probe, RingName, Scene, Slices, Surface,
+    Unbalance, Waviness, Width, WidthProfile, presets,
+};
+use ballrace::{Error, Model, Run, Start, equilibrium, start};
+use common::{run, short};
+
+const LAWS: [NormalLaw; 2] = [
+    NormalLaw::Hertz,
+    NormalLaw::Iso16281 {
+        constant: 7.765e10,
+        length_ratio: 0.5,
+    },
+];
+
+/// A 6205 under radial load and thrust whose inner ring coasts at 3000 rpm: nothing gives or takes energy but the loads.
+fn coasting(law: &NormalLaw) -> Scene {
+    conservative(presets::deep_groove_6205(400.0, 150.0, 3000.0), law)
+}
+
+fn conservative(mut scene: Scene, law: &NormalLaw) -> Scene {
+    scene.contact.law = law.clone();
+    scene.contact.slices = Slices::Fitted(8);
+    scene.contact.damping = 0.0;
+    (scene.friction, scene.cage) = (Friction::None, None);
+    scene.drive = Drive::Torque {
+        value: 0.0.into(),
+        initial_speed: scene.drive.initial_speed(),
+    };
+    for ring in [&mut scene.outer_ring, &mut scene.inner_ring] {
+        let support = &mut ring.support;
+        for mount in [&mut support.x, &mut support.y, &mut support.z] {
+            if let Some(Mount::Spring { damping, .. }) = mount {
+                *damping = 0.0;
+            }
+        }
+    }
+    scene.probes = [
+        ("e".to_owned(), Probe::Energy {}),
+        (
+            "inner".to_owned(),
+            Probe::Motion {
+                body: "inner".to_owned(),
+                components: None,
+            },
+        ),
+    ]
+    .into();
+    scene
+}
+
+/// A defect that ball 0 meets, or has, a millisecond or so after it was at −90°.
+fn defect(scene: &Scene, on: Surface) -> Defect {
+    let ball = &equilibrium(scene).unwrap().balls[0];
+    // Angle run by the contact on the surface in 1.2 ms: of the cage, of cage less inner ring, of ball less cage.
+    let (angle, place, width) = match on {
+        Surface::OuterRace => (0.15, ball.outer.zone_centre.unwrap(), 0.5e-3),
+        Surface::InnerRace => (-0.23, ball.inner.zone_centre.unwrap(), 0.5e-3),
+        Surface::Ball => (0.9, 0.0, 0.5e-3),
+    };
+    Defect {
+        on,
+        row: 0,
+        ball: (on == Surface::Ball).then_some(0),
+        angle: angle - FRAC_PI_2,
+        axial_offset: (place + 0.1e-3).into(),
+        // Within the zone, which is as long as 1.5 mm or so.
+        length: if on == Surface::Ball { 2.2e-3 } else { 0.6e-3 },
+        width: width.into(),
+        edge_radius: 0.2e-3,
+        floor: None,
+    }
+}
+
+fn with_defect(law: &NormalLaw, on: Surface, change: impl Fn(&mut Defect)) -> Scene {
+    let mut scene = coasting(law);
+    let mut defect = defect(&scene, on);
+    change(&mut defect);
+    scene.defects.insert("spall".to_owned(), defect);
+    scene
+}
+
+fn wave(order: u32) -> Vec<Waviness> {
+    vec![Waviness {
+        order,
+        amplitude: 2e-6,
+        phase: 0.4,
+    }]
+}
+
+fn scenes(law: &NormalLaw) -> Vec<(&'static str, Scene)> {
+    let wavy = |outer: bool| {
+        let mut scene = coasting(law);
+        let row = &mut scene.rows[0];
+        let races = [&mut row.inner_waviness, &mut row.outer_waviness];
+        *races.into_iter().nth(usize::from(outer)).unwrap() = wave(30);
+        scene
+    };
+    let plain = |_: &mut Defect| {};
+    let mut both = with_defect(law, Surface::OuterRace, plain);
+    both.rows[0].outer_waviness = wave(30);
+    vec![
+        ("healthy", coasting(law)),
+        ("outer race", with_defect(law, Surface::OuterRace, plain)),
+        ("inner race", with_defect(law, Surface::InnerRace, plain)),
+        ("ball", with_defect(law, Surface::Ball, plain)),
+        (
+            "floor",
+            with_defect(law, Surface::OuterRace, |d| {
+                d.width = 1e-3.into();
+                d.floor = Some(Floor {
+                    depth: 8e-6,
+                    elements: 3,
+                });
+            }),
+        ),
+        (
+            "width that varies",
+            with_defect(law, Surface::OuterRace, |d| {
+                d.width = Width::Profile(WidthProfile {
+                    positions: vec![-0.3e-3, 0.3e-3],
+                    widths: vec![0.4e-3, 0.7e-3],
+                });
+            }),
+        ),
+        ("waves outside", wavy(true)),
+        ("waves inside", wavy(false)),
+        ("waves and a defect", both),
+        ("two rows", two_rows(law)),
+    ]
+}
+
+/// Two rows that are not alike: other balls, another angle, a defect on one.
+fn two_rows(law: &NormalLaw) -> Scene {
+    let mut scene = conservative(presets::wheel_bearing(2000.0), law);
+    let row = &mut scene.rows[1];
+    (row.ball_count, row.ball_diameter) = (11, 12.5e-3);
+    row.contact_angle *= 1.3;
+    let spall = scene.defects.get_mut("spall").unwrap();
+    spall.angle += 0.1;
+    scene
+}
+
+/// Largest change of the energy less the work of the loads, over the swing of the kinetic energy.
+fn drift(scene: &Scene, duration: f64) -> f64 {
+    let out = run(
+        scene,
+        &Run {
+            rtol: Some(1e-10),
+            ..short(duration)
+        },
+    );
+    let of = |name: &str| out.get(name).unwrap();
+    let work = |i: usize| -> f64 {
+        let along = ["inner.x", "inner.y", "inner.z"].map(|name| of(name)[i]);
+        let loads = scene.loads.values().map(|load| {
+            let travel: f64 = (0..3).map(|k| load.direction[k] * along[k]).sum();
+            load.force.at(0.0) * travel
+        });
+        let torque = match &scene.drive {
+            Drive::Torque { value, .. } => value.at(0.0),
+            Drive::Speed(_) => 0.0,
+        };
+        loads.sum::<f64>() + torque * (of("inner.theta")[i] - of("inner.theta")[0])
+    };
+    let (total, kinetic) = (of("e.total"), of("e.kinetic"));
+    let kept = |i: usize| total[i] - work(i);
+    let most = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::MIN, f64::max);
+    let swing = most(&mut kinetic.iter().copied()) + most(&mut kinetic.iter().map(|e| -e));
+    most(&mut (0..total.len()).map(|i| (kept(i) - kept(0)).abs())) / swing
+}
+
+#[test]
+fn energy_is_kept() {
+    let mut failed = Vec::new();
+    for law in &LAWS {
+        for (name, scene) in scenes(law) {
+            let found = drift(&scene, 6e-3);
+            println!("{law:?}, {name}: {found:.1e}");
+            if found > 1e-5 {
+                failed.push(format!("{law:?}, {name}: {found:.1e}"));
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{failed:#?}");
+}
+
+/// An unbalance of the inner ring.
+fn unbalanced(mut scene: Scene, moment: f64, angle: f64) -> Scene {
+    let ring = RingName::Inner;
+    let unbalance = Unbalance {
+        ring,
+        moment,
+        angle,
+    };
+    scene.unbalances.insert("u".to_owned(), unbalance);
+    scene
+}
+
+/// A torque speeds up a ring under load with 6 mm of eccentricity: its work is what the energy grows by.
+#[test]
+fn a_torque_works_on_an_unbalanced_ring() {
+    let mut scene = unbalanced(coasting(&LAWS[0]), 6e-3, 0.7);
+    if let Drive::Torque { value, .. } = &mut scene.drive {
+        *value = 5.0.into();
+    }
+    let found = drift(&scene, 6e-3);
+    println!("{found:.1e}");
+    assert!(found < 1e-5, "{found:.1e}");
+}
+
+/// Free of its balls and of supports a ring under a torque T turns about its centre of mass, m e/m off its own: the
+/// inertia there is I − (m e)²/m, and the centre of mass stays where it is but for its fall.
+#[test]
+fn a_free_unbalanced_ring_turns_about_its_centre_of_mass() {
+    let (moment, angle, torque) = (8e-3, 0.3, 2.0);
+    let mut scene = unbalanced(coasting(&LAWS[0]), moment, angle);
+    scene.rows[0].clearance = 400e-6;
+    scene.loads.clear();
+    scene.inner_ring.support = ballrace::scene::Support::default();
+    (scene.inner_ring.mass, scene.inner_ring.inertia) = (Some(1.0), Some(2e-4));
+    scene.drive = Drive::Torque {
+        value: torque.into(),
+        initial_speed: 300.0,
+    };
+    let model = Model::new(&scene).unwrap();
+    let mut y = start(&model, &Start::Rolling).unwrap();
+    let (half, inner) = (y.len() / 2, 4);
+    y[inner + 3] = 1.1;
+    let mut dy = vec![0.0; y.len()];
+    model.rhs(0.0, &y, &mut dy);
+    let [ax, ay, spin] = [0, 1, 3].map(|i| dy[half + inner + i]);
+    let omega = y[half + inner + 3];
+    assert_eq!(omega, 300.0);
+    let expected = torque / (2e-4 - moment * moment);
+    assert!((spin / expected - 1.0).abs() < 1e-12, "{spin} {expected}");
+    // Of the centre of mass: that of the centre and e (ω̇ t̂ − ω² r̂).
+    let (sin, cos) = (1.1_f64 + angle).sin_cos();
+    let x = ax - moment * (spin * sin + omega * omega * cos);
+    let y = ay + moment * (spin * cos - omega * omega * sin);
+    assert!(x.abs() < 1e-9 && (y + 9.81).abs() < 1e-9, "{x} {y}");
+    // More than the whole mass at the radius of gyration there cannot be.
+    let too_much = unbalanced(scene, 0.02, 0.0);
+    let refused = Model::new(&too_much).unwrap_err();
+    assert!(matches!(refused, Error::Scene { path, .. } if path == "unbalances.u.moment"));
+}
