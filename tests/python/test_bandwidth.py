@@ -29,7 +29,7 @@ AXES: tuple[br.scene.Component, ...] = ("y", "vy", "ay")
 @pytest.fixture(scope="module")
 def spalled() -> br.Scene:
     """A 6205 with a spall of the outer race below, which rings far above 6 kHz."""
-    spall = replace(br.presets.wheel_bearing().defects["spall"], row=0)
+    spall = replace(br.presets.wheel_bearing().defects["spall"], axial_offset=0.0)
     probes = {"outer": br.scene.MotionProbe(body="outer", components=AXES)}
     return br.presets.deep_groove_6205().replace({"defects": {"spall": spall}, "probes": probes})
 

@@ -65,7 +65,9 @@ def test_features_are_those_of_the_signals(tmp_path: Path) -> None:
             continue
         for suffix, signal in (("", x), ("_envelope", envelope)):
             _, value = br.spectra.line(signal, 50e3, near, width)
-            assert row[f"outer.ay.row0.{name}{suffix}"] == pytest.approx(value, rel=2e-3), name
+            # Next to nothing is not a line, whose summit both would find.
+            found = row[f"outer.ay.row0.{name}{suffix}"]
+            assert found == pytest.approx(value, rel=2e-3, abs=1e-5 * signal.std()), name
     assert row["outer.ay.row0.ftf"] is None
     assert row["row0.outer.load_max"] > 500.0
 

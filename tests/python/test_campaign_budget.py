@@ -26,25 +26,26 @@ WARNED: dict[str, Any] = {"scene": SCENE.replace({"contact.damping": 5.0}), "rto
 
 
 def test_a_run_ends_at_its_number_of_steps() -> None:
-    whole = br.simulate(SCENE, duration=2e-3)
+    options: dict[str, Any] = {"duration": 2e-3, "settle": 0.0}
+    whole = br.simulate(SCENE, **options)
     steps = whole.stats.accepted + whole.stats.rejected
-    again = br.simulate(SCENE, duration=2e-3, max_steps=steps)
+    again = br.simulate(SCENE, **options, max_steps=steps)
     assert (again["outer.ay"] == whole["outer.ay"]).all(), "a budget that suffices changes nothing"
     times = []
     for _ in range(2):
         with pytest.raises(br.BudgetError, match=r"max_steps = 50 is spent") as caught:
-            br.simulate(SCENE, duration=2e-3, max_steps=50)
+            br.simulate(SCENE, **options, max_steps=50)
         times.append(caught.value.time)
     assert isinstance(caught.value, br.IntegrationError)
     assert times[0] == times[1]
     assert 0.0 < times[0] < 2e-3
     assert (caught.value.budget, caught.value.limit) == ("max_steps", 50.0)
     with pytest.raises(br.BudgetError, match="max_steps"):
-        br.simulate(SCENE, duration=2e-3, max_steps=steps - 1)
+        br.simulate(SCENE, **options, max_steps=steps - 1)
 
 
 def test_steps_of_both_methods_of_auto_count() -> None:
-    options: dict[str, Any] = {"duration": 5e-3, "method": "auto"}
+    options: dict[str, Any] = {"duration": 5e-3, "method": "auto", "settle": 0.0}
     whole = br.simulate(br.presets.wheel_bearing(), **options)
     steps = whole.stats.accepted + whole.stats.rejected
     br.simulate(br.presets.wheel_bearing(), **options, max_steps=steps)
@@ -103,7 +104,7 @@ def test_a_case_beyond_its_budget_is_a_row_and_runs_with_a_larger_one(tmp_path: 
 
 def test_a_case_beyond_its_time_is_a_row(tmp_path: Path) -> None:
     cases = [{"duration": 1e3, "fs": 1.0}, {"duration": 1e-4}]
-    done = run(cases, tmp_path, time_limit=0.3, skip=0.0)
+    done = run(cases, tmp_path, time_limit=0.3, skip=0.0, bandwidth=None)
     assert done.manifest["error"].to_list() == ["BudgetError", None]
     assert "time_limit = 0.3 is spent" in done.failed["message"][0]
 
@@ -222,7 +223,12 @@ def test_ctrl_c_while_results_are_written_loses_none(
     monkeypatch.setattr(Store, "write", tell_twice)
     monkeypatch.setattr(Writer, "flush_when_due", due)
     with pytest.raises(KeyboardInterrupt, match="interrupted; 1 of 2 cases are safe"):
-        run([{"duration": 1e-4}, {"duration": 1e2, "fs": 1.0}], tmp_path, threads=1)
+        run(
+            [{"duration": 1e-4}, {"duration": 1e2, "fs": 1.0}],
+            tmp_path,
+            threads=1,
+            bandwidth=None,
+        )
 
 
 PROGRAM = """
@@ -234,7 +240,7 @@ def tell(progress):
     print(progress.done, flush=True)
 
 cases = [{{"duration": 1e-4}}] + [{{"duration": 1e3, "fs": 1.0 + i}} for i in range(2)]
-sweeps.run(cases, {out!r}, progress=tell, start="rolling")
+sweeps.run(cases, {out!r}, progress=tell, start="rolling", bandwidth=None)
 """
 
 

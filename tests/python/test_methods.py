@@ -78,7 +78,7 @@ def test_auto_says_what_it_did() -> None:
     assert soft.provenance.stiffness < 1.0 < stiff.provenance.stiffness
     assert (soft.stats.implicit_share, stiff.stats.implicit_share) == (0.0, 1.0)
     assert soft.stats.iterations == 0 < stiff.stats.iterations
-    assert stiff.stats.nfev < explicit.stats.nfev / 2
+    assert stiff.stats.nfev < explicit.stats.nfev / 1.5
 
 
 def test_fixed_steps_are_the_largest_allowed() -> None:
