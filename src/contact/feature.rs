@@ -36,9 +36,42 @@ enum Shape {
     },
 }
 
-/// By how much an element stands behind another \[m\].
+/// By how much an element stands behind another \[m\], or a penetration: alone, or with what its gradient needs.
+pub(super) trait Depth: Copy + Add<Output = Self> + Sub<Output = Self> {
+    /// Whether it has slopes.
+    const SLOPES: bool;
+    /// Out of reach.
+    const NEVER: Self;
+
+    /// From its value and slopes.
+    fn new(value: f64, by_z: f64, by_zeta: f64) -> Self;
+
+    fn value(self) -> f64;
+
+    /// The same with another slope along the ball.
+    fn along_ball(self, by_zeta: f64) -> Self;
+}
+
+impl Depth for f64 {
+    const SLOPES: bool = false;
+    const NEVER: Self = Self::INFINITY;
+
+    fn new(value: f64, _by_z: f64, _by_zeta: f64) -> Self {
+        value
+    }
+
+    fn value(self) -> f64 {
+        self
+    }
+
+    fn along_ball(self, _by_zeta: f64) -> Self {
+        self
+    }
+}
+
+/// With its slopes.
 #[derive(Clone, Copy)]
-pub(super) struct Drop {
+pub(super) struct Sloped {
     pub(super) value: f64,
     /// Its derivative by the place z in the ring's frame, at a fixed slice of the ball.
     pub(super) by_z: f64,
@@ -46,20 +79,32 @@ pub(super) struct Drop {
     pub(super) by_zeta: f64,
 }
 
-impl Drop {
-    const NONE: Self = Self {
-        value: 0.0,
+impl Depth for Sloped {
+    const SLOPES: bool = true;
+    const NEVER: Self = Self {
+        value: f64::INFINITY,
         by_z: 0.0,
         by_zeta: 0.0,
     };
-    /// Out of reach.
-    const NEVER: Self = Self {
-        value: f64::INFINITY,
-        ..Self::NONE
-    };
+
+    fn new(value: f64, by_z: f64, by_zeta: f64) -> Self {
+        Self {
+            value,
+            by_z,
+            by_zeta,
+        }
+    }
+
+    fn value(self) -> f64 {
+        self.value
+    }
+
+    fn along_ball(self, by_zeta: f64) -> Self {
+        Self { by_zeta, ..self }
+    }
 }
 
-impl Add for Drop {
+impl Add for Sloped {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -71,7 +116,7 @@ impl Add for Drop {
     }
 }
 
-impl Sub for Drop {
+impl Sub for Sloped {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -84,7 +129,7 @@ impl Sub for Drop {
 }
 
 /// The tangential force that the slope of the waves adds, over the force along n_e, and its arm from the ball's centre.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Lean {
     force: V2,
     arm: V2,
@@ -92,37 +137,37 @@ struct Lean {
 
 /// A surface of the ring that a slice can meet.
 #[derive(Clone, Copy)]
-struct Feature {
+struct Feature<D> {
     shape: Shape,
     /// Unit vector out of the ball.
     n_e: V2,
     /// Penetration of the smooth ball against it, by geometry.
-    s: Drop,
-    drops: (Drop, Drop),
+    s: D,
+    drops: (D, D),
     arm_ring: V2,
     lean: Lean,
 }
 
 /// One feature of the ring against one of the ball.
 #[derive(Clone, Copy)]
-pub(super) struct Meeting {
-    feature: Feature,
+pub(super) struct Meeting<D> {
+    feature: Feature<D>,
     /// Drops of the ball's side.
-    ball_drops: (Drop, Drop),
+    ball_drops: (D, D),
     tan: f64,
 }
 
-impl Meeting {
-    fn smooth(feature: Feature, node: &Node) -> Self {
+impl<D: Depth> Meeting<D> {
+    fn smooth(feature: Feature<D>, node: &Node) -> Self {
         Self {
             feature,
-            ball_drops: (Drop::NONE, Drop::NEVER),
+            ball_drops: (D::new(0.0, 0.0, 0.0), D::NEVER),
             tan: node.zeta / node.rho,
         }
     }
 
     /// The four drops of the law's argument and their signs; an infinite one does not count.
-    pub(super) fn terms(&self) -> [(f64, Drop); 4] {
+    pub(super) fn terms(&self) -> [(f64, D); 4] {
         let ((a, b), (p, q)) = (self.feature.drops, self.ball_drops);
         [(1.0, a + p), (-1.0, a + q), (-1.0, b + p), (1.0, b + q)]
     }
@@ -147,7 +192,18 @@ impl Contact<'_> {
             sink.truncated();
             return;
         }
-        self.meetings(node, &mut |meeting| self.press(node, meeting, sink));
+        // Forces along normals are all there is to the ISO law, and where surfaces are whole.
+        if self.common.is_some() && (self.ring_open || self.ball_open) {
+            self.meetings(node, &mut |meeting: &Meeting<Sloped>| {
+                if self.press(node, meeting, sink) {
+                    self.tilt(node, meeting, sink);
+                }
+            });
+        } else {
+            self.meetings(node, &mut |meeting: &Meeting<f64>| {
+                self.press(node, meeting, sink);
+            });
+        }
     }
 
     /// Whether a surface is absent where the slice meets it.
@@ -163,10 +219,10 @@ impl Contact<'_> {
             count: 0,
         };
         let share = self.drop_share();
-        self.meetings(node, &mut |meeting| {
+        self.meetings(node, &mut |meeting: &Meeting<f64>| {
             for (_, drop) in meeting.terms() {
-                if drop.value < f64::INFINITY && levels.count < MOST_LEVELS {
-                    levels.values[levels.count] = node.depth - share * drop.value;
+                if drop.value() < f64::INFINITY && levels.count < MOST_LEVELS {
+                    levels.values[levels.count] = node.depth - share * drop.value();
                     levels.count += 1;
                 }
             }
@@ -197,7 +253,7 @@ impl Contact<'_> {
     }
 
     /// All pairs of features that stand against each other at a slice.
-    pub(super) fn meetings(&self, node: &Node, visit: &mut impl FnMut(&Meeting)) {
+    pub(super) fn meetings<D: Depth>(&self, node: &Node, visit: &mut impl FnMut(&Meeting<D>)) {
         let race = self.race_feature(node);
         let Some(arc) = self.ring_arc(node) else {
             self.feature(node, &race, visit);
@@ -210,33 +266,39 @@ impl Contact<'_> {
             let drops = (drop, both);
             self.feature(node, &Feature { drops, ..edge }, visit);
         }
-        let drops = (both, Drop::NEVER);
+        let drops = (both, D::NEVER);
         self.feature(node, &Feature { drops, ..race }, visit);
         for (edge, depth) in floors(&self.pair.faults, node.on_ring(), self.on_ring, &arc) {
             let circle = self.ring_circle(node, &edge, depth);
-            let drops = (race.s - circle.s, Drop::NEVER);
+            let drops = (race.s - circle.s, D::NEVER);
             self.feature(node, &Feature { drops, ..circle }, visit);
         }
     }
 
     /// The race, whole.
-    fn race_feature(&self, node: &Node) -> Feature {
+    fn race_feature<D: Depth>(&self, node: &Node) -> Feature<D> {
         let sigma = self.pair.race.sigma;
         Feature {
             shape: Shape::Race,
             n_e: self.n * sigma,
-            s: Drop {
-                value: self.race_penetration(node),
-                by_z: -sigma * self.race_slope(node),
-                by_zeta: -node.zeta / node.rho,
-            },
-            drops: (Drop::NONE, Drop::NEVER),
+            s: D::new(
+                self.race_penetration(node),
+                -sigma * self.race_slope(node),
+                -node.zeta / node.rho,
+            ),
+            drops: (D::new(0.0, 0.0, 0.0), D::NEVER),
             arm_ring: self.n * (node.torus_radius + self.raise.height),
-            lean: Lean {
-                force: turned(self.n) * (sigma * self.raise.slope / self.distance),
-                arm: V2::zeros(),
-            },
+            lean: self.lean(self.n, self.distance, self.raise.slope, V2::zeros()),
         }
+    }
+
+    /// What the waves' slope does in a direction and at a distance from the ring's centre.
+    fn lean(&self, n: V2, distance: f64, slope: f64, arm: V2) -> Lean {
+        if self.pair.waves.is_round() {
+            return Lean::default();
+        }
+        let force = turned(n) * (self.pair.race.sigma * slope / distance);
+        Lean { force, arm }
     }
 
     /// Slope of the race's radius along z.
@@ -245,7 +307,7 @@ impl Contact<'_> {
     }
 
     /// A fault circle of the ring against the smooth slice.
-    fn ring_circle(&self, node: &Node, edge: &Edge, depth: f64) -> Feature {
+    fn ring_circle<D: Depth>(&self, node: &Node, edge: &Edge, depth: f64) -> Feature<D> {
         let raise = self.pair.waves.raise(self.on_ring + edge.angle);
         let sigma = self.pair.race.sigma;
         let reach = node.torus_radius + raise.height + sigma * (edge.radius + depth);
@@ -254,8 +316,8 @@ impl Contact<'_> {
         let away = from_ring - self.apart;
         let distance = away.norm();
         let n_e = away / distance;
-        // How the centre moves along z: to the Hertz law alone it matters.
-        let slope = if self.common.is_some() {
+        // How the centre moves along z.
+        let slope = if D::SLOPES {
             let race_slope = self.race_slope(node);
             let turn = edge.turn(node.torus_radius, race_slope);
             u * (race_slope + raise.slope * turn) + turned(u) * (reach * turn)
@@ -269,22 +331,24 @@ impl Contact<'_> {
                 slope,
             },
             n_e,
-            s: Drop {
-                value: node.rho + edge.radius - distance,
-                by_z: -n_e.dot(&slope),
-                by_zeta: -node.zeta / node.rho,
-            },
-            drops: (Drop::NONE, Drop::NEVER),
+            s: D::new(
+                node.rho + edge.radius - distance,
+                -n_e.dot(&slope),
+                -node.zeta / node.rho,
+            ),
+            drops: (D::new(0.0, 0.0, 0.0), D::NEVER),
             arm_ring: from_ring - n_e * edge.radius,
-            lean: Lean {
-                force: V2::zeros(),
-                arm: V2::zeros(),
-            },
+            lean: Lean::default(),
         }
     }
 
     /// A feature of the ring against the ball, smooth or not.
-    fn feature(&self, node: &Node, feature: &Feature, visit: &mut impl FnMut(&Meeting)) {
+    fn feature<D: Depth>(
+        &self,
+        node: &Node,
+        feature: &Feature<D>,
+        visit: &mut impl FnMut(&Meeting<D>),
+    ) {
         let Some(arc) = self.ball_arc(node, feature.n_e) else {
             visit(&Meeting::smooth(*feature, node));
             return;
@@ -306,7 +370,7 @@ impl Contact<'_> {
             ball_drops: (drop_2, both),
             tan: tan_2,
         });
-        let ball_drops = (both, Drop::NEVER);
+        let ball_drops = (both, D::NEVER);
         visit(&Meeting {
             ball_drops,
             ..Meeting::smooth(*feature, node)
@@ -316,20 +380,20 @@ impl Contact<'_> {
             let (drop, circle, tan) = meet(&edge, depth);
             visit(&Meeting {
                 feature: circle,
-                ball_drops: (drop, Drop::NEVER),
+                ball_drops: (drop, D::NEVER),
                 tan,
             });
         }
     }
 
     /// A fault circle of the ball against a feature of the ring, and tan α from the gradient of its gap.
-    fn ball_circle(
+    fn ball_circle<D: Depth>(
         &self,
         node: &Node,
-        feature: &Feature,
+        feature: &Feature<D>,
         edge: &Edge,
         depth: f64,
-    ) -> (Feature, f64) {
+    ) -> (Feature<D>, f64) {
         let u = rotated(feature.n_e, edge.angle);
         let lever = node.rho - edge.radius - depth;
         let arm = u * lever;
@@ -342,12 +406,18 @@ impl Contact<'_> {
             Shape::Circle { .. } => self.circle_on_circle(feature, edge, arm),
         };
         let tan = met.lean.force.dot(&slope) - met.n_e.dot(&slope);
-        met.s.by_zeta = -tan;
+        met.s = met.s.along_ball(-tan);
         (met, tan)
     }
 
     /// A fault circle of the ball, its centre at some arm, against the race.
-    fn circle_on_race(&self, node: &Node, feature: &Feature, edge: &Edge, arm: V2) -> Feature {
+    fn circle_on_race<D: Depth>(
+        &self,
+        node: &Node,
+        feature: &Feature<D>,
+        edge: &Edge,
+        arm: V2,
+    ) -> Feature<D> {
         let from_ring = self.apart + arm;
         let distance = from_ring.norm();
         let m = from_ring / distance;
@@ -361,21 +431,19 @@ impl Contact<'_> {
         let sigma = self.pair.race.sigma;
         Feature {
             n_e: m * sigma,
-            s: Drop {
-                value: sigma * (distance - radius) + edge.radius,
-                ..feature.s
-            },
+            s: D::new(
+                sigma * (distance - radius) + edge.radius,
+                -sigma * self.race_slope(node),
+                0.0,
+            ),
             arm_ring: m * radius,
-            lean: Lean {
-                force: turned(m) * (sigma * raise.slope / distance),
-                arm,
-            },
+            lean: self.lean(m, distance, raise.slope, arm),
             ..*feature
         }
     }
 
     /// The same against a fault circle of the ring.
-    fn circle_on_circle(&self, feature: &Feature, edge: &Edge, arm: V2) -> Feature {
+    fn circle_on_circle<D: Depth>(&self, feature: &Feature<D>, edge: &Edge, arm: V2) -> Feature<D> {
         let Shape::Circle {
             from_ring: other,
             radius,
@@ -389,25 +457,21 @@ impl Contact<'_> {
         let n_e = away / distance;
         Feature {
             n_e,
-            s: Drop {
-                value: radius + edge.radius - distance,
-                by_z: -n_e.dot(&slope),
-                ..feature.s
-            },
+            s: D::new(radius + edge.radius - distance, -n_e.dot(&slope), 0.0),
             arm_ring: other - n_e * radius,
             ..*feature
         }
     }
 
-    /// Elastic force, damping and friction of one feature of the ring against one of the ball.
-    fn press<S: Sink>(&self, node: &Node, meeting: &Meeting, sink: &mut S) {
+    /// Elastic force, damping and friction of one feature of the ring against one of the ball; false without any.
+    fn press<D: Depth, S: Sink>(&self, node: &Node, meeting: &Meeting<D>, sink: &mut S) -> bool {
         let pair = self.pair;
         let share = self.drop_share();
         let (feature, tan) = (&meeting.feature, meeting.tan);
         let split = |law: &dyn Fn(f64) -> f64| {
-            let at = |(sign, drop): (f64, Drop)| {
-                if drop.value < f64::INFINITY {
-                    sign * law(node.depth - share * drop.value)
+            let at = |(sign, drop): (f64, D)| {
+                if drop.value() < f64::INFINITY {
+                    sign * law(node.depth - share * drop.value())
                 } else {
                     0.0
                 }
@@ -416,7 +480,7 @@ impl Contact<'_> {
         };
         let elastic = split(&|depth| pair.law.force(depth, node.width));
         if elastic <= 0.0 {
-            return;
+            return false;
         }
         let (b, r, n_e) = (self.b, self.r, feature.n_e);
         let arm_ball = feature.arm_ring - self.apart;
@@ -433,7 +497,7 @@ impl Contact<'_> {
             zeta: node.zeta,
             z: node.z,
             width: node.width,
-            depth: node.depth - share * (feature.drops.0.value + meeting.ball_drops.0.value),
+            depth: node.depth - share * (feature.drops.0.value() + meeting.ball_drops.0.value()),
             elastic,
             normal,
             energy: if S::ENERGY {
@@ -469,9 +533,6 @@ impl Contact<'_> {
             touch.friction_power = factor * slip * slip;
         }
         sink.touch(&touch);
-        if self.ring_open || self.ball_open {
-            self.tilt(node, meeting, sink);
-        }
         if !pair.waves.is_round() {
             let Lean { force, arm } = feature.lean;
             sink.aside(&Aside {
@@ -481,6 +542,7 @@ impl Contact<'_> {
                 arm_ring: self.apart + arm,
             });
         }
+        true
     }
 }
 

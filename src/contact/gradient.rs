@@ -31,7 +31,7 @@
 //! through the ball's centre, on the ring with the opposite sign at the same point. Slices at fixed places take the same
 //! terms, with their error.
 
-use super::feature::Meeting;
+use super::feature::{Meeting, Sloped};
 use super::pair::Contact;
 use super::walk::{Line, Node};
 use super::{Aside, Law, Sink, V2, turned};
@@ -48,7 +48,7 @@ pub(super) const HAIR: f64 = 1e-12;
 
 impl Contact<'_> {
     /// What the meridional direction and the axial place have to say to an element's energy under the Hertz law.
-    pub(super) fn tilt<S: Sink>(&self, node: &Node, meeting: &Meeting, sink: &mut S) {
+    pub(super) fn tilt<S: Sink>(&self, node: &Node, meeting: &Meeting<Sloped>, sink: &mut S) {
         let Some((cos, sin)) = self.common else {
             return;
         };
@@ -104,10 +104,10 @@ impl Contact<'_> {
     fn energy(&self, node: &Node) -> f64 {
         let share = self.drop_share();
         let mut sum = 0.0;
-        self.meetings(node, &mut |meeting| {
+        self.meetings(node, &mut |meeting: &Meeting<f64>| {
             for (sign, drop) in meeting.terms() {
-                if drop.value < f64::INFINITY {
-                    let depth = node.depth - share * drop.value;
+                if drop < f64::INFINITY {
+                    let depth = node.depth - share * drop;
                     sum += sign * self.pair.law.energy(depth, node.width);
                 }
             }
@@ -264,7 +264,7 @@ mod tests {
         };
         let varying = WidthProfile {
             positions: vec![-6e-3, 6e-3],
-            widths: vec![0.4e-3, 1.0e-3],
+            widths: vec![0.5e-3, 0.9e-3],
         };
         let floor = Floor {
             depth: 3e-6,
