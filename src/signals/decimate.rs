@@ -4,7 +4,7 @@
 use std::collections::VecDeque;
 
 use super::Column;
-use super::filter::{Kind, Taps};
+use super::filter::{Kind, Taps, signed};
 
 /// Columns on their way from the grid to their samples.
 ///
@@ -72,7 +72,7 @@ impl Decimator {
 
     /// Keeps the values in the place of those that the end does not need any more.
     fn keep(&mut self, values: &[f64]) {
-        if self.latest.len() as i64 > self.taps.reach() * values.len() as i64 {
+        if signed(self.latest.len()) > self.taps.reach() * signed(values.len()) {
             self.latest.drain(..values.len());
         }
         self.latest.extend(values);
@@ -116,7 +116,7 @@ mod tests {
     /// With data on both sides of all samples.
     fn whole(x: impl Fn(f64) -> f64) -> [Vec<f64>; 2] {
         let reach = Taps::new(OVER, FS).reach();
-        decimated(x, -reach, ((COUNT - 1) * OVER) as i64 + reach)
+        decimated(x, -reach, signed((COUNT - 1) * OVER) + reach)
     }
 
     fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
@@ -153,7 +153,7 @@ mod tests {
     /// samples further from an end than the filter reaches do not feel it.
     #[test]
     fn ends_are_continued_oddly() {
-        let last = ((COUNT - 1) * OVER) as i64;
+        let last = signed((COUNT - 1) * OVER);
         let end = (COUNT - 1) as f64 / FS;
         let odd = |t: f64| 2.0 + 5.0 * t + (TAU * 20.0 / end * t).sin();
         let ([all, all_slope], [cut, cut_slope]) = (whole(odd), decimated(odd, 0, last));

@@ -58,8 +58,10 @@ impl Taps {
             }
         }
         // Of a constant the filter makes itself, of a ramp its slope, exactly.
-        smooth.iter_mut().for_each(|h| *h /= gain);
-        slope.iter_mut().for_each(|rate| *rate *= fs / ramp);
+        for (h, rate) in smooth.iter_mut().zip(&mut slope) {
+            *h /= gain;
+            *rate *= fs / ramp;
+        }
         Self {
             oversampling,
             smooth,
@@ -69,13 +71,13 @@ impl Taps {
 
     /// Points of the grid from the middle of the filter to its last.
     pub fn reach(&self) -> i64 {
-        (HALF * self.oversampling) as i64 - 1
+        signed(HALF * self.oversampling) - 1
     }
 
     /// The samples that a point of the grid counts for, from the first on, and where their coefficients begin.
     fn place(&self, point: i64) -> (i64, usize) {
-        let over = self.oversampling as i64;
-        let first = point.div_euclid(over) + 1 - HALF as i64;
+        let over = signed(self.oversampling);
+        let first = point.div_euclid(over) + 1 - signed(HALF);
         (first, 2 * HALF * index(point.rem_euclid(over)))
     }
 
@@ -87,7 +89,7 @@ impl Taps {
             Kind::Slope => &self.slope[at..at + 2 * HALF],
         };
         // Before sample 0 there is none.
-        let skipped = index((-first).clamp(0, taps.len() as i64));
+        let skipped = index((-first).clamp(0, signed(taps.len())));
         let from = index(first.max(0)).min(samples.len());
         for (sample, tap) in samples[from..].iter_mut().zip(&taps[skipped..]) {
             *sample += tap * value;
@@ -102,6 +104,12 @@ pub(super) enum Kind {
     Smooth,
     /// Filtered and differentiated in time.
     Slope,
+}
+
+/// A count as a number that may be subtracted from.
+#[allow(clippy::cast_possible_wrap)]
+pub(super) fn signed(n: usize) -> i64 {
+    n as i64
 }
 
 /// A number that is not negative, as an index.
@@ -214,7 +222,7 @@ mod tests {
             let taps = Taps::new(oversampling, 10.0);
             let (mut value, mut slope) = ([0.0; 3], [0.0; 3]);
             let reach = taps.reach();
-            for point in -reach..=reach + 2 * oversampling as i64 {
+            for point in -reach..=reach + 2 * signed(oversampling) {
                 let x = 4.0 + 3.0 * point as f64 / (10.0 * oversampling as f64);
                 taps.spread(Kind::Smooth, point, x, &mut value);
                 taps.spread(Kind::Slope, point, x, &mut slope);

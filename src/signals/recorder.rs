@@ -1,7 +1,7 @@
 //! Reads the probes along a run.
 
 use super::decimate::Decimator;
-use super::filter::Taps;
+use super::filter::{Taps, signed};
 use super::probes::{Probes, Reader};
 use super::{Column, Sampling, SliceRow};
 use crate::dynamics::Dynamics;
@@ -182,7 +182,7 @@ impl Recorder {
     /// The last point of the grid that any sample needs.
     fn last(&self) -> i64 {
         let reach = self.grid.as_ref().map_or(0, |(_, d)| d.reach());
-        ((self.count - 1) * self.sampling.oversampling) as i64 + reach
+        signed((self.count - 1) * self.sampling.oversampling) + reach
     }
 
     /// Accelerations are the derivatives of the velocities, which the filter takes.
