@@ -330,7 +330,7 @@ fn with_step(method: Method, step: f64) -> Result<Signals, Error> {
 #[test]
 fn a_fixed_step_is_blamed_for_what_it_does() {
     let lost = with_step(Method::VelocityVerlet, 1e-5);
-    let message = lost.err().expect("a failure").to_string();
+    let message = lost.expect_err("a failure").to_string();
     assert!(
         message.contains("smaller max_step (the step was 1.0e-5 s, stability asks for at most")
     );

@@ -22,7 +22,7 @@ const SPALL: &str = "spall";
 /// An angular-contact bearing 7208 (40°) under thrust.
 fn angular_7208() -> Scene {
     let mut scene = presets::deep_groove_6205(500.0, 3000.0, 3000.0);
-    scene.name = "angular contact 7208".to_owned();
+    "angular contact 7208".clone_into(&mut scene.name);
     let row = &mut scene.rows[0];
     (row.ball_count, row.ball_diameter, row.pitch_diameter) = (15, 11.112e-3, 60e-3);
     (row.contact_angle, row.clearance) = (PI * 40.0 / 180.0, 0.0);

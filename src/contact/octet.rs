@@ -18,7 +18,7 @@ pub(crate) struct Places {
 }
 
 /// Which of eight balls of a row touch a race, which of these may see a defect of it, how the race is raised
-/// there, and which balls are lost ([`Torus::farthest`]).
+/// there, and which balls are lost ([`super::Torus::farthest`]).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Near {
     pub touching: Mask,

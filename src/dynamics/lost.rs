@@ -130,7 +130,7 @@ fn paths() -> Vec<Path> {
             s.approximations.plane = true;
         })),
         path("balls that roll", &thrust, |s| {
-            s.approximations.rolling = true
+            s.approximations.rolling = true;
         }),
         path("balls that roll at their axial places", &thrust, |s| {
             (s.approximations.rolling, s.approximations.plane) = (true, true);

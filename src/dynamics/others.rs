@@ -203,13 +203,12 @@ pub(super) fn unbalance(
         )
     };
     let weight = cross(whole, V2::new(gx, gy));
-    let spin = match (&model.scene.drive, ring) {
-        (Drive::Speed(speed), 1) => speed.rate(t),
-        _ => {
-            let coupled = mobility[1] * whole.x * whole.x + mobility[0] * whole.y * whole.y;
-            let torque = others[3] + weight - cross(whole, accelerate(0.0));
-            mobility[3] * torque / (1.0 - mobility[3] * coupled)
-        }
+    let spin = if let (Drive::Speed(speed), 1) = (&model.scene.drive, ring) {
+        speed.rate(t)
+    } else {
+        let coupled = mobility[1] * whole.x * whole.x + mobility[0] * whole.y * whole.y;
+        let torque = others[3] + weight - cross(whole, accelerate(0.0));
+        mobility[3] * torque / (1.0 - mobility[3] * coupled)
     };
     for unbalance in of_ring {
         let (sin, cos) = direction(unbalance);

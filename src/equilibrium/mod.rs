@@ -258,7 +258,7 @@ fn solve_from(mut problem: Problem, mut rings: SVector<f64, 6>) -> Result<Solved
     let (mut state, more) = problem.balance(&mut rings, &state.balls, unbalanced, TOLERANCE)?;
     iterations += more;
     let mut residual = problem.residual(&rings, &state.balls);
-    if model.scene.cage.is_some() && problem.is_off(&residual) {
+    if model.scene.cage.is_some() && residual.is_off() {
         let mut places = state.balls.clone();
         problem.polish(&mut rings, &mut places);
         state = problem.rings(&rings, &places, 0.0, FINE * TOLERANCE)?;

@@ -27,6 +27,12 @@ impl Residual {
         }
     }
 
+    /// Whether that is too much.
+    pub(super) fn is_off(&self) -> bool {
+        let share = self.share();
+        share > REFUSED || share.is_nan()
+    }
+
     /// Over the largest load; 0 where nothing acts.
     pub(super) fn share(&self) -> f64 {
         if self.force == 0.0 {
@@ -95,14 +101,9 @@ impl Problem<'_> {
         pulls
     }
 
-    /// Whether that is too much.
-    pub(super) fn is_off(&self, residual: &Residual) -> bool {
-        residual.share() > REFUSED
-    }
-
     /// Refuses what is not balanced.
     pub(super) fn accept(&self, residual: &Residual) -> Result<()> {
-        if !self.is_off(residual) {
+        if !residual.is_off() {
             return Ok(());
         }
         Err(Error::Equilibrium {

@@ -73,7 +73,7 @@ pub(super) fn of(
                     Lines::of(&fault, spectrum, *shaft, *bin)
                 });
                 let prefix = format!("{name}.row{row}.{}{suffix}", fault.name);
-                found.extend(Lines::features(lines.flatten(), &prefix, &fault));
+                found.extend(Lines::features(lines.flatten().as_ref(), &prefix, &fault));
             }
         }
     }
@@ -114,10 +114,10 @@ impl Lines {
         })
     }
 
-    fn features(lines: Option<Self>, prefix: &str, fault: &Fault) -> Vec<Feature> {
+    fn features(lines: Option<&Self>, prefix: &str, fault: &Fault) -> Vec<Feature> {
         let feature = |suffix: &str, value: fn(&Self) -> f64| Feature {
             name: format!("{prefix}{suffix}"),
-            value: lines.as_ref().map(value),
+            value: lines.map(value),
         };
         let mut features = vec![
             feature("", |lines| lines.line),
