@@ -109,10 +109,14 @@ struct Sums {
     tangential: Lanes,
     axial: Lanes,
     moment: Lanes,
-    /// Elastic part of the force along n_e, where waves ask for it.
-    elastic: Lanes,
-    wavy: bool,
     pulls: Counters,
+}
+
+/// The same on waves, whose slope takes the elastic part of the force along n_e.
+#[derive(Default)]
+struct WavySums {
+    sums: Sums,
+    elastic: Lanes,
 }
 
 impl Pair {
@@ -128,16 +132,14 @@ impl Pair {
         stiffness: Option<f64>,
     ) -> Press {
         let (circles, place) = self.place::<FMA, PLANE>(octet, ring, skip);
-        let mut sums = Sums {
-            wavy: octet.wavy,
-            ..Sums::default()
-        };
-        match stiffness {
-            Some(stiffness) => self.whole::<FMA>(&circles, stiffness, &mut sums),
-            None => self.each::<FMA, PLANE, _>(&circles, &mut sums),
-        }
+        let mut sums = Sums::default();
         if let Some(lean) = place.lean {
-            sums.tangential += sums.elastic * lean;
+            let mut wavy = WavySums::default();
+            self.every::<FMA, PLANE, _>(&circles, stiffness, &mut wavy);
+            sums = wavy.sums;
+            sums.tangential += wavy.elastic * lean;
+        } else {
+            self.every::<FMA, PLANE, _>(&circles, stiffness, &mut sums);
         }
         let (sigma, n) = (self.race.sigma, place.n);
         let (along, across) = (sums.normal * sigma, sums.tangential * sigma);
@@ -290,9 +292,23 @@ impl Pair {
         }
     }
 
+    /// All nodes, or with a stiffness one for all.
+    #[inline(always)]
+    fn every<const FMA: bool, const PLANE: bool, R: Receiver>(
+        &self,
+        circles: &Circles,
+        stiffness: Option<f64>,
+        to: &mut R,
+    ) {
+        match stiffness {
+            Some(stiffness) => self.whole::<FMA, R>(circles, stiffness, to),
+            None => self.each::<FMA, PLANE, R>(circles, to),
+        }
+    }
+
     /// Hertz's contacts without friction as a whole, K δ^{3/2}: every slice approaches alike.
     #[inline(always)]
-    fn whole<const FMA: bool>(&self, circles: &Circles, stiffness: f64, sums: &mut Sums) {
+    fn whole<const FMA: bool, R: Receiver>(&self, circles: &Circles, stiffness: f64, to: &mut R) {
         let pressed = circles.approach.or_zero();
         let node = Node {
             sin: Lanes::ZERO,
@@ -301,7 +317,7 @@ impl Pair {
             elastic: pressed * pressed.sqrt() * stiffness,
             share: circles.normal,
         };
-        sums.node::<FMA, false>(self, circles, &node, self.slices.count());
+        to.node::<FMA, false>(self, circles, &node, self.slices.count());
     }
 }
 
@@ -322,9 +338,6 @@ impl Receiver for Sums {
         } else {
             v_e.mul_add::<FMA>(in_plane, v_z * axial)
         };
-        if self.wavy {
-            self.elastic += node.elastic * in_plane;
-        }
         let damped = node.elastic * (approach * (1.5 * pair.damping) + 1.0);
         self.pulls.add(Lanes::ZERO.above(damped), times);
         let pressed = damped.or_zero();
@@ -357,6 +370,20 @@ impl Receiver for Sums {
         if !PLANE {
             self.axial = self.axial - out;
         }
+    }
+}
+
+impl Receiver for WavySums {
+    #[inline(always)]
+    fn node<const FMA: bool, const PLANE: bool>(
+        &mut self,
+        pair: &Pair,
+        circles: &Circles,
+        node: &Node,
+        times: u32,
+    ) {
+        self.elastic += node.elastic * node.share.0;
+        self.sums.node::<FMA, PLANE>(pair, circles, node, times);
     }
 }
 

@@ -78,7 +78,9 @@ impl SideConstants {
             } else {
                 octet.constants.set(lane, of);
             }
-            octet.raise.set(lane, contact.raise);
+            if self.wavy {
+                octet.raise.set(lane, contact.raise);
+            }
             let body = 2 + contact.ball;
             for (to, from) in octet.q.iter_mut().zip(q) {
                 to[lane] = from[body];
