@@ -88,6 +88,7 @@ mod explain;
 mod features;
 mod follow;
 pub mod integrate;
+mod interrupt;
 mod method;
 mod model;
 mod orbit;
@@ -115,6 +116,7 @@ pub use equilibrium::{
 pub use error::{Error, Result};
 pub use explain::{ContactKind, Cost, Explanation, LawExplanation, Variant, explain};
 pub use features::{Feature, FeatureOptions, feature_columns};
+pub use interrupt::Interrupt;
 pub use model::{Body, Degree, Model, Obstacle, Omission, Reduction, Scales};
 pub use run::Run;
 pub use scene::Scene;
