@@ -83,7 +83,7 @@ fn under<T>(limit: Limit, work: impl FnOnce() -> T) -> T {
     struct Heeded;
     impl Drop for Heeded {
         fn drop(&mut self) {
-            HEEDED.with_borrow_mut(|limits| limits.pop());
+            HEEDED.with_borrow_mut(Vec::pop);
         }
     }
     HEEDED.with_borrow_mut(|limits| limits.push(limit));
