@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::error::{Error, Result};
 use crate::integrate::Statistics;
+use crate::interrupt;
 
 /// Checks the limits of a run.
 pub(crate) fn check(time_limit: Option<f64>, max_steps: Option<usize>) -> Result<()> {
@@ -19,7 +20,8 @@ pub(crate) fn check(time_limit: Option<f64>, max_steps: Option<usize>) -> Result
     Ok(())
 }
 
-/// Works under a limit of wall time \[s\], looked at as often as `progress` is told, so about every 20 ms.
+/// Works under a limit of wall time \[s\], looked at as often as `progress` is told, so about every 20 ms, and by static
+/// solves at every iteration.
 ///
 /// # Errors
 /// Those of the work, with [`Error::Budget`] in place of the interruption that a spent limit causes.
@@ -34,22 +36,27 @@ pub(crate) fn within<T>(
     // A limit beyond what a duration can say is none.
     let allowed = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
     let begun = Instant::now();
-    let mut spent = false;
-    let result = work(&mut |share| {
-        progress(share)?;
-        spent = begun.elapsed() >= allowed;
-        if spent {
+    let mut asked = false;
+    let mut watched = |share| {
+        asked = progress(share).is_break();
+        if asked || begun.elapsed() >= allowed {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
         }
-    });
+    };
+    let result = match begun.checked_add(allowed) {
+        Some(deadline) => interrupt::until(deadline, || work(&mut watched)),
+        None => work(&mut watched),
+    };
     match result {
-        Err(Error::Interrupted { time }) if spent => Err(Error::Budget {
-            time,
-            name: "time_limit",
-            limit: seconds,
-        }),
+        Err(Error::Interrupted { time }) if !asked && begun.elapsed() >= allowed => {
+            Err(Error::Budget {
+                time,
+                name: "time_limit",
+                limit: seconds,
+            })
+        }
         other => other,
     }
 }

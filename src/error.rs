@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::memory::GIB;
+
 /// What `ballrace` refuses or fails at.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -60,6 +62,20 @@ pub enum Error {
         name: &'static str,
         /// Its value, in seconds or steps.
         limit: f64,
+    },
+    /// More memory would be set aside than there is; nothing was computed.
+    #[error(
+        "{:.2} GiB of memory would be needed where {:.2} GiB are left to use: {what}",
+        .needed / GIB,
+        .available / GIB
+    )]
+    Memory {
+        /// What would be set aside \[bytes\].
+        needed: f64,
+        /// What there is: of the machine, the limit of the process and of its control groups \[bytes\].
+        available: f64,
+        /// For what, and how to need less.
+        what: String,
     },
     /// A fault of this crate, caught where one of many cases must not cost the others.
     #[error("internal error, please report it: {message}")]

@@ -21,6 +21,8 @@ use crate::step_limit;
 /// fiftieth.
 const TELL_EVERY: Duration = Duration::from_millis(20);
 const ASK_EVERY: usize = 8;
+/// Largest steps between corners of a table from which a step ends on each: with fewer, that would cost many more steps.
+const ROOM: f64 = 4.0;
 
 /// A time to integrate over: it begins at 0 on the integrator's clock and, maybe before it, on that of the run \[s\].
 #[derive(Clone, Copy)]
@@ -242,15 +244,20 @@ pub(crate) fn options(model: &Model) -> Result<Options> {
     } else {
         f64::INFINITY
     };
+    let max_step = solver.max_step.unwrap_or(f64::INFINITY).min(cap);
+    let apart = if max_step.is_finite() {
+        ROOM * max_step
+    } else {
+        0.0
+    };
     let mut breakpoints: Vec<f64> = model
         .loads
         .iter()
-        .flat_map(|load| load.force.breakpoints())
+        .flat_map(|load| load.force.breakpoints_apart(apart))
         .collect();
     breakpoints.extend(match &scene.drive {
-        Drive::Speed(value) | Drive::Torque { value, .. } => value.breakpoints(),
+        Drive::Speed(value) | Drive::Torque { value, .. } => value.breakpoints_apart(apart),
     });
-    let max_step = solver.max_step.unwrap_or(f64::INFINITY).min(cap);
     let fixed = method::is_fixed(solver.method);
     if fixed && max_step.is_infinite() {
         return Err(Error::scene(

@@ -47,6 +47,7 @@
 //! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
 //! * `explain` ([`explain()`]) — what a scene is compiled to, what it costs, what would make it cheaper.
 //! * `features` ([`Feature`]) — the few numbers a case is known by: moments, fault lines, contact loads.
+//! * `interrupt` ([`Interrupt`]), `memory` — what ends work from outside; what a run may set aside.
 //! * `campaign` ([`campaign()`]) — many cases on all cores; a case that fails is an outcome.
 //! * `python` (feature `python`) — the only place that knows Python.
 //!
@@ -88,6 +89,8 @@ mod explain;
 mod features;
 mod follow;
 pub mod integrate;
+mod interrupt;
+mod memory;
 mod method;
 mod model;
 mod orbit;
@@ -115,6 +118,7 @@ pub use equilibrium::{
 pub use error::{Error, Result};
 pub use explain::{ContactKind, Cost, Explanation, LawExplanation, Variant, explain};
 pub use features::{Feature, FeatureOptions, feature_columns};
+pub use interrupt::Interrupt;
 pub use model::{Body, Degree, Model, Obstacle, Omission, Reduction, Scales};
 pub use run::Run;
 pub use scene::Scene;

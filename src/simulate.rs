@@ -8,18 +8,16 @@ use crate::dynamics::Dynamics;
 use crate::equilibrium::place;
 use crate::error::{Error, Result};
 use crate::follow::{Stretch, follow, options, threads};
+use crate::memory;
 use crate::model::{Model, Reduction};
 use crate::pool::on;
 use crate::run::Run;
 use crate::scene::{SCHEMA, Scene};
 use crate::selftest;
 use crate::settle;
-use crate::signals::{Bandwidth, Provenance, Recorder, Sampling, Signals};
+use crate::signals::{Bandwidth, Demand, Provenance, Recorder, Sampling, Signals};
 use crate::start::{Start, start};
 use crate::step_limit;
-
-/// The most that the signals of one run may take \[bytes\].
-const MEMORY_LIMIT: f64 = 8.0 * (1u64 << 30) as f64;
 
 /// Simulates a scene. `progress` is told the share done, 0 to 1, about every 20 ms, and may stop the run.
 ///
@@ -32,7 +30,7 @@ const MEMORY_LIMIT: f64 = 8.0 * (1u64 << 30) as f64;
 /// ```
 ///
 /// # Errors
-/// [`Error::Scene`] for bad input, [`Error::Equilibrium`] from the start, [`Error::Integration`] where the
+/// [`Error::Scene`] for bad input, [`Error::Memory`] for more samples than fit, [`Error::Equilibrium`] from the start, [`Error::Integration`] where the
 /// integration cannot go on, [`Error::Budget`] where it costs more than the run allows,
 /// [`Error::Interrupted`] if `progress` broke off.
 pub fn simulate(
@@ -70,6 +68,8 @@ fn unlimited(
         accuracy::check(requested, &scene)?;
     }
     let count = samples(run)?;
+    // Before anything is computed; once more when it is known how fine signals are read.
+    check_memory(&scene, run, (count, 1))?;
     let settled = settle::settle(&scene, run, progress)?;
     let before = settled.seconds;
     let accuracy = run.accuracy.map(|requested| {
@@ -79,14 +79,14 @@ fn unlimited(
     let accuracy = accuracy.transpose()?;
     let (model, distrust) = selftest::trusted(Model::new(&scene)?);
     let sampling = Sampling::new(run.bandwidth, run.fs, model.scales.frequency)?;
+    check_memory(&scene, run, (count, sampling.oversampling))?;
     let mut recorder = Recorder::new(&model, sampling, count);
-    check_memory(run, count, recorder.width())?;
     let threads = threads(&model, run.threads)?;
     let options = options(&model)?;
     let y0 = start(&model, &settled.from)?;
     let reduction = model.reduction(&y0);
     let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);
-    recorder.prepare(&dynamics, &y0);
+    recorder.prepare(&dynamics, &y0)?;
     let mut progress =
         |share: f64| progress((before + share * run.duration) / (before + run.duration));
     let stretch = Stretch {
@@ -183,19 +183,14 @@ fn samples(run: &Run) -> Result<usize> {
     Ok(count as usize)
 }
 
-fn check_memory(run: &Run, count: usize, width: usize) -> Result<()> {
-    let bytes = 8.0 * count as f64 * (width + 1) as f64;
-    if bytes > MEMORY_LIMIT {
-        return Err(Error::scene(
-            "duration",
-            run.duration,
-            format!(
-                "at most {:.3} s: {count} samples of {width} signals would take {:.1} GiB, more than 8 GiB; \
-                 record fewer probes or lower fs",
-                run.duration * MEMORY_LIMIT / bytes,
-                bytes / f64::from(1u32 << 30)
-            ),
-        ));
-    }
-    Ok(())
+/// Refuses what does not fit into memory: for so many samples, read so many times as fine.
+fn check_memory(scene: &Scene, run: &Run, (count, oversampling): (usize, usize)) -> Result<()> {
+    let demand = Demand::of(scene);
+    memory::check(demand.bytes(count, oversampling), || {
+        format!(
+            "{count} samples of {} signals, and {} forces of slices; shorten duration = {} s, lower fs, or record fewer \
+             probes",
+            demand.columns, demand.slices, run.duration
+        )
+    })
 }

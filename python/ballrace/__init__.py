@@ -25,6 +25,7 @@ from .errors import (
     EquilibriumError,
     FileError,
     IntegrationError,
+    MemoryLimitError,
     SceneError,
     SceneWarning,
 )
@@ -55,6 +56,7 @@ __all__ = [
     "FileError",
     "IntegrationError",
     "LoadDistribution",
+    "MemoryLimitError",
     "Model",
     "Record",
     "Scene",

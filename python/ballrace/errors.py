@@ -19,6 +19,7 @@ __all__ = [
     "EquilibriumError",
     "FileError",
     "IntegrationError",
+    "MemoryLimitError",
     "SceneError",
     "SceneWarning",
 ]
@@ -131,6 +132,28 @@ class BudgetError(IntegrationError):
         self.args = (message, time, budget, limit)
         self.budget = budget
         self.limit = limit
+
+
+class MemoryLimitError(BallraceError, MemoryError):
+    """A run would set more memory aside than there is; nothing was computed.
+
+    What there is, is the least of the machine's free memory and of what the limits of the process
+    (``ulimit -v``) and of its control groups (containers, batch systems) leave.
+
+    Attributes
+    ----------
+    needed, available : float
+        What would be set aside, and what there is [bytes].
+    """
+
+    def __init__(self, message: str, needed: float, available: float) -> None:
+        super().__init__(message)
+        self.args = (message, needed, available)
+        self.needed = needed
+        self.available = available
+
+    def __str__(self) -> str:
+        return printable(str(self.args[0]))
 
 
 class AccuracyWarning(UserWarning):

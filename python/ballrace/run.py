@@ -121,6 +121,8 @@ def simulate(
         The integration could not go on; it names the contacts that held it up.
     BudgetError
         The run cost more than `time_limit` or `max_steps` allows; an IntegrationError that has the time reached.
+    MemoryLimitError
+        The signals would take more memory than there is, a MemoryError; nothing was computed.
 
     Warns
     -----

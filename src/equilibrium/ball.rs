@@ -8,6 +8,7 @@ use super::search::search;
 use super::{FINE, TOLERANCE};
 use crate::contact::V2;
 use crate::error::{Error, Result};
+use crate::interrupt;
 
 /// Newton iterations of a ball before giving up.
 const BALL_ITERATIONS: usize = 100;
@@ -134,12 +135,12 @@ impl Problem<'_> {
         let accepted = |state: &BallState| {
             state.force.norm() <= BALL_STALLED * self.share().max(state.pressed())
         };
-        let found = self.relax(j, rings, start, precision);
+        let found = self.relax(j, rings, start, precision)?;
         if accepted(&found) {
             return Ok(found);
         }
         // Over a defect a ball may have lost one race, and lie far along the other.
-        let found = self.relax(j, rings, self.seat(j, rings), precision);
+        let found = self.relax(j, rings, self.seat(j, rings), precision)?;
         if accepted(&found) {
             return Ok(found);
         }
@@ -174,13 +175,14 @@ impl Problem<'_> {
         rings: &SVector<f64, 6>,
         start: Vector2<f64>,
         precision: f64,
-    ) -> BallState {
+    ) -> Result<BallState> {
         let (tolerance, finest) = (precision * self.share(), FINEST * self.share());
         let own = self.own_load(j).norm();
         let longest = 0.02 * self.model.balls[j].side.radius;
         let mut state = self.ball_at(j, rings, start);
         let mut best = (state.force.norm(), 0);
         for iteration in 0..BALL_ITERATIONS {
+            interrupt::check()?;
             let left = state.force.norm();
             if left < 0.5 * best.0 {
                 best = (left, iteration);
@@ -211,7 +213,7 @@ impl Problem<'_> {
             let Some(found) = found else { break };
             state = found;
         }
-        state
+        Ok(state)
     }
 }
 

@@ -28,6 +28,7 @@ use nalgebra::{SMatrix, SVector};
 use serde::Serialize;
 
 use crate::error::Result;
+use crate::interrupt;
 use crate::model::Model;
 use crate::scene::{Doubt, Scene};
 pub use distribution::{EquivalentLoads, LoadDistribution, load_distribution};
@@ -125,7 +126,8 @@ pub struct ContactEquilibrium {
 ///
 /// # Errors
 /// [`crate::Error::Scene`] for a scene that is not usable, [`crate::Error::Equilibrium`] when the load cannot be carried, or
-/// where more than 1e-4 of the largest load is left unbalanced on a body.
+/// where more than 1e-4 of the largest load is left unbalanced on a body; [`crate::Error::Interrupted`] under a
+/// [`crate::Interrupt`].
 pub fn equilibrium(scene: &Scene) -> Result<Equilibrium> {
     let model = Model::new(scene)?;
     Ok(solve(&model)?.describe(&model))
@@ -220,11 +222,13 @@ fn doubts(scene: &Scene, found: &Equilibrium) -> Vec<Doubt> {
 /// as one on top of a single ball.
 fn solve(model: &Model) -> Result<Solved> {
     let problem = Problem::new(model);
+    interrupt::check()?;
     if let Some(rings) = problem.guess()
         && let Ok(solved) = solve_from(problem, rings)
     {
         return Ok(solved);
     }
+    interrupt::check()?;
     solve_from(Problem::new(model), SVector::zeros())
 }
 
@@ -239,6 +243,7 @@ fn solve_from(mut problem: Problem, mut rings: SVector<f64, 6>) -> Result<Solved
     if let Some(cage) = &model.scene.cage {
         let mut last = f64::INFINITY;
         for _ in 0..CAGE_ROUNDS {
+            interrupt::check()?;
             let left = problem.engage(cage, &rings, &mut state.balls, &state.holds);
             unbalanced = left / problem.magnitude;
             if unbalanced <= ENGAGED {
@@ -257,12 +262,12 @@ fn solve_from(mut problem: Problem, mut rings: SVector<f64, 6>) -> Result<Solved
     }
     let (mut state, more) = problem.balance(&mut rings, &state.balls, unbalanced, TOLERANCE)?;
     iterations += more;
-    let mut residual = problem.residual(&rings, &state.balls);
+    let mut residual = problem.residual(&rings, &state.balls)?;
     if model.scene.cage.is_some() && residual.is_off() {
         let mut places = state.balls.clone();
-        problem.polish(&mut rings, &mut places);
+        problem.polish(&mut rings, &mut places)?;
         state = problem.rings(&rings, &places, 0.0, FINE * TOLERANCE)?;
-        residual = problem.residual(&rings, &state.balls);
+        residual = problem.residual(&rings, &state.balls)?;
     }
     problem.check(&state, &rings)?;
     problem.accept(&residual)?;

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::positions;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::model::{Model, compile};
 use crate::scene::{AxialOffset, Defect, Row, Scene, Surface, TimeFunction};
 
@@ -108,8 +108,11 @@ impl Meeting {
             Surface::InnerRace => balls.map(|j| (j, 1)).collect(),
             Surface::Ball => balls.flat_map(|j| [(j, 0), (j, 1)]).collect(),
         };
-        let y = positions(&model).ok();
-        Ok(y.map(|y| Self { model, y, contacts }))
+        match positions(&model) {
+            Ok(y) => Ok(Some(Self { model, y, contacts })),
+            Err(interrupted @ Error::Interrupted { .. }) => Err(interrupted),
+            Err(_) => Ok(None),
+        }
     }
 
     /// Where the most loaded of these contacts runs, from the row's plane or the ball's centre \[m\]; none without load.

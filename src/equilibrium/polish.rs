@@ -7,6 +7,8 @@ use nalgebra::{DMatrix, DVector, SVector, Vector2};
 use super::TOLERANCE;
 use super::cage::CageSpring;
 use super::problem::Problem;
+use crate::error::Result;
+use crate::interrupt;
 
 /// Iterations, at most.
 const ITERATIONS: usize = 60;
@@ -24,11 +26,16 @@ struct Whole {
 impl Problem<'_> {
     /// Moves rings and balls to where nothing is left, as far as Newton's method finds that; links of the cage act as what they
     /// are, at the balls' present angles.
-    pub(super) fn polish(&mut self, rings: &mut SVector<f64, 6>, places: &mut Vec<Vector2<f64>>) {
+    pub(super) fn polish(
+        &mut self,
+        rings: &mut SVector<f64, 6>,
+        places: &mut Vec<Vector2<f64>>,
+    ) -> Result<()> {
         // They stand for the cage in the rounds.
         self.cage_spring.fill(CageSpring::default());
         let mut whole = self.whole(rings, places);
         for _ in 0..ITERATIONS {
+            interrupt::check()?;
             let left = whole.force.norm();
             if left <= TOLERANCE * self.magnitude {
                 break;
@@ -60,6 +67,7 @@ impl Problem<'_> {
                 CageSpring::held(pull, own.max(0.0), place.x)
             })
             .collect();
+        Ok(())
     }
 
     fn moved(

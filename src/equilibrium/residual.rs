@@ -6,6 +6,7 @@ use super::problem::Problem;
 use crate::contact::Motion;
 use crate::dynamics::link;
 use crate::error::{Error, Result};
+use crate::interrupt;
 
 /// Force left on a body, over the largest load, above which there is no equilibrium.
 const REFUSED: f64 = 1e-4;
@@ -46,13 +47,18 @@ impl Residual {
 impl Problem<'_> {
     /// What the places of rings and balls leave: springs that stood in for the cage, and balls that followed the rings to
     /// first order, have no part in it.
-    pub(super) fn residual(&self, rings: &SVector<f64, 6>, places: &[Vector2<f64>]) -> Residual {
+    pub(super) fn residual(
+        &self,
+        rings: &SVector<f64, 6>,
+        places: &[Vector2<f64>],
+    ) -> Result<Residual> {
         let mut on_rings = self.loads;
         let mut found = Residual {
             largest: self.largest_load(),
             ..Residual::default()
         };
         for (j, (&place, pull)) in places.iter().zip(self.cage_pulls(places)).enumerate() {
+            interrupt::check()?;
             let ball = self.ball_at(j, rings, place);
             for (race, contact) in ball.contacts.iter().enumerate() {
                 found.largest = found.largest.max(contact.force.norm());
@@ -70,7 +76,7 @@ impl Problem<'_> {
             left[i / 3] = left[i / 3].hypot(on_rings[i] - support * rings[i]);
         }
         (0..2).for_each(|ring| found.add(ring, left[ring]));
-        found
+        Ok(found)
     }
 
     /// Of the two rings' loads the larger one.
@@ -140,11 +146,11 @@ mod tests {
             .map(|body| Vector2::new(at(body, 0).hypot(at(body, 1)), at(body, 2)))
             .collect();
         let mut rings = SVector::<f64, 6>::from_fn(|i, _| at(i / 3, i % 3));
-        let fine = problem.residual(&rings, &balls);
+        let fine = problem.residual(&rings, &balls).unwrap();
         assert!(problem.accept(&fine).is_ok());
         // A metre of the spring under the outer ring, and as much of its contacts, is some 10⁸ N.
         rings[1] += 1e-9;
-        let off = problem.residual(&rings, &balls);
+        let off = problem.residual(&rings, &balls).unwrap();
         assert!((0.05..1.0).contains(&off.force), "{off:?}");
         let error = problem.accept(&off).unwrap_err().to_string();
         assert!(error.contains(" N on outer are not balanced"), "{error}");

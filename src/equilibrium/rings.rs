@@ -9,6 +9,7 @@ use super::search::search;
 use super::{FINE, STALLED};
 use crate::contact::V2;
 use crate::error::{Error, Result};
+use crate::interrupt;
 
 /// Newton iterations of the rings before giving up.
 const RING_ITERATIONS: usize = 200;
@@ -105,6 +106,8 @@ impl Problem<'_> {
                     .ok()?;
                 Some((force(&trial), (t, trial)))
             });
+            // To the search it looks like places that cannot be.
+            interrupt::check()?;
             let Some((share, trial)) = found else {
                 if state.precision > fine {
                     state = self.rings(rings, &state.balls, 0.0, fine)?;

@@ -10,6 +10,7 @@ use crate::dynamics::Dynamics;
 use crate::error::Result;
 use crate::follow::{options, tolerance};
 use crate::integrate::{DenseStep, Statistics, System};
+use crate::interrupt;
 use crate::method::{self, Task};
 use crate::model::Model;
 
@@ -100,7 +101,7 @@ fn steps(model: &Model, start: &[f64], count: usize) -> Result<(f64, f64)> {
                 reached[0] = now;
             }
             reached[1] = now;
-            if stats.accepted >= count {
+            if stats.accepted >= count || interrupt::check().is_err() {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
@@ -114,6 +115,7 @@ fn steps(model: &Model, start: &[f64], count: usize) -> Result<(f64, f64)> {
         };
         // A run that breaks down says so itself; what it did until then still tells the cost.
         let _ = method::run(&mut dynamics, task, &mut stop);
+        interrupt::check()?;
         best = best.min(begun.elapsed().as_secs_f64());
     }
     let [(from, before), (to, nfev)] = reached;
@@ -145,6 +147,9 @@ fn time_at_places(
         let mut time = || {
             let begun = Instant::now();
             for _ in 0..EVALUATIONS {
+                if interrupt::check().is_err() {
+                    break;
+                }
                 work(&mut dynamics, std::hint::black_box(&own), &mut dy);
             }
             begun.elapsed().as_secs_f64() / EVALUATIONS as f64

@@ -13,6 +13,7 @@ use crate::contact::Sighted;
 use crate::dynamics::{Dynamics, motion};
 use crate::equilibrium::{Meeting, Placed, describe, place};
 use crate::error::Result;
+use crate::interrupt;
 use crate::model::{Model, Obstacle, Omission, Reduction};
 use crate::orbit;
 use crate::scene::{Defect, Doubt, Scene, Surface};
@@ -97,6 +98,9 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         named.map(|(name, _)| *name).collect()
     };
     let cost = cost::of(&model, &y0)?;
+    let variants = variants::of(&model, &y0, &cost);
+    // Cut short, timings and variants are none.
+    interrupt::check()?;
     let at_start = describe(&model, &y0, 0);
     Ok(Explanation {
         name: scene.name.clone(),
@@ -109,7 +113,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         evaluated: of(crate::dynamics::Use::Evaluated),
         constant: of(crate::dynamics::Use::Constant),
         absent: of(crate::dynamics::Use::Absent),
-        variants: variants::of(&model, &y0, &cost),
+        variants,
         cost,
         law: law::of(&model, &at_start),
         doubts: at_start.doubts,

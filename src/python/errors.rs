@@ -27,6 +27,9 @@ pub(super) fn record(error: &Error) -> Value {
             json!([message, time, step, body, contacts]),
         ),
         Error::Budget { time, name, limit } => ("BudgetError", json!([message, time, name, limit])),
+        Error::Memory {
+            needed, available, ..
+        } => ("MemoryLimitError", json!([message, needed, available])),
         Error::Interrupted { .. } | Error::Internal { .. } => ("BallraceError", json!([message])),
     };
     json!({ "class": class, "message": message, "arguments": arguments })
@@ -55,6 +58,13 @@ pub(super) fn raise(py: Python<'_>, error: Error) -> PyErr {
         Error::Budget { time, name, limit } => {
             make(py, "BudgetError", (error.to_string(), time, name, limit))
         }
+        Error::Memory {
+            needed, available, ..
+        } => make(
+            py,
+            "MemoryLimitError",
+            (error.to_string(), needed, available),
+        ),
         Error::Internal { .. } => make(py, "BallraceError", (error.to_string(),)),
         // The observer's own exception takes precedence over this one.
         Error::Interrupted { .. } => return PyKeyboardInterrupt::new_err(error.to_string()),

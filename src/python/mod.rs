@@ -3,6 +3,7 @@
 //! A scene crosses as JSON, an array as a numpy array that takes over the vector's memory, an error as
 //! an exception of `ballrace.errors`. Everything with a docstring for people lives in `python/ballrace`.
 
+mod answer;
 mod campaign;
 mod errors;
 mod run;

@@ -3,8 +3,7 @@
 // Arguments from Python come by value.
 #![allow(clippy::needless_pass_by_value)]
 
-use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
+use std::sync::Arc;
 
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -13,23 +12,22 @@ use serde::Deserialize;
 use serde::de::IntoDeserializer;
 use serde::de::value::Error as ValueError;
 
+use super::answer::{Progress, answering};
 use super::errors::{OrRaise, to_json};
 use crate::scene::{Method, RingName};
 use crate::{Bandwidth, Error, Run, Scene, Signals, SliceRow, Start};
 
-/// Least time between two looks at signals and callbacks; Ctrl-C is answered within it.
-const ATTENTION: Duration = Duration::from_millis(50);
-
 /// A compiled scene.
 #[pyclass(frozen, module = "ballrace._core")]
-pub(super) struct Model(crate::Model);
+pub(super) struct Model(Arc<crate::Model>);
 
 #[pymethods]
 impl Model {
     #[new]
     fn new(py: Python<'_>, scene: &str) -> PyResult<Self> {
         let scene = Scene::from_json(scene).or_raise(py)?;
-        crate::Model::new(&scene).map(Self).or_raise(py)
+        let model = answering(py, None, move |_| crate::Model::new(&scene))?;
+        Ok(Self(Arc::new(model)))
     }
 
     /// Names of the states.
@@ -53,10 +51,8 @@ impl Model {
     /// State at which a run starts.
     fn start<'py>(&self, py: Python<'py>, kind: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let start = start(kind, None).or_raise(py)?;
-        Ok(py
-            .detach(|| crate::start(&self.0, &start))
-            .or_raise(py)?
-            .into_pyarray(py))
+        let model = Arc::clone(&self.0);
+        Ok(answering(py, None, move |_| crate::start(&model, &start))?.into_pyarray(py))
     }
 
     /// Time derivative of a state.
@@ -152,29 +148,10 @@ pub(super) fn simulate<'py>(
         time_limit,
         max_steps,
     };
-    let mut raised = None;
-    let result = py.detach(|| {
-        let mut looked = Instant::now();
-        crate::simulate(&scene, &run, &mut |share| {
-            if looked.elapsed() < ATTENTION {
-                return ControlFlow::Continue(());
-            }
-            looked = Instant::now();
-            match Python::attach(|py| attend(py, progress.as_ref(), share)) {
-                Ok(()) => ControlFlow::Continue(()),
-                Err(exception) => {
-                    raised = Some(exception);
-                    ControlFlow::Break(())
-                }
-            }
-        })
-    });
-    if let Some(exception) = raised {
-        return Err(exception);
-    }
-    let signals = result.or_raise(py)?;
-    if progress.is_some() {
-        attend(py, progress.as_ref(), 1.0)?;
+    let work = move |told: Progress<'_>| crate::simulate(&scene, &run, told);
+    let signals = answering(py, progress.as_ref(), work)?;
+    if let Some(callback) = progress {
+        callback.call1(py, (1.0,))?;
     }
     hand_over(py, signals)
 }
@@ -183,7 +160,7 @@ pub(super) fn simulate<'py>(
 #[pyfunction]
 pub(super) fn explain(py: Python<'_>, scene: &str) -> PyResult<(String, String)> {
     let scene = Scene::from_json(scene).or_raise(py)?;
-    let told = py.detach(|| crate::explain(&scene)).or_raise(py)?;
+    let told = answering(py, None, move |_| crate::explain(&scene))?;
     Ok((to_json(&told)?, told.to_string()))
 }
 
@@ -216,12 +193,6 @@ pub(super) fn bandwidth(name: Option<&str>) -> crate::Result<Bandwidth> {
             "\"auto\" or None",
         )),
     }
-}
-
-/// Lets Ctrl-C and the callback speak.
-fn attend(py: Python<'_>, progress: Option<&Py<PyAny>>, share: f64) -> PyResult<()> {
-    py.check_signals()?;
-    progress.map_or(Ok(()), |callback| callback.call1(py, (share,)).map(drop))
 }
 
 pub(super) fn hand_over(py: Python<'_>, signals: Signals) -> PyResult<Bound<'_, PyDict>> {

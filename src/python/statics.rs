@@ -4,7 +4,7 @@ use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::errors::OrRaise;
+use super::answer::answering;
 use crate::equilibrium::{BallEquilibrium, EquivalentLoads};
 use crate::{Equilibrium, Scene};
 
@@ -38,15 +38,14 @@ const STANDING: [Column; 8] = [
 /// Static equilibrium.
 #[pyfunction]
 pub(super) fn equilibrium<'py>(py: Python<'py>, scene: &str) -> PyResult<Bound<'py, PyDict>> {
-    let found = py.detach(|| crate::equilibrium(&Scene::from_json_unchecked(scene)?));
-    arrays(py, &found.or_raise(py)?)
+    let found = solved(py, scene, crate::equilibrium)?;
+    arrays(py, &found)
 }
 
 /// Tangent stiffness there.
 #[pyfunction]
 pub(super) fn stiffness<'py>(py: Python<'py>, scene: &str) -> PyResult<Bound<'py, PyDict>> {
-    let found = py.detach(|| crate::stiffness(&Scene::from_json_unchecked(scene)?));
-    let found = found.or_raise(py)?;
+    let found = solved(py, scene, crate::stiffness)?;
     let all = PyDict::new(py);
     set(&all, "inner", found.inner.concat(), &[3, 3])?;
     set(&all, "rings", found.rings.concat(), &[6, 6])?;
@@ -61,9 +60,8 @@ pub(super) fn load_distribution<'py>(
     scene: &str,
     positions: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let found =
-        py.detach(|| crate::load_distribution(&Scene::from_json_unchecked(scene)?, positions));
-    let found = found.or_raise(py)?;
+    let of = move |scene: &Scene| crate::load_distribution(scene, positions);
+    let found = solved(py, scene, of)?;
     let all = PyDict::new(py);
     name(&all, &found.equilibria[0])?;
     let shape = [found.turn.len(), found.equilibria[0].balls.len()];
@@ -81,6 +79,16 @@ pub(super) fn load_distribution<'py>(
     let worst = found.equilibria.iter().max_by(by_pressure);
     all.set_item("warnings", worst.map_or_else(Vec::new, told))?;
     Ok(all)
+}
+
+/// What is found of a scene as JSON.
+fn solved<T: Send + 'static>(
+    py: Python<'_>,
+    scene: &str,
+    of: impl FnOnce(&Scene) -> crate::Result<T> + Send + 'static,
+) -> PyResult<T> {
+    let scene = scene.to_owned();
+    answering(py, None, move |_| of(&Scene::from_json_unchecked(&scene)?))
 }
 
 fn arrays<'py>(py: Python<'py>, found: &Equilibrium) -> PyResult<Bound<'py, PyDict>> {

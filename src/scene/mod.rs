@@ -13,6 +13,7 @@
 //! assert_eq!(wide.rows[0].clearance, 20e-6);
 //! ```
 
+mod antiderivative;
 mod approximations;
 mod bearing;
 mod contact;
@@ -36,6 +37,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
 
+pub(crate) use antiderivative::Antiderivative;
 pub use approximations::Approximations;
 pub use bearing::{Mount, Ring, RingName, Row, Support, Waviness};
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};

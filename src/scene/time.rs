@@ -4,6 +4,8 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::antiderivative::Antiderivative;
+
 /// A value in time: a plain number, or one of the [`Profile`]s.
 ///
 /// In TOML: `force = 7000.0`, or `force = { ramp = { from = 0.0, to = 7000.0, start = 0.0, end = 0.1 } }`.
@@ -90,7 +92,7 @@ impl TimeFunction {
                 phase,
             }) => mean + amplitude * (std::f64::consts::TAU * frequency * t + phase).sin(),
             Self::Profile(Profile::Table { times, values }) => {
-                let after = times.partition_point(|&x| x <= t);
+                let after = reached(times, t);
                 if after == 0 {
                     values[0]
                 } else if after == times.len() {
@@ -130,7 +132,7 @@ impl TimeFunction {
                 amplitude * w * (w * t + phase).cos()
             }
             Self::Profile(Profile::Table { times, values }) => {
-                let after = times.partition_point(|&x| x <= t);
+                let after = reached(times, t);
                 if after == 0 || after == times.len() {
                     0.0
                 } else {
@@ -140,7 +142,7 @@ impl TimeFunction {
         }
     }
 
-    /// Integral from 0 to `t` ≥ 0.
+    /// Integral from 0 to `t` ≥ 0. A run sums a table once, not at every call.
     ///
     /// ```
     /// use ballrace::scene::{Profile, TimeFunction};
@@ -148,34 +150,7 @@ impl TimeFunction {
     /// assert_eq!([0.5, 2.0, 3.0, 4.0].map(|t| ramp.integral(t)), [0.0, 2.0, 8.0, 16.0]);
     /// ```
     pub fn integral(&self, t: f64) -> f64 {
-        match self {
-            Self::Constant(value) => value * t,
-            Self::Profile(Profile::Sine {
-                mean,
-                amplitude,
-                frequency,
-                phase,
-            }) => {
-                let w = std::f64::consts::TAU * frequency;
-                if w == 0.0 {
-                    return self.at(0.0) * t;
-                }
-                mean * t + amplitude / w * (phase.cos() - (w * t + phase).cos())
-            }
-            // Trapezia between corners; a jump is two of them at one time.
-            Self::Profile(Profile::Ramp {
-                from,
-                to,
-                start,
-                end,
-            }) => {
-                trapezia(&[*start, *end], &[*from, *to], t)
-                    - trapezia(&[*start, *end], &[*from, *to], 0.0)
-            }
-            Self::Profile(Profile::Table { times, values }) => {
-                trapezia(times, values, t) - trapezia(times, values, 0.0)
-            }
-        }
+        Antiderivative::new(self).at(self, t)
     }
 
     /// Times at which the value jumps or has a corner \[s\].
@@ -185,6 +160,28 @@ impl TimeFunction {
             Self::Profile(Profile::Table { times, .. }) => times.clone(),
             _ => Vec::new(),
         }
+    }
+
+    /// Breakpoints that a step must end on: all of them, but of a table's corners only those that stand `apart` or further
+    /// from the ones beside them \[s\]. Where corners are closer than steps the error decides, as it does for any other
+    /// function that is not smooth; jumps are always told.
+    pub(crate) fn breakpoints_apart(&self, apart: f64) -> Vec<f64> {
+        let Self::Profile(Profile::Table { times, .. }) = self else {
+            return self.breakpoints();
+        };
+        let ends = |i: usize| {
+            let before = i
+                .checked_sub(1)
+                .map_or(f64::INFINITY, |k| times[i] - times[k]);
+            let after = times
+                .get(i + 1)
+                .map_or(f64::INFINITY, |next| next - times[i]);
+            before == 0.0 || after == 0.0 || before.min(after) >= apart
+        };
+        (0..times.len())
+            .filter(|&i| ends(i))
+            .map(|i| times[i])
+            .collect()
     }
 
     /// The value of the largest magnitude that is ever taken, with its sign.
@@ -212,17 +209,21 @@ impl TimeFunction {
     }
 }
 
-/// Integral from the first corner to `t`, before it too, of what is linear between corners and constant beyond.
-fn trapezia(times: &[f64], values: &[f64], t: f64) -> f64 {
+/// How many of these times, which do not decrease, lie at or before `t`. Of evenly spaced ones, as most tables have, the
+/// place follows from the time itself; of others by bisection.
+pub(super) fn reached(times: &[f64], t: f64) -> usize {
     let (first, last) = (times[0], times[times.len() - 1]);
-    let mut sum = values[0] * (t - first).min(0.0) + values[values.len() - 1] * (t - last).max(0.0);
-    for (span, value) in times.windows(2).zip(values.windows(2)) {
-        let (length, within) = (span[1] - span[0], t.clamp(span[0], span[1]) - span[0]);
-        if length > 0.0 {
-            sum += within * (value[0] + 0.5 * (value[1] - value[0]) * within / length);
+    let share = (t - first) / (last - first) * (times.len() - 1) as f64;
+    // Saturates; not a number where all times are one becomes 0.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let guess = share as usize;
+    for after in guess..=guess.saturating_add(2).min(times.len()) {
+        let passed = after == 0 || times[after - 1] <= t;
+        if passed && times.get(after).is_none_or(|next| *next > t) {
+            return after;
         }
     }
-    sum
+    times.partition_point(|&x| x <= t)
 }
 
 impl Serialize for TimeFunction {

@@ -8,6 +8,7 @@
 //! a contact angle does not exist without load, energies balance and forces add up at an instant.
 
 mod decimate;
+mod demand;
 mod filter;
 mod probes;
 mod recorder;
@@ -21,6 +22,7 @@ use crate::scene::{RingName, Scene};
 use crate::simd::Distrust;
 use crate::touched::Touched;
 
+pub(crate) use demand::Demand;
 pub(crate) use probes::columns;
 pub(crate) use recorder::Recorder;
 pub use sampling::Bandwidth;

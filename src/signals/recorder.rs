@@ -5,7 +5,9 @@ use super::filter::{Taps, signed};
 use super::probes::{Probes, Reader};
 use super::{Column, Sampling, SliceRow};
 use crate::dynamics::Dynamics;
+use crate::error::{Error, Result};
 use crate::integrate::{DenseStep, System};
+use crate::memory;
 use crate::model::Model;
 use crate::residual::Residual;
 use crate::scene::RingName;
@@ -91,11 +93,6 @@ impl Recorder {
         }
     }
 
-    /// Number of columns.
-    pub fn width(&self) -> usize {
-        self.columns.len()
-    }
-
     /// Until when a run of a duration is to be followed \[s\].
     pub fn until(&self, duration: f64) -> f64 {
         match self.grid {
@@ -105,22 +102,34 @@ impl Recorder {
     }
 
     /// Sets memory aside for all samples of a run from a state of all bodies.
-    pub fn prepare(&mut self, dynamics: &Dynamics<'_>, start: &[f64]) {
+    ///
+    /// # Errors
+    /// [`Error::Memory`] where the system does not give it.
+    pub fn prepare(&mut self, dynamics: &Dynamics<'_>, start: &[f64]) -> Result<()> {
+        self.reserve().map_err(|()| Error::Memory {
+            needed: 8.0 * self.count as f64 * (self.columns.len() + 1) as f64,
+            available: memory::available(),
+            what: "the signals; the system did not grant it: shorten the run, lower fs, or record fewer probes"
+                .to_owned(),
+        })?;
         let zeros = vec![0.0; dynamics.dim()];
         self.own = (zeros.clone(), zeros);
         (self.y, self.dy) = (start.to_vec(), vec![0.0; start.len()]);
         self.residual = Residual::new(dynamics);
         self.watch.prepare(dynamics, start);
-        self.t.reserve_exact(self.count);
-        for column in &mut self.columns {
-            column.values.reserve_exact(self.count);
-        }
         if let Some((reading, _)) = &self.grid {
             for column in &reading.columns {
                 // Sums, that grow as the grid is read.
                 self.columns[*column].values.resize(self.count, 0.0);
             }
         }
+        Ok(())
+    }
+
+    fn reserve(&mut self) -> std::result::Result<(), ()> {
+        let columns = self.columns.iter_mut().map(|column| &mut column.values);
+        let mut all = columns.chain([&mut self.t]);
+        all.try_for_each(|values| values.try_reserve_exact(self.count).map_err(drop))
     }
 
     /// The run's states where it begins.
@@ -277,7 +286,7 @@ mod tests {
         let sampling = Sampling::new(Bandwidth::Auto, FS, model.scales().frequency).unwrap();
         let mut dynamics = Dynamics::new(&model);
         let mut recorder = Recorder::new(&model, sampling, 40);
-        recorder.prepare(&dynamics, &y0);
+        recorder.prepare(&dynamics, &y0).unwrap();
         recorder.first(&mut dynamics, from, &y0);
         let options = Options {
             max_step: 1.0 / model.scales().frequency,

@@ -1,4 +1,4 @@
-"""A run lets other threads go on, tells how far it is, and stops at once when asked to."""
+"""A run or a static solve lets other threads go on, tells how far it is, and stops at once when asked to."""
 
 from __future__ import annotations
 
@@ -99,3 +99,59 @@ def test_the_callback_hears_the_end(wheel: br.Scene) -> None:
     seen: list[float] = []
     br.simulate(wheel, duration=1e-3, start="rolling", progress=seen.append)
     assert seen[-1] == 1.0
+
+
+HUGE = """
+from dataclasses import replace
+import ballrace as br
+from ballrace import _core
+scene = br.presets.deep_groove_6205(radial_load=5e3, axial_load=1e3, speed_rpm=1800.0)
+row = scene.rows[0]
+rows = tuple(
+    replace(row, axial_position=0.03 * k, side=1 - 2 * (k % 2)) for k in range(16)
+)
+rings = {{
+    "outer_ring": replace(scene.outer_ring, width=0.6),
+    "inner_ring": replace(scene.inner_ring, width=0.6),
+}}
+scene = replace(scene, rows=rows, **rings, contact=replace(scene.contact, slices=br.scene.FixedSlices({slices})))
+print("running", flush=True)
+{call}
+"""
+"""A scene whose static solve takes minutes."""
+
+CALLS = {
+    "equilibrium": "br.equilibrium(scene)",
+    "stiffness": "br.stiffness(scene)",
+    "load_distribution": "br.load_distribution(scene, positions=8)",
+    "explain": "br.explain(scene)",
+    "start": 'br.Model(scene).start("equilibrium")',
+    "simulate": "br.simulate(scene, duration=0.1, fs=1000.0)",
+}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C is sent in another way there")
+@pytest.mark.parametrize("name", CALLS)
+def test_ctrl_c_stops_a_static_solve(name: str) -> None:
+    program = HUGE.format(slices=100_000, call=CALLS[name])
+    command = [sys.executable, "-c", program]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as child:
+        assert child.stdout is not None
+        assert child.stderr is not None
+        assert child.stdout.readline() == "running\n"
+        time.sleep(0.5)
+        assert child.poll() is None, child.stderr.read()
+        assert interrupt(child) < 2.0
+        assert "KeyboardInterrupt" in child.stderr.read()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the program is that of the tests above")
+def test_a_time_limit_ends_a_static_solve() -> None:
+    call = "br.simulate(scene, duration=0.1, fs=1000.0, time_limit=0.3)"
+    program = HUGE.format(slices=100_000, call=call)
+    ended = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=60.0, check=False
+    )
+    assert "BudgetError: stopped at t = 0 s: time_limit = 0.3 is spent" in ended.stderr

@@ -1,15 +1,25 @@
 //! Motions that no force changes.
 
 use crate::model::{Model, RowModel};
-use crate::scene::{Drive, TimeFunction};
+use crate::scene::{Antiderivative, Drive, TimeFunction};
 
 /// A place whose speed is constant or follows the drive.
 #[derive(Debug, Clone)]
 pub(crate) struct Course {
     place: f64,
     speed: f64,
-    /// The drive, if it changes, and the share of it that this speed changes by.
-    drive: Option<(f64, TimeFunction)>,
+    /// The drive, if it changes.
+    drive: Option<Driven>,
+}
+
+/// A drive that changes, and the share of it that a speed changes by.
+#[derive(Debug, Clone)]
+struct Driven {
+    share: f64,
+    speed: TimeFunction,
+    turned: Antiderivative,
+    /// What of the speed is not the drive's.
+    extra: f64,
 }
 
 impl Course {
@@ -29,7 +39,12 @@ impl Course {
             speed,
             drive: match drive {
                 Drive::Speed(TimeFunction::Constant(_)) | Drive::Torque { .. } => None,
-                Drive::Speed(of) => Some((share, of.clone())),
+                Drive::Speed(of) => Some(Driven {
+                    share,
+                    speed: of.clone(),
+                    turned: Antiderivative::new(of),
+                    extra: speed - share * of.at(0.0),
+                }),
             },
         }
     }
@@ -51,13 +66,15 @@ impl Course {
     /// Place and speed at a time.
     pub fn at(&self, t: f64) -> (f64, f64) {
         match &self.drive {
-            Some((share, drive)) => {
-                let extra = self.speed - share * drive.at(0.0);
-                (
-                    self.place + extra * t + share * drive.integral(t),
-                    extra + share * drive.at(t),
-                )
-            }
+            Some(Driven {
+                share,
+                speed,
+                turned,
+                extra,
+            }) => (
+                self.place + extra * t + share * turned.at(speed, t),
+                extra + share * speed.at(t),
+            ),
             None => (self.place + self.speed * t, self.speed),
         }
     }
@@ -66,7 +83,7 @@ impl Course {
     pub fn rate(&self, t: f64) -> f64 {
         self.drive
             .as_ref()
-            .map_or(0.0, |(share, drive)| share * drive.rate(t))
+            .map_or(0.0, |drive| drive.share * drive.speed.rate(t))
     }
 }
 

@@ -105,7 +105,10 @@ fn time_function(path: &str, value: &TimeFunction, limit: f64) -> Result<()> {
                     "as many values as times, at least one",
                 ));
             }
-            for (i, (t, x)) in times.iter().zip(values).enumerate() {
+            let is_bad = |(t, x): (&f64, &f64)| !(t.is_finite() && (-limit..=limit).contains(x));
+            // Its path is written only for one that is refused: tables may have 10⁵ points.
+            if let Some(i) = times.iter().zip(values).position(is_bad) {
+                let (t, x) = (&times[i], &values[i]);
                 finite(&format!("{path}.table.times[{i}]"), *t)?;
                 each(&format!(".table.values[{i}]"), *x)?;
             }

@@ -1,0 +1,111 @@
+//! Stopping work from outside: a handle that another thread sets, and a time to be done by.
+//!
+//! A static solve is many small ones, deep within each other. They ask here, at every iteration of a ball, whether they are
+//! still wanted: what they heed belongs to the thread that works, so that no function on the way has to hand it on.
+
+use std::cell::RefCell;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use crate::error::{Error, Result};
+
+/// Stops from another thread what works under it: `equilibrium`, `stiffness`, `load_distribution`, `explain`, `start`,
+/// `Model::new` and the static parts of `simulate`, whose integration asks its `progress`.
+///
+/// ```
+/// use ballrace::{Error, Interrupt, equilibrium, scene::presets};
+/// let (stop, scene) = (Interrupt::new(), presets::wheel_bearing());
+/// assert!(stop.heed(|| equilibrium(&scene)).is_ok());
+/// stop.set();
+/// assert!(matches!(stop.heed(|| equilibrium(&scene)), Err(Error::Interrupted { .. })));
+/// ```
+#[derive(Debug, Clone, Default)]
+pub struct Interrupt(Arc<AtomicBool>);
+
+impl Interrupt {
+    /// One that lets everything go on.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Asks to stop, for good.
+    pub fn set(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether it is to stop.
+    pub fn is_set(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+
+    /// Works on this thread until done or asked to stop, which ends it by [`Error::Interrupted`].
+    pub fn heed<T>(&self, work: impl FnOnce() -> T) -> T {
+        under(Limit::Asked(self.clone()), work)
+    }
+}
+
+/// Works on this thread until done or until a time.
+pub(crate) fn until<T>(deadline: Instant, work: impl FnOnce() -> T) -> T {
+    under(Limit::Deadline(deadline), work)
+}
+
+/// Fails where the work of this thread is to end.
+pub(crate) fn check() -> Result<()> {
+    let ended = HEEDED.with_borrow(|limits| limits.iter().any(Limit::is_over));
+    if ended {
+        Err(Error::Interrupted { time: 0.0 })
+    } else {
+        Ok(())
+    }
+}
+
+enum Limit {
+    Asked(Interrupt),
+    Deadline(Instant),
+}
+
+impl Limit {
+    fn is_over(&self) -> bool {
+        match self {
+            Self::Asked(interrupt) => interrupt.is_set(),
+            Self::Deadline(time) => Instant::now() >= *time,
+        }
+    }
+}
+
+thread_local! {
+    static HEEDED: RefCell<Vec<Limit>> = const { RefCell::new(Vec::new()) };
+}
+
+fn under<T>(limit: Limit, work: impl FnOnce() -> T) -> T {
+    /// Takes the limit away again, after a panic too.
+    struct Heeded;
+    impl Drop for Heeded {
+        fn drop(&mut self) {
+            HEEDED.with_borrow_mut(Vec::pop);
+        }
+    }
+    HEEDED.with_borrow_mut(|limits| limits.push(limit));
+    let _heeded = Heeded;
+    work()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_heeded_ends_with_the_work() {
+        let stop = Interrupt::new();
+        stop.set();
+        assert_eq!(check(), Ok(()));
+        assert!(stop.heed(check).is_err());
+        stop.heed(|| until(Instant::now(), || ()));
+        assert_eq!(check(), Ok(()));
+        assert!(until(Instant::now(), check).is_err());
+        let panicked = std::panic::catch_unwind(|| stop.heed(|| panic!("as meant")));
+        assert!(panicked.is_err());
+        assert_eq!(check(), Ok(()));
+    }
+}
