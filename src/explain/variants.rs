@@ -29,7 +29,7 @@ type Change = fn(&Scene) -> Option<Scene>;
 const CHANGES: [(&str, &str, Change); 11] = [
     (
         "with approximations.rolling",
-        "of faulted races: rms to 16 %, rate of impacts to 0.7 %",
+        "of faulted races: rms to 20 %, rate of impacts to 0.7 %",
         |scene| {
             let mut changed = scene.clone();
             changed.approximations.rolling = true;
