@@ -15,7 +15,7 @@ use crate::error::{Error, Result};
 ///
 /// ```
 /// use ballrace::{Error, Interrupt, equilibrium, scene::presets};
-/// let (stop, scene) = (Interrupt::new(), presets::wheel_bearing());
+/// let (stop, scene) = (Interrupt::new(), presets::wheel_bearing(0.0));
 /// assert!(stop.heed(|| equilibrium(&scene)).is_ok());
 /// stop.set();
 /// assert!(matches!(stop.heed(|| equilibrium(&scene)), Err(Error::Interrupted { .. })));
