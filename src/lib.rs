@@ -37,8 +37,8 @@
 //!   dies down before t = 0.
 //! * `touched` ([`Touched`]) — which defects balls met in a run, and what their contacts carried there.
 //! * `signals` ([`Signals`]) — probes read from the dense output on a uniform grid, through a low-pass ([`Bandwidth`]).
-//! * `residual`, `collapse`, `escape`, `orbit`, `runaway`, `ending`, `warning` ([`Warning`]) — whether a run can be believed, who held it
-//!   up, and what its error says.
+//! * `residual`, `collapse`, `escape`, `orbit`, `runaway`, `ending`, `warning` ([`Warning`]) — whether a run can be
+//!   believed, who held it up, and what its error says.
 //! * `selftest` — whether this processor's vector instructions compute what they should, once a process.
 //! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
 //! * `budget` — wall time and steps that a run may cost at most.

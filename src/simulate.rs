@@ -30,9 +30,9 @@ use crate::step_limit;
 /// ```
 ///
 /// # Errors
-/// [`Error::Scene`] for bad input, [`Error::Memory`] for more samples than fit, [`Error::Equilibrium`] from the start, [`Error::Integration`] where the
-/// integration cannot go on, [`Error::Budget`] where it costs more than the run allows,
-/// [`Error::Interrupted`] if `progress` broke off.
+/// [`Error::Scene`] for bad input, [`Error::Memory`] for more samples than fit, [`Error::Equilibrium`] from the
+/// start, [`Error::Integration`] where the integration cannot go on, [`Error::Budget`] where it costs more than the run
+/// allows, [`Error::Interrupted`] if `progress` broke off.
 pub fn simulate(
     scene: &Scene,
     run: &Run,

@@ -5,7 +5,8 @@ use super::filter::HALF;
 use crate::dynamics::{CONTRIBUTIONS, Energy};
 use crate::scene::{Component, ContactQuantity, Probe, Scene, Slices};
 
-/// A column besides its values: its name twice, and what finds it \[bytes\]. An estimate, generous for names of some tens of letters.
+/// A column besides its values: its name twice, and what finds it \[bytes\]. An estimate, generous for names of some tens
+/// of letters.
 const COLUMN: f64 = 400.0;
 /// A row of the table of slices: here, and while it is handed over column by column.
 const ROW: f64 = (2 * size_of::<SliceRow>() + 64) as f64;
