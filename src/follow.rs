@@ -18,7 +18,7 @@ use crate::signals::{Recorder, Statistics};
 use crate::step_limit;
 
 /// How often progress is told, and after how many steps the clock is asked: of a small model's step that would take a
-/// fiftieth.
+/// fiftieth. One of a large model is long enough to ask after each.
 const TELL_EVERY: Duration = Duration::from_millis(20);
 const ASK_EVERY: usize = 8;
 /// Largest steps between corners of a table from which a step ends on each: with fewer, that would cost many more steps.
@@ -85,6 +85,7 @@ pub(crate) fn follow(
     let (mut pulls, mut truncated, mut halt) = (0, 0, None);
     let mut crawl = Crawl::new(model, options.max_step);
     let (mut steps, mut spent) = (StepBudget::new(max_steps), false);
+    let ask_every = if model.is_large() { 1 } else { ASK_EVERY };
     let bounds = runaway::Bounds::new(&dynamics, y0);
     let tolerance = tolerance(&dynamics)?;
     let own = dynamics.compress(y0);
@@ -115,7 +116,7 @@ pub(crate) fn follow(
             if spent {
                 return ControlFlow::Break(());
             }
-            if stats.accepted.is_multiple_of(ASK_EVERY) && told.elapsed() >= TELL_EVERY {
+            if stats.accepted.is_multiple_of(ask_every) && told.elapsed() >= TELL_EVERY {
                 told = Instant::now();
                 return progress(step.t1() / length);
             }

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ._interrupt import answers_ctrl_c
 from .errors import SceneError
 
 if TYPE_CHECKING:
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 __all__ = ["comb", "envelope", "floor", "line", "spectrum", "squared_envelope"]
 
 
+@answers_ctrl_c
 def squared_envelope(
     x: ArrayLike, fs: float, band: tuple[float, float] | None = None
 ) -> NDArray[np.float64]:
@@ -74,6 +76,7 @@ def squared_envelope(
     return analytic.real**2 + analytic.imag**2
 
 
+@answers_ctrl_c
 def spectrum(x: ArrayLike, fs: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the amplitude spectrum of a signal.
 
@@ -165,6 +168,7 @@ def line(x: ArrayLike, fs: float, near: float, width: float) -> tuple[float, flo
     return f, float(values[0])
 
 
+@answers_ctrl_c
 def comb(
     x: ArrayLike,
     fs: float,

@@ -1,11 +1,10 @@
 //! Cases in, outcomes out, with a bounded number on the way.
 //!
 //! The threads are the campaign's own. A shared pool would let campaigns in one process (a Dask worker has several)
-//! wait for each other, and a forked child would inherit one without its threads. A stop does not wait long for a
-//! case that does not hear it, such as one in a large static solve: its thread ends by itself with that case.
+//! wait for each other, and a forked child would inherit one without its threads. A stop reaches a case in its static
+//! solves and between its steps; where one evaluation takes long, its thread ends by itself after it.
 
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -13,6 +12,7 @@ use std::time::{Duration, Instant};
 use super::{Case, Outcome};
 use crate::error::{Error, Result};
 use crate::features::FeatureOptions;
+use crate::interrupt::Interrupt;
 
 /// How long the calling thread waits at most before it looks up.
 const ATTENTION: Duration = Duration::from_millis(50);
@@ -43,7 +43,7 @@ pub fn stream(
     let shared = Arc::new(Shared {
         queue: Mutex::new(queue),
         options: options.clone(),
-        stop: AtomicBool::new(false),
+        stop: Interrupt::new(),
     });
     for i in 0..threads {
         let (shared, hand_in) = (Arc::clone(&shared), hand_in.clone());
@@ -72,7 +72,7 @@ pub fn stream(
 struct Shared {
     queue: Mutex<Receiver<(usize, Case)>>,
     options: FeatureOptions,
-    stop: AtomicBool,
+    stop: Interrupt,
 }
 
 /// Number of threads asked for, or of cores.
@@ -95,7 +95,7 @@ fn work(shared: &Shared, hand_in: &Sender<Outcome>) {
         // The lock is let go before the case runs.
         let next = queue.lock().unwrap_or_else(PoisonError::into_inner).recv();
         let Ok((index, case)) = next else { return };
-        if stop.load(Ordering::Relaxed) {
+        if stop.is_set() {
             continue;
         }
         let outcome = case.outcome(index, options, stop);
@@ -113,7 +113,7 @@ fn feed(
     window: usize,
     hand_out: Sender<(usize, Case)>,
     outcomes: &Receiver<Outcome>,
-    stop: &AtomicBool,
+    stop: &Interrupt,
     watch: &mut dyn FnMut(Vec<Outcome>) -> ControlFlow<()>,
 ) {
     let mut cases = cases.enumerate();
@@ -136,7 +136,7 @@ fn feed(
             break;
         }
     }
-    stop.store(true, Ordering::Relaxed);
+    stop.set();
     drop(hand_out);
     let last = await_last(outcomes);
     if !last.is_empty() {
@@ -162,7 +162,7 @@ fn gather(outcomes: &Receiver<Outcome>) -> Vec<Outcome> {
 mod tests {
     use super::*;
 
-    /// As of a thread in a large static solve, which does not hear the stop: to wait for it would be for ever.
+    /// As of a thread in a very long evaluation, which does not hear the stop before its end.
     #[test]
     fn a_stop_does_not_wait_for_the_deaf() {
         let (deaf, outcomes) = channel::<Outcome>();
