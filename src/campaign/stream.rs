@@ -13,6 +13,7 @@ use super::{Case, Outcome};
 use crate::error::{Error, Result};
 use crate::features::FeatureOptions;
 use crate::interrupt::Interrupt;
+use crate::memory;
 
 /// How long the calling thread waits at most before it looks up.
 const ATTENTION: Duration = Duration::from_millis(50);
@@ -20,14 +21,17 @@ const ATTENTION: Duration = Duration::from_millis(50);
 /// How long a stop waits at most for cases that finish meanwhile, of what Ctrl-C may take: half a second.
 const PATIENCE: Duration = Duration::from_millis(150);
 
-/// Cases handed out a thread: one that runs and one that waits.
+/// Cases handed out a thread: one that runs and one that waits, or has finished and waits to be seen.
 const AHEAD: usize = 2;
+/// Records of a case that are there at once: its samples, and what its features are computed from.
+const RECORDS: f64 = 2.0;
 
 /// Runs cases as they come from an iterator, on `threads` threads (0: all cores).
 ///
 /// `watch` is called on this thread at least about every 50 ms with the outcomes that have come in since, in any
 /// order (see [`Outcome::index`]), or none; it may stop everything. Cases interrupted by that are not reported;
-/// those that finish within 150 ms are, in one last call. No more than two cases a thread are held at a time.
+/// those that finish within 150 ms are, in one last call. No more than two cases a thread are held at a time, and each
+/// has its part of the memory that there is at the beginning.
 ///
 /// # Errors
 /// [`Error::Scene`] for more than 1024 threads, or more than the system grants.
@@ -44,6 +48,7 @@ pub fn stream(
         queue: Mutex::new(queue),
         options: options.clone(),
         stop: Interrupt::new(),
+        memory: memory::available() / (RECORDS * AHEAD as f64 * threads as f64),
     });
     for i in 0..threads {
         let (shared, hand_in) = (Arc::clone(&shared), hand_in.clone());
@@ -73,6 +78,8 @@ struct Shared {
     queue: Mutex<Receiver<(usize, Case)>>,
     options: FeatureOptions,
     stop: Interrupt,
+    /// What each case may set aside \[bytes\].
+    memory: f64,
 }
 
 /// Number of threads asked for, or of cores.
@@ -90,6 +97,7 @@ fn work(shared: &Shared, hand_in: &Sender<Outcome>) {
         queue,
         options,
         stop,
+        memory,
     } = shared;
     loop {
         // The lock is let go before the case runs.
@@ -98,7 +106,7 @@ fn work(shared: &Shared, hand_in: &Sender<Outcome>) {
         if stop.is_set() {
             continue;
         }
-        let outcome = case.outcome(index, options, stop);
+        let outcome = memory::within(*memory, || case.outcome(index, options, stop));
         if matches!(outcome.result, Err(Error::Interrupted { .. }))
             || hand_in.send(outcome).is_err()
         {

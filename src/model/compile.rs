@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::body::{Body, Degree, ball_mass, groove_radius, ring_mass};
-use super::{Ball, LoadModel, Model, RowModel, Scales, Spring, UnbalanceModel, nodes};
+use super::{Ball, LoadModel, Model, RowModel, Scales, Spring, UnbalanceModel, demand, nodes};
 use crate::contact::hertz::Hertz;
 use crate::contact::iso16281::Iso16281;
 use crate::contact::{BallSide, Fault, Friction, Law, Pair, Rules, Slices, Torus, Waves};
@@ -16,6 +16,7 @@ use crate::simd::Level;
 /// Checks and compiles a scene whose defects all have numbers for their places; [`Model::new`] gives them those.
 pub(crate) fn compile(scene: &Scene) -> Result<Model> {
     scene.validate()?;
+    demand::check(scene)?;
     let scene = &Approximations::simplified(scene);
     let mut bodies = vec![
         ring(scene, &scene.outer_ring, RingName::Outer)?,

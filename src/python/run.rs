@@ -15,6 +15,7 @@ use serde::de::value::Error as ValueError;
 use super::answer::{Progress, answering};
 use super::errors::{OrRaise, to_json};
 use crate::scene::{Method, RingName};
+use crate::start::check_length;
 use crate::{Bandwidth, Error, Run, Scene, Signals, SliceRow, Start};
 
 /// A compiled scene.
@@ -91,9 +92,8 @@ impl Model {
 impl Model {
     /// A copy of a state of the right length: other threads may write to the array once the GIL is released.
     fn state(&self, py: Python<'_>, y: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<f64>> {
-        let y: Vec<f64> = y.as_array().iter().copied().collect();
-        if y.len() == self.0.dim() {
-            Ok(y)
+        if y.as_array().len() == self.0.dim() {
+            Ok(y.as_array().iter().copied().collect())
         } else {
             let wanted = format!(
                 "an array of shape ({},), one number per state",
@@ -101,7 +101,7 @@ impl Model {
             );
             Err(Error::scene(
                 "y",
-                format!("an array of shape ({},)", y.len()),
+                format!("an array of shape ({},)", y.as_array().len()),
                 wanted,
             ))
             .or_raise(py)
@@ -134,7 +134,10 @@ pub(super) fn simulate<'py>(
     max_steps: Option<usize>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let scene = Scene::from_json(scene).or_raise(py)?;
-    let state = state.map(|y| y.as_array().iter().copied().collect());
+    let state = state
+        .map(|y| state_of(&scene, &y))
+        .transpose()
+        .or_raise(py)?;
     let run = Run {
         duration,
         fs,
@@ -154,6 +157,13 @@ pub(super) fn simulate<'py>(
         callback.call1(py, (1.0,))?;
     }
     hand_over(py, signals)
+}
+
+/// A copy of a state to begin from, if it has the length for it.
+fn state_of(scene: &Scene, y: &PyReadonlyArray1<'_, f64>) -> crate::Result<Vec<f64>> {
+    let balls: usize = scene.rows.iter().map(|row| row.ball_count).sum();
+    check_length(y.as_array().len(), 8 * (2 + balls))?;
+    Ok(y.as_array().iter().copied().collect())
 }
 
 /// What a scene is compiled to and costs, as JSON and as text.
