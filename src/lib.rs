@@ -48,6 +48,7 @@
 //! * `explain` ([`explain()`]) — what a scene is compiled to, what it costs, what would make it cheaper.
 //! * `features` ([`Feature`]) — the few numbers a case is known by: moments, fault lines, contact loads.
 //! * `interrupt` ([`Interrupt`]), `memory` — what ends work from outside; what a run may set aside.
+//! * `told` — numbers in messages, in units of their size.
 //! * `campaign` ([`campaign()`]) — many cases on all cores; a case that fails is an outcome.
 //! * `python` (feature `python`) — the only place that knows Python.
 //!
@@ -106,6 +107,7 @@ pub mod simd;
 mod simulate;
 mod start;
 mod step_limit;
+mod told;
 mod touched;
 mod warning;
 

@@ -33,7 +33,14 @@ pub(crate) fn check(needed: f64, what: impl FnOnce() -> String) -> Result<()> {
     Err(Error::Memory {
         needed,
         available,
-        what: what(),
+        what: if PART.get().is_finite() {
+            format!(
+                "{}, or run fewer cases at once, which share the memory",
+                what()
+            )
+        } else {
+            what()
+        },
     })
 }
 

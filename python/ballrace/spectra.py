@@ -66,7 +66,7 @@ def squared_envelope(
     n = signal.size
     low, high = (0.0, fs / 2.0) if band is None else band
     if not 0.0 <= low < high <= fs / 2.0:
-        raise SceneError("band", str(band), f"two rising frequencies from 0 to fs/2, {fs / 2.0}")
+        raise SceneError("band", str(band), f"two rising frequencies from 0 to fs/2, {fs / 2.0:g}")
     lines = np.fft.rfft(signal)
     f = np.fft.rfftfreq(n, 1.0 / fs)
     lines[(f < low) | (f > high)] = 0.0
@@ -222,7 +222,7 @@ def comb(
     if not (width > 0.0 and multiples[0] * low + offset > 0.0):
         raise SceneError("width", str(width), "above 0, and lines at positive frequencies")
     if multiples[-1] * high + offset > fs / 2.0:
-        raise SceneError("near", str(near), f"lines up to fs/2, {fs / 2.0}")
+        raise SceneError("near", str(near), f"lines up to fs/2, {fs / 2.0:g}")
 
     weighted = _weighted(signal)
     padded = 4 * weighted.size

@@ -7,6 +7,7 @@ use crate::contact::Motion;
 use crate::dynamics::link;
 use crate::error::{Error, Result};
 use crate::interrupt;
+use crate::told;
 
 /// Force left on a body, over the largest load, above which there is no equilibrium.
 const REFUSED: f64 = 1e-4;
@@ -114,12 +115,13 @@ impl Problem<'_> {
         }
         Err(Error::Equilibrium {
             reason: format!(
-                "{:.3e} N on {} are not balanced, {:.1e} of the largest load ({:.3e} N), where {REFUSED:e} is allowed; \
+                "{} on {} are not balanced, {} % of the largest load ({}), where {} % is allowed; \
                  check loads, clearance and cage, cut contacts by fitted nodes, or start rolling",
-                residual.force,
+                told::force(residual.force),
                 self.model.bodies[residual.body].name,
-                residual.share(),
-                residual.largest
+                told::number(100.0 * residual.share()),
+                told::force(residual.largest),
+                told::number(100.0 * REFUSED)
             ),
         })
     }

@@ -12,6 +12,7 @@ use crate::scene::{
     self, Approximations, Defect, Drive, Mount, NormalLaw, RingName, Row, Scene, Surface,
 };
 use crate::simd::Level;
+use crate::told::number;
 
 /// Checks and compiles a scene whose defects all have numbers for their places; [`Model::new`] gives them those.
 pub(crate) fn compile(scene: &Scene) -> Result<Model> {
@@ -117,7 +118,10 @@ fn ring(scene: &Scene, ring: &scene::Ring, name: RingName) -> Result<Body> {
             return Err(Error::scene(
                 format!("{label}_ring.width"),
                 format!("{:?}", ring.width),
-                format!("a ring wide enough for its grooves: its {field} would be {value:.3e}"),
+                format!(
+                    "a ring wide enough for its grooves: its {field} would be {}",
+                    number(value)
+                ),
             ));
         }
     }
@@ -268,8 +272,9 @@ fn unbalances(scene: &Scene, bodies: &[Body]) -> Result<Vec<UnbalanceModel>> {
                 format!("unbalances.{name}.moment"),
                 unbalance.moment,
                 format!(
-                    "all of a ring that turns freely below √(mass · inertia) = {most:.3e} kg m, \
-                     or it has no inertia about its centre of mass"
+                    "all of a ring that turns freely below √(mass · inertia) = {} kg m, \
+                     or it has no inertia about its centre of mass",
+                    number(most)
                 ),
             ));
         }

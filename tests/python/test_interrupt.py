@@ -197,6 +197,38 @@ def test_ctrl_c_is_answered_within_half_a_second(name: str) -> None:
     assert any(seconds < 0.5 for seconds in tries)
 
 
+POOL = """
+import multiprocessing
+from concurrent.futures import ProcessPoolExecutor
+import ballrace as br
+if __name__ == "__main__":
+    scene = br.presets.wheel_bearing()
+    table = {{"loads.axial.force": [float(i) for i in range(20)]}}
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+        pool.submit(abs, 1).result()
+        print("running", flush=True)
+        br.campaign(
+            table, {folder!r}, scene=scene, duration={long}, progress=False, executor=pool
+        )
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C is sent in another way there")
+def test_ctrl_c_stops_what_workers_have_taken(tmp_path: Path) -> None:
+    """The pool waits for its workers, each with a case of hours and more in its queue."""
+    program = tmp_path / "pool.py"
+    program.write_text(POOL.format(folder=str(tmp_path / "runs"), long=LONG))
+    with subprocess.Popen(
+        [sys.executable, program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as child:
+        assert child.stdout is not None
+        assert child.stderr is not None
+        assert child.stdout.readline() == "running\n", child.stderr.read()
+        time.sleep(2.0)
+        interrupt(child)
+        assert "KeyboardInterrupt: interrupted; 0 of 20 cases are safe" in child.stderr.read()
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="the program is that of the tests above")
 def test_a_time_limit_ends_a_static_solve() -> None:
     call = "br.simulate(scene, duration=0.1, fs=1000.0, time_limit=0.3)"
