@@ -119,7 +119,7 @@ mod tests {
         let far = said(&[(false, 4, 1, -0.1)]).unwrap();
         assert!(far.0 == 4 && far.1.contains(" from its place"), "{far:?}");
         let fast = said(&[(true, 1, 0, -6e3)]).unwrap();
-        assert_eq!(fast, (1, "moves at 6.0e3 m/s".to_owned()));
+        assert_eq!(fast, (1, "moves at 6000 m/s".to_owned()));
         let turned = said(&[(true, 3, 3, 1e271)]).unwrap();
         assert_eq!(turned, (3, "spins at 1e271 rad/s".to_owned()));
         assert_eq!(said(&[(false, 0, 3, f64::NAN)]).unwrap().0, 0);

@@ -156,6 +156,6 @@ mod tests {
         assert!((0.05..1.0).contains(&off.force), "{off:?}");
         let error = problem.accept(&off).unwrap_err().to_string();
         assert!(error.contains(" N on outer are not balanced"), "{error}");
-        assert!(error.contains("where 1e-4 is allowed"), "{error}");
+        assert!(error.contains("where 0.01 % is allowed"), "{error}");
     }
 }

@@ -89,7 +89,7 @@ mod tests {
         let compiled = |scene: &Scene| memory::within(200e3, || Model::new(scene));
         let error = compiled(&scene).unwrap_err();
         assert!(
-            matches!(error, Error::Memory { .. }) && error.to_string().contains("2000 numbers"),
+            matches!(error, Error::Memory { .. }) && error.to_string().contains("2002 numbers"),
             "{error}"
         );
         scene.drive = Drive::Speed(1.0.into());

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
 import sys
@@ -192,9 +193,10 @@ def heard_after(program: str) -> float:
 @pytest.mark.parametrize("name", CALLS)
 def test_ctrl_c_is_answered_within_half_a_second(name: str) -> None:
     program, call = CALLS[name]
-    # Of several tries the fastest: other processes may hold the cores.
+    # Of several tries the fastest, and the longer the more processes wait for each core.
+    limit = 0.5 * max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))
     tries = (heard_after(program.format(slices=100_000, call=call)) for _ in range(3))
-    assert any(seconds < 0.5 for seconds in tries)
+    assert any(seconds < limit for seconds in tries)
 
 
 POOL = """
