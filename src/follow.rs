@@ -36,32 +36,36 @@ pub(crate) struct Stretch {
 /// Sees the first state of a stretch and every accepted step, on the integrator's clock.
 pub(crate) trait Watch: Send {
     fn first(&mut self, dynamics: &mut Dynamics<'_>, y: &[f64]);
-    fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>);
+
+    /// Breaks off to end the stretch.
+    fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) -> ControlFlow<()>;
 
     /// Until when it wants to see steps of a stretch with this end \[s\].
     fn until(&self, end: f64) -> f64 {
         end
     }
 
-    /// There are no more steps.
-    fn finish(&mut self) {}
+    /// There are no more steps. Breaks off where what is left is not wanted.
+    fn finish(&mut self) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 }
 
-impl Watch for Recorder {
+impl Watch for Recorder<'_> {
     fn first(&mut self, dynamics: &mut Dynamics<'_>, y: &[f64]) {
         Recorder::first(self, dynamics, 0.0, y);
     }
 
-    fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) {
-        Recorder::step(self, dynamics, step);
+    fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) -> ControlFlow<()> {
+        Recorder::step(self, dynamics, step)
     }
 
     fn until(&self, end: f64) -> f64 {
         Recorder::until(self, end)
     }
 
-    fn finish(&mut self) {
-        Recorder::finish(self);
+    fn finish(&mut self) -> ControlFlow<()> {
+        Recorder::finish(self)
     }
 }
 
@@ -96,7 +100,7 @@ pub(crate) fn follow(
             pulls += dynamics.pulls();
             truncated += dynamics.truncated();
             let lost = dynamics.lost();
-            watch.step(dynamics, step);
+            let watched = watch.step(dynamics, step);
             last.copy_from_slice(step.y1());
             last_time = step.t1();
             let crawls = crawl.after(step.h());
@@ -112,7 +116,7 @@ pub(crate) fn follow(
                 return ControlFlow::Break(());
             }
             spent = steps.spent(stats) && step.t1() < length;
-            if spent {
+            if spent || watched.is_break() {
                 return ControlFlow::Break(());
             }
             if stats.accepted.is_multiple_of(ASK_EVERY) && told.elapsed() >= TELL_EVERY {
@@ -146,7 +150,10 @@ pub(crate) fn follow(
     }
     let end = (solution.t, &solution.y[..]);
     let nfev_past_end = go_on(&mut dynamics, watch, end, (&tolerance, options), progress)?;
-    watch.finish();
+    if watch.finish().is_break() {
+        let time = begins + length;
+        return Err(Error::Interrupted { time });
+    }
     let _ = progress(1.0);
     let stats = solution.stats;
     let statistics = Statistics {
@@ -195,10 +202,10 @@ fn go_on(
             if dynamics.lost().is_some() || crawl.after(step.h()) {
                 return ControlFlow::Break(());
             }
-            watch.step(dynamics, step);
+            stopped = watch.step(dynamics, step).is_break();
             if told.elapsed() >= TELL_EVERY {
                 told = Instant::now();
-                stopped = progress(1.0).is_break();
+                stopped |= progress(1.0).is_break();
             }
             if stopped {
                 ControlFlow::Break(())

@@ -59,10 +59,40 @@ def read_sealed(path: Path) -> tuple[pl.DataFrame, dict[str, str]]:
     """
     import polars as pl
 
-    with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
-        _check(data)
+    _check_file(path)
     table = _unless_damaged(lambda: pl.read_parquet(path, glob=False))
     return table, _unless_damaged(lambda: pl.read_parquet_metadata(path))
+
+
+def scan_sealed(path: Path) -> dict[str, str]:
+    """Check a Parquet file as :func:`read_sealed` does, and read its metadata alone.
+
+    Raises
+    ------
+    ValueError
+        It is damaged, or not Parquet.
+    OSError
+        It cannot be read.
+    """
+    import polars as pl
+
+    _check_file(path)
+    return _unless_damaged(lambda: pl.read_parquet_metadata(path))
+
+
+def columns_and_rows(path: Path) -> tuple[list[str], int]:
+    """Return the names of the columns of a Parquet file, and how many rows it has."""
+    import polars as pl
+
+    table = pl.scan_parquet(path, glob=False)
+    return table.collect_schema().names(), table.select(pl.len()).collect().item()
+
+
+def read_columns(path: Path, names: list[str]) -> pl.DataFrame:
+    """Read some columns of a Parquet file whose hash is known to be right."""
+    import polars as pl
+
+    return pl.read_parquet(path, columns=names, glob=False)
 
 
 def read_bytes(data: bytes) -> pl.DataFrame:
@@ -76,6 +106,11 @@ def read_bytes(data: bytes) -> pl.DataFrame:
     import polars as pl
 
     return _unless_damaged(lambda: pl.read_parquet(io.BytesIO(data)))
+
+
+def _check_file(path: Path) -> None:
+    with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
+        _check(data)
 
 
 def _check(data: mmap.mmap) -> None:
