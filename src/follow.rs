@@ -150,10 +150,7 @@ pub(crate) fn follow(
     }
     let end = (solution.t, &solution.y[..]);
     let nfev_past_end = go_on(&mut dynamics, watch, end, (&tolerance, options), progress)?;
-    if watch.finish().is_break() {
-        let time = begins + length;
-        return Err(Error::Interrupted { time });
-    }
+    finish(watch, begins + length)?;
     let _ = progress(1.0);
     let stats = solution.stats;
     let statistics = Statistics {
@@ -224,6 +221,14 @@ fn go_on(
         return Err(Error::Interrupted { time: end });
     }
     Ok(beyond.map_or(0, |(solution, _)| solution.stats.nfev))
+}
+
+/// There are no more steps of a stretch that ends at a time \[s\].
+fn finish(watch: &mut dyn Watch, time: f64) -> Result<()> {
+    match watch.finish() {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Error::Interrupted { time }),
+    }
 }
 
 /// How many threads share an evaluation.

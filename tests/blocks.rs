@@ -2,13 +2,13 @@
 
 use std::ops::ControlFlow::{self, Break, Continue};
 
-use ballrace::scene::{Component, Probe, Scene, presets};
+use ballrace::scene::{Probe, Scene, presets};
 use ballrace::{Block, Error, Run, Signals, simulate, simulate_into};
 
 /// So many columns that a block has some hundred samples: filtered motion, and points of contacts.
 fn scene() -> Scene {
     let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
-    for k in 0..60 {
+    for k in 0..40 {
         let contacts = Probe::Contacts {
             row: 0,
             balls: None,

@@ -9,13 +9,16 @@ which other readers of Parquet pass over::
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import io
 import mmap
+import os
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, BinaryIO, TypeVar
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
     from pathlib import Path
 
     import polars as pl
@@ -27,6 +30,17 @@ _SIZE = 16
 """Length of the hash [bytes]."""
 _TAIL = 8
 """Length of what follows the footer: its own length, and the format's name [bytes]."""
+
+
+@contextmanager
+def writing_to(path: str | os.PathLike[str]) -> Iterator[None]:
+    """Have what polars cannot write, as to a full disk, be an ``OSError`` that names the file."""
+    import polars as pl
+
+    try:
+        yield
+    except pl.exceptions.PolarsError as error:
+        raise OSError(errno.EIO, f"cannot be written ({error})", os.fspath(path)) from error
 
 
 def seal(file: BinaryIO) -> None:

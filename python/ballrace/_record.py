@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._files import whole
-from ._parquet import columns_and_rows, read_bytes, read_columns, seal
+from ._parquet import columns_and_rows, read_bytes, read_columns, seal, writing_to
 from .errors import BallraceError, FileError
 from .scene import Scene
 
@@ -39,7 +39,8 @@ _FORMAT = "1"
 class Writer:
     """Takes the blocks of a record, and makes one file of them."""
 
-    def __init__(self, path: Path, folder: Path) -> None:
+    def __init__(self, target: str | os.PathLike[str], path: Path, folder: Path) -> None:
+        self._target = target
         self._path = path
         self._folder = folder
         self._blocks: list[Path] = []
@@ -51,14 +52,15 @@ class Writer:
 
         table = pl.DataFrame(dict(columns))
         block = self._folder / f"{len(self._blocks):08}.parquet"
-        table.write_parquet(block, compression="uncompressed", statistics=False)
+        with writing_to(self._target):
+            table.write_parquet(block, compression="uncompressed", statistics=False)
         self._blocks.append(block)
         self._rows = max(self._rows, table.height)
 
     def finish(self, metadata: dict[str, str]) -> None:
         """Write the one file, sealed."""
         # This thread waits, so that Ctrl-C is answered here, once; polars itself ends what it does then.
-        with ThreadPoolExecutor(1) as pool:
+        with writing_to(self._target), ThreadPoolExecutor(1) as pool:
             pool.submit(self._join, metadata).result()
         with self._path.open("r+b") as file:
             seal(file)
@@ -79,7 +81,7 @@ def writing(path: str | os.PathLike[str]) -> Iterator[Writer]:
             prefix=f"{temporary.name}s.", dir=temporary.parent, ignore_cleanup_errors=True
         ) as folder,
     ):
-        yield Writer(temporary, Path(folder))
+        yield Writer(path, temporary, Path(folder))
 
 
 class Scanned(Mapping[str, NDArray[np.float64]]):

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._files import whole
-from ._parquet import read_sealed, scan_sealed, seal
+from ._parquet import read_sealed, scan_sealed, seal, writing_to
 from ._record import Scanned, described, metadata, samples, unless_damaged
 from ._text import printable
 from .scene import Scene, Surface
@@ -283,10 +283,11 @@ class Signals(Mapping[str, NDArray[np.float64]]):
         Raises
         ------
         OSError
-            The folder does not exist or is not writable.
+            The folder does not exist or is not writable, or the disk is full.
         """
         with whole(path) as temporary:
-            self.to_polars().write_parquet(temporary, metadata=metadata(self))
+            with writing_to(path):
+                self.to_polars().write_parquet(temporary, metadata=metadata(self))
             with temporary.open("r+b") as file:
                 seal(file)
 

@@ -18,6 +18,7 @@ import polars as pl
 import pytest
 
 import ballrace as br
+from ballrace.cli import main
 
 
 def wide(times: int = 60) -> br.Scene:
@@ -48,10 +49,10 @@ def same(one: br.Signals, two: br.Signals) -> None:
 def test_the_file_is_what_the_run_without_it_gives(tmp_path: Path) -> None:
     """Truth: the run that keeps its samples, and the file that it writes."""
     path, kept_path = tmp_path / "record.parquet", tmp_path / "kept.parquet"
-    kept = br.simulate(wide(), **RUN)
+    kept = br.simulate(wide(30), **RUN)
     kept.write_parquet(kept_path)
     path.write_text("old")
-    out = br.simulate(wide(), **RUN, out=path)
+    out = br.simulate(wide(30), **RUN, out=path)
     assert {p.name for p in tmp_path.iterdir()} == {"record.parquet", "kept.parquet"}
     read = br.Signals.read_parquet(path)
     same(read, kept)
@@ -168,6 +169,54 @@ def test_a_write_that_fails_stops_the_run(tmp_path: Path, monkeypatch: pytest.Mo
     with pytest.raises(OSError, match="space"):
         br.simulate(wide(), duration=100.0, settle=0.0, out=tmp_path / "record.parquet")
     assert len(blocks) == 2
+    assert not list(tmp_path.iterdir())
+
+
+LIMITED = """
+import resource, signal, sys
+from ballrace.cli import main
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))
+options = "run scene.toml -o out.parquet --duration 3e-3 --fs 1e8 --start rolling --settle 0"
+sys.exit(main(options.split()))
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no limit of a file's size")
+@pytest.mark.parametrize("limit", [1 << 20, 15 << 20], ids=["block", "whole"])
+def test_a_disk_that_is_full_is_told_and_leaves_nothing(tmp_path: Path, limit: int) -> None:
+    """Limit: of the size of files, below that of a block, or of the blocks together."""
+    (tmp_path / "scene.toml").write_text(br.presets.deep_groove_6205().to_toml())
+    command = [sys.executable, "-c", LIMITED.format(limit=limit)]
+    ended = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, check=False)
+    assert ended.returncode == 2, ended.stderr
+    assert ended.stderr.startswith("ballrace: out.parquet: cannot be written (")
+    assert len(ended.stderr.splitlines()) == 1
+    assert [p.name for p in tmp_path.iterdir()] == ["scene.toml"]
+
+
+def test_the_command_writes_as_it_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def kept(_self: br.Signals, _path: Path) -> None:
+        raise AssertionError("the samples were kept")
+
+    monkeypatch.setattr(br.Signals, "write_parquet", kept)
+    (tmp_path / "scene.toml").write_text(br.presets.deep_groove_6205().to_toml())
+    path = tmp_path / "out.parquet"
+    assert main(["run", str(tmp_path / "scene.toml"), "-o", str(path), "--duration", "1e-3"]) == 0
+    assert br.Signals.read_parquet(path).n_samples == 50
+
+
+def test_a_long_record_is_not_refused_for_its_memory(tmp_path: Path) -> None:
+    """Limit: of terabytes, of which a block is held."""
+    run: dict[str, Any] = {"duration": 1e6, "fs": 1e6, "start": "rolling"}
+    with pytest.raises(MemoryError, match="write its record to a file"):
+        br.simulate(wide(0), **run)
+
+    def stopped(_: float) -> None:
+        raise StoppedError
+
+    with pytest.raises(StoppedError):
+        br.simulate(wide(0), **run, out=tmp_path / "record.parquet", progress=stopped)
     assert not list(tmp_path.iterdir())
 
 
