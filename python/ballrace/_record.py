@@ -2,7 +2,8 @@
 
 A record that is written while it is made comes in blocks. What ends a Parquet file, its metadata, is known
 when the run is over; so each block goes into a file of its own in a folder beside, and at the end polars copies
-these, some blocks at a time, into one. Memory stays flat; the disk holds the samples twice for that while.
+these, some blocks at a time, into one. The run itself takes memory for a few blocks; of copying 5 GB polars held
+0.2 GB more than of 0.7 GB. The disk holds the samples twice for that while.
 """
 
 from __future__ import annotations
