@@ -12,7 +12,7 @@ use serde::Deserialize;
 use serde::de::IntoDeserializer;
 use serde::de::value::Error as ValueError;
 
-use super::answer::{Progress, answering};
+use super::answer::{Callbacks, answering, handing_over};
 use super::errors::{OrRaise, to_json};
 use crate::scene::{Method, RingName};
 use crate::start::check_length;
@@ -110,10 +110,12 @@ impl Model {
 }
 
 /// Run a scene; returns a dict of `fs`, `t`, `columns`, `slices`, `stats`, `provenance` and `scene`.
+///
+/// With a `sink` times and columns come back empty: it was given them, block by block, as dicts of arrays.
 #[pyfunction]
 #[pyo3(signature = (
     scene, duration, fs, kind, state, rtol, accuracy, method, threads, progress, bandwidth, settle,
-    time_limit = None, max_steps = None
+    time_limit = None, max_steps = None, sink = None
 ))]
 #[allow(clippy::too_many_arguments)]
 pub(super) fn simulate<'py>(
@@ -132,6 +134,7 @@ pub(super) fn simulate<'py>(
     settle: Option<f64>,
     time_limit: Option<f64>,
     max_steps: Option<usize>,
+    sink: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let scene = Scene::from_json(scene).or_raise(py)?;
     let state = state
@@ -151,8 +154,18 @@ pub(super) fn simulate<'py>(
         time_limit,
         max_steps,
     };
-    let work = move |told: Progress<'_>| crate::simulate(&scene, &run, told);
-    let signals = answering(py, progress.as_ref(), work)?;
+    let callbacks = Callbacks {
+        progress: progress.as_ref(),
+        sink: sink.as_ref(),
+    };
+    let in_blocks = sink.is_some();
+    let signals = handing_over(py, callbacks, move |told, sink| {
+        if in_blocks {
+            crate::simulate_into(&scene, &run, sink, told)
+        } else {
+            crate::simulate(&scene, &run, told)
+        }
+    })?;
     if let Some(callback) = progress {
         callback.call1(py, (1.0,))?;
     }

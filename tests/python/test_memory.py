@@ -118,6 +118,7 @@ def test_what_does_not_fit_is_a_memory_error(name: str) -> None:
     (refused,) = program(CALLS[name])
     assert " GiB of memory would be needed where " in refused
     assert "shorten duration = " in refused
+    assert refused.endswith("let a single run write its record to a file as it goes on (out)")
 
 
 def test_what_the_machine_does_not_have_is_refused() -> None:
