@@ -4,7 +4,7 @@ use std::array::from_fn;
 
 use super::batch::{SideConstants, Touching};
 use super::state::State;
-use crate::contact::{Held, Law, Motion, Pack, Packing, Plane, Raise, Reaction, Still, in_contact};
+use crate::contact::{Held, Motion, Pack, Packing, Plane, Raise, Reaction, Still, in_contact};
 use crate::model::Model;
 use crate::simd::{LANES, Lanes, Mask, Task};
 
@@ -149,7 +149,7 @@ impl Side {
             lane,
             packs: &mut self.packs,
             radius: compiled.side.radius,
-            flat: matches!(pair.law, Law::Hertz(_)),
+            flat: pair.law.cut.is_flat(),
             aside: [0.0; 4],
             count: 0,
         };

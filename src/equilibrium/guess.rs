@@ -25,7 +25,7 @@ impl RowSpring {
         let scales = &model.scales;
         let side = &model.balls[row.first].side;
         // A slice's own power, and the zone's length goes with the root.
-        let exponent = row.pairs[0].law.exponent() + 0.5;
+        let exponent = row.pairs[0].law.elastic.exponent() + 0.5;
         let give = row.pairs.each_ref().map(|pair| {
             let race = &pair.race;
             let distance = race.a + race.sigma * (race.r - side.radius + scales.approach);

@@ -1,14 +1,20 @@
-//! Elastic force of a contact at rest and its derivative: what a static solve needs.
+//! Elastic force of a contact at rest and its stiffness: what a static solve needs.
 //!
-//! Where all surfaces are whole, ball and groove are two circles in the meridional plane, and the force depends on
-//! their distance l and on the angle α' of the common normal alone. Its derivative is that of the very sum that
-//! `walk` makes, node by node, so Newton's method converges on it quadratically. Near a defect, and where a
-//! shoulder or the ball's equator cuts the zone, it is found by differences.
+//! Where all surfaces are whole, ball and groove are two circles in the meridional plane, and the force depends on the
+//! places e and c of their centres alone: the kernel with derivatives by both says force and stiffness, of the very sum
+//! that a run makes, so Newton's method converges on it quadratically. Near a defect, and where the ball's equator
+//! cuts the zone, the stiffness is found by differences.
+
+// Everything here must be compiled for the instructions of its caller.
+#![allow(clippy::inline_always)]
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::race::{Meridian, SHALLOW};
-use super::{Aside, BallSide, Law, Motion, Pair, Rules, Sink, Slices, Touch, V2, hertz, iso16281};
+use super::closed_form;
+use super::dual::Dual;
+use super::kernel::{self, Element, Receiver, Whole};
+use super::profile::{SHALLOW, Section};
+use super::{Aside, BallSide, Motion, Pair, Sink, Slices, Touch, V2};
 
 /// Elastic force on the ball along x, y, z \[N\], and the stiffness −∂force/∂place of the ball against the ring
 /// \[N/m\]; a stiffness that only differences can tell is left out.
@@ -29,8 +35,10 @@ impl Pair {
             n.y.atan2(n.x)
         };
         let raise = self.waves.raise(angle);
-        let meridian = self.race.meridian(distance, place.z, raise.height);
-        if meridian.e > 0.0 && meridian.approach(ball.radius) <= 0.0 {
+        let section = self
+            .race
+            .section(ball.radius, distance, place.z, raise.height);
+        if section.is_clear() {
             return Tangent {
                 force: Vector3::zeros(),
                 stiffness: Some(Matrix3::zeros()),
@@ -46,7 +54,7 @@ impl Pair {
                 };
                 fault.in_reach(towards)
             });
-        match self.meridional(ball.radius, &meridian).filter(|_| whole) {
+        match self.meridional(&section).filter(|_| whole) {
             Some(found) => {
                 self.in_space(&found, n, distance, (raise.slope, self.waves.bend(angle)))
             }
@@ -131,148 +139,95 @@ impl Pair {
     }
 
     /// Force of a whole contact; none where something cuts its zone.
-    fn meridional(&self, radius: f64, meridian: &Meridian) -> Option<Meridional> {
-        match (&self.law, &self.slices) {
-            (Law::Hertz(law), Slices::Fitted(_)) => self.hertz(law, radius, meridian),
-            (Law::Iso16281(law), Slices::Fitted(rules)) => {
-                self.fitted(*law, rules, radius, meridian)
-            }
-            (Law::Iso16281(law), Slices::Fixed(count)) => {
-                Some(self.fixed(*law, *count, radius, meridian))
-            }
-            (Law::Hertz(_), Slices::Fixed(_)) => None,
+    fn meridional(&self, section: &Section<f64>) -> Option<Meridional> {
+        let is_fixed = matches!(self.slices, Slices::Fixed(_));
+        if !self.is_whole(section, is_fixed) {
+            return None;
         }
+        let constants = self.constants(section.radius);
+        let of = |x: f64| Dual::<f64, 2>::constant(x);
+        let section = Section::new::<false, false>(
+            of(section.radius),
+            of(section.r),
+            Dual::variable(section.e, 0),
+            Dual::variable(section.c, 1),
+        );
+        let half_curvature = of(constants.half_curvature);
+        let zone = kernel::zone(&self.law.cut, &section, half_curvature);
+        let contact = Whole {
+            inverse: of(constants.inverse),
+            half: zone.half,
+            ends: zone.ends(section.normal),
+            strength: of(constants.strength),
+            half_curvature,
+            section,
+        };
+        let zero = of(0.0);
+        let mut sums = ElasticSums {
+            pair: self,
+            section: &contact.section,
+            force: [zero; 2],
+        };
+        match closed_form::hertz_stiffness(self) {
+            Some(stiffness) => {
+                let element = kernel::as_one(&contact, stiffness);
+                sums.add(&element);
+            }
+            None => {
+                kernel::elements::<_, false, false>(&self.law, &self.slices, &contact, &mut sums);
+            }
+        }
+        Some(Meridional {
+            force: sums.force.map(|force| force.value),
+            slope: sums.force.map(|force| force.slopes),
+        })
     }
 
-    /// F = K δ^{3/2} along the common normal.
-    fn hertz(&self, law: &hertz::Hertz, radius: f64, meridian: &Meridian) -> Option<Meridional> {
-        let approach = meridian.approach(radius);
-        let half = law.half_zone(approach);
-        let (cos, sin) = meridian.normal();
-        let fits = meridian.e > 0.0
-            && [-half, half].into_iter().all(|u| {
-                let zeta = radius * sin + u * cos;
-                zeta.abs() < radius && self.holds(zeta - meridian.c)
-            });
-        // ∫ k' (δ − κ τ²/2) dτ over the zone.
-        let force = law.force(approach, 4.0 / 3.0 * half);
-        fits.then(|| {
-            let rate = 1.5 * force / approach;
-            Meridional {
-                force: [force * cos, force * sin],
-                slope: by_axes(
-                    meridian,
-                    [rate * cos, rate * sin],
-                    [-force * sin, force * cos],
-                ),
-            }
-        })
+    /// Whether nothing cuts a zone; fixed slices are there or not, one by one.
+    fn is_whole(&self, section: &Section<f64>, is_fixed: bool) -> bool {
+        let zone = kernel::zone(&self.law.cut, section, self.law.cut.half_curvature());
+        let (low, high) = zone.ends(section.normal);
+        let radius = section.radius;
+        let fits = [low, high]
+            .into_iter()
+            .all(|zeta| zeta.abs() < radius && self.holds(zeta - section.c));
+        let on_top = zone.height >= SHALLOW * radius && zone.lowest(section.normal) > 0.0;
+        section.e > 0.0 && on_top && (fits || is_fixed)
     }
 
     /// Whether the race is there, at a place from the groove's centre.
     fn holds(&self, x: f64) -> bool {
         x.abs() < self.race.r && x >= self.race.lowest && x <= self.race.highest
     }
+}
 
-    /// The nodes on the common chord: u = x · half, over which the ball's surface stands at h = √(R² − u²).
-    fn fitted(
-        &self,
-        law: iso16281::Iso16281,
-        rules: &Rules,
-        radius: f64,
-        meridian: &Meridian,
-    ) -> Option<Meridional> {
-        let (l, r) = (meridian.distance(), meridian.r);
-        let (cos, sin) = meridian.normal();
-        let approach = l + radius - r;
-        let sum = approach * (l + radius + r) / (2.0 * l);
-        let square = sum * (2.0 * radius - sum);
-        let half = square.max(0.0).sqrt();
-        let end = |u: f64| (radius - sum + l) * sin + u * cos;
-        let fits = meridian.e > 0.0
-            && radius - sum >= SHALLOW * radius
-            && half < radius * cos
-            && self.holds(end(-half))
-            && self.holds(end(half));
-        if !fits {
-            return None;
-        }
-        // ∂half/∂l over half; with sum = (l + 2R + (R² − r²)/l)/2.
-        let sum_rate = 0.5 * (1.0 - (radius * radius - r * r) / (l * l));
-        let half_rate = (radius - sum) * sum_rate / square;
-        let mut force = [0.0; 2];
-        let (mut by_distance, mut by_angle) = ([0.0; 2], [0.0; 2]);
-        for &(x, weight) in rules.on([true, true]) {
-            let u = x * half;
-            let u_rate = u * half_rate;
-            let h = (radius * radius - u * u).sqrt();
-            let per_h = 1.0 / h;
-            let h_rate = -u * u_rate * per_h;
-            let (rho, zeta) = (h * cos - u * sin, h * sin + u * cos);
-            let (rho_rate, zeta_rate) = (h_rate * cos - u_rate * sin, h_rate * sin + u_rate * cos);
-            // The slice from the groove's centre, and the groove's height there.
-            let (out, along) = (rho + l * cos, zeta + l * sin);
-            let groove = (r * r - along * along).sqrt();
-            let depth = out - groove;
-            if depth <= 0.0 {
-                continue;
-            }
-            let tilt = along / groove;
-            let per_rho = 1.0 / rho;
-            let depth_rate = rho_rate + cos + tilt * (zeta_rate + sin);
-            let depth_turn = tilt * out - along;
-            let pressed = law.force(depth, half * weight * rho * per_h);
-            let tan = zeta * per_rho;
-            let stiff = 10.0 / 9.0 / depth;
-            let rate =
-                pressed * (half_rate + rho_rate * per_rho - h_rate * per_h + stiff * depth_rate);
-            let turn = pressed * (stiff * depth_turn - tan);
-            add(&mut force, pressed, pressed * tan);
-            let tan_rate = (zeta_rate - tan * rho_rate) * per_rho;
-            add(&mut by_distance, rate, rate * tan + pressed * tan_rate);
-            let tan_turn = 1.0 + tan * tan;
-            add(&mut by_angle, turn, turn * tan + pressed * tan_turn);
-        }
-        Some(Meridional {
-            force,
-            slope: by_axes(meridian, by_distance, by_angle),
-        })
+/// Adds up the elastic forces along n_e and z.
+struct ElasticSums<'a, const N: usize> {
+    pair: &'a Pair,
+    section: &'a Section<Dual<f64, N>>,
+    force: [Dual<f64, N>; 2],
+}
+
+impl<const N: usize> ElasticSums<'_, N> {
+    #[inline(always)]
+    fn add(&mut self, element: &Element<Dual<f64, N>>) {
+        let elastic = element.load * element.length;
+        self.force[0] += elastic * element.share.0;
+        self.force[1] += elastic * element.share.1;
     }
+}
 
-    /// Slices at fixed places of the ball.
-    fn fixed(
-        &self,
-        law: iso16281::Iso16281,
-        count: usize,
-        radius: f64,
-        meridian: &Meridian,
-    ) -> Meridional {
-        let width = 2.0 * radius / count as f64;
-        let mut found = Meridional {
-            force: [0.0; 2],
-            slope: [[0.0; 2]; 2],
-        };
-        for k in 0..count {
-            let zeta = -radius + (k as f64 + 0.5) * width;
-            let along = zeta - meridian.c;
-            if !self.holds(along) {
-                continue;
-            }
-            let rho = (radius * radius - zeta * zeta).sqrt();
-            let groove = (meridian.r * meridian.r - along * along).sqrt();
-            let depth = meridian.e + rho - groove;
-            if depth <= 0.0 {
-                continue;
-            }
-            let tan = zeta / rho;
-            let pressed = law.force(depth, width);
-            let stiff = 10.0 / 9.0 * pressed / depth;
-            let towards = -stiff * along / groove;
-            add(&mut found.force, pressed, pressed * tan);
-            add(&mut found.slope[0], stiff, towards);
-            add(&mut found.slope[1], stiff * tan, towards * tan);
+impl<const N: usize> Receiver<Dual<f64, N>> for ElasticSums<'_, N> {
+    #[inline(always)]
+    fn element<const FMA: bool, const PLANE: bool>(
+        &mut self,
+        element: &Element<Dual<f64, N>>,
+        _times: u32,
+    ) {
+        let place = element.sin.value * self.section.radius.value - self.section.c.value;
+        if self.pair.holds(place) {
+            self.add(element);
         }
-        found
     }
 }
 
@@ -282,24 +237,6 @@ struct Meridional {
     force: [f64; 2],
     /// Derivatives of each by e and c \[N/m\].
     slope: [[f64; 2]; 2],
-}
-
-/// Derivatives by e and c from those by the distance l and the normal's angle α': e = l cos α', c = −l sin α'.
-fn by_axes(meridian: &Meridian, by_distance: [f64; 2], by_angle: [f64; 2]) -> [[f64; 2]; 2] {
-    let l = meridian.distance();
-    let (cos, sin) = meridian.normal();
-    [0, 1].map(|i| {
-        let turn = by_angle[i] / l;
-        [
-            by_distance[i] * cos - turn * sin,
-            -by_distance[i] * sin - turn * cos,
-        ]
-    })
-}
-
-fn add(sum: &mut [f64; 2], first: f64, second: f64) {
-    sum[0] += first;
-    sum[1] += second;
 }
 
 /// Adds up the elastic forces on the ball.
@@ -318,18 +255,18 @@ impl Sink for Elastic {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Torus, Waves};
+    use super::super::hertz::Hertz;
+    use super::super::iso16281::Iso16281;
+    use super::super::{Elastic, Law, Rules, Torus, Waves};
     use super::*;
     use crate::scene::{Material, Waviness};
 
     fn pair(sigma: f64, hertz: bool, slices: Slices, waves: Waves) -> Pair {
         let steel = Material::default();
-        let law = if hertz {
-            Law::Hertz(hertz::Hertz::new(
-                sigma, 12e-3, 60e-3, 0.52, 0.3, &steel, &steel,
-            ))
+        let elastic = if hertz {
+            Elastic::Hertz(Hertz::new(sigma, 12e-3, 60e-3, 0.52, 0.3, &steel, &steel))
         } else {
-            Law::Iso16281(iso16281::Iso16281::new(3.5948e10, 0.5, 12e-3))
+            Elastic::Iso16281(Iso16281::new(3.5948e10, 0.5, 12e-3))
         };
         Pair {
             race: Torus {
@@ -341,11 +278,8 @@ mod tests {
                 highest: 6.24e-3,
             },
             waves,
-            law,
+            law: Law::elastic(elastic),
             slices,
-            damping: 0.2,
-            clamp_pull: true,
-            friction: None,
             faults: Vec::new(),
         }
     }
@@ -369,9 +303,9 @@ mod tests {
         let mut worst = [0.0_f64; 3];
         for sigma in [1.0, -1.0] {
             for (hertz, slices) in [
-                (false, Slices::Fitted(Rules::new(6, iso16281::EXPONENT))),
+                (false, Slices::Fitted(Rules::new(6, 10.0 / 9.0))),
                 (false, Slices::Fixed(200)),
-                (true, Slices::Fitted(Rules::new(6, hertz::EXPONENT))),
+                (true, Slices::Fitted(Rules::new(6, 1.0))),
             ] {
                 for waves in [Waves::default(), wavy()] {
                     let pair = pair(sigma, hertz, slices.clone(), waves);

@@ -17,12 +17,11 @@
 
 use std::ops::{Add, Sub};
 
-use super::fault::{Arc, Edge, absent, floors};
-use super::law::hunt_crossley;
-use super::pair::Contact;
-use super::race::Raise;
-use super::walk::Node;
-use super::{Aside, Sink, Touch, V2, turned};
+use super::{Arc, Edge, absent, floors};
+use crate::contact::kernel::{self, State};
+use crate::contact::profile::Raise;
+use crate::contact::scalar::{Contact, Node};
+use crate::contact::{Aside, Sink, Touch, V2, turned};
 
 /// The ring's side of a feature.
 #[derive(Clone, Copy)]
@@ -174,9 +173,9 @@ impl<D: Depth> Meeting<D> {
 }
 
 /// Penetrations of all elements that a place may meet; their zeros end the elements' zones.
-pub(super) struct Levels {
-    pub(super) values: [f64; MOST_LEVELS],
-    pub(super) count: usize,
+pub(in crate::contact) struct Levels {
+    pub(in crate::contact) values: [f64; MOST_LEVELS],
+    pub(in crate::contact) count: usize,
 }
 
 /// Levels that are kept; a bed of floor circles can have more, at some loss of accuracy.
@@ -184,7 +183,7 @@ const MOST_LEVELS: usize = 24;
 
 impl Contact<'_> {
     /// One slice against whatever it meets.
-    pub(super) fn slice<S: Sink>(&self, node: &Node, sink: &mut S) {
+    pub(in crate::contact) fn slice<S: Sink>(&self, node: &Node, sink: &mut S) {
         if node.depth <= 0.0 {
             return;
         }
@@ -193,7 +192,7 @@ impl Contact<'_> {
             return;
         }
         // Forces along normals are all there is to the ISO law, and where surfaces are whole.
-        if self.common.is_some() && (self.ring_open || self.ball_open) {
+        if self.common().is_some() && (self.ring_open || self.ball_open) {
             self.meetings(node, &mut |meeting: &Meeting<Sloped>| {
                 if self.press(node, meeting, sink) {
                     self.tilt(node, meeting, sink);
@@ -207,13 +206,13 @@ impl Contact<'_> {
     }
 
     /// Whether a surface is absent where the slice meets it.
-    pub(super) fn is_open(&self, node: &Node) -> bool {
+    pub(in crate::contact) fn is_open(&self, node: &Node) -> bool {
         let direction = self.n * self.pair.race.sigma;
         self.ring_arc(node).is_some() || self.ball_arc(node, direction).is_some()
     }
 
     /// Penetrations of the elements at a place, touching or not.
-    pub(super) fn levels(&self, node: &Node) -> Levels {
+    pub(in crate::contact) fn levels(&self, node: &Node) -> Levels {
         let mut levels = Levels {
             values: [0.0; MOST_LEVELS],
             count: 0,
@@ -232,7 +231,7 @@ impl Contact<'_> {
 
     /// Fall of the law's penetration over that of the geometry: 1, or cos α' for the Hertz law.
     pub(super) fn drop_share(&self) -> f64 {
-        self.common.map_or(1.0, |(cos, _)| cos)
+        self.common().map_or(1.0, |(cos, _)| cos)
     }
 
     fn ring_arc(&self, node: &Node) -> Option<Arc> {
@@ -282,7 +281,7 @@ impl Contact<'_> {
             shape: Shape::Race,
             n_e: self.n * sigma,
             s: D::new(
-                self.race_penetration(node),
+                self.section.penetration(node.rho, node.groove),
                 -sigma * self.race_slope(node),
                 -node.zeta / node.rho,
             ),
@@ -478,71 +477,86 @@ impl Contact<'_> {
             };
             meeting.terms().into_iter().map(at).sum::<f64>()
         };
-        let elastic = split(&|depth| pair.law.force(depth, node.width));
+        let elastic = split(&|depth| pair.law.elastic.force(depth, node.width));
         if elastic <= 0.0 {
             return false;
         }
-        let (b, r, n_e) = (self.b, self.r, feature.n_e);
-        let arm_ball = feature.arm_ring - self.apart;
-        let v_p = b.velocity - r.velocity + turned(arm_ball) * b.omega
-            - turned(feature.arm_ring) * r.omega;
-        let v_z = b.vz - r.vz;
-        let (v_e, v_t) = (v_p.dot(&n_e), v_p.dot(&turned(n_e)));
-        let direction = self.common.unwrap_or((1.0, tan));
-        let approach = v_e * direction.0 + v_z * direction.1;
-        let damped = elastic * hunt_crossley(pair.damping, approach);
-        let pull = damped < 0.0;
-        let normal = if pull && pair.clamp_pull { 0.0 } else { damped };
-        let mut touch = Touch {
+        let depth = node.depth - share * (feature.drops.0.value() + meeting.ball_drops.0.value());
+        let n_e = feature.n_e;
+        let state = self.state(node, feature, tan, (elastic, depth));
+        let force = kernel::force::<f64, false, false>(&pair.law, &state);
+        let [radial, tangential, axial] = force.friction_on_ball;
+        let [v_t, u_m] = force.slip;
+        let squared = v_t * v_t + u_m * u_m;
+        let touch = Touch {
             zeta: node.zeta,
             z: node.z,
             width: node.width,
-            depth: node.depth - share * (feature.drops.0.value() + meeting.ball_drops.0.value()),
+            depth,
             elastic,
-            normal,
+            normal: force.normal,
             energy: if S::ENERGY {
-                split(&|depth| pair.law.energy(depth, node.width))
+                split(&|depth| pair.law.elastic.energy(depth, node.width))
             } else {
                 0.0
             },
-            approach,
+            approach: force.approach,
             n_e,
-            share: direction,
-            friction: V2::zeros(),
-            friction_z: 0.0,
-            slip: 0.0,
-            friction_power: 0.0,
-            arm_ball,
+            share: state.share,
+            friction: n_e * radial + turned(n_e) * tangential,
+            friction_z: axial,
+            slip: squared.sqrt(),
+            friction_power: force.drag * squared,
+            arm_ball: feature.arm_ring - self.apart,
             arm_ring: feature.arm_ring,
-            pull,
+            pull: force.damped < 0.0,
         };
-        if let Some(friction) = &pair.friction {
-            // α of the slice, or of the gap's gradient at a ball's fault circle.
-            let (sin, cos) = if self.common.is_some() {
-                (node.zeta / self.ball.radius, node.rho / self.ball.radius)
-            } else {
-                let cos = 1.0 / (1.0 + tan * tan).sqrt();
-                (tan * cos, cos)
-            };
-            let u_m = v_z * cos - v_e * sin;
-            let slip = (v_t * v_t + u_m * u_m).sqrt();
-            let factor = friction.factor(slip) * normal.max(0.0);
-            touch.friction = turned(n_e) * (-factor * v_t) + n_e * (factor * u_m * sin);
-            touch.friction_z = -factor * u_m * cos;
-            touch.slip = slip;
-            touch.friction_power = factor * slip * slip;
-        }
         sink.touch(&touch);
         if !pair.waves.is_round() {
             let Lean { force, arm } = feature.lean;
             sink.aside(&Aside {
-                plane: force * (elastic * direction.0),
+                plane: force * (elastic * state.share.0),
                 axial: 0.0,
                 arm_ball: arm,
                 arm_ring: self.apart + arm,
             });
         }
         true
+    }
+}
+
+impl Contact<'_> {
+    /// What the force of an element depends on, from its elastic force and penetration.
+    fn state<D: Depth>(
+        &self,
+        node: &Node,
+        feature: &Feature<D>,
+        tan: f64,
+        (elastic, depth): (f64, f64),
+    ) -> State<f64> {
+        let (b, r, n_e) = (self.b, self.r, feature.n_e);
+        let arm_ball = feature.arm_ring - self.apart;
+        let v_p = b.velocity - r.velocity + turned(arm_ball) * b.omega
+            - turned(feature.arm_ring) * r.omega;
+        let radius = self.ball.radius;
+        // α of the slice, or of the gap's gradient at a ball's fault circle.
+        let slope = if self.common().is_some() {
+            (node.zeta / radius, node.rho / radius)
+        } else {
+            let cos = 1.0 / (1.0 + tan * tan).sqrt();
+            (tan * cos, cos)
+        };
+        State {
+            elastic,
+            share: self.common().unwrap_or((1.0, tan)),
+            slope,
+            velocity: [v_p.dot(&n_e), v_p.dot(&turned(n_e)), b.vz - r.vz],
+            load: elastic / node.width,
+            depth,
+            arm: feature.arm_ring.dot(&self.n) - self.distance,
+            rolling: self.rolling,
+            radii: [radius, self.pair.race.r],
+        }
     }
 }
 

@@ -9,22 +9,19 @@
 // Loops over matrices read as their formulae do.
 #![allow(clippy::needless_range_loop)]
 
-use super::octet::Octet;
-use super::press::{Circles, Node, Receiver};
+use super::batch::{Moves, Octet};
+use super::kernel::{self, Element, Force, Receiver, State};
+use super::laws::traction::Rolling;
 use super::{Aside, Motion, Pair, Sink, Touch, cross, turned};
 use crate::simd::{LANES, Lanes, Mask};
 
 /// Directions in the plane.
 pub(crate) type Plane = [Lanes; 2];
 
-/// A node of eight contacts, or eight slices of one.
+/// An element of eight contacts, or eight slices of one, with all of its force's state but the velocity.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Still {
-    elastic: Lanes,
-    /// In-plane and axial part of the normal force over its magnitude.
-    share: Plane,
-    /// sin α and cos α: the meridional direction is −sin α n_e + cos α ẑ.
-    slope: Plane,
+    state: State<Lanes>,
     /// Moments about the ball's centre of unit forces along n_e and t_e.
     levers: Plane,
 }
@@ -60,14 +57,18 @@ impl Pair {
         whole: Mask,
         nodes: &mut Vec<Still>,
     ) -> Held {
-        let (circles, place) = self.place::<FMA, false>(octet, ring, whole.not());
-        self.each::<FMA, false, _>(&circles, nodes);
+        let (contact, moves, place) = self.place::<FMA, false>(octet, ring, whole.not());
         let (simple, sigma) = (place.simple.and(whole), self.race.sigma);
-        let mut radial = Lanes::ZERO;
-        for node in nodes {
-            node.elastic = simple.choose(node.elastic, Lanes::ZERO);
-            radial += node.elastic * node.share[0];
-        }
+        let mut holding = Holding {
+            nodes,
+            moves: &moves,
+            sigma,
+            radii: [contact.section.radius, contact.section.r],
+            simple,
+            radial: Lanes::ZERO,
+        };
+        kernel::elements::<_, FMA, false>(&self.law, &self.slices, &contact, &mut holding);
+        let radial = holding.radial;
         let across = radial * place.lean.unwrap_or_default() * sigma;
         Held {
             aside: [-(across * place.n.1), across * place.n.0],
@@ -89,62 +90,77 @@ impl Pair {
         secant: bool,
         to: &mut Reaction,
     ) {
-        let ([in_plane, axial], [sin, cos]) = (still.share, still.slope);
         let levers = still.levers;
-        let v_n = twist[3].mul_add::<FMA>(levers[0], twist[0]);
-        let v_t = twist[3].mul_add::<FMA>(levers[1], twist[1]);
-        let v_z = twist[2];
-        let approach = v_n.mul_add::<FMA>(in_plane, v_z * axial);
-        let rate = 1.5 * self.damping;
-        let damped = still.elastic * (approach * rate + 1.0);
-        let pressed = damped.or_zero();
-        let normal = if self.clamp_pull { pressed } else { damped };
-        let mut force = [normal * in_plane, Lanes::ZERO, normal * axial];
-        let mut slope = [[Lanes::ZERO; 3]; 3];
+        let along = |i: usize| twist[3].mul_add::<FMA>(levers[i], twist[i]);
+        let velocity = [along(0), along(1), twist[2]];
+        let state = State {
+            velocity,
+            ..still.state
+        };
+        let force = kernel::force::<_, FMA, false>(&self.law, &state);
+        to.subtract_force::<FMA>(&force.on_ring, levers);
+        if SLOPE {
+            let slope = self.slope::<FMA>(&state, &force, secant);
+            to.subtract_slope::<FMA>(&slope, levers);
+        }
+    }
+
+    /// Derivative of a node's force on the ring by its velocity: what differentiating the kernel says, without the
+    /// products that are known to vanish.
+    #[inline(always)]
+    fn slope<const FMA: bool>(
+        &self,
+        state: &State<Lanes>,
+        force: &Force<Lanes>,
+        secant: bool,
+    ) -> [[Lanes; 3]; 3] {
+        let ((in_plane, axial), (sin, cos)) = (state.share, state.slope);
+        let zero = Lanes::ZERO;
         // How the normal force grows with the velocities; friction only where it presses.
-        let stiff = still.elastic * rate;
-        let rubs = Lanes::ZERO.above(damped).choose(Lanes::ZERO, stiff);
-        let stiff = if self.clamp_pull { rubs } else { stiff };
-        if SLOPE {
-            let (by_n, by_z) = (stiff * in_plane, stiff * axial);
-            (slope[0][0], slope[0][2]) = (by_n * in_plane, by_n * axial);
-            (slope[2][0], slope[2][2]) = (by_n * axial, by_z * axial);
-        }
-        if let Some(friction) = &self.friction {
-            let u_m = v_z * cos - v_n * sin;
-            let (factor, bend) = friction.factors_and_bends(v_t.mul_add::<FMA>(v_t, u_m * u_m));
-            let f_m = factor * u_m;
-            let rubbing = [-(f_m * sin), factor * v_t, f_m * cos];
-            for i in 0..3 {
-                force[i] = rubbing[i].mul_add::<FMA>(pressed, force[i]);
+        let stiff = state.elastic * self.law.damping.rate();
+        let rubs = zero.above(force.damped).choose(zero, stiff);
+        let stiff = if self.law.damping.clamp_pull {
+            rubs
+        } else {
+            stiff
+        };
+        let (by_n, by_z) = (stiff * in_plane, stiff * axial);
+        let mut slope = [[zero; 3]; 3];
+        (slope[0][0], slope[0][2]) = (by_n * in_plane, by_n * axial);
+        (slope[2][0], slope[2][2]) = (by_n * axial, by_z * axial);
+        let Some(traction) = &self.law.traction else {
+            return slope;
+        };
+        let [v_t, u_m] = force.slip;
+        let squared = v_t.mul_add::<FMA>(v_t, u_m * u_m);
+        let (factor, bend) = traction.factor_and_bend(&state.sliding(force.approach, squared));
+        // By slip at constant normal force: N (φ 1 + (φ'/u) u⃗ u⃗ᵀ).
+        let drag = force.drag;
+        let bent = if secant {
+            zero
+        } else {
+            bend * force.damped.or_zero()
+        };
+        let tt = (bent * v_t).mul_add::<FMA>(v_t, drag);
+        let tm = bent * v_t * u_m;
+        let mm = (bent * u_m).mul_add::<FMA>(u_m, drag);
+        let (m_n, m_z) = (mm * sin, mm * cos);
+        let slip = [
+            [m_n * sin, -(tm * sin), -(m_n * cos)],
+            [-(tm * sin), tt, tm * cos],
+            [-(m_n * cos), tm * cos, m_z * cos],
+        ];
+        let f_m = factor * u_m;
+        let rubbing = [-(f_m * sin), factor * v_t, f_m * cos];
+        let (by_n, by_z) = (rubs * in_plane, rubs * axial);
+        for i in 0..3 {
+            for j in 0..3 {
+                slope[i][j] += slip[i][j];
             }
-            if SLOPE {
-                // By slip at constant normal force: N (φ 1 + (φ'/u) u⃗ u⃗ᵀ).
-                let drag = factor * pressed;
-                let bent = if secant { Lanes::ZERO } else { bend * pressed };
-                let tt = (bent * v_t).mul_add::<FMA>(v_t, drag);
-                let tm = bent * v_t * u_m;
-                let mm = (bent * u_m).mul_add::<FMA>(u_m, drag);
-                let (m_n, m_z) = (mm * sin, mm * cos);
-                let slip = [
-                    [m_n * sin, -(tm * sin), -(m_n * cos)],
-                    [-(tm * sin), tt, tm * cos],
-                    [-(m_n * cos), tm * cos, m_z * cos],
-                ];
-                let (by_n, by_z) = (rubs * in_plane, rubs * axial);
-                for i in 0..3 {
-                    for j in 0..3 {
-                        slope[i][j] += slip[i][j];
-                    }
-                    slope[i][0] = rubbing[i].mul_add::<FMA>(by_n, slope[i][0]);
-                    slope[i][2] = rubbing[i].mul_add::<FMA>(by_z, slope[i][2]);
-                }
-            }
+            slope[i][0] = rubbing[i].mul_add::<FMA>(by_n, slope[i][0]);
+            slope[i][2] = rubbing[i].mul_add::<FMA>(by_z, slope[i][2]);
         }
-        to.subtract_force::<FMA>(&force, still.levers);
-        if SLOPE {
-            to.subtract_slope::<FMA>(&slope, still.levers);
-        }
+        slope
     }
 }
 
@@ -217,21 +233,41 @@ pub(crate) fn in_contact(twist: &[Lanes; 4], n_e: Plane) -> [Lanes; 4] {
     [x * n_e[0] + y * n_e[1], y * n_e[0] - x * n_e[1], z, turn]
 }
 
-impl Receiver for Vec<Still> {
+/// Collects the elements of eight contacts, of those that are whole.
+struct Holding<'a> {
+    nodes: &'a mut Vec<Still>,
+    moves: &'a Moves,
+    sigma: f64,
+    radii: Plane,
+    simple: Mask,
+    /// Sum of the elastic forces in the plane.
+    radial: Lanes,
+}
+
+impl Receiver<Lanes> for Holding<'_> {
     #[inline(always)]
-    fn node<const FMA: bool, const PLANE: bool>(
+    fn element<const FMA: bool, const PLANE: bool>(
         &mut self,
-        pair: &Pair,
-        circles: &Circles,
-        node: &Node,
+        element: &Element<Lanes>,
         _times: u32,
     ) {
-        let sigma = Lanes::all(pair.race.sigma);
-        let arm = node.groove.mul_add::<FMA>(sigma, circles.arm);
-        self.push(Still {
-            elastic: node.elastic,
-            share: [node.share.0, node.share.1],
-            slope: [node.sin, node.cos],
+        let sigma = Lanes::all(self.sigma);
+        let arm = element.groove.mul_add::<FMA>(sigma, self.moves.arm);
+        let elastic = element.load * element.length;
+        let elastic = self.simple.choose(elastic, Lanes::ZERO);
+        self.radial += elastic * element.share.0;
+        self.nodes.push(Still {
+            state: State {
+                elastic,
+                share: element.share,
+                slope: (element.sin, element.cos),
+                velocity: [Lanes::ZERO; 3],
+                load: element.load,
+                depth: element.depth,
+                arm,
+                rolling: self.moves.rolling,
+                radii: self.radii,
+            },
             levers: [Lanes::ZERO, arm * sigma],
         });
     }
@@ -278,10 +314,13 @@ impl Sink for Packing<'_> {
             (tan * cos, cos)
         };
         let (out, arm) = (touch.n_e, touch.arm_ball);
-        still.elastic[lane] = touch.elastic;
         (n_e[0][lane], n_e[1][lane]) = (out.x, out.y);
-        (still.share[0][lane], still.share[1][lane]) = touch.share;
-        (still.slope[0][lane], still.slope[1][lane]) = (sin, cos);
+        let state = &mut still.state;
+        state.elastic[lane] = touch.elastic;
+        (state.share.0[lane], state.share.1[lane]) = touch.share;
+        (state.slope.0[lane], state.slope.1[lane]) = (sin, cos);
+        state.load[lane] = touch.elastic / touch.width;
+        state.depth[lane] = touch.depth;
         still.levers[0][lane] = cross(arm, out);
         still.levers[1][lane] = cross(arm, turned(out));
     }
@@ -299,9 +338,20 @@ impl Pack {
     const EMPTY: Self = Self {
         n_e: [Lanes::ZERO; 2],
         still: Still {
-            elastic: Lanes::ZERO,
-            share: [Lanes::ZERO; 2],
-            slope: [Lanes::ZERO; 2],
+            state: State {
+                elastic: Lanes::ZERO,
+                share: (Lanes::ZERO, Lanes::ZERO),
+                slope: (Lanes::ZERO, Lanes::ZERO),
+                velocity: [Lanes::ZERO; 3],
+                load: Lanes::ZERO,
+                depth: Lanes::ZERO,
+                arm: Lanes::ZERO,
+                rolling: Rolling {
+                    turns: [Lanes::ZERO; 2],
+                    d: Lanes::ZERO,
+                },
+                radii: [Lanes::ZERO; 2],
+            },
             levers: [Lanes::ZERO; 2],
         },
     };
