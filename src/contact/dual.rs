@@ -8,6 +8,9 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 use crate::simd::Number;
 
 /// A number and its derivatives by N variables: what a kernel that computes with it differentiates itself by.
+///
+/// Slopes are treated in loops, not by `map`: the compiler does not always take closures into what it compiles for
+/// other instructions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dual<T, const N: usize> {
     pub value: T,
@@ -33,7 +36,10 @@ impl<T: Number, const N: usize> Dual<T, N> {
     /// A function of it, from the function's value and slope.
     #[inline(always)]
     fn chain(self, value: T, slope: T) -> Self {
-        let slopes = self.slopes.map(|s| s * slope);
+        let mut slopes = self.slopes;
+        for own in &mut slopes {
+            *own = *own * slope;
+        }
         Self { value, slopes }
     }
 }
@@ -61,9 +67,13 @@ impl<T: Number, const N: usize> Neg for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
+        let mut slopes = self.slopes;
+        for slope in &mut slopes {
+            *slope = -*slope;
+        }
         Self {
             value: -self.value,
-            slopes: self.slopes.map(|slope| -slope),
+            slopes,
         }
     }
 }
@@ -142,9 +152,13 @@ impl<T: Number, const N: usize> Number for Dual<T, N> {
 
     #[inline(always)]
     fn gates(self, other: Self) -> Self {
+        let mut slopes = other.slopes;
+        for slope in &mut slopes {
+            *slope = self.value.gates(*slope);
+        }
         Self {
             value: self.value.gates(other.value),
-            slopes: other.slopes.map(|slope| self.value.gates(slope)),
+            slopes,
         }
     }
 
@@ -156,8 +170,7 @@ impl<T: Number, const N: usize> Number for Dual<T, N> {
     #[inline(always)]
     fn curve(self, f: impl Fn(f64) -> f64, slope: impl Fn(f64, f64) -> f64) -> Self {
         let value = self.value.curve(&f, &slope);
-        let by_itself = self.value.curve(|x| slope(x, f(x)), |_, _| 0.0);
-        self.chain(value, by_itself)
+        self.chain(value, self.value.zip(value, slope))
     }
 
     #[inline(always)]
@@ -165,6 +178,11 @@ impl<T: Number, const N: usize> Number for Dual<T, N> {
         let one = self.value.same(1.0);
         let sign = self.value.gates(one) - (-self.value).gates(one);
         self.chain(self.value.abs(), sign)
+    }
+
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        Self::constant(self.value.zip(other.value, f))
     }
 
     #[inline(always)]

@@ -7,6 +7,7 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
+use super::laws::elastic::{ForLaw, Load};
 use super::laws::traction::{Rolling, Sliding};
 use super::profile::{Section, SurfacePoint, Zone};
 use super::{Cut, Law, Rules, Slices};
@@ -70,37 +71,61 @@ pub(super) fn elements<T: Number, const FMA: bool, const PLANE: bool>(
     contact: &Whole<T>,
     to: &mut impl Receiver<T>,
 ) {
-    let (half, radius) = (contact.half, contact.section.radius);
-    match (slices, &law.cut) {
-        (Slices::Fitted(rules), Cut::BallSurface) => {
-            let reach = half * contact.inverse;
-            for (x, weight, times) in nodes::<PLANE>(rules) {
-                let u = reach * x;
-                let element = contact.on_chord::<FMA, PLANE>(law, u, half * weight);
-                to.element::<FMA, PLANE>(&element, times);
+    law.elastic.choose(Elements::<_, _, FMA, PLANE> {
+        slices,
+        contact,
+        to,
+    });
+}
+
+/// The elements of a contact, for one elastic law.
+struct Elements<'a, T, R, const FMA: bool, const PLANE: bool> {
+    slices: &'a Slices,
+    contact: &'a Whole<T>,
+    to: &'a mut R,
+}
+
+impl<T: Number, R: Receiver<T>, const FMA: bool, const PLANE: bool> ForLaw
+    for Elements<'_, T, R, FMA, PLANE>
+{
+    #[inline(always)]
+    fn run<L: Load>(self) {
+        let Self {
+            slices,
+            contact,
+            to,
+        } = self;
+        let (half, radius) = (contact.half, contact.section.radius);
+        match slices {
+            Slices::Fitted(rules) if L::FLAT => {
+                for (x, weight, times) in nodes::<PLANE>(rules) {
+                    let element = contact.on_tangent::<L, FMA>(half * x, half * weight);
+                    to.element::<FMA, PLANE>(&element, times);
+                }
             }
-        }
-        (Slices::Fitted(rules), Cut::CommonTangent { .. }) => {
-            for (x, weight, times) in nodes::<PLANE>(rules) {
-                let element = contact.on_tangent::<FMA>(law, half * x, half * weight);
-                to.element::<FMA, PLANE>(&element, times);
+            Slices::Fitted(rules) => {
+                let reach = half * contact.inverse;
+                for (x, weight, times) in nodes::<PLANE>(rules) {
+                    let element = contact.on_chord::<L, FMA, PLANE>(reach * x, half * weight);
+                    to.element::<FMA, PLANE>(&element, times);
+                }
             }
-        }
-        (Slices::Fixed(count), Cut::BallSurface) => {
-            let width = radius * (2.0 / *count as f64);
-            for (sin, times) in contact.fixed_sines::<PLANE>(*count) {
-                let element = contact.fixed_slice::<FMA>(law, sin, width * f64::from(times));
-                to.element::<FMA, PLANE>(&element, times);
+            Slices::Fixed(count) if L::FLAT => {
+                let (cos, sin) = contact.section.normal;
+                let over = cos.same(1.0) / cos;
+                let length = radius * (2.0 / *count as f64) * over;
+                for (place, times) in contact.fixed_sines::<PLANE>(*count) {
+                    let u = radius * (-sin + place) * over;
+                    let element = contact.on_tangent::<L, FMA>(u, length * f64::from(times));
+                    to.element::<FMA, PLANE>(&element, times);
+                }
             }
-        }
-        (Slices::Fixed(count), Cut::CommonTangent { .. }) => {
-            let (cos, sin) = contact.section.normal;
-            let over = cos.same(1.0) / cos;
-            let length = radius * (2.0 / *count as f64) * over;
-            for (place, times) in contact.fixed_sines::<PLANE>(*count) {
-                let u = radius * (-sin + place) * over;
-                let element = contact.on_tangent::<FMA>(law, u, length * f64::from(times));
-                to.element::<FMA, PLANE>(&element, times);
+            Slices::Fixed(count) => {
+                let width = radius * (2.0 / *count as f64);
+                for (sin, times) in contact.fixed_sines::<PLANE>(*count) {
+                    let element = contact.fixed_slice::<L, FMA>(sin, width * f64::from(times));
+                    to.element::<FMA, PLANE>(&element, times);
+                }
             }
         }
     }
@@ -126,16 +151,15 @@ pub(super) fn as_one<T: Number>(contact: &Whole<T>, stiffness: f64) -> Element<T
 impl<T: Number> Whole<T> {
     /// An element at u/R on the common chord that stands for a stretch of u.
     #[inline(always)]
-    fn on_chord<const FMA: bool, const PLANE: bool>(
+    fn on_chord<L: Load, const FMA: bool, const PLANE: bool>(
         &self,
-        law: &Law,
         u: T,
         stretch: T,
     ) -> Element<T> {
         if PLANE {
             // tan α has no part in what the two halves add up to.
             let cos = (-u).mul_add::<FMA>(u, u.same(1.0)).sqrt();
-            return self.on_surface::<FMA>(law, (u, cos, u.same(0.0)), stretch);
+            return self.on_surface::<L, FMA>((u, cos, u.same(0.0)), stretch);
         }
         let SurfacePoint {
             sin,
@@ -143,22 +167,21 @@ impl<T: Number> Whole<T> {
             tan,
             stretch: width,
         } = SurfacePoint::over::<FMA>(self.section.normal, u);
-        self.on_surface::<FMA>(law, (sin, cos, tan), stretch * width)
+        self.on_surface::<L, FMA>((sin, cos, tan), stretch * width)
     }
 
     /// A fixed slice in whose middle the ball has sin α.
     #[inline(always)]
-    fn fixed_slice<const FMA: bool>(&self, law: &Law, sin: f64, width: T) -> Element<T> {
+    fn fixed_slice<L: Load, const FMA: bool>(&self, sin: f64, width: T) -> Element<T> {
         let cos = (1.0 - sin * sin).sqrt();
-        let [sin, cos, tan] = [sin, cos, sin / cos].map(|x| width.same(x));
-        self.on_surface::<FMA>(law, (sin, cos, tan), width)
+        let place = (width.same(sin), width.same(cos), width.same(sin / cos));
+        self.on_surface::<L, FMA>(place, width)
     }
 
     /// A slice of the ball's surface.
     #[inline(always)]
-    fn on_surface<const FMA: bool>(
+    fn on_surface<L: Load, const FMA: bool>(
         &self,
-        law: &Law,
         (sin, cos, tan): (T, T, T),
         width: T,
     ) -> Element<T> {
@@ -173,14 +196,14 @@ impl<T: Number> Whole<T> {
             groove,
             depth,
             length: width,
-            load: law.elastic.load::<T, FMA>(self.strength, depth),
+            load: L::load::<T, FMA>(self.strength, depth),
             share: (sin.same(1.0), tan),
         }
     }
 
     /// An element at u on the common tangent.
     #[inline(always)]
-    fn on_tangent<const FMA: bool>(&self, law: &Law, u: T, length: T) -> Element<T> {
+    fn on_tangent<L: Load, const FMA: bool>(&self, u: T, length: T) -> Element<T> {
         let (normal_cos, normal_sin) = self.section.normal;
         let sin = (u * self.inverse).mul_add::<FMA>(normal_cos, normal_sin);
         let cos = (-sin).mul_add::<FMA>(sin, u.same(1.0)).sqrt();
@@ -191,7 +214,7 @@ impl<T: Number> Whole<T> {
             groove: self.section.groove::<FMA>(sin),
             depth,
             length,
-            load: law.elastic.load::<T, FMA>(self.strength, depth),
+            load: L::load::<T, FMA>(self.strength, depth),
             share: self.section.normal,
         }
     }
@@ -258,23 +281,25 @@ pub(super) struct State<T> {
 pub(super) struct Force<T> {
     /// On the ring along n_e, t_e and z \[N\]; the ball gets the opposite.
     pub on_ring: [T; 3],
-    /// The part of friction in it, as it acts on the ball.
-    pub friction_on_ball: [T; 3],
+    /// The part of friction in it.
+    pub friction: [T; 3],
     /// Normal force before any clamp: negative where damping pulls \[N\].
     pub damped: T,
     /// Normal force \[N\].
     pub normal: T,
     /// Approach speed v_n \[m/s\].
     pub approach: T,
-    /// Friction over slip velocity, φ(u) F \[N s/m\]; 0 without.
-    pub drag: T,
     /// Slip velocity along t_e and the meridional direction \[m/s\].
     pub slip: [T; 2],
+    /// Friction over normal force and slip velocity, φ(u), and φ'(u)/u if asked for; 0 without friction.
+    pub factor: T,
+    pub bend: T,
 }
 
-/// Elastic force, damping and friction of an element. In the `PLANE` nothing moves along z and all presses in the plane.
+/// Elastic force, damping and friction of an element, and how friction bends if asked. In the `PLANE` nothing moves along
+/// z and all presses in the plane.
 #[inline(always)]
-pub(super) fn force<T: Number, const FMA: bool, const PLANE: bool>(
+pub(super) fn force<T: Number, const FMA: bool, const PLANE: bool, const BEND: bool>(
     law: &Law,
     of: &State<T>,
 ) -> Force<T> {
@@ -293,7 +318,7 @@ pub(super) fn force<T: Number, const FMA: bool, const PLANE: bool>(
         damped
     };
     let zero = approach.same(0.0);
-    let (mut drag, mut slip, mut friction) = (zero, [zero; 2], [zero; 3]);
+    let (mut factor, mut bend, mut slip, mut friction) = (zero, zero, [zero; 2], [zero; 3]);
     if let Some(traction) = &law.traction {
         let (sin, cos) = of.slope;
         let u_m = if PLANE {
@@ -301,24 +326,36 @@ pub(super) fn force<T: Number, const FMA: bool, const PLANE: bool>(
         } else {
             v_z * cos - v_n * sin
         };
-        let factor = traction.factor(&of.sliding(approach, v_t.mul_add::<FMA>(v_t, u_m * u_m)));
-        (drag, slip) = (factor * pressed, [v_t, u_m]);
+        slip = [v_t, u_m];
+        let sliding = of.sliding(approach, v_t.mul_add::<FMA>(v_t, u_m * u_m));
+        if BEND {
+            (factor, bend) = traction.factor_and_bend(&sliding);
+        } else {
+            factor = traction.factor(&sliding);
+        }
+        let drag = factor * pressed;
         let meridional = drag * u_m;
-        friction = [meridional * sin, -(drag * v_t), -(meridional * cos)];
+        friction = [-(meridional * sin), drag * v_t, meridional * cos];
     }
-    let pressing = if PLANE {
-        [normal, zero, zero]
+    let [along, across, axially] = friction;
+    let on_ring = if PLANE {
+        [normal + along, across, zero]
     } else {
-        [normal * in_plane, zero, normal * axial]
+        [
+            normal.mul_add::<FMA>(in_plane, along),
+            across,
+            normal.mul_add::<FMA>(axial, axially),
+        ]
     };
     Force {
-        on_ring: [0, 1, 2].map(|i| pressing[i] - friction[i]),
-        friction_on_ball: friction,
+        on_ring,
+        friction,
         damped,
         normal,
         approach,
-        drag,
         slip,
+        factor,
+        bend,
     }
 }
 

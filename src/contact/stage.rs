@@ -97,7 +97,7 @@ impl Pair {
             velocity,
             ..still.state
         };
-        let force = kernel::force::<_, FMA, false>(&self.law, &state);
+        let force = kernel::force::<_, FMA, false, SLOPE>(&self.law, &state);
         to.subtract_force::<FMA>(&force.on_ring, levers);
         if SLOPE {
             let slope = self.slope::<FMA>(&state, &force, secant);
@@ -128,19 +128,14 @@ impl Pair {
         let mut slope = [[zero; 3]; 3];
         (slope[0][0], slope[0][2]) = (by_n * in_plane, by_n * axial);
         (slope[2][0], slope[2][2]) = (by_n * axial, by_z * axial);
-        let Some(traction) = &self.law.traction else {
+        if self.law.traction.is_none() {
             return slope;
-        };
-        let [v_t, u_m] = force.slip;
-        let squared = v_t.mul_add::<FMA>(v_t, u_m * u_m);
-        let (factor, bend) = traction.factor_and_bend(&state.sliding(force.approach, squared));
+        }
+        let ([v_t, u_m], factor) = (force.slip, force.factor);
         // By slip at constant normal force: N (φ 1 + (φ'/u) u⃗ u⃗ᵀ).
-        let drag = force.drag;
-        let bent = if secant {
-            zero
-        } else {
-            bend * force.damped.or_zero()
-        };
+        let pressed = force.damped.or_zero();
+        let drag = factor * pressed;
+        let bent = if secant { zero } else { force.bend * pressed };
         let tt = (bent * v_t).mul_add::<FMA>(v_t, drag);
         let tm = bent * v_t * u_m;
         let mm = (bent * u_m).mul_add::<FMA>(u_m, drag);

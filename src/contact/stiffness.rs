@@ -13,7 +13,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::closed_form;
 use super::dual::Dual;
 use super::kernel::{self, Element, Receiver, Whole};
-use super::profile::{SHALLOW, Section};
+use super::profile::{SHALLOW, Section, Zone};
 use super::{Aside, BallSide, Motion, Pair, Sink, Slices, Touch, V2};
 
 /// Elastic force on the ball along x, y, z \[N\], and the stiffness −∂force/∂place of the ball against the ring
@@ -140,10 +140,6 @@ impl Pair {
 
     /// Force of a whole contact; none where something cuts its zone.
     fn meridional(&self, section: &Section<f64>) -> Option<Meridional> {
-        let is_fixed = matches!(self.slices, Slices::Fixed(_));
-        if !self.is_whole(section, is_fixed) {
-            return None;
-        }
         let constants = self.constants(section.radius);
         let of = |x: f64| Dual::<f64, 2>::constant(x);
         let section = Section::new::<false, false>(
@@ -153,11 +149,15 @@ impl Pair {
             Dual::variable(section.c, 1),
         );
         let half_curvature = of(constants.half_curvature);
-        let zone = kernel::zone(&self.law.cut, &section, half_curvature);
+        let zone = kernel::zone(&self.law.cut(), &section, half_curvature);
+        let ends = zone.ends(section.normal);
+        if !self.is_whole(&section, &zone, ends) {
+            return None;
+        }
         let contact = Whole {
             inverse: of(constants.inverse),
             half: zone.half,
-            ends: zone.ends(section.normal),
+            ends,
             strength: of(constants.strength),
             half_curvature,
             section,
@@ -184,15 +184,19 @@ impl Pair {
     }
 
     /// Whether nothing cuts a zone; fixed slices are there or not, one by one.
-    fn is_whole(&self, section: &Section<f64>, is_fixed: bool) -> bool {
-        let zone = kernel::zone(&self.law.cut, section, self.law.cut.half_curvature());
-        let (low, high) = zone.ends(section.normal);
-        let radius = section.radius;
-        let fits = [low, high]
-            .into_iter()
-            .all(|zeta| zeta.abs() < radius && self.holds(zeta - section.c));
-        let on_top = zone.height >= SHALLOW * radius && zone.lowest(section.normal) > 0.0;
-        section.e > 0.0 && on_top && (fits || is_fixed)
+    fn is_whole<const N: usize>(
+        &self,
+        section: &Section<Dual<f64, N>>,
+        zone: &Zone<Dual<f64, N>>,
+        (low, high): (Dual<f64, N>, Dual<f64, N>),
+    ) -> bool {
+        let (radius, c) = (section.radius.value, section.c.value);
+        let fits = |zeta: f64| zeta.abs() < radius && self.holds(zeta - c);
+        let on_top = zone.height.value >= SHALLOW * radius;
+        section.e.value > 0.0
+            && on_top
+            && zone.lowest(section.normal).value > 0.0
+            && (matches!(self.slices, Slices::Fixed(_)) || fits(low.value) && fits(high.value))
     }
 
     /// Whether the race is there, at a place from the groove's centre.

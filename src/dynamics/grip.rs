@@ -149,7 +149,7 @@ impl Side {
             lane,
             packs: &mut self.packs,
             radius: compiled.side.radius,
-            flat: pair.law.cut.is_flat(),
+            flat: pair.law.cut().is_flat(),
             aside: [0.0; 4],
             count: 0,
         };

@@ -43,6 +43,9 @@ pub(crate) trait Number:
     /// Size without sign.
     fn abs(self) -> Self;
 
+    /// A function of each with its partner in another; of neither any slope is known.
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self;
+
     /// The least and the greatest of them.
     fn range(self) -> (f64, f64);
 
@@ -110,6 +113,11 @@ impl Number for f64 {
     }
 
     #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        f(self, other)
+    }
+
+    #[inline(always)]
     fn range(self) -> (f64, f64) {
         (self, self)
     }
@@ -158,6 +166,11 @@ impl Number for Lanes {
     #[inline(always)]
     fn abs(self) -> Self {
         self.abs()
+    }
+
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        self.zip(other, f)
     }
 
     #[inline(always)]

@@ -87,7 +87,7 @@ impl Pair {
             lowest: race.lowest,
             highest: race.highest,
             strength: self.law.elastic.strength(),
-            half_curvature: self.law.cut.half_curvature(),
+            half_curvature: self.law.cut().half_curvature(),
         }
     }
 

@@ -132,7 +132,7 @@ impl Pair {
             of.centre + ring.z - octet.q[2]
         };
         let section = Section::new::<FMA, PLANE>(of.radius, of.r, e, c);
-        let zone = kernel::zone(&self.law.cut, &section, of.half_curvature);
+        let zone = kernel::zone(&self.law.cut(), &section, of.half_curvature);
         let ends = if PLANE {
             (-zone.half, zone.half)
         } else {
@@ -247,7 +247,7 @@ impl Receiver<Lanes> for Sums<'_> {
             rolling: moves.rolling,
             radii: self.radii,
         };
-        let force = kernel::force::<Lanes, FMA, PLANE>(self.law, &state);
+        let force = kernel::force::<Lanes, FMA, PLANE, false>(self.law, &state);
         self.pulls.add(Lanes::ZERO.above(force.damped), times);
         let [normal, tangential, axial] = force.on_ring;
         self.normal = self.normal - normal;

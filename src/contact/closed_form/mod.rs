@@ -135,8 +135,8 @@ impl Place<'_> {
             approach,
             ..Section::new::<false, false>(radius, r, e, -self.offset)
         };
-        let cut = &self.pair.law.cut;
-        let zone = kernel::zone(cut, &section, cut.half_curvature());
+        let cut = self.pair.law.cut();
+        let zone = kernel::zone(&cut, &section, cut.half_curvature());
         (section, zone)
     }
 

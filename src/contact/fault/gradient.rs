@@ -31,7 +31,8 @@
 //! through the ball's centre, on the ring with the opposite sign at the same point. Slices at fixed places take the same
 //! terms, with their error.
 
-use super::elements::{Meeting, Sloped};
+use super::depth::Sloped;
+use super::elements::ElementPair;
 use crate::contact::scalar::{Contact, Line, Node};
 use crate::contact::{Aside, Sink, V2, turned};
 
@@ -47,21 +48,25 @@ pub(in crate::contact) const HAIR: f64 = 1e-12;
 
 impl Contact<'_> {
     /// What the meridional direction and the axial place have to say to an element's energy under the Hertz law.
-    pub(super) fn tilt<S: Sink>(&self, node: &Node, meeting: &Meeting<Sloped>, sink: &mut S) {
+    pub(super) fn tilt<S: Sink>(&self, node: &Node, met: &ElementPair<Sloped>, sink: &mut S) {
         let Some((cos, sin)) = self.common() else {
             return;
         };
         let lever = self.ball.radius - node.zeta * sin;
-        let (mut by_angle, mut by_z) = (0.0, 0.0);
-        for (sign, drop) in meeting.terms() {
-            if drop.value < f64::INFINITY {
-                let depth = node.depth - cos * drop.value;
+        let (mut turning, mut shifting) = (0.0, 0.0);
+        for (sign, drop) in met.terms() {
+            let Sloped {
+                value,
+                slopes: [by_z, by_zeta],
+            } = drop;
+            if value < f64::INFINITY {
+                let depth = node.depth - cos * value;
                 let force = sign * self.pair.law.elastic.force(depth, node.width);
-                by_angle += force * (sin * drop.value - (drop.by_z + drop.by_zeta) * lever);
-                by_z -= force * cos * drop.by_z;
+                turning += force * (sin * value - (by_z + by_zeta) * lever);
+                shifting -= force * cos * by_z;
             }
         }
-        sink.aside(&self.turning((cos, sin), by_angle, by_z));
+        sink.aside(&self.turning((cos, sin), turning, shifting));
     }
 
     /// What the axial end of a defect at a place ζ adds.
@@ -93,7 +98,7 @@ impl Contact<'_> {
 
     /// Whether ends of defects on the ring matter: not to the ISO law.
     pub(in crate::contact) fn feels_ring_ends(&self) -> bool {
-        self.pair.law.cut.is_flat()
+        self.pair.law.cut().is_flat()
     }
 
     /// Energy per length on the side of lower ζ less that on the other; none where there is no contact or no change.
@@ -109,8 +114,8 @@ impl Contact<'_> {
     fn energy(&self, node: &Node) -> f64 {
         let share = self.drop_share();
         let mut sum = 0.0;
-        self.meetings(node, &mut |meeting: &Meeting<f64>| {
-            for (sign, drop) in meeting.terms() {
+        self.element_pairs(node, &mut |met: &ElementPair<f64>| {
+            for (sign, drop) in met.terms() {
                 if drop < f64::INFINITY {
                     let depth = node.depth - share * drop;
                     sum += sign * self.pair.law.elastic.energy(depth, node.width);

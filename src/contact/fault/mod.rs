@@ -1,7 +1,10 @@
 //! Arcs where a surface is absent, and the fault circles at their edges (model section 7).
 
-pub(super) mod elements;
+mod circles;
+mod depth;
+mod elements;
 pub(super) mod gradient;
+mod pressing;
 mod within;
 
 pub(crate) use within::Sighted;

@@ -15,8 +15,6 @@ pub use traction::Traction;
 /// The laws that all contacts of a row's balls with one race follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Law {
-    /// Where the ball is cut.
-    pub cut: Cut,
     /// Elastic force of an element by its penetration.
     pub elastic: Elastic,
     /// Damping of the approach.
@@ -26,10 +24,9 @@ pub struct Law {
 }
 
 impl Law {
-    /// An elastic law with the cut that it is made for, undamped and without friction.
+    /// An elastic law alone.
     pub fn elastic(elastic: Elastic) -> Self {
         Self {
-            cut: elastic.cut(),
             elastic,
             damping: Damping {
                 coefficient: 0.0,
@@ -37,5 +34,10 @@ impl Law {
             },
             traction: None,
         }
+    }
+
+    /// Where the ball is cut: the elastic law knows.
+    pub fn cut(&self) -> Cut {
+        self.elastic.cut()
     }
 }

@@ -60,7 +60,7 @@ impl Pair {
         } - b.theta;
         let ring_open = self.faults.iter().any(|fault| fault.in_reach(on_ring));
         let ball_near = ball.faults.iter().any(|fault| fault.in_reach(on_ball));
-        let line = match self.law.cut {
+        let line = match self.law.cut() {
             Cut::BallSurface => Some(Line::along_ball(&section)),
             Cut::CommonTangent { curvature } => Line::along_tangent(curvature, &section),
         };
@@ -115,7 +115,7 @@ pub(super) struct Contact<'a> {
 impl Contact<'_> {
     /// (cos α', sin α') of the common normal, where all elements press along it.
     pub(super) fn common(&self) -> Option<(f64, f64)> {
-        let is_flat = self.pair.law.cut.is_flat();
+        let is_flat = self.pair.law.cut().is_flat();
         is_flat.then_some(self.section.normal)
     }
 }

@@ -264,7 +264,7 @@ impl Contact<'_> {
         let inset = 1e-9 * (piece.high - piece.low);
         let low = piece.low + inset;
         let step = (piece.high - inset - low) / LOOKS as f64;
-        let at = |u: f64| self.node(line, u, 0.0).map(|node| self.levels(&node));
+        let at = |u: f64| self.node(line, u, 0.0).map(|node| self.penetrations(&node));
         let mut before = at(low);
         for k in 1..=LOOKS {
             let u = low + step * k as f64;
@@ -273,7 +273,7 @@ impl Contact<'_> {
                 let levels = if a.count == b.count { a.count } else { 0 };
                 for i in 0..levels {
                     if (a.values[i] > 0.0) != (b.values[i] > 0.0) && count < MOST_ENDS {
-                        let level = |u: f64| at(u).map_or(0.0, |levels| levels.values[i]);
+                        let level = |u: f64| at(u).map_or(0.0, |found| found.values[i]);
                         ends[count] = root(level, (u - step, a.values[i]), (u, b.values[i]));
                         count += 1;
                     }

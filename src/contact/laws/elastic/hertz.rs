@@ -3,7 +3,7 @@
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
 
-use super::elliptic;
+use super::{Load, elliptic};
 use crate::scene::Material;
 use crate::simd::Number;
 
@@ -126,8 +126,12 @@ impl Hertz {
     }
 }
 
-/// Load per length \[N/m\], k' p, at a local penetration ≥ 0 \[m\].
-#[inline(always)]
-pub(super) fn load<T: Number>(slope: T, depth: T) -> T {
-    depth * slope
+impl Load for Hertz {
+    const FLAT: bool = true;
+
+    /// k' p.
+    #[inline(always)]
+    fn load<T: Number, const FMA: bool>(slope: T, depth: T) -> T {
+        depth * slope
+    }
 }

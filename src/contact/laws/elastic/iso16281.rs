@@ -3,6 +3,7 @@
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
 
+use super::Load;
 use super::power::ten_ninths;
 use crate::simd::Number;
 
@@ -51,9 +52,13 @@ impl Iso16281 {
     }
 }
 
-/// Load per width \[N/m\], (C/D) s^{10/9}, at a penetration ≥ 0 \[m\].
-#[inline(always)]
-pub(super) fn load<T: Number, const FMA: bool>(density: T, depth: T) -> T {
-    let slope = |s: f64, power: f64| if s > 0.0 { EXPONENT * power / s } else { 0.0 };
-    density * depth.curve(ten_ninths::<FMA>, slope)
+impl Load for Iso16281 {
+    const FLAT: bool = false;
+
+    /// (C/D) s^{10/9}.
+    #[inline(always)]
+    fn load<T: Number, const FMA: bool>(density: T, depth: T) -> T {
+        let slope = |s: f64, power: f64| if s > 0.0 { EXPONENT * power / s } else { 0.0 };
+        density * depth.curve(ten_ninths::<FMA>, slope)
+    }
 }

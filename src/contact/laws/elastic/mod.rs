@@ -17,6 +17,22 @@ use crate::simd::Number;
 use hertz::Hertz;
 use iso16281::Iso16281;
 
+/// An elastic law as loops over elements are compiled for it: a choice within them would cost a third of their speed.
+pub(in crate::contact) trait Load: Copy {
+    /// Whether elements lie on the common tangent and press along the common normal ([`Cut::CommonTangent`]); else they
+    /// are slices of the ball's surface.
+    const FLAT: bool;
+
+    /// Load per length \[N/m\] at a penetration ≥ 0 \[m\], with a strength of this law.
+    fn load<T: Number, const FMA: bool>(strength: T, depth: T) -> T;
+}
+
+/// Something that is compiled for every elastic law.
+pub(in crate::contact) trait ForLaw {
+    /// Does it. Wants `#[inline(always)]`.
+    fn run<L: Load>(self);
+}
+
 /// An elastic law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Elastic {
@@ -61,19 +77,27 @@ impl Elastic {
         }
     }
 
-    /// Load per length \[N/m\] at a penetration ≥ 0 \[m\], with a strength of this law.
+    /// Does what is compiled for every law, for this one.
     #[inline(always)]
-    pub(in crate::contact) fn load<T: Number, const FMA: bool>(&self, strength: T, depth: T) -> T {
+    pub(in crate::contact) fn choose(&self, task: impl ForLaw) {
         match self {
-            Self::Iso16281(_) => iso16281::load::<T, FMA>(strength, depth),
-            Self::Hertz(_) => hertz::load(strength, depth),
+            Self::Iso16281(_) => task.run::<Iso16281>(),
+            Self::Hertz(_) => task.run::<Hertz>(),
+        }
+    }
+
+    /// Load per length of this law \[N/m\] at a penetration ≥ 0 \[m\].
+    fn load(&self, depth: f64) -> f64 {
+        match self {
+            Self::Iso16281(law) => Iso16281::load::<f64, false>(law.density(), depth),
+            Self::Hertz(law) => Hertz::load::<f64, false>(law.slope, depth),
         }
     }
 
     /// Force of an element \[N\] at a penetration and for a length \[m\]; 0 where it is clear.
     #[inline]
     pub fn force(&self, depth: f64, length: f64) -> f64 {
-        self.load::<f64, false>(self.strength(), depth.or_zero()) * length
+        self.load(depth.or_zero()) * length
     }
 
     /// Elastic energy of an element \[J\]; its derivative is the force.

@@ -20,4 +20,14 @@ impl Coulomb {
     pub(super) fn factor<T: Number>(&self, element: &Sliding<T>) -> T {
         smoothed(element.squared, self.slip_speed) * self.coefficient
     }
+
+    /// φ, and φ'(u)/u = −φ/(u² + v_s²): by hand, as it costs half of what differentiating takes, and implicit methods
+    /// ask for it most.
+    #[inline(always)]
+    pub(super) fn factor_and_bend<T: Number>(&self, element: &Sliding<T>) -> (T, T) {
+        let one = element.squared.same(1.0);
+        let square = one / (element.squared + self.slip_speed * self.slip_speed);
+        let factor = square.sqrt() * self.coefficient;
+        (factor, -(factor * square))
+    }
 }

@@ -169,19 +169,31 @@ impl Traction {
     /// φ, and φ'(u)/u: the part of its slope that −φ u⃗ has along u⃗ u⃗ᵀ. All but the slip counts as constant.
     #[inline(always)]
     pub(in crate::contact) fn factor_and_bend<T: Number>(&self, element: &Sliding<T>) -> (T, T) {
-        let [arm, load, depth, approach] =
-            [element.arm, element.load, element.depth, element.approach].map(Dual::constant);
+        match self {
+            Self::Coulomb(law) => law.factor_and_bend(element),
+            Self::Stribeck(_) | Self::Curve(_) => {
+                let apart = *element;
+                self.differentiated(&apart)
+            }
+        }
+    }
+
+    /// The same from the law itself, by the square of the slip.
+    #[inline(never)]
+    fn differentiated<T: Number>(&self, element: &Sliding<T>) -> (T, T) {
+        let of = Dual::constant;
+        let Rolling { turns, d } = element.rolling;
         let factor = self.factor(&Sliding::<Dual<T, 1>> {
             squared: Dual::variable(element.squared, 0),
             rolling: Rolling {
-                turns: element.rolling.turns.map(Dual::constant),
-                d: Dual::constant(element.rolling.d),
+                turns: [of(turns[0]), of(turns[1])],
+                d: of(d),
             },
-            arm,
-            load,
-            depth,
-            approach,
-            radii: element.radii.map(Dual::constant),
+            arm: of(element.arm),
+            load: of(element.load),
+            depth: of(element.depth),
+            approach: of(element.approach),
+            radii: [of(element.radii[0]), of(element.radii[1])],
         });
         // By u over u is twice that by u².
         (factor.value, factor.slopes[0] * 2.0)
@@ -267,6 +279,8 @@ mod tests {
                     radii: [1.0; 2],
                 };
                 let (factor, bend) = law.factor_and_bend(&sliding);
+                let (same, also) = law.differentiated(&sliding);
+                assert!((factor / same - 1.0).abs() < 1e-15 && (bend / also - 1.0).abs() < 1e-14);
                 let step = 1e-5 * u;
                 let slope = (law.at(u + step) - law.at(u - step)) / (2.0 * step);
                 assert_eq!(factor, law.at(u));
