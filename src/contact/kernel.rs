@@ -281,7 +281,7 @@ pub(super) struct State<T> {
 pub(super) struct Force<T> {
     /// On the ring along n_e, t_e and z \[N\]; the ball gets the opposite.
     pub on_ring: [T; 3],
-    /// The part of friction in it.
+    /// The part of friction in it, as it acts on the ball.
     pub friction: [T; 3],
     /// Normal force before any clamp: negative where damping pulls \[N\].
     pub damped: T,
@@ -335,18 +335,18 @@ pub(super) fn force<T: Number, const FMA: bool, const PLANE: bool, const BEND: b
         }
         let drag = factor * pressed;
         let meridional = drag * u_m;
-        friction = [-(meridional * sin), drag * v_t, meridional * cos];
+        friction = [meridional * sin, -(drag * v_t), -(meridional * cos)];
     }
-    let [along, across, axially] = friction;
-    let on_ring = if PLANE {
-        [normal + along, across, zero]
+    let pressing = if PLANE {
+        [normal, zero, zero]
     } else {
-        [
-            normal.mul_add::<FMA>(in_plane, along),
-            across,
-            normal.mul_add::<FMA>(axial, axially),
-        ]
+        [normal * in_plane, zero, normal * axial]
     };
+    let on_ring = [
+        pressing[0] - friction[0],
+        pressing[1] - friction[1],
+        pressing[2] - friction[2],
+    ];
     Force {
         on_ring,
         friction,
