@@ -5,7 +5,7 @@
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-use crate::simd::Number;
+use crate::simd::{Lanes, Number};
 
 /// A number and its derivatives by N variables: what a kernel that computes with it differentiates itself by.
 ///
@@ -33,6 +33,12 @@ impl<T: Number, const N: usize> Dual<T, N> {
         dual
     }
 
+    /// Times a constant.
+    #[inline(always)]
+    pub fn scaled(self, by: T) -> Self {
+        self.chain(self.value * by, by)
+    }
+
     /// A function of it, from the function's value and slope.
     #[inline(always)]
     fn chain(self, value: T, slope: T) -> Self {
@@ -41,6 +47,30 @@ impl<T: Number, const N: usize> Dual<T, N> {
             *own = *own * slope;
         }
         Self { value, slopes }
+    }
+}
+
+impl<const N: usize> Dual<f64, N> {
+    /// The same in all lanes.
+    #[inline(always)]
+    pub fn widened(self) -> Dual<Lanes, N> {
+        let mut wide = Dual::constant(Lanes::all(self.value));
+        for (lanes, slope) in wide.slopes.iter_mut().zip(self.slopes) {
+            *lanes = Lanes::all(slope);
+        }
+        wide
+    }
+}
+
+impl<const N: usize> Dual<Lanes, N> {
+    /// The sum of all lanes.
+    #[inline(always)]
+    pub fn total(self) -> Dual<f64, N> {
+        let mut total = Dual::constant(self.value.sum());
+        for (sum, lanes) in total.slopes.iter_mut().zip(self.slopes) {
+            *sum = lanes.sum();
+        }
+        total
     }
 }
 
@@ -147,7 +177,15 @@ impl<T: Number, const N: usize> Number for Dual<T, N> {
 
     #[inline(always)]
     fn mul_add<const FMA: bool>(self, b: Self, c: Self) -> Self {
-        self * b + c
+        let mut slopes = c.slopes;
+        for i in 0..N {
+            let rest = self.value.mul_add::<FMA>(b.slopes[i], slopes[i]);
+            slopes[i] = self.slopes[i].mul_add::<FMA>(b.value, rest);
+        }
+        Self {
+            value: self.value.mul_add::<FMA>(b.value, c.value),
+            slopes,
+        }
     }
 
     #[inline(always)]

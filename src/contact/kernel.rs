@@ -151,7 +151,7 @@ pub(super) fn as_one<T: Number>(contact: &Whole<T>, stiffness: f64) -> Element<T
 impl<T: Number> Whole<T> {
     /// An element at u/R on the common chord that stands for a stretch of u.
     #[inline(always)]
-    fn on_chord<L: Load, const FMA: bool, const PLANE: bool>(
+    pub(super) fn on_chord<L: Load, const FMA: bool, const PLANE: bool>(
         &self,
         u: T,
         stretch: T,
@@ -203,7 +203,7 @@ impl<T: Number> Whole<T> {
 
     /// An element at u on the common tangent.
     #[inline(always)]
-    fn on_tangent<L: Load, const FMA: bool>(&self, u: T, length: T) -> Element<T> {
+    pub(super) fn on_tangent<L: Load, const FMA: bool>(&self, u: T, length: T) -> Element<T> {
         let (normal_cos, normal_sin) = self.section.normal;
         let sin = (u * self.inverse).mul_add::<FMA>(normal_cos, normal_sin);
         let cos = (-sin).mul_add::<FMA>(sin, u.same(1.0)).sqrt();

@@ -18,12 +18,41 @@ use crate::simd::{LANES, Lanes, Mask};
 /// Directions in the plane.
 pub(crate) type Plane = [Lanes; 2];
 
-/// An element of eight contacts, or eight slices of one, with all of its force's state but the velocity.
-#[derive(Debug, Clone, Copy)]
+/// An element of eight contacts, or eight slices of one: what of its [`State`] does not depend on velocities.
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Still {
-    state: State<Lanes>,
+    elastic: Lanes,
+    share: (Lanes, Lanes),
+    slope: (Lanes, Lanes),
+    load: Lanes,
+    depth: Lanes,
+    arm: Lanes,
     /// Moments about the ball's centre of unit forces along n_e and t_e.
     levers: Plane,
+}
+
+/// What all elements of a contact share beside their law.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Around {
+    rolling: Rolling<Lanes>,
+    /// Radii of ball and groove \[m\].
+    radii: [Lanes; 2],
+}
+
+impl Around {
+    /// That of the contact in one lane, in all lanes.
+    #[inline(always)]
+    pub fn of(&self, lane: usize) -> Self {
+        let all = |of: &Lanes| Lanes::all(of[lane]);
+        let [ball, ring] = &self.rolling.turns;
+        Self {
+            rolling: Rolling {
+                turns: [all(ball), all(ring)],
+                d: all(&self.rolling.d),
+            },
+            radii: [all(&self.radii[0]), all(&self.radii[1])],
+        }
+    }
 }
 
 /// Wrench on the ball about its centre, (n_e, t_e, z \[N\], about z \[N m\]) or (x, y, z, about z), and its
@@ -45,6 +74,7 @@ pub(crate) struct Held {
     pub aside: Plane,
     /// Contacts whose nodes are there; the others get none that press.
     pub simple: Mask,
+    pub around: Around,
 }
 
 impl Pair {
@@ -63,7 +93,6 @@ impl Pair {
             nodes,
             moves: &moves,
             sigma,
-            radii: [contact.section.radius, contact.section.r],
             simple,
             radial: Lanes::ZERO,
         };
@@ -75,6 +104,10 @@ impl Pair {
             n_e: [place.n.0 * sigma, place.n.1 * sigma],
             apart: [place.n.0 * place.d, place.n.1 * place.d],
             simple,
+            around: Around {
+                rolling: moves.rolling,
+                radii: [contact.section.radius, contact.section.r],
+            },
         }
     }
 
@@ -86,6 +119,7 @@ impl Pair {
     pub(crate) fn react<const FMA: bool, const SLOPE: bool>(
         &self,
         still: &Still,
+        around: &Around,
         twist: &[Lanes; 4],
         secant: bool,
         to: &mut Reaction,
@@ -94,8 +128,15 @@ impl Pair {
         let along = |i: usize| twist[3].mul_add::<FMA>(levers[i], twist[i]);
         let velocity = [along(0), along(1), twist[2]];
         let state = State {
+            elastic: still.elastic,
+            share: still.share,
+            slope: still.slope,
             velocity,
-            ..still.state
+            load: still.load,
+            depth: still.depth,
+            arm: still.arm,
+            rolling: around.rolling,
+            radii: around.radii,
         };
         let force = kernel::force::<_, FMA, false, SLOPE>(&self.law, &state);
         to.subtract_force::<FMA>(&force.on_ring, levers);
@@ -233,7 +274,6 @@ struct Holding<'a> {
     nodes: &'a mut Vec<Still>,
     moves: &'a Moves,
     sigma: f64,
-    radii: Plane,
     simple: Mask,
     /// Sum of the elastic forces in the plane.
     radial: Lanes,
@@ -252,24 +292,19 @@ impl Receiver<Lanes> for Holding<'_> {
         let elastic = self.simple.choose(elastic, Lanes::ZERO);
         self.radial += elastic * element.share.0;
         self.nodes.push(Still {
-            state: State {
-                elastic,
-                share: element.share,
-                slope: (element.sin, element.cos),
-                velocity: [Lanes::ZERO; 3],
-                load: element.load,
-                depth: element.depth,
-                arm,
-                rolling: self.moves.rolling,
-                radii: self.radii,
-            },
+            elastic,
+            share: element.share,
+            slope: (element.sin, element.cos),
+            load: element.load,
+            depth: element.depth,
+            arm,
             levers: [Lanes::ZERO, arm * sigma],
         });
     }
 }
 
 /// Eight slices of one contact, each with its own direction.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Pack {
     pub n_e: Plane,
     pub still: Still,
@@ -293,7 +328,7 @@ impl Sink for Packing<'_> {
     fn touch(&mut self, touch: &Touch) {
         let lane = self.count % LANES;
         if lane == 0 {
-            self.packs.push((self.lane, Pack::EMPTY));
+            self.packs.push((self.lane, Pack::default()));
         }
         self.count += 1;
         let Some((_, Pack { n_e, still })) = self.packs.last_mut() else {
@@ -310,12 +345,11 @@ impl Sink for Packing<'_> {
         };
         let (out, arm) = (touch.n_e, touch.arm_ball);
         (n_e[0][lane], n_e[1][lane]) = (out.x, out.y);
-        let state = &mut still.state;
-        state.elastic[lane] = touch.elastic;
-        (state.share.0[lane], state.share.1[lane]) = touch.share;
-        (state.slope.0[lane], state.slope.1[lane]) = (sin, cos);
-        state.load[lane] = touch.elastic / touch.width;
-        state.depth[lane] = touch.depth;
+        still.elastic[lane] = touch.elastic;
+        (still.share.0[lane], still.share.1[lane]) = touch.share;
+        (still.slope.0[lane], still.slope.1[lane]) = (sin, cos);
+        still.load[lane] = touch.elastic / touch.width;
+        still.depth[lane] = touch.depth;
         still.levers[0][lane] = cross(arm, out);
         still.levers[1][lane] = cross(arm, turned(out));
     }
@@ -326,30 +360,6 @@ impl Sink for Packing<'_> {
             *sum += part;
         }
     }
-}
-
-impl Pack {
-    /// One that does not press.
-    const EMPTY: Self = Self {
-        n_e: [Lanes::ZERO; 2],
-        still: Still {
-            state: State {
-                elastic: Lanes::ZERO,
-                share: (Lanes::ZERO, Lanes::ZERO),
-                slope: (Lanes::ZERO, Lanes::ZERO),
-                velocity: [Lanes::ZERO; 3],
-                load: Lanes::ZERO,
-                depth: Lanes::ZERO,
-                arm: Lanes::ZERO,
-                rolling: Rolling {
-                    turns: [Lanes::ZERO; 2],
-                    d: Lanes::ZERO,
-                },
-                radii: [Lanes::ZERO; 2],
-            },
-            levers: [Lanes::ZERO; 2],
-        },
-    };
 }
 
 #[cfg(test)]

@@ -13,8 +13,10 @@ use nalgebra::{Matrix3, Vector3};
 use super::closed_form;
 use super::dual::Dual;
 use super::kernel::{self, Element, Receiver, Whole};
+use super::laws::elastic::{Elastic, ForLaw, Load};
 use super::profile::{SHALLOW, Section, Zone};
-use super::{Aside, BallSide, Motion, Pair, Sink, Slices, Touch, V2};
+use super::{Aside, BallSide, Motion, Pair, Rules, Sink, Slices, Touch, V2};
+use crate::simd::{LANES, Lanes, Level, Number, Task};
 
 /// Elastic force on the ball along x, y, z \[N\], and the stiffness −∂force/∂place of the ball against the ring
 /// \[N/m\]; a stiffness that only differences can tell is left out.
@@ -26,7 +28,7 @@ pub(crate) struct Tangent {
 
 impl Pair {
     /// Force and stiffness at rest of a ball whose centre stands at `place` from the ring's, neither turned.
-    pub(crate) fn tangent(&self, ball: &BallSide, place: &Vector3<f64>) -> Tangent {
+    pub(crate) fn tangent(&self, level: Level, ball: &BallSide, place: &Vector3<f64>) -> Tangent {
         let distance = place.xy().norm();
         let n = V2::new(place.x, place.y) / distance;
         let angle = if self.waves.is_round() && self.faults.is_empty() && ball.faults.is_empty() {
@@ -35,9 +37,7 @@ impl Pair {
             n.y.atan2(n.x)
         };
         let raise = self.waves.raise(angle);
-        let section = self
-            .race
-            .section(ball.radius, distance, place.z, raise.height);
+        let section = self.section(ball.radius, distance, place.z, raise.height);
         if section.is_clear() {
             return Tangent {
                 force: Vector3::zeros(),
@@ -54,7 +54,7 @@ impl Pair {
                 };
                 fault.in_reach(towards)
             });
-        match self.meridional(&section).filter(|_| whole) {
+        match self.meridional(level, &section).filter(|_| whole) {
             Some(found) => {
                 self.in_space(&found, n, distance, (raise.slope, self.waves.bend(angle)))
             }
@@ -91,7 +91,7 @@ impl Pair {
             vz: 0.0,
             omega: 0.0,
         };
-        let mut sum = Elastic(Vector3::zeros());
+        let mut sum = ElasticForce(Vector3::zeros());
         let ring = at(V2::zeros(), 0.0);
         self.evaluate(ball, &at(place.xy(), place.z), &ring, &mut sum);
         sum.0
@@ -138,20 +138,22 @@ impl Pair {
         }
     }
 
+    /// The section of [`Torus::section`], with derivatives by e and c.
+    fn section(&self, radius: f64, d: f64, z: f64, wave: f64) -> Section<Dual<f64, 2>> {
+        let (e, c) = self.race.centres(d, z, wave);
+        let of = Dual::constant;
+        let (e, c) = (Dual::variable(e, 0), Dual::variable(c, 1));
+        Section::new::<false, false>(of(radius), of(self.race.r), e, c)
+    }
+
     /// Force of a whole contact; none where something cuts its zone.
-    fn meridional(&self, section: &Section<f64>) -> Option<Meridional> {
-        let constants = self.constants(section.radius);
-        let of = |x: f64| Dual::<f64, 2>::constant(x);
-        let section = Section::new::<false, false>(
-            of(section.radius),
-            of(section.r),
-            Dual::variable(section.e, 0),
-            Dual::variable(section.c, 1),
-        );
+    fn meridional(&self, level: Level, section: &Section<Dual<f64, 2>>) -> Option<Meridional> {
+        let of = Dual::constant;
+        let constants = self.constants(section.radius.value);
         let half_curvature = of(constants.half_curvature);
-        let zone = kernel::zone(&self.law.cut(), &section, half_curvature);
+        let zone = kernel::zone(&self.law.cut(), section, half_curvature);
         let ends = zone.ends(section.normal);
-        if !self.is_whole(&section, &zone, ends) {
+        if !self.is_whole(section, &zone, ends) {
             return None;
         }
         let contact = Whole {
@@ -160,26 +162,28 @@ impl Pair {
             ends,
             strength: of(constants.strength),
             half_curvature,
-            section,
+            section: *section,
         };
-        let zero = of(0.0);
-        let mut sums = ElasticSums {
-            pair: self,
-            section: &contact.section,
-            force: [zero; 2],
-        };
-        match closed_form::hertz_stiffness(self) {
-            Some(stiffness) => {
-                let element = kernel::as_one(&contact, stiffness);
-                sums.add(&element);
-            }
-            None => {
+        let force = match (closed_form::hertz_stiffness(self), &self.slices) {
+            (Some(stiffness), _) => elastic_force(&kernel::as_one(&contact, stiffness)),
+            (None, Slices::Fitted(rules)) => level.run(SideBySide {
+                elastic: &self.law.elastic,
+                rules,
+                contact: &contact,
+            }),
+            (None, Slices::Fixed(_)) => {
+                let mut sums = Sums {
+                    pair: self,
+                    section: &contact.section,
+                    force: [of(0.0); 2],
+                };
                 kernel::elements::<_, false, false>(&self.law, &self.slices, &contact, &mut sums);
+                sums.force
             }
-        }
+        };
         Some(Meridional {
-            force: sums.force.map(|force| force.value),
-            slope: sums.force.map(|force| force.slopes),
+            force: force.map(|force| force.value),
+            slope: force.map(|force| force.slopes),
         })
     }
 
@@ -205,32 +209,120 @@ impl Pair {
     }
 }
 
-/// Adds up the elastic forces along n_e and z.
-struct ElasticSums<'a, const N: usize> {
+/// Elastic force of an element along n_e and z.
+#[inline(always)]
+fn elastic_force<T: Number>(element: &Element<T>) -> [T; 2] {
+    let elastic = element.load * element.length;
+    [elastic * element.share.0, elastic * element.share.1]
+}
+
+/// Adds up the elastic forces of fixed slices, of those that lie on the race.
+struct Sums<'a> {
     pair: &'a Pair,
-    section: &'a Section<Dual<f64, N>>,
-    force: [Dual<f64, N>; 2],
+    section: &'a Section<Dual<f64, 2>>,
+    force: [Dual<f64, 2>; 2],
 }
 
-impl<const N: usize> ElasticSums<'_, N> {
-    #[inline(always)]
-    fn add(&mut self, element: &Element<Dual<f64, N>>) {
-        let elastic = element.load * element.length;
-        self.force[0] += elastic * element.share.0;
-        self.force[1] += elastic * element.share.1;
-    }
-}
-
-impl<const N: usize> Receiver<Dual<f64, N>> for ElasticSums<'_, N> {
+impl Receiver<Dual<f64, 2>> for Sums<'_> {
     #[inline(always)]
     fn element<const FMA: bool, const PLANE: bool>(
         &mut self,
-        element: &Element<Dual<f64, N>>,
+        element: &Element<Dual<f64, 2>>,
         _times: u32,
     ) {
         let place = element.sin.value * self.section.radius.value - self.section.c.value;
         if self.pair.holds(place) {
-            self.add(element);
+            let [radial, axial] = elastic_force(element);
+            self.force[0] += radial;
+            self.force[1] += axial;
+        }
+    }
+}
+
+/// The force of fitted nodes, eight nodes of one contact side by side: one after the other they take a third longer.
+struct SideBySide<'a> {
+    elastic: &'a Elastic,
+    rules: &'a Rules,
+    contact: &'a Whole<Dual<f64, 2>>,
+}
+
+impl Task for SideBySide<'_> {
+    type Output = [Dual<f64, 2>; 2];
+
+    #[inline(always)]
+    fn run<const FMA: bool>(self) -> Self::Output {
+        let zero = Dual::constant(Lanes::ZERO);
+        let mut force = [zero; 2];
+        self.elastic.choose(Nodes::<FMA> {
+            rules: self.rules,
+            contact: &self.contact.widened(),
+            force: &mut force,
+        });
+        [force[0].total(), force[1].total()]
+    }
+}
+
+/// The same for one elastic law.
+struct Nodes<'a, const FMA: bool> {
+    rules: &'a Rules,
+    contact: &'a Whole<Dual<Lanes, 2>>,
+    force: &'a mut [Dual<Lanes, 2>; 2],
+}
+
+impl<const FMA: bool> ForLaw for Nodes<'_, FMA> {
+    #[inline(always)]
+    fn run<L: Load>(self) {
+        let Self {
+            rules,
+            contact,
+            force,
+        } = self;
+        for nodes in rules.on([true; 2]).chunks(LANES) {
+            let (mut x, mut weight) = (Lanes::ZERO, Lanes::ZERO);
+            for (lane, node) in nodes.iter().enumerate() {
+                (x[lane], weight[lane]) = *node;
+            }
+            let (u, stretch) = (contact.half.scaled(x), contact.half.scaled(weight));
+            let element = if L::FLAT {
+                contact.on_tangent::<L, FMA>(u, stretch)
+            } else {
+                contact.on_chord::<L, FMA, false>(u.scaled(contact.inverse.value), stretch)
+            };
+            let [radial, axial] = elastic_force(&element);
+            force[0] += radial;
+            force[1] += axial;
+        }
+    }
+}
+
+impl Whole<Dual<f64, 2>> {
+    /// The same contact in all lanes.
+    #[inline(always)]
+    fn widened(&self) -> Whole<Dual<Lanes, 2>> {
+        let Section {
+            radius,
+            r,
+            e,
+            c,
+            l,
+            normal,
+            approach,
+        } = self.section;
+        Whole {
+            section: Section {
+                radius: radius.widened(),
+                r: r.widened(),
+                e: e.widened(),
+                c: c.widened(),
+                l: l.widened(),
+                normal: (normal.0.widened(), normal.1.widened()),
+                approach: approach.widened(),
+            },
+            inverse: self.inverse.widened(),
+            half: self.half.widened(),
+            ends: (self.ends.0.widened(), self.ends.1.widened()),
+            strength: self.strength.widened(),
+            half_curvature: self.half_curvature.widened(),
         }
     }
 }
@@ -244,9 +336,9 @@ struct Meridional {
 }
 
 /// Adds up the elastic forces on the ball.
-struct Elastic(Vector3<f64>);
+struct ElasticForce(Vector3<f64>);
 
-impl Sink for Elastic {
+impl Sink for ElasticForce {
     fn touch(&mut self, touch: &Touch) {
         let plane = touch.n_e * (touch.elastic * touch.share.0);
         self.0 -= Vector3::new(plane.x, plane.y, touch.elastic * touch.share.1);
@@ -261,7 +353,7 @@ impl Sink for Elastic {
 mod tests {
     use super::super::hertz::Hertz;
     use super::super::iso16281::Iso16281;
-    use super::super::{Elastic, Law, Rules, Torus, Waves};
+    use super::super::{Law, Torus, Waves};
     use super::*;
     use crate::scene::{Material, Waviness};
 
@@ -319,7 +411,7 @@ mod tests {
                         let (sin, cos) = f64::sin_cos(direction);
                         let place =
                             Vector3::new(d * cos, d * sin, pair.race.centre + l * tilt.sin());
-                        let found = pair.tangent(&ball, &place);
+                        let found = pair.tangent(Level::current(), &ball, &place);
                         let force = pair.elastic(&ball, &place);
                         let stiffness = pair.stiffness_by_differences(&ball, &place, 1e-8);
                         let analytic = found.stiffness.unwrap();

@@ -30,7 +30,7 @@ impl RowSpring {
             let race = &pair.race;
             let distance = race.a + race.sigma * (race.r - side.radius + scales.approach);
             let place = Vector3::new(distance, 0.0, race.centre);
-            let force = pair.tangent(side, &place).force.norm();
+            let force = pair.tangent(model.level, side, &place).force.norm();
             // A defect may lie there.
             let force = if force > 0.0 { force } else { scales.load };
             scales.approach / force.powf(1.0 / exponent)

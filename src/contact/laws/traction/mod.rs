@@ -37,7 +37,7 @@ pub(in crate::contact) struct Sliding<T> {
 
 /// Speeds of ball's and ring's surface along the race, in a frame that goes round with the ball's centre: each is
 /// linear in the arm.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(in crate::contact) struct Rolling<T> {
     /// θ̇_b − ω_n and θ̇_r − ω_n, where ω_n is how fast the ball's centre goes round the ring's \[rad/s\].
     pub turns: [T; 2],
