@@ -80,9 +80,10 @@ fn contact(model: &Model, y: &[f64], j: usize, race: usize) -> Option<Culprit> {
     let contact = model.contact(y, j, race);
     let mobility = 1.0 / body.mass[0] + ball.side.radius.powi(2) / body.mass[3];
     let friction = pair
-        .friction
-        .map_or(0.0, |law| law.factor(contact.slip) * mobility);
-    let damping = 1.5 * pair.damping / body.mass[0];
+        .law
+        .traction
+        .map_or(0.0, |law| law.at(contact.slip) * mobility);
+    let damping = pair.law.damping.rate() / body.mass[0];
     (contact.load > 0.0).then(|| Culprit {
         name: format!("{}.{}", body.name, ["outer", "inner"][race]),
         body: 2 + j,

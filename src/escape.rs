@@ -1,6 +1,6 @@
 //! How a ball left its groove, in words.
 
-use crate::contact::{Meridian, Torus};
+use crate::contact::{Section, Torus};
 use crate::dynamics::motion;
 use crate::model::Model;
 use crate::orbit;
@@ -16,11 +16,11 @@ pub(crate) fn reason(model: &Model, y: &[f64], body: usize, finer: &str) -> Stri
     let ways = [0, 1].map(|ring| {
         let ring_at = motion(y, ring);
         let distance = (at.centre - ring_at.centre).norm();
-        races[ring].meridian(distance, at.z - ring_at.z, 0.0)
+        races[ring].section(radius, distance, at.z - ring_at.z, 0.0)
     });
-    let beyond = |ring: usize| ways[ring].distance() - races[ring].farthest(radius);
+    let beyond = |ring: usize| ways[ring].l - races[ring].farthest(radius);
     let ring = usize::from(beyond(1) > beyond(0));
-    let how = way(&races[ring], &ways[ring], radius);
+    let how = way(&races[ring], &ways[ring]);
     let advice = if orbit::note(model).is_some() && model.scene().cage.is_none() {
         "nothing keeps the balls apart: give the scene a cage".to_owned()
     } else {
@@ -31,13 +31,13 @@ pub(crate) fn reason(model: &Model, y: &[f64], body: usize, finer: &str) -> Stri
 }
 
 /// Pressed into a race, beside its groove or off it, whichever it is most.
-fn way(race: &Torus, meridian: &Meridian, radius: f64) -> String {
-    let (e, c) = (meridian.e, meridian.c.abs());
+fn way(race: &Torus, section: &Section<f64>) -> String {
+    let (e, c) = (section.e, section.c.abs());
     if c >= e.abs() {
         format!("{} beside the middle of", length(c))
     } else if e > 0.0 {
-        format!("pressed {} into", length(meridian.approach(radius)))
+        format!("pressed {} into", length(section.approach))
     } else {
-        format!("{} off", length(race.r - radius - e))
+        format!("{} off", length(race.r - section.radius - e))
     }
 }

@@ -10,7 +10,7 @@ use crate::model::Model;
 /// What is told of a scene whose balls nothing drives; nothing where friction does, or where the orbit is given.
 pub(crate) fn note(model: &Model) -> Option<&'static str> {
     let scene = model.scene();
-    let is_driven = model.rows[0].pairs[0].friction.is_some();
+    let is_driven = model.rows[0].pairs[0].law.traction.is_some();
     let is_given = scene.approximations.rolling;
     if is_driven || is_given {
         return None;

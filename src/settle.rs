@@ -110,7 +110,7 @@ impl Watch for Unseen {
 fn needed(model: &Model, y0: &[f64]) -> f64 {
     let rings = (0..2).map(|ring| decay(model, y0, ring));
     let slowest = rings.fold(0.0, f64::max);
-    let rubs = model.rows[0].pairs[0].friction.is_some();
+    let rubs = model.rows[0].pairs[0].law.traction.is_some();
     if slowest.is_infinite() && !rubs && model.scene.contact.damping == 0.0 {
         return 0.0;
     }

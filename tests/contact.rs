@@ -2,7 +2,7 @@
 
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::{
-    BallSide, Law, Motion, Pair, Rules, Sink, Slices, Torus, Touch, V2, Waves,
+    BallSide, Elastic, Law, Motion, Pair, Rules, Sink, Slices, Torus, Touch, V2, Waves,
 };
 use ballrace::scene::{Component, Friction, NormalLaw, Probe, presets};
 use ballrace::{Model, Start, start};
@@ -47,11 +47,8 @@ fn hertz_force(slices: Slices, approach: f64, angle: f64) -> (f64, Hertz) {
     let pair = Pair {
         race,
         waves: Waves::default(),
-        law: Law::Hertz(law),
+        law: Law::elastic(Elastic::Hertz(law)),
         slices,
-        damping: 0.0,
-        clamp_pull: true,
-        friction: None,
         faults: Vec::new(),
     };
     let reach = r - radius + approach;

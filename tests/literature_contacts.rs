@@ -20,7 +20,7 @@ use std::f64::consts::PI;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::iso16281::Iso16281;
 use ballrace::contact::{
-    BallSide, Fault, Law, Motion, Pair, Sink, Slices, Torus, Touch, V2, Waves,
+    BallSide, Elastic, Fault, Law, Motion, Pair, Sink, Slices, Torus, Touch, V2, Waves,
 };
 use ballrace::scene::{Defect, Material, Surface};
 use common::meets;
@@ -222,11 +222,8 @@ fn iso_pair(sigma: f64, d: f64, pitch: f64, conformity: f64) -> Pair {
             highest: r,
         },
         waves: Waves::default(),
-        law: Law::Iso16281(Iso16281::new(3.5948e10, 0.5, d)),
+        law: Law::elastic(Elastic::Iso16281(Iso16281::new(3.5948e10, 0.5, d))),
         slices: Slices::Fixed(20_001),
-        damping: 0.0,
-        clamp_pull: true,
-        friction: None,
         faults: Vec::new(),
     }
 }

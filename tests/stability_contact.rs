@@ -6,6 +6,7 @@ mod common;
 
 use std::ops::ControlFlow;
 
+use ballrace::contact::Elastic;
 use ballrace::contact::iso16281::Iso16281;
 use ballrace::dynamics::Dynamics;
 use ballrace::integrate::{DORMAND_PRINCE, DenseStep, Options, System, Tolerance, integrate};
@@ -15,7 +16,7 @@ use common::{ball_mass, one_ball, rms, run, slope};
 
 /// A mass that flies against one slice of the ISO law: ẍ = −F(x)/m.
 struct Slice {
-    law: Iso16281,
+    law: Elastic,
     mass: f64,
 }
 
@@ -64,7 +65,7 @@ fn fixed<S: System>(system: &mut S, y0: &[f64], end: f64, h: f64, breakpoints: &
 fn a_slice_begins_at_order_two() {
     let (speed, mass) = (0.1, ball_mass());
     let mut slice = Slice {
-        law: Iso16281::new(3.5948e10, 0.5, 7.94e-3),
+        law: Elastic::Iso16281(Iso16281::new(3.5948e10, 0.5, 7.94e-3)),
         mass,
     };
     // Well inside the contact, before it is deepest.

@@ -1,53 +1,44 @@
 //! Laws of one ball on one race: numbers in, numbers out; no indices, no state of a run.
 //!
-//! A contact is cut into [`slices`] along the ball. Each slice has a penetration against the
-//! [`race`] (model section 3), an elastic force by a [`law`] (section 4), Hunt–Crossley damping and
-//! [`friction`] (section 5). Where a [`fault`] removes the surface, fault circles take the slice's
-//! place (section 7). [`pair`] puts these together and hands every single force to a [`Sink`]:
-//! `walk` visits the slices, `feature` decides what each one meets, `gradient` adds what makes their forces conservative.
-//! `press` does the same for eight contacts at once
-//! where all surfaces are whole; `octet` says which those are. `closed` has whole contacts in one formula, `level` evaluates
-//! it for balls that keep their axial places.
-//! `within` tells what a contact carries within a defect.
-//! `still` holds contacts at one place for any velocities; `tangent` gives force and stiffness at rest.
+//! `profile` has the races and the zone where a ball touches one (model sections 2 and 3), `laws` what an element of
+//! the zone bears (sections 4 and 5), `quadrature` where the elements lie (section 10), `kernel` puts these together:
+//! the force of an element, and the elements of a whole contact. Its drivers:
+//!
+//! * `scalar` — [`Pair::evaluate`]: one contact with whatever cuts its zone, every single force to a [`Sink`];
+//! * `batch` — eight whole contacts at once;
+//! * `stage` — contacts held at one place for any velocities, with slopes by these: what implicit methods need;
+//! * `stiffness` — force at rest and its derivative by the place: what statics need;
+//! * `closed_form` — whole contacts as one formula, where there is one.
+//!
+//! `fault` has defects: arcs where a surface is absent, the elements that a slice meets there (section 7), and what
+//! makes their forces conservative.
 
-mod closed;
-pub mod elliptic;
-pub mod fault;
-mod feature;
-pub mod friction;
-mod gradient;
-pub mod hertz;
-pub mod iso16281;
-pub mod law;
-mod level;
-mod octet;
-pub mod pair;
-mod power;
-mod press;
-pub mod race;
-pub mod slices;
-mod still;
-mod tangent;
-mod walk;
-mod within;
+mod batch;
+mod closed_form;
+mod dual;
+mod fault;
+mod kernel;
+pub mod laws;
+mod profile;
+mod quadrature;
+mod scalar;
+mod stage;
+mod stiffness;
 
 use nalgebra::Vector2;
 
-pub(crate) use closed::{InPlane, stiffness};
+pub(crate) use batch::{Constants, Octet, Places, Press};
+pub(crate) use closed_form::{InPlane, LevelBalls, LevelRace, hertz_stiffness};
 pub use fault::Fault;
-pub(crate) use fault::Sight;
-pub use friction::Friction;
-pub use law::Law;
-pub(crate) use level::{LevelBalls, LevelRace};
-pub(crate) use octet::{Constants, Octet, Places};
-pub use pair::{BallSide, Pair};
-pub(crate) use press::Press;
-pub use race::{Meridian, Raise, Torus, Waves};
-pub use slices::{Rules, Slices};
-pub(crate) use still::{Held, Pack, Packing, Plane, Reaction, Still, in_contact};
-pub(crate) use tangent::Tangent;
-pub(crate) use within::Sighted;
+pub(crate) use fault::{Sight, Sighted};
+pub use laws::elastic::{elliptic, hertz, iso16281};
+pub use laws::{Cut, Damping, Elastic, Law, Traction};
+pub(crate) use profile::{Raise, Section};
+pub use profile::{Torus, Waves};
+pub use quadrature::{Rules, Slices};
+pub use scalar::{BallSide, Pair};
+pub(crate) use stage::{Held, Pack, Packing, Plane, Reaction, Still, in_contact};
+pub(crate) use stiffness::Tangent;
 
 /// A vector in the x-y plane.
 pub type V2 = Vector2<f64>;

@@ -4,7 +4,7 @@ use std::array::from_fn;
 
 use super::batch::{SideConstants, Touching};
 use super::state::State;
-use crate::contact::{Held, Law, Motion, Pack, Packing, Plane, Raise, Reaction, Still, in_contact};
+use crate::contact::{Held, Motion, Pack, Packing, Plane, Raise, Reaction, Still, in_contact};
 use crate::model::Model;
 use crate::simd::{LANES, Lanes, Mask, Task};
 
@@ -149,7 +149,7 @@ impl Side {
             lane,
             packs: &mut self.packs,
             radius: compiled.side.radius,
-            flat: matches!(pair.law, Law::Hertz(_)),
+            flat: pair.law.cut().is_flat(),
             aside: [0.0; 4],
             count: 0,
         };
@@ -240,7 +240,7 @@ impl<const SLOPE: bool> Task for React<'_, SLOPE> {
                 sum.slope = [[Lanes::ZERO; 4]; 4];
             }
             for node in &side.nodes {
-                pair.react::<FMA, SLOPE>(node, &local, secant, sum);
+                pair.react::<FMA, SLOPE>(node, &side.held.around, &local, secant, sum);
             }
             sum.turn::<SLOPE>(n_e);
             for (wrench, aside) in sum.wrench.iter_mut().zip(side.aside) {
@@ -253,7 +253,8 @@ impl<const SLOPE: bool> Task for React<'_, SLOPE> {
                 }
                 let mut part = Reaction::default();
                 let local = in_contact(&all, pack.n_e);
-                pair.react::<FMA, SLOPE>(&pack.still, &local, secant, &mut part);
+                let around = side.held.around.of(*lane);
+                pair.react::<FMA, SLOPE>(&pack.still, &around, &local, secant, &mut part);
                 part.turn::<SLOPE>(pack.n_e);
                 sum.gather::<SLOPE>(*lane, &part);
             }

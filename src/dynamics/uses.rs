@@ -1,7 +1,7 @@
 //! Which code an evaluation runs, in words.
 
 use super::Dynamics;
-use crate::contact::{Law, Slices};
+use crate::contact::Slices;
 use crate::model::Model;
 use crate::scene::{Drive, TimeFunction};
 
@@ -35,8 +35,8 @@ impl Dynamics<'_> {
         };
         vec![
             ("contact", Use::Evaluated),
-            ("damping", when(pair.damping > 0.0)),
-            ("friction", when(pair.friction.is_some())),
+            ("damping", when(pair.law.damping.rate() > 0.0)),
+            ("friction", when(pair.law.traction.is_some())),
             ("defects", when(!model.scene.defects.is_empty())),
             ("waviness", when(is_wavy(model))),
             ("cage", when(model.scene.cage.is_some())),
@@ -73,10 +73,7 @@ impl Dynamics<'_> {
             return "closed form".to_owned();
         }
         let pair = &self.model.rows[row].pairs[side];
-        let law = match pair.law {
-            Law::Iso16281(_) => "ISO law",
-            Law::Hertz(_) => "Hertz law",
-        };
+        let law = pair.law.elastic.name();
         let count = pair.slices.count();
         let slices = match &pair.slices {
             Slices::Fixed(_) => "slices",

@@ -25,12 +25,12 @@ impl RowSpring {
         let scales = &model.scales;
         let side = &model.balls[row.first].side;
         // A slice's own power, and the zone's length goes with the root.
-        let exponent = row.pairs[0].law.exponent() + 0.5;
+        let exponent = row.pairs[0].law.elastic.exponent() + 0.5;
         let give = row.pairs.each_ref().map(|pair| {
             let race = &pair.race;
             let distance = race.a + race.sigma * (race.r - side.radius + scales.approach);
             let place = Vector3::new(distance, 0.0, race.centre);
-            let force = pair.tangent(side, &place).force.norm();
+            let force = pair.tangent(model.level, side, &place).force.norm();
             // A defect may lie there.
             let force = if force > 0.0 { force } else { scales.load };
             scales.approach / force.powf(1.0 / exponent)

@@ -177,12 +177,13 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
         let (b, r) = (place(2 + j), place(race));
         let (dx, dy) = (b[0] - r[0], b[1] - r[1]);
         let wave = pair.waves.at(dy.atan2(dx) - y[4 * race + 3]);
-        let meridian = pair.race.meridian(dx.hypot(dy), b[2] - r[2], wave);
+        let radius = ball.side.radius;
+        let section = pair.race.section(radius, dx.hypot(dy), b[2] - r[2], wave);
         let loaded = summary.load > 0.0;
         ContactEquilibrium {
             load: summary.load,
             angle: loaded.then_some(summary.angle),
-            deflection: meridian.approach(ball.side.radius),
+            deflection: section.approach,
             zone_centre: loaded.then_some(summary.zone_centre),
             pressure: model.pressure(j, race, summary.load),
         }

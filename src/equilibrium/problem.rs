@@ -141,7 +141,11 @@ impl<'m> Problem<'m> {
         let centre = Vector3::new(direction.x * place.x, direction.y * place.x, place.y);
         let from_rings = [0, 3].map(|k| centre - rings.fixed_rows::<3>(k));
         let contacts = [0, 1].map(|race| {
-            self.model.rows[ball.row].pairs[race].tangent(&ball.side, &from_rings[race])
+            self.model.rows[ball.row].pairs[race].tangent(
+                self.model.level,
+                &ball.side,
+                &from_rings[race],
+            )
         });
         let pressed = contacts[0].force + contacts[1].force;
         let own = self.own_load_at(j, place.x);

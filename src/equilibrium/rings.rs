@@ -285,12 +285,13 @@ impl Problem<'_> {
                 );
                 let offset = ball.y - ring.z - pair.race.centre;
                 let distance = ball.x - V2::new(ring.x, ring.y).dot(&self.directions[j]);
-                let meridian = pair.race.meridian(distance, ball.y - ring.z, 0.0);
+                let radius = compiled.side.radius;
+                let section = pair.race.section(radius, distance, ball.y - ring.z, 0.0);
                 // The contact point lies where the line of centres meets the groove.
-                let point = offset / meridian.distance() * pair.race.r;
-                let pressed = meridian.approach(compiled.side.radius) > 0.0;
+                let point = offset / section.l * pair.race.r;
+                let pressed = section.approach > 0.0;
                 // Behind the groove's centre a ball is loose, as long as it is in the groove at all.
-                let left = if meridian.e > 0.0 {
+                let left = if section.e > 0.0 {
                     pressed && (point < pair.race.lowest || point > pair.race.highest)
                 } else {
                     offset.abs() >= pair.race.r

@@ -6,7 +6,9 @@ use super::body::{Body, Degree, ball_mass, groove_radius, ring_mass};
 use super::{Ball, LoadModel, Model, RowModel, Scales, Spring, UnbalanceModel, demand, nodes};
 use crate::contact::hertz::Hertz;
 use crate::contact::iso16281::Iso16281;
-use crate::contact::{BallSide, Fault, Friction, Law, Pair, Rules, Slices, Torus, Waves};
+use crate::contact::{
+    BallSide, Damping, Elastic, Fault, Law, Pair, Rules, Slices, Torus, Traction, Waves,
+};
 use crate::error::{Error, Result};
 use crate::scene::{
     self, Approximations, Defect, Drive, Mount, NormalLaw, RingName, Row, Scene, Surface,
@@ -90,7 +92,7 @@ pub(crate) fn compile(scene: &Scene) -> Result<Model> {
 
 /// Gives each race the fewest nodes that reach an accuracy.
 fn fit_nodes(model: &mut Model, accuracy: f64) {
-    let exponent = model.rows[0].pairs[0].law.exponent();
+    let exponent = model.rows[0].pairs[0].law.elastic.exponent();
     let fewest = [0, 1].map(|side| nodes::fewest(model, side, exponent, accuracy));
     for row in &mut model.rows {
         for (pair, count) in row.pairs.iter_mut().zip(fewest) {
@@ -184,14 +186,14 @@ fn pair(scene: &Scene, index: usize, row: &Row, sigma: f64, hertz: Hertz) -> Pai
         .map(|defect| race_fault(defect, row, &race))
         .collect();
     let contact = &scene.contact;
-    let law = match contact.law {
+    let elastic = match contact.law {
         NormalLaw::Iso16281 {
             constant,
             length_ratio,
-        } => Law::Iso16281(Iso16281::new(constant, length_ratio, row.ball_diameter)),
-        NormalLaw::Hertz => Law::Hertz(hertz),
+        } => Elastic::Iso16281(Iso16281::new(constant, length_ratio, row.ball_diameter)),
+        NormalLaw::Hertz => Elastic::Hertz(hertz),
     };
-    let exponent = law.exponent();
+    let exponent = elastic.exponent();
     let slices = match contact.slices {
         scene::Slices::Fixed(n) => Slices::Fixed(n),
         scene::Slices::Fitted(m) => Slices::Fitted(Rules::new(m, exponent)),
@@ -201,11 +203,15 @@ fn pair(scene: &Scene, index: usize, row: &Row, sigma: f64, hertz: Hertz) -> Pai
     Pair {
         race,
         waves: Waves(waviness.clone()),
-        law,
+        law: Law {
+            damping: Damping {
+                coefficient: contact.damping,
+                clamp_pull: contact.clamp_pull,
+            },
+            traction: Traction::new(&scene.friction),
+            ..Law::elastic(elastic)
+        },
         slices,
-        damping: contact.damping,
-        clamp_pull: contact.clamp_pull,
-        friction: Friction::new(&scene.friction),
         faults,
     }
 }

@@ -1,7 +1,7 @@
 //! The scene's own scales: a typical approach, the highest contact frequency, and what follows from them.
 
 use super::{Degree, Model};
-use crate::contact::{BallSide, Motion, Pair, Sink, Touch, V2};
+use crate::contact::{BallSide, Law, Motion, Pair, Sink, Touch, V2};
 use crate::scene::Drive;
 
 /// Scales that tolerances and the step cap follow.
@@ -103,10 +103,10 @@ impl Scales {
             let radius = model.balls[row.first].side.radius;
             // Both races rub on a ball, and turn it more easily than they shift it.
             let mobility = (radius * radius / body.mass[3]).max(1.0 / body.mass[0]);
-            let rubbing = |pair: &Pair| pair.friction.map_or(0.0, |law| law.factor(0.0));
+            let rubbing = |pair: &Pair| pair.law.traction.map_or(0.0, |law| law.at(0.0));
             let friction: f64 = row.pairs.iter().map(rubbing).sum();
             // Hunt and Crossley's 3/2 α_d N on either side.
-            let damping: f64 = row.pairs.iter().map(|pair| 1.5 * pair.damping).sum();
+            let damping: f64 = row.pairs.iter().map(|pair| pair.law.damping.rate()).sum();
             self.damping = self.damping.max(self.load * damping / body.mass[0]);
             self.rate = self.rate.max(self.load * friction * mobility);
             self.rate = self.rate.max(model.cage_rate(i));
@@ -157,7 +157,10 @@ impl Bottom {
             pair: Pair {
                 faults: Vec::new(),
                 waves: crate::contact::Waves::default(),
-                friction: None,
+                law: Law {
+                    traction: None,
+                    ..pair.law
+                },
                 ..pair.clone()
             },
             ball: BallSide {

@@ -6,10 +6,12 @@
 
 mod lanes;
 mod level;
+mod number;
 mod proof;
 mod vector;
 
 pub(crate) use lanes::{Counters, LANES, Lanes, Mask, mul_add};
 pub(crate) use level::Task;
 pub use level::{Distrust, Level, UnknownLevel};
+pub(crate) use number::{Decision, Number};
 pub(crate) use vector::{Choice, Simd, Vector, Wide};

@@ -126,7 +126,7 @@ impl Batch {
                 .map(|row| {
                     row.pairs.each_ref().map(|pair| {
                         let anywhere = kind.closed && !kind.plane;
-                        contact::stiffness(pair).filter(|_| anywhere)
+                        contact::hertz_stiffness(pair).filter(|_| anywhere)
                     })
                 })
                 .collect(),

@@ -82,7 +82,7 @@ impl Grounds {
                 (2, _) if self.levels.is_some() => Some(Reason::Level),
                 (1 | 3, Some(_)) if model.scene.approximations.rolling => Some(Reason::Rolling),
                 (3, Some(ball)) if self.exact => {
-                    let smooth = model.rows[ball.row].pairs[0].friction.is_none();
+                    let smooth = model.rows[ball.row].pairs[0].law.traction.is_none();
                     let whole = ball.side.faults.is_empty();
                     let loose = stiffness == 0.0 && damping == 0.0;
                     (smooth && whole && loose).then_some(Reason::NoMoment)
@@ -133,7 +133,7 @@ pub(super) fn is_felt(model: &Model, coast: &Coast, reason: Reason) -> bool {
         // A smooth, round and balanced ring may turn as it likes.
         Reason::Driven => {
             let told = |pair: &Pair| {
-                pair.friction.is_some() || !pair.faults.is_empty() || !pair.waves.is_round()
+                pair.law.traction.is_some() || !pair.faults.is_empty() || !pair.waves.is_round()
             };
             let inner = model.rows.iter().any(|row| told(&row.pairs[coast.body]));
             inner || !model.unbalances.is_empty()

@@ -116,7 +116,7 @@ impl Reduction {
                     .map_err(|reason| obstacle("one row for two", reason))
                     .is_ok()
             });
-            if model.rows[0].pairs[0].friction.is_some() {
+            if model.rows[0].pairs[0].law.traction.is_some() {
                 obstacle("balls without spin", "friction turns them".to_owned());
             }
         }

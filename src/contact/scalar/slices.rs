@@ -8,16 +8,14 @@
 //! cuts the zone, the outer pieces keep the weight at their free end only. Inside a defect the elements have
 //! zones of their own: their ends are searched for, and plain Gauss nodes lie on every smooth piece.
 
-use super::fault::Station;
-use super::gradient::{HAIR, Owner};
-use super::hertz::Hertz;
-use super::pair::Contact;
-use super::race::{Chord, Meridian};
-use super::slices::Rules;
-use super::{Fault, Sink, Slices};
+use super::Contact;
+use crate::contact::fault::Station;
+use crate::contact::fault::gradient::{HAIR, Owner};
+use crate::contact::profile::{Chord, Section, Zone};
+use crate::contact::{Fault, Rules, Sink, Slices};
 
 /// The line along which a contact is cut, over the zone low … high of u.
-pub(super) struct Line {
+pub(in crate::contact) struct Line {
     along: Along,
     low: f64,
     high: f64,
@@ -32,38 +30,34 @@ enum Along {
     Tangent {
         middle: f64,
         cos: f64,
-        approach: f64,
         curvature: f64,
     },
 }
 
 impl Line {
-    /// Along the ball's surface: the ISO law.
-    pub(super) fn along_ball(meridian: &Meridian, radius: f64) -> Option<Self> {
-        let chord = meridian.zone(radius)?;
-        let [(low, low_sealed), (high, high_sealed)] = chord.ends;
-        Some(Self {
+    /// Along the ball's surface.
+    pub(super) fn along_ball(section: &Section<f64>) -> Self {
+        let (chord, [(low, low_sealed), (high, high_sealed)]) = Chord::of(section);
+        Self {
             along: Along::Surface(chord),
             low,
             high,
             sealed: [low_sealed, high_sealed],
-        })
+        }
     }
 
-    /// Along the common tangent, whose normal has the angle α': the Hertz law.
-    pub(super) fn along_tangent(law: &Hertz, meridian: &Meridian, radius: f64) -> Option<Self> {
-        let approach = meridian.approach(radius);
-        if meridian.e <= 0.0 || approach <= 0.0 {
+    /// Along the common tangent, where the gap has some curvature.
+    pub(super) fn along_tangent(curvature: f64, section: &Section<f64>) -> Option<Self> {
+        if section.e <= 0.0 || section.approach <= 0.0 {
             return None;
         }
-        let (cos, sin) = meridian.normal();
-        let half = law.half_zone(approach);
+        let (cos, sin) = section.normal;
+        let half = Zone::on_tangent(section, 0.5 * curvature).half;
         Some(Self {
             along: Along::Tangent {
-                middle: radius * sin,
+                middle: section.radius * sin,
                 cos,
-                approach,
-                curvature: law.curvature,
+                curvature,
             },
             low: -half,
             high: half,
@@ -98,23 +92,25 @@ impl Line {
 
 /// One slice or node, before it is known what it meets.
 #[derive(Clone, Copy)]
-pub(super) struct Node {
-    pub(super) zeta: f64,
-    pub(super) rho: f64,
+pub(in crate::contact) struct Node {
+    pub(in crate::contact) zeta: f64,
+    pub(in crate::contact) rho: f64,
     /// Place in the ring's frame.
-    pub(super) z: f64,
-    pub(super) width: f64,
+    pub(in crate::contact) z: f64,
+    pub(in crate::contact) width: f64,
     /// Healthy penetration that the law sees.
-    pub(super) depth: f64,
+    pub(in crate::contact) depth: f64,
+    /// Height of the groove over its centre at z.
+    pub(in crate::contact) groove: f64,
     /// Radius of the round race at z.
-    pub(super) torus_radius: f64,
+    pub(in crate::contact) torus_radius: f64,
     /// By how much beside it defects are looked for (see [`Station`]).
-    pub(super) beside: f64,
+    pub(in crate::contact) beside: f64,
 }
 
 impl Node {
     /// On the race.
-    pub(super) fn on_ring(&self) -> Station {
+    pub(in crate::contact) fn on_ring(&self) -> Station {
         Station {
             z: self.z,
             beside: self.beside,
@@ -123,7 +119,7 @@ impl Node {
     }
 
     /// On the ball.
-    pub(super) fn on_ball(&self) -> Station {
+    pub(in crate::contact) fn on_ball(&self) -> Station {
         Station {
             z: self.zeta,
             beside: self.beside,
@@ -268,7 +264,7 @@ impl Contact<'_> {
         let inset = 1e-9 * (piece.high - piece.low);
         let low = piece.low + inset;
         let step = (piece.high - inset - low) / LOOKS as f64;
-        let at = |u: f64| self.node(line, u, 0.0).map(|node| self.levels(&node));
+        let at = |u: f64| self.node(line, u, 0.0).map(|node| self.penetrations(&node));
         let mut before = at(low);
         for k in 1..=LOOKS {
             let u = low + step * k as f64;
@@ -277,7 +273,7 @@ impl Contact<'_> {
                 let levels = if a.count == b.count { a.count } else { 0 };
                 for i in 0..levels {
                     if (a.values[i] > 0.0) != (b.values[i] > 0.0) && count < MOST_ENDS {
-                        let level = |u: f64| at(u).map_or(0.0, |levels| levels.values[i]);
+                        let level = |u: f64| at(u).map_or(0.0, |found| found.values[i]);
                         ends[count] = root(level, (u - step, a.values[i]), (u, b.values[i]));
                         count += 1;
                     }
@@ -296,7 +292,7 @@ impl Contact<'_> {
     }
 
     /// The node at ζ within the zone, for a length of 1.
-    pub(super) fn node_of(&self, line: &Line, zeta: f64) -> Option<Node> {
+    pub(in crate::contact) fn node_of(&self, line: &Line, zeta: f64) -> Option<Node> {
         let u = line.u(zeta).filter(|u| (line.low..line.high).contains(u))?;
         self.node_at(line, zeta, u, 1.0)
     }
@@ -307,31 +303,23 @@ impl Contact<'_> {
             return None;
         }
         let z = self.b.z - self.r.z + zeta;
-        let torus_radius = self.pair.race.radius(z)?;
-        let mut node = Node {
+        let race = &self.pair.race;
+        let groove = race.groove(z)?;
+        let rho = square.sqrt();
+        let depth = match line.along {
+            Along::Surface(_) => self.section.penetration(rho, groove),
+            Along::Tangent { curvature, .. } => self.section.approach - curvature * u * u / 2.0,
+        };
+        Some(Node {
             zeta,
-            rho: square.sqrt(),
+            rho,
             z,
             width,
-            depth: 0.0,
-            torus_radius,
+            depth,
+            groove,
+            torus_radius: race.a + race.sigma * groove,
             beside: 0.0,
-        };
-        node.depth = match line.along {
-            Along::Surface(_) => self.race_penetration(&node),
-            Along::Tangent {
-                approach,
-                curvature,
-                ..
-            } => approach - curvature * u * u / 2.0,
-        };
-        Some(node)
-    }
-
-    /// s_k of model section 3: d + ρ − R_o or R_i + ρ − d.
-    pub(super) fn race_penetration(&self, node: &Node) -> f64 {
-        let radius = node.torus_radius + self.raise.height;
-        self.pair.race.sigma * (self.distance - radius) + node.rho
+        })
     }
 }
 

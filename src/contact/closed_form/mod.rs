@@ -10,9 +10,13 @@
 
 use std::f64::consts::PI;
 
-use super::power::ten_ninths;
-use super::race::SHALLOW;
-use super::{Law, Pair, Rules, Slices};
+mod planar;
+
+pub(crate) use planar::{LevelBalls, LevelRace};
+
+use super::laws::elastic::ten_ninths;
+use super::profile::{SHALLOW, Section, Zone};
+use super::{Elastic, Pair, Rules, Slices, kernel};
 use crate::simd::{Simd, Vector};
 
 /// Share of the ball's radius at which a zone ends with the ball.
@@ -37,17 +41,17 @@ pub(crate) struct Series {
 
 /// K of Hertz's law \[N/m^{3/2}\], where a contact follows it as a whole: not with friction, nor on fixed slices, whose
 /// sum has kinks.
-pub(crate) fn stiffness(pair: &Pair) -> Option<f64> {
-    match (rules(pair)?, &pair.law) {
-        (_, Law::Hertz(law)) => Some(4.0 / 3.0 * law.slope * (2.0 / law.curvature).sqrt()),
-        (_, Law::Iso16281(_)) => None,
+pub(crate) fn hertz_stiffness(pair: &Pair) -> Option<f64> {
+    match (rules(pair)?, &pair.law.elastic) {
+        (_, Elastic::Hertz(law)) => Some(4.0 / 3.0 * law.slope * (2.0 / law.curvature).sqrt()),
+        (_, Elastic::Iso16281(_)) => None,
     }
 }
 
 /// The nodes of a contact that could have a closed form.
 fn rules(pair: &Pair) -> Option<&Rules> {
     match &pair.slices {
-        Slices::Fitted(rules) if pair.friction.is_none() => Some(rules),
+        Slices::Fitted(rules) if pair.law.traction.is_none() => Some(rules),
         _ => None,
     }
 }
@@ -89,7 +93,7 @@ impl InPlane {
             offset,
         };
         let limit = place.limit();
-        let (law, limit) = if let Some(stiffness) = stiffness(pair) {
+        let (law, limit) = if let Some(stiffness) = hertz_stiffness(pair) {
             (LawInPlane::Hertz(stiffness), limit)
         } else {
             let series = Series::new(
@@ -121,33 +125,31 @@ impl Place<'_> {
         if self.offset == 0.0 { BOUND.0 } else { BOUND.1 }
     }
 
-    /// Half-length of the zone on the common chord (or tangent) and its height over the ball's centre, as in
-    /// `Meridian::zone`.
-    fn zone(&self, approach: f64) -> (f64, f64) {
-        match &self.pair.law {
-            Law::Hertz(law) => (law.half_zone(approach), self.radius),
-            Law::Iso16281(_) => {
-                let (radius, r) = (self.radius, self.pair.race.r);
-                let l = approach + r - radius;
-                let sum = approach * (l + radius + r) / (2.0 * l);
-                ((sum * (2.0 * radius - sum)).max(0.0).sqrt(), radius - sum)
-            }
-        }
+    /// Ball and groove at an approach, and their zone.
+    fn at(&self, approach: f64) -> (Section<f64>, Zone<f64>) {
+        let (radius, r) = (self.radius, self.pair.race.r);
+        let l = approach + r - radius;
+        let e = ((l - self.offset) * (l + self.offset)).sqrt();
+        let section = Section {
+            // Not l + R − r again, which rounds.
+            approach,
+            ..Section::new::<false, false>(radius, r, e, -self.offset)
+        };
+        let cut = self.pair.law.cut();
+        let zone = kernel::zone(&cut, &section, cut.half_curvature());
+        (section, zone)
     }
 
     /// Whether nothing cuts the zone off.
     fn is_whole(&self, approach: f64) -> bool {
         let (radius, race) = (self.radius, &self.pair.race);
-        let l = approach + race.r - radius;
-        let sin = self.offset / l;
-        let cos = (1.0 - sin * sin).sqrt();
-        let (half, height) = self.zone(approach);
-        let (low, high) = (height * sin - half * cos, height * sin + half * cos);
+        let (section, zone) = self.at(approach);
+        let (low, high) = zone.ends(section.normal);
         let ball = EDGE * radius;
-        sin.abs() < 1.0
-            && half <= REACH * radius
-            && height > SHALLOW * radius
-            && height * cos > half * sin.abs()
+        section.e > 0.0
+            && zone.half <= REACH * radius
+            && zone.height > SHALLOW * radius
+            && zone.lowest(section.normal) > 0.0
             && -ball < low
             && high < ball
             && race.lowest.max(-EDGE * race.r) < low + self.offset
@@ -170,7 +172,7 @@ impl Place<'_> {
 
     /// The force in the plane by the nodes.
     fn force(&self, rules: &Rules, approach: f64) -> f64 {
-        let (half, _) = self.zone(approach);
+        let (_, Zone { half, .. }) = self.at(approach);
         let level = Profile {
             radius: self.radius,
             r: self.pair.race.r,
@@ -178,10 +180,10 @@ impl Place<'_> {
         };
         let force = rules.on([true; 2]).iter().map(|(x, w)| {
             if self.offset == 0.0 {
-                return self.pair.law.force(level.depth(half * x), half * w);
+                return self.pair.law.elastic.force(level.depth(half * x), half * w);
             }
             let (depth, stretch) = level.inclined(self.offset, half * x);
-            self.pair.law.force(depth, half * w * stretch)
+            self.pair.law.elastic.force(depth, half * w * stretch)
         });
         force.sum()
     }
@@ -295,7 +297,7 @@ impl Series {
 mod tests {
     use super::*;
     use crate::contact::iso16281::Iso16281;
-    use crate::contact::{Torus, Waves};
+    use crate::contact::{Law, Torus, Waves};
     use crate::simd::Level;
 
     struct Forces<'a>(&'a Series, f64);
@@ -333,11 +335,12 @@ mod tests {
                     highest: r,
                 },
                 waves: Waves::default(),
-                law: Law::Iso16281(Iso16281::new(3.5948e10, 0.5, 2.0 * radius)),
+                law: Law::elastic(Elastic::Iso16281(Iso16281::new(
+                    3.5948e10,
+                    0.5,
+                    2.0 * radius,
+                ))),
                 slices: Slices::Fitted(rules.clone()),
-                damping: 0.0,
-                clamp_pull: true,
-                friction: None,
                 faults: Vec::new(),
             };
             let place = Place {

@@ -3,9 +3,9 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::fault::Sight;
-use super::race::Raise;
-use super::{Law, Motion, Pair};
+use crate::contact::fault::Sight;
+use crate::contact::profile::{Raise, Section};
+use crate::contact::{Motion, Pair};
 use crate::simd::{Lanes, Mask};
 
 /// Positions of eight balls of one row, for [`Pair::near`].
@@ -18,7 +18,7 @@ pub(crate) struct Places {
 }
 
 /// Which of eight balls of a row touch a race, which of these may see a defect of it, how the race is raised
-/// there, and which balls are lost ([`super::Torus::farthest`]).
+/// there, and which balls are lost ([`crate::contact::Torus::farthest`]).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Near {
     pub touching: Mask,
@@ -44,15 +44,16 @@ pub(crate) struct Octet {
 /// Constants of a contact, or of eight.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Constants<T> {
-    /// Ball radius \[m\].
+    /// Ball radius \[m\], and one over it.
     pub radius: T,
+    pub inverse: T,
     /// The race, as in `Torus`.
     pub a: T,
     pub centre: T,
     pub r: T,
     pub lowest: T,
     pub highest: T,
-    /// C/D of the ISO law, or k' of the Hertz law and half of its κ.
+    /// [`crate::contact::Elastic::strength`] and [`crate::contact::Cut::half_curvature`].
     pub strength: T,
     pub half_curvature: T,
 }
@@ -62,6 +63,7 @@ impl Constants<Lanes> {
     #[inline(always)]
     pub fn set(&mut self, lane: usize, of: &Constants<f64>) {
         self.radius[lane] = of.radius;
+        self.inverse[lane] = of.inverse;
         self.a[lane] = of.a;
         self.centre[lane] = of.centre;
         self.r[lane] = of.r;
@@ -76,19 +78,16 @@ impl Pair {
     /// Constants of the contact with a ball of some radius.
     pub(crate) fn constants(&self, radius: f64) -> Constants<f64> {
         let race = &self.race;
-        let (strength, half_curvature) = match &self.law {
-            Law::Iso16281(law) => (law.density(), 0.0),
-            Law::Hertz(law) => (law.slope, 0.5 * law.curvature),
-        };
         Constants {
             radius,
+            inverse: 1.0 / radius,
             a: race.a,
             centre: race.centre,
             r: race.r,
             lowest: race.lowest,
             highest: race.highest,
-            strength,
-            half_curvature,
+            strength: self.law.elastic.strength(),
+            half_curvature: self.law.cut().half_curvature(),
         }
     }
 
@@ -105,11 +104,8 @@ impl Pair {
         };
         let e = (d - raise.height - race.a) * race.sigma;
         let c = balls.q[2] - (race.centre + ring.z);
-        let l = e.mul_add::<FMA>(e, c * c).sqrt();
-        let approach = l + balls.radius - race.r;
-        // Negated, so that what is not a number counts as touching and stays one.
-        let clear = e.above(Lanes::ZERO).and((-approach).above(Lanes::ZERO));
-        let touching = clear.not();
+        let section = Section::new::<FMA, false>(balls.radius, Lanes::all(race.r), e, c);
+        let touching = section.is_clear().not();
         let mut faulted = Mask::default();
         if !self.faults.is_empty() && touching.any() {
             for fault in &self.faults {
@@ -121,7 +117,10 @@ impl Pair {
             }
         }
         // Negated, so that what is not a number counts as lost.
-        let inside = balls.radius.map(|radius| race.farthest(radius)).above(l);
+        let inside = balls
+            .radius
+            .map(|radius| race.farthest(radius))
+            .above(section.l);
         Near {
             touching,
             faulted: faulted.and(touching),

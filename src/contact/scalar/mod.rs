@@ -1,8 +1,12 @@
-//! One ball on one race: finds the zone that touches, and lets `walk` and `feature` do the rest.
+//! One ball on one race: finds the zone that touches, and cuts it into slices.
 
-use super::race::Raise;
-use super::walk::Line;
-use super::{Fault, Friction, Law, Motion, Sink, Slices, Torus, V2, Waves};
+mod slices;
+
+pub(super) use slices::{Line, Node};
+
+use super::laws::traction::Rolling;
+use super::profile::{Raise, Section};
+use super::{Cut, Fault, Law, Motion, Sink, Slices, Torus, V2, Waves, turned};
 
 /// What all contacts of a row's balls with one race share.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,16 +15,10 @@ pub struct Pair {
     pub race: Torus,
     /// Its waviness.
     pub waves: Waves,
-    /// Elastic law.
+    /// What they follow.
     pub law: Law,
-    /// Where the ball is cut.
+    /// Slices or nodes of a contact.
     pub slices: Slices,
-    /// Hunt–Crossley α_d \[s/m\].
-    pub damping: f64,
-    /// Whether a slice that pulls is set to zero.
-    pub clamp_pull: bool,
-    /// Friction, if any.
-    pub friction: Option<Friction>,
     /// Defects of the race, in the ring's frame.
     pub faults: Vec<Fault>,
 }
@@ -49,8 +47,10 @@ impl Pair {
         let angle = if needs_angle { n.y.atan2(n.x) } else { 0.0 };
         let on_ring = angle - r.theta;
         let raise = self.waves.raise(on_ring);
-        let meridian = self.race.meridian(distance, b.z - r.z, raise.height);
-        if meridian.approach(ball.radius) <= 0.0 && meridian.e > 0.0 {
+        let section = self
+            .race
+            .section(ball.radius, distance, b.z - r.z, raise.height);
+        if section.is_clear() {
             return;
         }
         let on_ball = if sigma > 0.0 {
@@ -60,14 +60,13 @@ impl Pair {
         } - b.theta;
         let ring_open = self.faults.iter().any(|fault| fault.in_reach(on_ring));
         let ball_near = ball.faults.iter().any(|fault| fault.in_reach(on_ball));
-        let (line, common) = match &self.law {
-            Law::Iso16281(_) => (Line::along_ball(&meridian, ball.radius), None),
-            Law::Hertz(law) => (
-                Line::along_tangent(law, &meridian, ball.radius),
-                Some(meridian.normal()),
-            ),
+        let line = match self.law.cut() {
+            Cut::BallSurface => Some(Line::along_ball(&section)),
+            Cut::CommonTangent { curvature } => Line::along_tangent(curvature, &section),
         };
         let Some(line) = line else { return };
+        let across = (b.velocity - r.velocity).dot(&turned(n));
+        let reads_rolling = self.law.traction.is_some_and(|law| law.reads_rolling());
         let contact = Contact {
             pair: self,
             ball,
@@ -81,8 +80,12 @@ impl Pair {
             ring_open,
             // A ring edge is met in another direction than the race.
             ball_open: ball_near || ring_open && !ball.faults.is_empty(),
-            common,
-            centres: meridian.distance(),
+            section,
+            rolling: if reads_rolling {
+                Rolling::new(distance, across, [b.omega, r.omega])
+            } else {
+                Rolling::resting(distance)
+            },
         };
         contact.walk(&line, sink);
     }
@@ -105,8 +108,14 @@ pub(super) struct Contact<'a> {
     pub(super) raise: Raise<f64>,
     pub(super) ring_open: bool,
     pub(super) ball_open: bool,
-    /// (cos α', sin α') of the common normal for the Hertz law.
-    pub(super) common: Option<(f64, f64)>,
-    /// Distance of ball's and groove's centre in the meridional plane.
-    pub(super) centres: f64,
+    pub(super) section: Section<f64>,
+    pub(super) rolling: Rolling<f64>,
+}
+
+impl Contact<'_> {
+    /// (cos α', sin α') of the common normal, where all elements press along it.
+    pub(super) fn common(&self) -> Option<(f64, f64)> {
+        let is_flat = self.pair.law.cut().is_flat();
+        is_flat.then_some(self.section.normal)
+    }
 }

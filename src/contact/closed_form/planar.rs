@@ -3,8 +3,8 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::closed::{InPlane, LawInPlane};
-use super::{Motion, Pair, Torus};
+use super::{InPlane, LawInPlane};
+use crate::contact::{Motion, Pair, Torus};
 use crate::simd::{Choice, Simd, Vector};
 
 /// A race and how its ring moves.
@@ -71,14 +71,14 @@ impl<'a, S: Simd> LevelRace<'a, S> {
         let Torus { sigma, a, r, .. } = pair.race;
         Self {
             law: &of.law,
-            clamp: pair.clamp_pull,
+            clamp: pair.law.damping.clamp_pull,
             sigma: all(sigma),
             a: all(a),
             offset_squared: all(of.offset * of.offset),
             margin: all(of.radius - r),
             limit: all(of.limit),
             farthest: all(pair.race.farthest(of.radius)),
-            damping: all(1.5 * pair.damping),
+            damping: all(pair.law.damping.rate()),
             centre: [all(ring.centre.x), all(ring.centre.y)],
             velocity: [all(ring.velocity.x), all(ring.velocity.y)],
         }

@@ -1,6 +1,11 @@
 //! The paper's law, after the roller slices of ISO/TS 16281: F = (C/D) Σ s^{10/9} Δζ.
 
+// Into loops that are compiled for the instructions at hand.
+#![allow(clippy::inline_always)]
+
+use super::Load;
 use super::power::ten_ninths;
+use crate::simd::Number;
 
 /// Exponent of the penetration.
 pub const EXPONENT: f64 = 10.0 / 9.0;
@@ -17,9 +22,9 @@ pub const EXPONENT: f64 = 10.0 / 9.0;
 /// raceways; for one contact of the pair it would be 35948·2^{10/9}.
 ///
 /// ```
-/// use ballrace::contact::iso16281::Iso16281;
+/// use ballrace::contact::{Elastic, iso16281::Iso16281};
 /// // D = 11.9 mm: C = 35948 · 5.95^{8/9} = 175 457 N/mm^{10/9}; a 0.119 mm slice at 0.02 mm carries 22.72 N.
-/// let law = Iso16281::new(3.5948e10, 0.5, 11.9e-3);
+/// let law = Elastic::Iso16281(Iso16281::new(3.5948e10, 0.5, 11.9e-3));
 /// assert!((law.force(20e-6, 0.119e-3) - 22.72).abs() < 0.01);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,18 +42,23 @@ impl Iso16281 {
     }
 
     /// C/D \[N m^{−19/9}\].
-    pub(super) fn density(self) -> f64 {
+    pub(crate) fn density(self) -> f64 {
         self.density
     }
 
-    /// Elastic force \[N\] at a penetration > 0 \[m\] of a slice of a width \[m\].
-    #[inline]
-    pub fn force(&self, depth: f64, width: f64) -> f64 {
-        self.density * width * ten_ninths::<false>(depth)
+    /// Elastic energy per width \[J/m\] at a penetration ≥ 0 \[m\].
+    pub(super) fn energy(&self, depth: f64) -> f64 {
+        self.density * (9.0 / 19.0) * depth.powf(19.0 / 9.0)
     }
+}
 
-    /// Elastic energy \[J\].
-    pub fn energy(&self, depth: f64, width: f64) -> f64 {
-        self.density * width * (9.0 / 19.0) * depth.powf(19.0 / 9.0)
+impl Load for Iso16281 {
+    const FLAT: bool = false;
+
+    /// (C/D) s^{10/9}.
+    #[inline(always)]
+    fn load<T: Number, const FMA: bool>(density: T, depth: T) -> T {
+        let slope = |s: f64, power: f64| if s > 0.0 { EXPONENT * power / s } else { 0.0 };
+        density * depth.curve(ten_ninths::<FMA>, slope)
     }
 }

@@ -16,7 +16,7 @@ const GUESS: f64 = 1_191_820_000.0;
 // Into the vector loop that uses it.
 #[allow(clippy::inline_always)]
 #[inline(always)]
-pub(crate) fn ten_ninths<const FMA: bool>(x: f64) -> f64 {
+pub(in crate::contact) fn ten_ninths<const FMA: bool>(x: f64) -> f64 {
     let upper = f64::from_bits((x.to_bits() >> 32) | INTEGER.to_bits()) - INTEGER;
     let guess = mul_add::<FMA>(upper, -1.0 / 9.0, INTEGER + GUESS);
     let y = f64::from_bits(guess.to_bits() << 32);

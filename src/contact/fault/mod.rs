@@ -1,5 +1,14 @@
 //! Arcs where a surface is absent, and the fault circles at their edges (model section 7).
 
+mod circles;
+mod depth;
+mod elements;
+pub(super) mod gradient;
+mod pressing;
+mod within;
+
+pub(crate) use within::Sighted;
+
 use std::f64::consts::PI;
 
 use super::wrapped;

@@ -31,46 +31,56 @@
 //! through the ball's centre, on the ring with the opposite sign at the same point. Slices at fixed places take the same
 //! terms, with their error.
 
-use super::feature::{Meeting, Sloped};
-use super::pair::Contact;
-use super::walk::{Line, Node};
-use super::{Aside, Law, Sink, V2, turned};
+use super::depth::Sloped;
+use super::elements::ElementPair;
+use crate::contact::scalar::{Contact, Line, Node};
+use crate::contact::{Aside, Sink, V2, turned};
 
 /// To which body an axial end of a defect belongs.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Owner {
+pub(in crate::contact) enum Owner {
     Ring,
     Ball,
 }
 
 /// How far beside an end its two sides are looked at \[m\]: rounding only.
-pub(super) const HAIR: f64 = 1e-12;
+pub(in crate::contact) const HAIR: f64 = 1e-12;
 
 impl Contact<'_> {
     /// What the meridional direction and the axial place have to say to an element's energy under the Hertz law.
-    pub(super) fn tilt<S: Sink>(&self, node: &Node, meeting: &Meeting<Sloped>, sink: &mut S) {
-        let Some((cos, sin)) = self.common else {
+    pub(super) fn tilt<S: Sink>(&self, node: &Node, met: &ElementPair<Sloped>, sink: &mut S) {
+        let Some((cos, sin)) = self.common() else {
             return;
         };
         let lever = self.ball.radius - node.zeta * sin;
-        let (mut by_angle, mut by_z) = (0.0, 0.0);
-        for (sign, drop) in meeting.terms() {
-            if drop.value < f64::INFINITY {
-                let depth = node.depth - cos * drop.value;
-                let force = sign * self.pair.law.force(depth, node.width);
-                by_angle += force * (sin * drop.value - (drop.by_z + drop.by_zeta) * lever);
-                by_z -= force * cos * drop.by_z;
+        let (mut turning, mut shifting) = (0.0, 0.0);
+        for (sign, drop) in met.terms() {
+            let Sloped {
+                value,
+                slopes: [by_z, by_zeta],
+            } = drop;
+            if value < f64::INFINITY {
+                let depth = node.depth - cos * value;
+                let force = sign * self.pair.law.elastic.force(depth, node.width);
+                turning += force * (sin * value - (by_z + by_zeta) * lever);
+                shifting -= force * cos * by_z;
             }
         }
-        sink.aside(&self.turning((cos, sin), by_angle, by_z));
+        sink.aside(&self.turning((cos, sin), turning, shifting));
     }
 
     /// What the axial end of a defect at a place ζ adds.
-    pub(super) fn end<S: Sink>(&self, line: &Line, zeta: f64, owner: Owner, sink: &mut S) {
+    pub(in crate::contact) fn end<S: Sink>(
+        &self,
+        line: &Line,
+        zeta: f64,
+        owner: Owner,
+        sink: &mut S,
+    ) {
         let Some(jump) = self.jump(line, zeta) else {
             return;
         };
-        let aside = match (self.common, owner) {
+        let aside = match (self.common(), owner) {
             (Some((cos, sin)), _) => {
                 let by_angle = (zeta * sin - self.ball.radius) / (cos * cos);
                 let by_z = if owner == Owner::Ring {
@@ -87,8 +97,8 @@ impl Contact<'_> {
     }
 
     /// Whether ends of defects on the ring matter: not to the ISO law.
-    pub(super) fn feels_ring_ends(&self) -> bool {
-        matches!(self.pair.law, Law::Hertz(_))
+    pub(in crate::contact) fn feels_ring_ends(&self) -> bool {
+        self.pair.law.cut().is_flat()
     }
 
     /// Energy per length on the side of lower ζ less that on the other; none where there is no contact or no change.
@@ -104,11 +114,11 @@ impl Contact<'_> {
     fn energy(&self, node: &Node) -> f64 {
         let share = self.drop_share();
         let mut sum = 0.0;
-        self.meetings(node, &mut |meeting: &Meeting<f64>| {
-            for (sign, drop) in meeting.terms() {
+        self.element_pairs(node, &mut |met: &ElementPair<f64>| {
+            for (sign, drop) in met.terms() {
                 if drop < f64::INFINITY {
                     let depth = node.depth - share * drop;
-                    sum += sign * self.pair.law.energy(depth, node.width);
+                    sum += sign * self.pair.law.elastic.energy(depth, node.width);
                 }
             }
         });
@@ -117,7 +127,7 @@ impl Contact<'_> {
 
     /// From derivatives of the energy by α' and, at fixed α', by dz.
     fn turning(&self, (cos, sin): (f64, f64), by_angle: f64, by_z: f64) -> Aside {
-        let per_angle = by_angle / self.centres;
+        let per_angle = by_angle / self.section.l;
         self.central(-per_angle * sin, per_angle * cos + by_z)
     }
 
@@ -140,9 +150,11 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::*;
-    use crate::contact::hertz::{self, Hertz};
-    use crate::contact::iso16281::{self, Iso16281};
-    use crate::contact::{BallSide, Fault, Motion, Pair, Rules, Slices, Torus, Touch, Waves};
+    use crate::contact::hertz::Hertz;
+    use crate::contact::iso16281::Iso16281;
+    use crate::contact::{
+        BallSide, Elastic, Fault, Law, Motion, Pair, Rules, Slices, Torus, Touch, Waves,
+    };
     use crate::scene::{Defect, Floor, Material, Surface, Waviness, Width, WidthProfile};
 
     const RADIUS: f64 = 6e-3;
@@ -179,12 +191,11 @@ mod tests {
 
     fn pair(sigma: f64, is_hertz: bool, defect: Option<&Defect>, waves: u32) -> Pair {
         let steel = Material::default();
-        let (law, exponent) = if is_hertz {
+        let elastic = if is_hertz {
             let law = Hertz::new(sigma, 2.0 * RADIUS, 60e-3, 0.52, 0.3, &steel, &steel);
-            (Law::Hertz(law), hertz::EXPONENT)
+            Elastic::Hertz(law)
         } else {
-            let law = Iso16281::new(7e10, 0.5, 2.0 * RADIUS);
-            (Law::Iso16281(law), iso16281::EXPONENT)
+            Elastic::Iso16281(Iso16281::new(7e10, 0.5, 2.0 * RADIUS))
         };
         let race = Torus {
             sigma,
@@ -204,12 +215,9 @@ mod tests {
         Pair {
             race,
             waves: Waves(if waves > 0 { vec![wave] } else { Vec::new() }),
-            law,
+            law: Law::elastic(elastic),
             // Inside a defect forces like s^{10/9} end within pieces, without a weight for them.
-            slices: Slices::Fitted(Rules::new(24, exponent)),
-            damping: 0.0,
-            clamp_pull: true,
-            friction: None,
+            slices: Slices::Fitted(Rules::new(24, elastic.exponent())),
             faults: defect.map(fault).into_iter().collect(),
         }
     }

@@ -1,6 +1,7 @@
 //! What a contact carries within a defect.
 
-use super::{BallSide, Fault, Motion, Pair, Sink, Torus, Touch};
+use super::Fault;
+use crate::contact::{BallSide, Motion, Pair, Sink, Torus, Touch};
 
 /// A defect as a contact sees it.
 #[derive(Debug, Clone, Copy)]

@@ -46,7 +46,7 @@ impl Rules {
     /// m nodes a piece for a law of exponent β, 2 m on one where the force vanishes at neither end.
     ///
     /// ```
-    /// use ballrace::contact::slices::Rules;
+    /// use ballrace::contact::Rules;
     /// // ∫ (1 − x²)^{10/9} dx = √π Γ(19/9) / Γ(47/18).
     /// let rules = Rules::new(4, 10.0 / 9.0);
     /// let f = |x: f64| (1.0 - x * x).powf(10.0 / 9.0);

@@ -1,7 +1,11 @@
 //! Hertz's point contact, cut into slices along the common normal.
 
-use super::elliptic;
+// Into loops that are compiled for the instructions at hand.
+#![allow(clippy::inline_always)]
+
+use super::{Load, elliptic};
 use crate::scene::Material;
+use crate::simd::Number;
 
 /// Exponent of the local penetration.
 pub const EXPONENT: f64 = 1.0;
@@ -116,14 +120,18 @@ impl Hertz {
         (2.0 * approach / self.curvature).sqrt()
     }
 
-    /// Force \[N\] of a node at a local penetration > 0 \[m\] that stands for a length \[m\].
-    #[inline]
-    pub fn force(&self, depth: f64, length: f64) -> f64 {
-        self.slope * depth * length
+    /// Elastic energy per length \[J/m\] at a local penetration ≥ 0 \[m\].
+    pub(super) fn energy(&self, depth: f64) -> f64 {
+        0.5 * self.slope * depth * depth
     }
+}
 
-    /// Elastic energy \[J\].
-    pub fn energy(&self, depth: f64, length: f64) -> f64 {
-        0.5 * self.slope * depth * depth * length
+impl Load for Hertz {
+    const FLAT: bool = true;
+
+    /// k' p.
+    #[inline(always)]
+    fn load<T: Number, const FMA: bool>(slope: T, depth: T) -> T {
+        depth * slope
     }
 }

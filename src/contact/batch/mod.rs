@@ -1,0 +1,314 @@
+//! Forces of eight contacts at once.
+//!
+//! The same contacts as [`Pair::evaluate`] takes one by one, wherever ball and race are whole and the zone ends in the
+//! groove: then the contacts lie side by side in [`Lanes`]. Whatever is not so simple (a shoulder, a ball that is not in
+//! front of its groove) is told, and left to it.
+
+// Everything here must be compiled for the instructions of its caller.
+#![allow(clippy::inline_always)]
+
+mod gather;
+
+pub(crate) use gather::{Constants, Octet, Places};
+
+use super::kernel::{self, Element, Receiver, State, Whole};
+use super::laws::traction::Rolling;
+use super::profile::{SHALLOW, Section, Zone};
+use super::{Law, Motion, Pair};
+use crate::simd::{Counters, Lanes, Mask};
+
+/// What eight contacts put on balls and ring: force \[N\] and moment about z \[N m\].
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Press {
+    pub ball: [Lanes; 4],
+    pub ring: [Lanes; 4],
+    /// Slices whose damping wanted to pull.
+    pub pulls: u32,
+    /// Contacts left out here.
+    pub careful: Mask,
+}
+
+/// How eight balls move against their ring.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Moves {
+    /// Velocity of the ball's centre along n_e and z \[m/s\].
+    pub v_e: Lanes,
+    pub v_z: Lanes,
+    /// Slip along t_e is slide + spin · arm.
+    pub slide: Lanes,
+    pub spin: Lanes,
+    pub rolling: Rolling<Lanes>,
+    /// A contact's arm from the ball's centre, R(z) − d, is this and σ times the groove's height.
+    pub arm: Lanes,
+}
+
+/// Where eight contacts are and which way they point.
+pub(super) struct Place {
+    /// Unit vector in the plane from the ring's centre to the ball's, and their distance there.
+    pub n: (Lanes, Lanes),
+    pub d: Lanes,
+    /// Slope of the waves along the race, R'(φ)/d, if there are any: the force along t_e over that along n_e (see
+    /// `gradient`).
+    pub lean: Option<Lanes>,
+    /// Contacts whose nodes are these; the others get none that press.
+    pub simple: Mask,
+}
+
+/// Sums over the elements: forces on the balls along n_e, t_e and z, and the moment of those along t_e about the balls.
+struct Sums<'a> {
+    law: &'a Law,
+    sigma: f64,
+    moves: &'a Moves,
+    radii: [Lanes; 2],
+    normal: Lanes,
+    tangential: Lanes,
+    axial: Lanes,
+    moment: Lanes,
+    pulls: Counters,
+}
+
+/// The same on waves, whose slope takes the elastic part of the force along n_e.
+struct WavySums<'a> {
+    sums: Sums<'a>,
+    elastic: Lanes,
+}
+
+impl Pair {
+    /// Forces of eight contacts of this or another row: what their constants do not say (the kind of law, where
+    /// the ball is cut, damping, friction) is the same for all rows. Contacts in `skip` are left out, and told. With a
+    /// `stiffness` they follow Hertz's law as a whole.
+    #[inline(always)]
+    pub(crate) fn press<const FMA: bool, const PLANE: bool>(
+        &self,
+        octet: &Octet,
+        ring: &Motion,
+        skip: Mask,
+        stiffness: Option<f64>,
+    ) -> Press {
+        let (whole, moves, place) = self.place::<FMA, PLANE>(octet, ring, skip);
+        let mut sums = Sums::new(self, &whole, &moves);
+        if let Some(lean) = place.lean {
+            let elastic = Lanes::ZERO;
+            let mut wavy = WavySums { sums, elastic };
+            self.elements::<FMA, PLANE>(&whole, stiffness, &mut wavy);
+            sums = wavy.sums;
+            sums.tangential += wavy.elastic * lean;
+        } else {
+            self.elements::<FMA, PLANE>(&whole, stiffness, &mut sums);
+        }
+        let (sigma, n) = (self.race.sigma, place.n);
+        let (along, across) = (sums.normal * sigma, sums.tangential * sigma);
+        let plane = (n.0 * along - n.1 * across, n.1 * along + n.0 * across);
+        let moment = sums.moment * sigma;
+        Press {
+            ball: [plane.0, plane.1, sums.axial, moment],
+            // About the ring's centre the arm is longer by d.
+            ring: [-plane.0, -plane.1, -sums.axial, -moment - place.d * across],
+            pulls: sums.pulls.total(),
+            careful: place.simple.not(),
+        }
+    }
+
+    /// Where eight contacts are; those in `skip` are not simple.
+    #[inline(always)]
+    pub(super) fn place<const FMA: bool, const PLANE: bool>(
+        &self,
+        octet: &Octet,
+        ring: &Motion,
+        skip: Mask,
+    ) -> (Whole<Lanes>, Moves, Place) {
+        let of = &octet.constants;
+        let sigma = self.race.sigma;
+        let (zero, one) = (Lanes::ZERO, Lanes::all(1.0));
+        let (dx, dy) = (octet.q[0] - ring.centre.x, octet.q[1] - ring.centre.y);
+        let d = dx.mul_add::<FMA>(dx, dy * dy).sqrt();
+        let over = one / d;
+        let n = (dx * over, dy * over);
+        let raised = of.a + octet.raise.height;
+        let e = (d - raised) * sigma;
+        let c = if PLANE {
+            zero
+        } else {
+            of.centre + ring.z - octet.q[2]
+        };
+        let section = Section::new::<FMA, PLANE>(of.radius, of.r, e, c);
+        let zone = kernel::zone(&self.law.cut(), &section, of.half_curvature);
+        let ends = if PLANE {
+            (-zone.half, zone.half)
+        } else {
+            zone.ends(section.normal)
+        };
+        let simple = is_simple::<PLANE>(octet, &section, &zone, ends).and(skip.not());
+        // Contacts that are not evaluated here get a place just clear of the groove.
+        let clear = (of.r - of.radius) * 0.5;
+        let whole = Whole {
+            section: Section {
+                e: simple.choose(e, clear),
+                c: simple.choose(c, zero),
+                approach: simple.choose(section.approach, zero),
+                normal: (
+                    simple.choose(section.normal.0, one),
+                    simple.choose(section.normal.1, zero),
+                ),
+                ..section
+            },
+            inverse: of.inverse,
+            half: simple.choose(zone.half, zero),
+            ends: (simple.choose(ends.0, zero), simple.choose(ends.1, zero)),
+            strength: of.strength,
+            half_curvature: of.half_curvature,
+        };
+        let v_z = if PLANE { zero } else { octet.v[2] - ring.vz };
+        let v = [octet.v[0] - ring.velocity.x, octet.v[1] - ring.velocity.y];
+        let across = v[1] * n.0 - v[0] * n.1;
+        let moves = Moves {
+            v_e: (v[0] * n.0 + v[1] * n.1) * sigma,
+            v_z,
+            slide: (across - d * ring.omega) * sigma,
+            spin: (octet.v[3] - ring.omega) * sigma,
+            rolling: self.rolling(octet, ring, d, across),
+            arm: raised - d,
+        };
+        let lean = octet.wavy.then(|| octet.raise.slope * over);
+        (whole, moves, Place { n, d, lean, simple })
+    }
+
+    /// How the surfaces roll, if friction asks for it.
+    #[inline(always)]
+    fn rolling(&self, octet: &Octet, ring: &Motion, d: Lanes, across: Lanes) -> Rolling<Lanes> {
+        match &self.law.traction {
+            Some(law) if law.reads_rolling() => {
+                Rolling::new(d, across, [octet.v[3], Lanes::all(ring.omega)])
+            }
+            _ => Rolling::resting(d),
+        }
+    }
+
+    /// All elements, or with a stiffness one for all.
+    #[inline(always)]
+    fn elements<const FMA: bool, const PLANE: bool>(
+        &self,
+        whole: &Whole<Lanes>,
+        stiffness: Option<f64>,
+        to: &mut impl Receiver<Lanes>,
+    ) {
+        match stiffness {
+            Some(stiffness) => {
+                let element = kernel::as_one(whole, stiffness);
+                to.element::<FMA, false>(&element, self.slices.count());
+            }
+            None => {
+                kernel::elements::<_, FMA, PLANE>(&self.law, &self.slices, whole, to);
+            }
+        }
+    }
+}
+
+impl<'a> Sums<'a> {
+    #[inline(always)]
+    fn new(pair: &'a Pair, whole: &Whole<Lanes>, moves: &'a Moves) -> Self {
+        let zero = Lanes::ZERO;
+        Self {
+            law: &pair.law,
+            sigma: pair.race.sigma,
+            moves,
+            radii: [whole.section.radius, whole.section.r],
+            normal: zero,
+            tangential: zero,
+            axial: zero,
+            moment: zero,
+            pulls: Counters::default(),
+        }
+    }
+}
+
+impl Receiver<Lanes> for Sums<'_> {
+    #[inline(always)]
+    fn element<const FMA: bool, const PLANE: bool>(
+        &mut self,
+        element: &Element<Lanes>,
+        times: u32,
+    ) {
+        let moves = self.moves;
+        let sigma = Lanes::all(self.sigma);
+        let arm = element.groove.mul_add::<FMA>(sigma, moves.arm);
+        let state = State {
+            elastic: element.load * element.length,
+            share: element.share,
+            slope: (element.sin, element.cos),
+            velocity: [
+                moves.v_e,
+                moves.spin.mul_add::<FMA>(arm, moves.slide),
+                moves.v_z,
+            ],
+            load: element.load,
+            depth: element.depth,
+            arm,
+            rolling: moves.rolling,
+            radii: self.radii,
+        };
+        let force = kernel::force::<Lanes, FMA, PLANE, false>(self.law, &state);
+        self.pulls.add(Lanes::ZERO.above(force.damped), times);
+        let [normal, tangential, axial] = force.on_ring;
+        self.normal = self.normal - normal;
+        if self.law.traction.is_some() {
+            self.tangential = self.tangential - tangential;
+            self.moment = self.moment - tangential * arm;
+        }
+        if !PLANE {
+            self.axial = self.axial - axial;
+        }
+    }
+}
+
+impl Receiver<Lanes> for WavySums<'_> {
+    #[inline(always)]
+    fn element<const FMA: bool, const PLANE: bool>(
+        &mut self,
+        element: &Element<Lanes>,
+        times: u32,
+    ) {
+        self.elastic += element.load * element.length * element.share.0;
+        self.sums.element::<FMA, PLANE>(element, times);
+    }
+}
+
+/// Whether the zone's ends lie on ball and race.
+#[inline(always)]
+fn is_simple<const PLANE: bool>(
+    octet: &Octet,
+    section: &Section<Lanes>,
+    zone: &Zone<Lanes>,
+    (low, high): (Lanes, Lanes),
+) -> Mask {
+    /// Of the ball's or the groove's radius: nothing is singular yet.
+    const EDGE: f64 = 1.0 - 1e-9;
+    let of = &octet.constants;
+    let (e, c) = (section.e, section.c);
+    // What is not a number is evaluated here, so that it shows.
+    let unknown = (e + c).is_nan();
+    let (ball, groove) = (of.radius * EDGE, of.r * EDGE);
+    let lowest = if PLANE {
+        zone.height
+    } else {
+        zone.lowest(section.normal)
+    };
+    let in_front = e.above(Lanes::ZERO).and(lowest.above(Lanes::ZERO));
+    let on_top = zone.height.above(of.radius * SHALLOW);
+    if PLANE {
+        // The groove is wider than the ball, and its shoulders are alike.
+        let on_ball = ball.above(high);
+        let on_race = of.highest.above(high);
+        return on_ball.and(on_race).and(in_front).and(on_top).or(unknown);
+    }
+    let (left, right) = (low - c, high - c);
+    let on_ball = low.above(-ball).and(ball.above(high));
+    let on_groove = left.above(-groove).and(groove.above(right));
+    let on_race = left.above(of.lowest).and(of.highest.above(right));
+    on_ball
+        .and(on_groove)
+        .and(on_race)
+        .and(in_front)
+        .and(on_top)
+        .or(unknown)
+}

@@ -1,0 +1,139 @@
+//! Fault circles of ring and ball against whatever stands opposite (model section 7).
+
+use super::Edge;
+use super::depth::Depth;
+use super::elements::{Lean, RingElement, Shape};
+use crate::contact::profile::Raise;
+use crate::contact::scalar::{Contact, Node};
+use crate::contact::{V2, turned};
+
+impl Contact<'_> {
+    /// A fault circle of the ring against the smooth slice.
+    pub(super) fn ring_circle<D: Depth>(
+        &self,
+        node: &Node,
+        edge: &Edge,
+        depth: f64,
+    ) -> RingElement<D> {
+        let raise = self.pair.waves.raise(self.on_ring + edge.angle);
+        let sigma = self.pair.race.sigma;
+        let reach = node.torus_radius + raise.height + sigma * (edge.radius + depth);
+        let u = rotated(self.n, edge.angle);
+        let from_ring = u * reach;
+        let away = from_ring - self.apart;
+        let distance = away.norm();
+        let n_e = away / distance;
+        // How the centre moves along z.
+        let slope = if D::SLOPES {
+            let race_slope = self.race_slope(node);
+            let turn = edge.turn(node.torus_radius, race_slope);
+            u * (race_slope + raise.slope * turn) + turned(u) * (reach * turn)
+        } else {
+            V2::zeros()
+        };
+        RingElement {
+            shape: Shape::Circle {
+                from_ring,
+                radius: edge.radius,
+                slope,
+            },
+            n_e,
+            s: D::new(
+                node.rho + edge.radius - distance,
+                -n_e.dot(&slope),
+                -node.zeta / node.rho,
+            ),
+            drops: (D::new(0.0, 0.0, 0.0), D::NEVER),
+            arm_ring: from_ring - n_e * edge.radius,
+            lean: Lean::default(),
+        }
+    }
+
+    /// A fault circle of the ball against a feature of the ring, and tan α from the gradient of its gap.
+    pub(super) fn ball_circle<D: Depth>(
+        &self,
+        node: &Node,
+        feature: &RingElement<D>,
+        edge: &Edge,
+        depth: f64,
+    ) -> (RingElement<D>, f64) {
+        let u = rotated(feature.n_e, edge.angle);
+        let lever = node.rho - edge.radius - depth;
+        let arm = u * lever;
+        // ∂c/∂ζ of c = (ρ − R_f − depth) u(ψ), ψ = φ ± w/(2ρ), ρ' = −ζ/ρ.
+        let rho_slope = -node.zeta / node.rho;
+        let turn = edge.turn(node.rho, rho_slope);
+        let slope = u * rho_slope + turned(u) * (lever * turn);
+        let mut met = match feature.shape {
+            Shape::Race => self.circle_on_race(node, feature, edge, arm),
+            Shape::Circle { .. } => self.circle_on_circle(feature, edge, arm),
+        };
+        let tan = met.lean.force.dot(&slope) - met.n_e.dot(&slope);
+        met.s = met.s.along_ball(-tan);
+        (met, tan)
+    }
+
+    /// A fault circle of the ball, its centre at some arm, against the race.
+    fn circle_on_race<D: Depth>(
+        &self,
+        node: &Node,
+        feature: &RingElement<D>,
+        edge: &Edge,
+        arm: V2,
+    ) -> RingElement<D> {
+        let from_ring = self.apart + arm;
+        let distance = from_ring.norm();
+        let m = from_ring / distance;
+        let waves = &self.pair.waves;
+        let raise = if waves.is_round() {
+            Raise::default()
+        } else {
+            waves.raise(m.y.atan2(m.x) - self.r.theta)
+        };
+        let radius = node.torus_radius + raise.height;
+        let sigma = self.pair.race.sigma;
+        RingElement {
+            n_e: m * sigma,
+            s: D::new(
+                sigma * (distance - radius) + edge.radius,
+                -sigma * self.race_slope(node),
+                0.0,
+            ),
+            arm_ring: m * radius,
+            lean: self.lean(m, distance, raise.slope, arm),
+            ..*feature
+        }
+    }
+
+    /// The same against a fault circle of the ring.
+    fn circle_on_circle<D: Depth>(
+        &self,
+        feature: &RingElement<D>,
+        edge: &Edge,
+        arm: V2,
+    ) -> RingElement<D> {
+        let Shape::Circle {
+            from_ring: other,
+            radius,
+            slope,
+        } = feature.shape
+        else {
+            return *feature;
+        };
+        let away = other - self.apart - arm;
+        let distance = away.norm();
+        let n_e = away / distance;
+        RingElement {
+            n_e,
+            s: D::new(radius + edge.radius - distance, -n_e.dot(&slope), 0.0),
+            arm_ring: other - n_e * radius,
+            ..*feature
+        }
+    }
+}
+
+/// A unit vector turned by an angle.
+fn rotated(v: V2, angle: f64) -> V2 {
+    let (sin, cos) = angle.sin_cos();
+    v * cos + turned(v) * sin
+}

@@ -1,0 +1,237 @@
+//! What a slice meets: features of the ring against features of the ball.
+//!
+//! The surfaces that a slice can meet are *features*: the race itself, or the fault circles of a ring
+//! defect; and seen from each of these the ball is smooth, or a pair of circles of a ball defect. A
+//! feature carries `law(s − a) − law(s − b)` of the healthy penetration s, its *drops* a and b:
+//!
+//! | feature | a | b |
+//! |---|---|---|
+//! | race, healthy | 0 | ∞ |
+//! | edge j of an absent arc | s_race − s_j | (s_race − s₁) + (s_race − s₂) |
+//! | race behind the arc | (s_race − s₁) + (s_race − s₂) | ∞ |
+//! | recessed circle | s_race − s_circle | ∞ |
+//!
+//! so that edges carry the law at s_j less the law at s₁₂ = s₁ + s₂ − s_race and the race the law at s₁₂
+//! (the narrow rule of model section 7). A ball defect splits each of these terms once more in the same way.
+//! What the gradients of these energies have beside forces along normals stands in `gradient`.
+
+use super::depth::Depth;
+use super::{Arc, Edge, absent, floors};
+use crate::contact::scalar::{Contact, Node};
+use crate::contact::{V2, turned};
+
+/// The ring's side of a feature.
+#[derive(Clone, Copy)]
+pub(super) enum Shape {
+    Race,
+    Circle {
+        from_ring: V2,
+        radius: f64,
+        /// How its centre moves along z, by length.
+        slope: V2,
+    },
+}
+
+/// The tangential force that the slope of the waves adds, over the force along n_e, and its arm from the ball's centre.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Lean {
+    pub(super) force: V2,
+    pub(super) arm: V2,
+}
+
+/// A surface of the ring that a slice can meet.
+#[derive(Clone, Copy)]
+pub(super) struct RingElement<D> {
+    pub(super) shape: Shape,
+    /// Unit vector out of the ball.
+    pub(super) n_e: V2,
+    /// Penetration of the smooth ball against it, by geometry.
+    pub(super) s: D,
+    pub(super) drops: (D, D),
+    pub(super) arm_ring: V2,
+    pub(super) lean: Lean,
+}
+
+/// One feature of the ring against one of the ball.
+#[derive(Clone, Copy)]
+pub(super) struct ElementPair<D> {
+    pub(super) feature: RingElement<D>,
+    /// Drops of the ball's side.
+    pub(super) ball_drops: (D, D),
+    pub(super) tan: f64,
+}
+
+impl<D: Depth> ElementPair<D> {
+    fn smooth(feature: RingElement<D>, node: &Node) -> Self {
+        Self {
+            feature,
+            ball_drops: (D::new(0.0, 0.0, 0.0), D::NEVER),
+            tan: node.zeta / node.rho,
+        }
+    }
+
+    /// The four drops of the law's argument and their signs; an infinite one does not count.
+    pub(super) fn terms(&self) -> [(f64, D); 4] {
+        let ((a, b), (p, q)) = (self.feature.drops, self.ball_drops);
+        [(1.0, a + p), (-1.0, a + q), (-1.0, b + p), (1.0, b + q)]
+    }
+}
+
+/// Penetrations of all elements that a place may meet; their zeros end the elements' zones.
+pub(in crate::contact) struct Penetrations {
+    pub(in crate::contact) values: [f64; MOST_KEPT],
+    pub(in crate::contact) count: usize,
+}
+
+/// Penetrations that are kept; a bed of floor circles can have more, at some loss of accuracy.
+const MOST_KEPT: usize = 24;
+
+impl Contact<'_> {
+    /// Whether a surface is absent where the slice meets it.
+    pub(in crate::contact) fn is_open(&self, node: &Node) -> bool {
+        let direction = self.n * self.pair.race.sigma;
+        self.ring_arc(node).is_some() || self.ball_arc(node, direction).is_some()
+    }
+
+    /// Penetrations of the elements at a place, touching or not.
+    pub(in crate::contact) fn penetrations(&self, node: &Node) -> Penetrations {
+        let mut found = Penetrations {
+            values: [0.0; MOST_KEPT],
+            count: 0,
+        };
+        let share = self.drop_share();
+        self.element_pairs(node, &mut |met: &ElementPair<f64>| {
+            for (_, drop) in met.terms() {
+                if drop.value() < f64::INFINITY && found.count < MOST_KEPT {
+                    found.values[found.count] = node.depth - share * drop.value();
+                    found.count += 1;
+                }
+            }
+        });
+        found
+    }
+
+    /// Fall of the law's penetration over that of the geometry: 1, or cos α' for the Hertz law.
+    pub(super) fn drop_share(&self) -> f64 {
+        self.common().map_or(1.0, |(cos, _)| cos)
+    }
+
+    pub(super) fn ring_arc(&self, node: &Node) -> Option<Arc> {
+        let faults = &self.pair.faults;
+        if self.ring_open {
+            absent(faults, &node.on_ring(), self.on_ring)
+        } else {
+            None
+        }
+    }
+
+    pub(super) fn ball_arc(&self, node: &Node, direction: V2) -> Option<Arc> {
+        if !self.ball_open {
+            return None;
+        }
+        let angle = direction.y.atan2(direction.x) - self.b.theta;
+        absent(&self.ball.faults, &node.on_ball(), angle)
+    }
+
+    /// All pairs of features that stand against each other at a slice.
+    pub(super) fn element_pairs<D: Depth>(
+        &self,
+        node: &Node,
+        visit: &mut impl FnMut(&ElementPair<D>),
+    ) {
+        let race = self.race_element(node);
+        let Some(arc) = self.ring_arc(node) else {
+            self.feature(node, &race, visit);
+            return;
+        };
+        let [first, second] = [arc.low, arc.high].map(|edge| self.ring_circle(node, &edge, 0.0));
+        let drops = [race.s - first.s, race.s - second.s];
+        let both = drops[0] + drops[1];
+        for (edge, drop) in [first, second].into_iter().zip(drops) {
+            let drops = (drop, both);
+            self.feature(node, &RingElement { drops, ..edge }, visit);
+        }
+        let drops = (both, D::NEVER);
+        self.feature(node, &RingElement { drops, ..race }, visit);
+        for (edge, depth) in floors(&self.pair.faults, node.on_ring(), self.on_ring, &arc) {
+            let circle = self.ring_circle(node, &edge, depth);
+            let drops = (race.s - circle.s, D::NEVER);
+            self.feature(node, &RingElement { drops, ..circle }, visit);
+        }
+    }
+
+    /// The race, whole.
+    fn race_element<D: Depth>(&self, node: &Node) -> RingElement<D> {
+        let sigma = self.pair.race.sigma;
+        RingElement {
+            shape: Shape::Race,
+            n_e: self.n * sigma,
+            s: D::new(
+                self.section.penetration(node.rho, node.groove),
+                -sigma * self.race_slope(node),
+                -node.zeta / node.rho,
+            ),
+            drops: (D::new(0.0, 0.0, 0.0), D::NEVER),
+            arm_ring: self.n * (node.torus_radius + self.raise.height),
+            lean: self.lean(self.n, self.distance, self.raise.slope, V2::zeros()),
+        }
+    }
+
+    /// What the waves' slope does in a direction and at a distance from the ring's centre.
+    pub(super) fn lean(&self, n: V2, distance: f64, slope: f64, arm: V2) -> Lean {
+        if self.pair.waves.is_round() {
+            return Lean::default();
+        }
+        let force = turned(n) * (self.pair.race.sigma * slope / distance);
+        Lean { force, arm }
+    }
+
+    /// Slope of the race's radius along z.
+    pub(super) fn race_slope(&self, node: &Node) -> f64 {
+        self.pair.race.slope(node.z, node.torus_radius)
+    }
+
+    /// A feature of the ring against the ball, smooth or not.
+    fn feature<D: Depth>(
+        &self,
+        node: &Node,
+        feature: &RingElement<D>,
+        visit: &mut impl FnMut(&ElementPair<D>),
+    ) {
+        let Some(arc) = self.ball_arc(node, feature.n_e) else {
+            visit(&ElementPair::smooth(*feature, node));
+            return;
+        };
+        let meet = |edge: &Edge, depth: f64| {
+            let (met, tan) = self.ball_circle(node, feature, edge, depth);
+            (feature.s - met.s, met, tan)
+        };
+        let (drop_1, first, tan_1) = meet(&arc.low, 0.0);
+        let (drop_2, second, tan_2) = meet(&arc.high, 0.0);
+        let both = drop_1 + drop_2;
+        visit(&ElementPair {
+            feature: first,
+            ball_drops: (drop_1, both),
+            tan: tan_1,
+        });
+        visit(&ElementPair {
+            feature: second,
+            ball_drops: (drop_2, both),
+            tan: tan_2,
+        });
+        let ball_drops = (both, D::NEVER);
+        visit(&ElementPair {
+            ball_drops,
+            ..ElementPair::smooth(*feature, node)
+        });
+        let angle = feature.n_e.y.atan2(feature.n_e.x) - self.b.theta;
+        for (edge, depth) in floors(&self.ball.faults, node.on_ball(), angle, &arc) {
+            let (drop, circle, tan) = meet(&edge, depth);
+            visit(&ElementPair {
+                feature: circle,
+                ball_drops: (drop, D::NEVER),
+                tan,
+            });
+        }
+    }
+}

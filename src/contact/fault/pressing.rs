@@ -1,0 +1,128 @@
+//! The forces of a slice: of every element of the ring against every one of the ball that it meets.
+
+use super::depth::{Depth, Sloped};
+use super::elements::{ElementPair, Lean, RingElement};
+use crate::contact::kernel::{self, State};
+use crate::contact::scalar::{Contact, Node};
+use crate::contact::{Aside, Sink, Touch, turned};
+
+impl Contact<'_> {
+    /// One slice against whatever it meets.
+    pub(in crate::contact) fn slice<S: Sink>(&self, node: &Node, sink: &mut S) {
+        if node.depth <= 0.0 {
+            return;
+        }
+        if !self.pair.race.reaches(node.z) {
+            sink.truncated();
+            return;
+        }
+        // Forces along normals are all there is to the ISO law, and where surfaces are whole.
+        if self.common().is_some() && (self.ring_open || self.ball_open) {
+            self.element_pairs(node, &mut |met: &ElementPair<Sloped>| {
+                if self.press(node, met, sink) {
+                    self.tilt(node, met, sink);
+                }
+            });
+        } else {
+            self.element_pairs(node, &mut |met: &ElementPair<f64>| {
+                self.press(node, met, sink);
+            });
+        }
+    }
+
+    /// Elastic force, damping and friction of one feature of the ring against one of the ball; false without any.
+    fn press<D: Depth, S: Sink>(&self, node: &Node, met: &ElementPair<D>, sink: &mut S) -> bool {
+        let pair = self.pair;
+        let share = self.drop_share();
+        let (feature, tan) = (&met.feature, met.tan);
+        let split = |law: &dyn Fn(f64) -> f64| {
+            let at = |(sign, drop): (f64, D)| {
+                if drop.value() < f64::INFINITY {
+                    sign * law(node.depth - share * drop.value())
+                } else {
+                    0.0
+                }
+            };
+            met.terms().into_iter().map(at).sum::<f64>()
+        };
+        let elastic = split(&|depth| pair.law.elastic.force(depth, node.width));
+        if elastic <= 0.0 {
+            return false;
+        }
+        let depth = node.depth - share * (feature.drops.0.value() + met.ball_drops.0.value());
+        let n_e = feature.n_e;
+        let state = self.state(node, feature, tan, (elastic, depth));
+        let force = kernel::force::<f64, false, false, false>(&pair.law, &state);
+        let [radial, tangential, axial] = force.friction;
+        let [v_t, u_m] = force.slip;
+        let squared = v_t * v_t + u_m * u_m;
+        let touch = Touch {
+            zeta: node.zeta,
+            z: node.z,
+            width: node.width,
+            depth,
+            elastic,
+            normal: force.normal,
+            energy: if S::ENERGY {
+                split(&|depth| pair.law.elastic.energy(depth, node.width))
+            } else {
+                0.0
+            },
+            approach: force.approach,
+            n_e,
+            share: state.share,
+            friction: n_e * radial + turned(n_e) * tangential,
+            friction_z: axial,
+            slip: squared.sqrt(),
+            friction_power: force.factor * force.damped.max(0.0) * squared,
+            arm_ball: feature.arm_ring - self.apart,
+            arm_ring: feature.arm_ring,
+            pull: force.damped < 0.0,
+        };
+        sink.touch(&touch);
+        if !pair.waves.is_round() {
+            let Lean { force, arm } = feature.lean;
+            sink.aside(&Aside {
+                plane: force * (elastic * state.share.0),
+                axial: 0.0,
+                arm_ball: arm,
+                arm_ring: self.apart + arm,
+            });
+        }
+        true
+    }
+
+    /// What the force of an element depends on, from its elastic force and penetration.
+    #[inline]
+    fn state<D: Depth>(
+        &self,
+        node: &Node,
+        feature: &RingElement<D>,
+        tan: f64,
+        (elastic, depth): (f64, f64),
+    ) -> State<f64> {
+        let (b, r, n_e) = (self.b, self.r, feature.n_e);
+        let arm_ball = feature.arm_ring - self.apart;
+        let v_p = b.velocity - r.velocity + turned(arm_ball) * b.omega
+            - turned(feature.arm_ring) * r.omega;
+        let radius = self.ball.radius;
+        // α of the slice, or of the gap's gradient at a ball's fault circle.
+        let slope = if self.common().is_some() {
+            (node.zeta / radius, node.rho / radius)
+        } else {
+            let cos = 1.0 / (1.0 + tan * tan).sqrt();
+            (tan * cos, cos)
+        };
+        State {
+            elastic,
+            share: self.common().unwrap_or((1.0, tan)),
+            slope,
+            velocity: [v_p.dot(&n_e), v_p.dot(&turned(n_e)), b.vz - r.vz],
+            load: elastic / node.width,
+            depth,
+            arm: feature.arm_ring.dot(&self.n) - self.distance,
+            rolling: self.rolling,
+            radii: [radius, self.pair.race.r],
+        }
+    }
+}

@@ -1,0 +1,376 @@
+//! The kernel: forces of an element of a contact, and elements of a whole contact. The only coding of both.
+//!
+//! Everything that evaluates contacts drives it: `scalar` one contact at a time, with everything that may cut it;
+//! `batch` eight whole contacts side by side; `stage` holds contacts at one place for any velocities; `stiffness`
+//! differentiates them at rest; `closed_form` fits whole contacts. It is generic over the [`Number`] it computes with.
+
+// Everything here must be compiled for the instructions of its caller.
+#![allow(clippy::inline_always)]
+
+use super::laws::elastic::{ForLaw, Load};
+use super::laws::traction::{Rolling, Sliding};
+use super::profile::{Section, SurfacePoint, Zone};
+use super::{Cut, Law, Rules, Slices};
+use crate::simd::Number;
+
+/// A whole contact: no shoulder, no end of the ball and no defect cuts its zone.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Whole<T> {
+    pub section: Section<T>,
+    /// One over the ball's radius \[1/m\].
+    pub inverse: T,
+    /// Half of the zone along the line that it is cut along \[m\].
+    pub half: T,
+    /// Its ends along ζ \[m\].
+    pub ends: (T, T),
+    /// [`super::Elastic::strength`].
+    pub strength: T,
+    /// [`Cut::half_curvature`].
+    pub half_curvature: T,
+}
+
+/// An element: a slice, or a quadrature node.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Element<T> {
+    /// ζ/R and ρ/R on the ball, sin α and cos α of the meridional slope.
+    pub sin: T,
+    pub cos: T,
+    /// Height of the groove over its centre there \[m\].
+    pub groove: T,
+    /// Penetration that the law sees, at least 0 \[m\].
+    pub depth: T,
+    /// Width along ζ, or length along the common tangent \[m\].
+    pub length: T,
+    /// Elastic force per length \[N/m\].
+    pub load: T,
+    /// In-plane and axial part of the normal force over its magnitude.
+    pub share: (T, T),
+}
+
+/// Takes the elements of a whole contact.
+pub(super) trait Receiver<T> {
+    /// One element, which stands for so many. Wants `#[inline(always)]`.
+    fn element<const FMA: bool, const PLANE: bool>(&mut self, element: &Element<T>, times: u32);
+}
+
+/// The zone of a section for a cut.
+#[inline(always)]
+pub(super) fn zone<T: Number>(cut: &Cut, section: &Section<T>, half_curvature: T) -> Zone<T> {
+    match cut {
+        Cut::BallSurface => Zone::on_chord(section),
+        Cut::CommonTangent { .. } => Zone::on_tangent(section, half_curvature),
+    }
+}
+
+/// Hands all elements of a whole contact to their receiver. In the `PLANE` the zone is symmetric, and half of it stands
+/// for the whole.
+#[inline(always)]
+pub(super) fn elements<T: Number, const FMA: bool, const PLANE: bool>(
+    law: &Law,
+    slices: &Slices,
+    contact: &Whole<T>,
+    to: &mut impl Receiver<T>,
+) {
+    law.elastic.choose(Elements::<_, _, FMA, PLANE> {
+        slices,
+        contact,
+        to,
+    });
+}
+
+/// The elements of a contact, for one elastic law.
+struct Elements<'a, T, R, const FMA: bool, const PLANE: bool> {
+    slices: &'a Slices,
+    contact: &'a Whole<T>,
+    to: &'a mut R,
+}
+
+impl<T: Number, R: Receiver<T>, const FMA: bool, const PLANE: bool> ForLaw
+    for Elements<'_, T, R, FMA, PLANE>
+{
+    #[inline(always)]
+    fn run<L: Load>(self) {
+        let Self {
+            slices,
+            contact,
+            to,
+        } = self;
+        let (half, radius) = (contact.half, contact.section.radius);
+        match slices {
+            Slices::Fitted(rules) if L::FLAT => {
+                for (x, weight, times) in nodes::<PLANE>(rules) {
+                    let element = contact.on_tangent::<L, FMA>(half * x, half * weight);
+                    to.element::<FMA, PLANE>(&element, times);
+                }
+            }
+            Slices::Fitted(rules) => {
+                let reach = half * contact.inverse;
+                for (x, weight, times) in nodes::<PLANE>(rules) {
+                    let element = contact.on_chord::<L, FMA, PLANE>(reach * x, half * weight);
+                    to.element::<FMA, PLANE>(&element, times);
+                }
+            }
+            Slices::Fixed(count) if L::FLAT => {
+                let (cos, sin) = contact.section.normal;
+                let over = cos.same(1.0) / cos;
+                let length = radius * (2.0 / *count as f64) * over;
+                for (place, times) in contact.fixed_sines::<PLANE>(*count) {
+                    let u = radius * (-sin + place) * over;
+                    let element = contact.on_tangent::<L, FMA>(u, length * f64::from(times));
+                    to.element::<FMA, PLANE>(&element, times);
+                }
+            }
+            Slices::Fixed(count) => {
+                let width = radius * (2.0 / *count as f64);
+                for (sin, times) in contact.fixed_sines::<PLANE>(*count) {
+                    let element = contact.fixed_slice::<L, FMA>(sin, width * f64::from(times));
+                    to.element::<FMA, PLANE>(&element, times);
+                }
+            }
+        }
+    }
+}
+
+/// Hertz's force as a whole, K δ^{3/2}, where every element approaches alike and nothing rubs: along the common normal,
+/// in place of all elements.
+#[inline(always)]
+pub(super) fn as_one<T: Number>(contact: &Whole<T>, stiffness: f64) -> Element<T> {
+    let pressed = contact.section.approach.or_zero();
+    let (zero, one) = (pressed.same(0.0), pressed.same(1.0));
+    Element {
+        sin: zero,
+        cos: zero,
+        groove: zero,
+        depth: pressed,
+        length: one,
+        load: pressed * pressed.sqrt() * stiffness,
+        share: contact.section.normal,
+    }
+}
+
+impl<T: Number> Whole<T> {
+    /// An element at u/R on the common chord that stands for a stretch of u.
+    #[inline(always)]
+    pub(super) fn on_chord<L: Load, const FMA: bool, const PLANE: bool>(
+        &self,
+        u: T,
+        stretch: T,
+    ) -> Element<T> {
+        if PLANE {
+            // tan α has no part in what the two halves add up to.
+            let cos = (-u).mul_add::<FMA>(u, u.same(1.0)).sqrt();
+            return self.on_surface::<L, FMA>((u, cos, u.same(0.0)), stretch);
+        }
+        let SurfacePoint {
+            sin,
+            cos,
+            tan,
+            stretch: width,
+        } = SurfacePoint::over::<FMA>(self.section.normal, u);
+        self.on_surface::<L, FMA>((sin, cos, tan), stretch * width)
+    }
+
+    /// A fixed slice in whose middle the ball has sin α.
+    #[inline(always)]
+    fn fixed_slice<L: Load, const FMA: bool>(&self, sin: f64, width: T) -> Element<T> {
+        let cos = (1.0 - sin * sin).sqrt();
+        let place = (width.same(sin), width.same(cos), width.same(sin / cos));
+        self.on_surface::<L, FMA>(place, width)
+    }
+
+    /// A slice of the ball's surface.
+    #[inline(always)]
+    fn on_surface<L: Load, const FMA: bool>(
+        &self,
+        (sin, cos, tan): (T, T, T),
+        width: T,
+    ) -> Element<T> {
+        let groove = self.section.groove::<FMA>(sin);
+        let depth = self
+            .section
+            .penetration(cos * self.section.radius, groove)
+            .or_zero();
+        Element {
+            sin,
+            cos,
+            groove,
+            depth,
+            length: width,
+            load: L::load::<T, FMA>(self.strength, depth),
+            share: (sin.same(1.0), tan),
+        }
+    }
+
+    /// An element at u on the common tangent.
+    #[inline(always)]
+    pub(super) fn on_tangent<L: Load, const FMA: bool>(&self, u: T, length: T) -> Element<T> {
+        let (normal_cos, normal_sin) = self.section.normal;
+        let sin = (u * self.inverse).mul_add::<FMA>(normal_cos, normal_sin);
+        let cos = (-sin).mul_add::<FMA>(sin, u.same(1.0)).sqrt();
+        let depth = (self.section.approach - u * u * self.half_curvature).or_zero();
+        Element {
+            sin,
+            cos,
+            groove: self.section.groove::<FMA>(sin),
+            depth,
+            length,
+            load: L::load::<T, FMA>(self.strength, depth),
+            share: self.section.normal,
+        }
+    }
+
+    /// ζ/R in the middle of all fixed slices that may lie in any of the zones, and how many each stands for.
+    #[inline(always)]
+    fn fixed_sines<const PLANE: bool>(
+        &self,
+        count: usize,
+    ) -> impl Iterator<Item = (f64, u32)> + use<T, PLANE> {
+        let (low, high) = (self.ends.0 * self.inverse, self.ends.1 * self.inverse);
+        let slices = count as f64;
+        // A float becomes the nearest index that exists; one slice more on either side decides for itself.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let index = |sin: f64| (0.5 * (sin + 1.0) * slices) as usize;
+        let (first, last) = (index(low.range().0), index(high.range().1));
+        let first = if PLANE {
+            count / 2
+        } else {
+            first.saturating_sub(1)
+        };
+        (first..(last + 2).min(count)).map(move |k| {
+            let times = if PLANE && 2 * k + 1 != count { 2 } else { 1 };
+            ((2 * k + 1) as f64 / slices - 1.0, times)
+        })
+    }
+}
+
+/// The nodes of a whole zone with what they weigh and how many they stand for: in the plane those of one half, twice.
+#[inline(always)]
+fn nodes<const PLANE: bool>(rules: &Rules) -> impl Iterator<Item = (f64, f64, u32)> + '_ {
+    let rule = rules.on([true; 2]);
+    let first = if PLANE { rule.len() / 2 } else { 0 };
+    let alone = if PLANE { rule.len() % 2 } else { rule.len() };
+    rule[first..].iter().enumerate().map(move |(k, (x, w))| {
+        let times = if k < alone { 1 } else { 2 };
+        (*x, w * f64::from(times), times)
+    })
+}
+
+/// What the force of an element depends on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct State<T> {
+    /// Elastic force \[N\].
+    pub elastic: T,
+    /// In-plane and axial part of the normal force over its magnitude.
+    pub share: (T, T),
+    /// sin α and cos α: the meridional direction of slip is −sin α n_e + cos α ẑ.
+    pub slope: (T, T),
+    /// Velocity of the ball's surface against the ring's along n_e, t_e and z \[m/s\].
+    pub velocity: [T; 3],
+    /// Elastic force per length \[N/m\] and penetration \[m\].
+    pub load: T,
+    pub depth: T,
+    /// Contact point from the ball's centre along the ring's radius \[m\].
+    pub arm: T,
+    pub rolling: Rolling<T>,
+    /// Radii of ball and groove \[m\].
+    pub radii: [T; 2],
+}
+
+/// The force of an element (model sections 4 and 5).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Force<T> {
+    /// On the ring along n_e, t_e and z \[N\]; the ball gets the opposite.
+    pub on_ring: [T; 3],
+    /// The part of friction in it, as it acts on the ball.
+    pub friction: [T; 3],
+    /// Normal force before any clamp: negative where damping pulls \[N\].
+    pub damped: T,
+    /// Normal force \[N\].
+    pub normal: T,
+    /// Approach speed v_n \[m/s\].
+    pub approach: T,
+    /// Slip velocity along t_e and the meridional direction \[m/s\].
+    pub slip: [T; 2],
+    /// Friction over normal force and slip velocity, φ(u), and φ'(u)/u if asked for; 0 without friction.
+    pub factor: T,
+    pub bend: T,
+}
+
+/// Elastic force, damping and friction of an element, and how friction bends if asked. In the `PLANE` nothing moves along
+/// z and all presses in the plane.
+#[inline(always)]
+pub(super) fn force<T: Number, const FMA: bool, const PLANE: bool, const BEND: bool>(
+    law: &Law,
+    of: &State<T>,
+) -> Force<T> {
+    let (in_plane, axial) = of.share;
+    let [v_n, v_t, v_z] = of.velocity;
+    let approach = if PLANE {
+        v_n
+    } else {
+        v_n.mul_add::<FMA>(in_plane, v_z * axial)
+    };
+    let damped = of.elastic * law.damping.factor(approach);
+    let pressed = damped.or_zero();
+    let normal = if law.damping.clamp_pull {
+        pressed
+    } else {
+        damped
+    };
+    let zero = approach.same(0.0);
+    let (mut factor, mut bend, mut slip, mut friction) = (zero, zero, [zero; 2], [zero; 3]);
+    if let Some(traction) = &law.traction {
+        let (sin, cos) = of.slope;
+        let u_m = if PLANE {
+            -(v_n * sin)
+        } else {
+            v_z * cos - v_n * sin
+        };
+        slip = [v_t, u_m];
+        let sliding = of.sliding(approach, v_t.mul_add::<FMA>(v_t, u_m * u_m));
+        if BEND {
+            (factor, bend) = traction.factor_and_bend(&sliding);
+        } else {
+            factor = traction.factor(&sliding);
+        }
+        let drag = factor * pressed;
+        let meridional = drag * u_m;
+        friction = [meridional * sin, -(drag * v_t), -(meridional * cos)];
+    }
+    let pressing = if PLANE {
+        [normal, zero, zero]
+    } else {
+        [normal * in_plane, zero, normal * axial]
+    };
+    let on_ring = [
+        pressing[0] - friction[0],
+        pressing[1] - friction[1],
+        pressing[2] - friction[2],
+    ];
+    Force {
+        on_ring,
+        friction,
+        damped,
+        normal,
+        approach,
+        slip,
+        factor,
+        bend,
+    }
+}
+
+impl<T: Number> State<T> {
+    /// What a traction law reads, at an approach speed and the square of a slip speed.
+    #[inline(always)]
+    pub fn sliding(&self, approach: T, squared: T) -> Sliding<T> {
+        Sliding {
+            squared,
+            arm: self.arm,
+            rolling: self.rolling,
+            load: self.load,
+            depth: self.depth,
+            approach,
+            radii: self.radii,
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Elastic laws: load per length of an element by its penetration.
+//!
+//! To add one: a file with its equation here, a variant below, a variant of `scene::NormalLaw`.
+
+// Into loops that are compiled for the instructions at hand.
+#![allow(clippy::inline_always)]
+
+pub mod elliptic;
+pub mod hertz;
+pub mod iso16281;
+mod power;
+
+pub(in crate::contact) use power::ten_ninths;
+
+use super::Cut;
+use crate::simd::Number;
+use hertz::Hertz;
+use iso16281::Iso16281;
+
+/// An elastic law as loops over elements are compiled for it: a choice within them would cost a third of their speed.
+pub(in crate::contact) trait Load: Copy {
+    /// Whether elements lie on the common tangent and press along the common normal ([`Cut::CommonTangent`]); else they
+    /// are slices of the ball's surface.
+    const FLAT: bool;
+
+    /// Load per length \[N/m\] at a penetration ≥ 0 \[m\], with a strength of this law.
+    fn load<T: Number, const FMA: bool>(strength: T, depth: T) -> T;
+}
+
+/// Something that is compiled for every elastic law.
+pub(in crate::contact) trait ForLaw {
+    /// Does it. Wants `#[inline(always)]`.
+    fn run<L: Load>(self);
+}
+
+/// An elastic law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Elastic {
+    /// The paper's law.
+    Iso16281(Iso16281),
+    /// Hertz's law.
+    Hertz(Hertz),
+}
+
+impl Elastic {
+    /// Power of the penetration that the force goes with.
+    pub fn exponent(&self) -> f64 {
+        match self {
+            Self::Iso16281(_) => iso16281::EXPONENT,
+            Self::Hertz(_) => hertz::EXPONENT,
+        }
+    }
+
+    /// The law's own constant, which balls of one row may have in different sizes; its unit is the law's.
+    pub(crate) fn strength(&self) -> f64 {
+        match self {
+            Self::Iso16281(law) => law.density(),
+            Self::Hertz(law) => law.slope,
+        }
+    }
+
+    /// Where the law wants the ball to be cut.
+    pub fn cut(&self) -> Cut {
+        match self {
+            Self::Iso16281(_) => Cut::BallSurface,
+            Self::Hertz(law) => Cut::CommonTangent {
+                curvature: law.curvature,
+            },
+        }
+    }
+
+    /// What it is called.
+    pub(crate) fn name(&self) -> &'static str {
+        match self {
+            Self::Iso16281(_) => "ISO law",
+            Self::Hertz(_) => "Hertz law",
+        }
+    }
+
+    /// Does what is compiled for every law, for this one.
+    #[inline(always)]
+    pub(in crate::contact) fn choose(&self, task: impl ForLaw) {
+        match self {
+            Self::Iso16281(_) => task.run::<Iso16281>(),
+            Self::Hertz(_) => task.run::<Hertz>(),
+        }
+    }
+
+    /// Load per length of this law \[N/m\] at a penetration ≥ 0 \[m\].
+    fn load(&self, depth: f64) -> f64 {
+        match self {
+            Self::Iso16281(law) => Iso16281::load::<f64, false>(law.density(), depth),
+            Self::Hertz(law) => Hertz::load::<f64, false>(law.slope, depth),
+        }
+    }
+
+    /// Force of an element \[N\] at a penetration and for a length \[m\]; 0 where it is clear.
+    #[inline]
+    pub fn force(&self, depth: f64, length: f64) -> f64 {
+        self.load(depth.or_zero()) * length
+    }
+
+    /// Elastic energy of an element \[J\]; its derivative is the force.
+    pub fn energy(&self, depth: f64, length: f64) -> f64 {
+        let depth = depth.or_zero();
+        let per_length = match self {
+            Self::Iso16281(law) => law.energy(depth),
+            Self::Hertz(law) => law.energy(depth),
+        };
+        per_length * length
+    }
+}

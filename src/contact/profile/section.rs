@@ -1,0 +1,70 @@
+//! Ball and groove as two circles in their meridional plane.
+
+// Into loops that are compiled for the instructions at hand.
+#![allow(clippy::inline_always)]
+
+use crate::simd::{Decision, Number};
+
+/// A ball before a groove: the ball's centre is the origin, the groove's centre lies at axial place c and at −e along
+/// the outward normal n_e; both races look alike here (model section 3).
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Section<T> {
+    /// Ball radius R \[m\].
+    pub radius: T,
+    /// Groove radius r \[m\].
+    pub r: T,
+    /// Distance of the ball's centre from the groove's along n_e \[m\].
+    pub e: T,
+    /// Axial place of the groove's centre from the ball's \[m\].
+    pub c: T,
+    /// Distance of the two centres \[m\].
+    pub l: T,
+    /// (cos α', sin α') of the common normal, out of the ball.
+    pub normal: (T, T),
+    /// Normal approach δ = l + R − r, negative without contact \[m\].
+    pub approach: T,
+}
+
+impl<T: Number> Section<T> {
+    /// From the centres' distances; in the `PLANE` c is known to be 0, and e to be positive.
+    #[inline(always)]
+    pub fn new<const FMA: bool, const PLANE: bool>(radius: T, r: T, e: T, c: T) -> Self {
+        let (l, normal) = if PLANE {
+            (e, (e.same(1.0), e.same(0.0)))
+        } else {
+            let l = e.mul_add::<FMA>(e, c * c).sqrt();
+            let over = l.same(1.0) / l;
+            (l, (e * over, -(c * over)))
+        };
+        Self {
+            radius,
+            r,
+            e,
+            c,
+            l,
+            normal,
+            approach: l + radius - r,
+        }
+    }
+
+    /// Whether the ball is in front of the groove and clear of it. What is not a number touches, so that it shows.
+    #[inline(always)]
+    pub fn is_clear(&self) -> T::Decision {
+        let zero = self.e.same(0.0);
+        let in_front = self.e.above(zero);
+        in_front.and((-self.approach).above(zero))
+    }
+
+    /// Height √(r² − x²) of the groove over its centre, under a point of the ball at sin α = ζ/R.
+    #[inline(always)]
+    pub fn groove<const FMA: bool>(&self, sin: T) -> T {
+        let x = sin.mul_add::<FMA>(self.radius, -self.c);
+        (-x).mul_add::<FMA>(x, self.r * self.r).sqrt()
+    }
+
+    /// Penetration of a slice in the plane, s = σ (d − R(z)) + ρ, into a groove of some height.
+    #[inline(always)]
+    pub fn penetration(&self, rho: T, groove: T) -> T {
+        self.e + (rho - groove)
+    }
+}

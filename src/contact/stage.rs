@@ -1,0 +1,461 @@
+//! Contacts held still: what of their nodes does not depend on velocities, ready for any of them.
+//!
+//! With all of a node's force at one point, slip and approach depend only on the relative twist
+//! w = (v_b − v_r − θ̇_r ẑ × a, θ̇_b − θ̇_r), where a leads from the ring's centre to the ball's: four numbers a
+//! contact. The wrench on the ball about its centre and its derivative by w say all about both bodies.
+
+// Everything here must be compiled for the instructions of its caller.
+#![allow(clippy::inline_always)]
+// Loops over matrices read as their formulae do.
+#![allow(clippy::needless_range_loop)]
+
+use super::batch::{Moves, Octet};
+use super::kernel::{self, Element, Force, Receiver, State};
+use super::laws::traction::Rolling;
+use super::{Aside, Motion, Pair, Sink, Touch, cross, turned};
+use crate::simd::{LANES, Lanes, Mask};
+
+/// Directions in the plane.
+pub(crate) type Plane = [Lanes; 2];
+
+/// An element of eight contacts, or eight slices of one: what of its [`State`] does not depend on velocities.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Still {
+    elastic: Lanes,
+    share: (Lanes, Lanes),
+    slope: (Lanes, Lanes),
+    load: Lanes,
+    depth: Lanes,
+    arm: Lanes,
+    /// Moments about the ball's centre of unit forces along n_e and t_e.
+    levers: Plane,
+}
+
+/// What all elements of a contact share beside their law.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Around {
+    rolling: Rolling<Lanes>,
+    /// Radii of ball and groove \[m\].
+    radii: [Lanes; 2],
+}
+
+impl Around {
+    /// That of the contact in one lane, in all lanes.
+    #[inline(always)]
+    pub fn of(&self, lane: usize) -> Self {
+        let all = |of: &Lanes| Lanes::all(of[lane]);
+        let [ball, ring] = &self.rolling.turns;
+        Self {
+            rolling: Rolling {
+                turns: [all(ball), all(ring)],
+                d: all(&self.rolling.d),
+            },
+            radii: [all(&self.radii[0]), all(&self.radii[1])],
+        }
+    }
+}
+
+/// Wrench on the ball about its centre, (n_e, t_e, z \[N\], about z \[N m\]) or (x, y, z, about z), and its
+/// derivative by the relative twist.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Reaction {
+    pub wrench: [Lanes; 4],
+    pub slope: [[Lanes; 4]; 4],
+}
+
+/// Where eight contacts are held.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Held {
+    /// Unit vector out of the ball at the contact.
+    pub n_e: Plane,
+    /// From the ring's centre to the ball's.
+    pub apart: Plane,
+    /// Forces of the waves' slope through the ball's centre (see `gradient`).
+    pub aside: Plane,
+    /// Contacts whose nodes are there; the others get none that press.
+    pub simple: Mask,
+    pub around: Around,
+}
+
+impl Pair {
+    /// Holds eight contacts still, those of `whole` with their nodes.
+    #[inline(always)]
+    pub(crate) fn hold<const FMA: bool>(
+        &self,
+        octet: &Octet,
+        ring: &Motion,
+        whole: Mask,
+        nodes: &mut Vec<Still>,
+    ) -> Held {
+        let (contact, moves, place) = self.place::<FMA, false>(octet, ring, whole.not());
+        let (simple, sigma) = (place.simple.and(whole), self.race.sigma);
+        let mut holding = Holding {
+            nodes,
+            moves: &moves,
+            sigma,
+            simple,
+            radial: Lanes::ZERO,
+        };
+        kernel::elements::<_, FMA, false>(&self.law, &self.slices, &contact, &mut holding);
+        let radial = holding.radial;
+        let across = radial * place.lean.unwrap_or_default() * sigma;
+        Held {
+            aside: [-(across * place.n.1), across * place.n.0],
+            n_e: [place.n.0 * sigma, place.n.1 * sigma],
+            apart: [place.n.0 * place.d, place.n.1 * place.d],
+            simple,
+            around: Around {
+                rolling: moves.rolling,
+                radii: [contact.section.radius, contact.section.r],
+            },
+        }
+    }
+
+    /// Adds what a node does at a relative twist in the frame (n_e, t_e, z, about z), with its slope or without.
+    ///
+    /// With `secant`, friction's slope is the steeper one through rest, φ for φ + φ'(u) u: from far away, where
+    /// Newton's tangent leads across to the other side, iterations by it do not overshoot.
+    #[inline(always)]
+    pub(crate) fn react<const FMA: bool, const SLOPE: bool>(
+        &self,
+        still: &Still,
+        around: &Around,
+        twist: &[Lanes; 4],
+        secant: bool,
+        to: &mut Reaction,
+    ) {
+        let levers = still.levers;
+        let along = |i: usize| twist[3].mul_add::<FMA>(levers[i], twist[i]);
+        let velocity = [along(0), along(1), twist[2]];
+        let state = State {
+            elastic: still.elastic,
+            share: still.share,
+            slope: still.slope,
+            velocity,
+            load: still.load,
+            depth: still.depth,
+            arm: still.arm,
+            rolling: around.rolling,
+            radii: around.radii,
+        };
+        let force = kernel::force::<_, FMA, false, SLOPE>(&self.law, &state);
+        to.subtract_force::<FMA>(&force.on_ring, levers);
+        if SLOPE {
+            let slope = self.slope::<FMA>(&state, &force, secant);
+            to.subtract_slope::<FMA>(&slope, levers);
+        }
+    }
+
+    /// Derivative of a node's force on the ring by its velocity: what differentiating the kernel says, without the
+    /// products that are known to vanish.
+    #[inline(always)]
+    fn slope<const FMA: bool>(
+        &self,
+        state: &State<Lanes>,
+        force: &Force<Lanes>,
+        secant: bool,
+    ) -> [[Lanes; 3]; 3] {
+        let ((in_plane, axial), (sin, cos)) = (state.share, state.slope);
+        let zero = Lanes::ZERO;
+        // How the normal force grows with the velocities; friction only where it presses.
+        let stiff = state.elastic * self.law.damping.rate();
+        let rubs = zero.above(force.damped).choose(zero, stiff);
+        let stiff = if self.law.damping.clamp_pull {
+            rubs
+        } else {
+            stiff
+        };
+        let (by_n, by_z) = (stiff * in_plane, stiff * axial);
+        let mut slope = [[zero; 3]; 3];
+        (slope[0][0], slope[0][2]) = (by_n * in_plane, by_n * axial);
+        (slope[2][0], slope[2][2]) = (by_n * axial, by_z * axial);
+        if self.law.traction.is_none() {
+            return slope;
+        }
+        let ([v_t, u_m], factor) = (force.slip, force.factor);
+        // By slip at constant normal force: N (φ 1 + (φ'/u) u⃗ u⃗ᵀ).
+        let pressed = force.damped.or_zero();
+        let drag = factor * pressed;
+        let bent = if secant { zero } else { force.bend * pressed };
+        let tt = (bent * v_t).mul_add::<FMA>(v_t, drag);
+        let tm = bent * v_t * u_m;
+        let mm = (bent * u_m).mul_add::<FMA>(u_m, drag);
+        let (m_n, m_z) = (mm * sin, mm * cos);
+        let slip = [
+            [m_n * sin, -(tm * sin), -(m_n * cos)],
+            [-(tm * sin), tt, tm * cos],
+            [-(m_n * cos), tm * cos, m_z * cos],
+        ];
+        let f_m = factor * u_m;
+        let rubbing = [-(f_m * sin), factor * v_t, f_m * cos];
+        let (by_n, by_z) = (rubs * in_plane, rubs * axial);
+        for i in 0..3 {
+            for j in 0..3 {
+                slope[i][j] += slip[i][j];
+            }
+            slope[i][0] = rubbing[i].mul_add::<FMA>(by_n, slope[i][0]);
+            slope[i][2] = rubbing[i].mul_add::<FMA>(by_z, slope[i][2]);
+        }
+        slope
+    }
+}
+
+impl Reaction {
+    /// Subtracts a force at a point with those levers.
+    #[inline(always)]
+    fn subtract_force<const FMA: bool>(&mut self, force: &[Lanes; 3], levers: Plane) {
+        for i in 0..3 {
+            self.wrench[i] = self.wrench[i] - force[i];
+        }
+        self.wrench[3] = self.wrench[3] - moment::<FMA>(force[0], force[1], levers);
+    }
+
+    /// Subtracts the slope of such a force by the velocity of the point.
+    #[inline(always)]
+    fn subtract_slope<const FMA: bool>(&mut self, slope: &[[Lanes; 3]; 3], levers: Plane) {
+        for i in 0..3 {
+            for j in 0..3 {
+                self.slope[i][j] = self.slope[i][j] - slope[i][j];
+            }
+            let turning = moment::<FMA>(slope[i][0], slope[i][1], levers);
+            self.slope[i][3] = self.slope[i][3] - turning;
+        }
+        let mut turning = [Lanes::ZERO; 3];
+        for j in 0..3 {
+            turning[j] = moment::<FMA>(slope[0][j], slope[1][j], levers);
+            self.slope[3][j] = self.slope[3][j] - turning[j];
+        }
+        self.slope[3][3] = self.slope[3][3] - moment::<FMA>(turning[0], turning[1], levers);
+    }
+
+    /// Turns it from the contact's frame into (x, y, z, about z).
+    #[inline(always)]
+    pub(crate) fn turn<const SLOPE: bool>(&mut self, n_e: Plane) {
+        let turn = |n: Lanes, t: Lanes| (n * n_e[0] - t * n_e[1], n * n_e[1] + t * n_e[0]);
+        let force = &mut self.wrench;
+        (force[0], force[1]) = turn(force[0], force[1]);
+        if SLOPE {
+            let slope = &mut self.slope;
+            for j in 0..4 {
+                (slope[0][j], slope[1][j]) = turn(slope[0][j], slope[1][j]);
+            }
+            for row in slope {
+                (row[0], row[1]) = turn(row[0], row[1]);
+            }
+        }
+    }
+
+    /// Adds all lanes of another to one lane.
+    pub(crate) fn gather<const SLOPE: bool>(&mut self, lane: usize, other: &Self) {
+        for i in 0..4 {
+            self.wrench[i][lane] += other.wrench[i].sum();
+            for j in 0..if SLOPE { 4 } else { 0 } {
+                self.slope[i][j][lane] += other.slope[i][j].sum();
+            }
+        }
+    }
+}
+
+/// About z of components along n_e and t_e.
+#[inline(always)]
+fn moment<const FMA: bool>(n: Lanes, t: Lanes, levers: Plane) -> Lanes {
+    levers[0].mul_add::<FMA>(n, levers[1] * t)
+}
+
+/// A relative twist (x, y, z, about z) in the frame (n_e, t_e, z, about z).
+#[inline(always)]
+pub(crate) fn in_contact(twist: &[Lanes; 4], n_e: Plane) -> [Lanes; 4] {
+    let [x, y, z, turn] = *twist;
+    [x * n_e[0] + y * n_e[1], y * n_e[0] - x * n_e[1], z, turn]
+}
+
+/// Collects the elements of eight contacts, of those that are whole.
+struct Holding<'a> {
+    nodes: &'a mut Vec<Still>,
+    moves: &'a Moves,
+    sigma: f64,
+    simple: Mask,
+    /// Sum of the elastic forces in the plane.
+    radial: Lanes,
+}
+
+impl Receiver<Lanes> for Holding<'_> {
+    #[inline(always)]
+    fn element<const FMA: bool, const PLANE: bool>(
+        &mut self,
+        element: &Element<Lanes>,
+        _times: u32,
+    ) {
+        let sigma = Lanes::all(self.sigma);
+        let arm = element.groove.mul_add::<FMA>(sigma, self.moves.arm);
+        let elastic = element.load * element.length;
+        let elastic = self.simple.choose(elastic, Lanes::ZERO);
+        self.radial += elastic * element.share.0;
+        self.nodes.push(Still {
+            elastic,
+            share: element.share,
+            slope: (element.sin, element.cos),
+            load: element.load,
+            depth: element.depth,
+            arm,
+            levers: [Lanes::ZERO, arm * sigma],
+        });
+    }
+}
+
+/// Eight slices of one contact, each with its own direction.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Pack {
+    pub n_e: Plane,
+    pub still: Still,
+}
+
+/// Collects the slices of a contact in packs of some lane.
+pub(crate) struct Packing<'a> {
+    pub packs: &'a mut Vec<(usize, Pack)>,
+    pub lane: usize,
+    /// Ball radius \[m\].
+    pub radius: f64,
+    /// Whether all slices press along the common normal.
+    pub flat: bool,
+    /// Sum of forces beside those of slices: x, y, z and about the ball's centre.
+    pub aside: [f64; 4],
+    /// Slices so far.
+    pub count: usize,
+}
+
+impl Sink for Packing<'_> {
+    fn touch(&mut self, touch: &Touch) {
+        let lane = self.count % LANES;
+        if lane == 0 {
+            self.packs.push((self.lane, Pack::default()));
+        }
+        self.count += 1;
+        let Some((_, Pack { n_e, still })) = self.packs.last_mut() else {
+            return;
+        };
+        // α of the slice: that of the place on the ball (flat contact), or of the force's direction.
+        let (sin, cos) = if self.flat {
+            let sin = touch.zeta / self.radius;
+            (sin, (1.0 - sin * sin).sqrt())
+        } else {
+            let tan = touch.share.1 / touch.share.0;
+            let cos = 1.0 / (1.0 + tan * tan).sqrt();
+            (tan * cos, cos)
+        };
+        let (out, arm) = (touch.n_e, touch.arm_ball);
+        (n_e[0][lane], n_e[1][lane]) = (out.x, out.y);
+        still.elastic[lane] = touch.elastic;
+        (still.share.0[lane], still.share.1[lane]) = touch.share;
+        (still.slope.0[lane], still.slope.1[lane]) = (sin, cos);
+        still.load[lane] = touch.elastic / touch.width;
+        still.depth[lane] = touch.depth;
+        still.levers[0][lane] = cross(arm, out);
+        still.levers[1][lane] = cross(arm, turned(out));
+    }
+
+    fn aside(&mut self, force: &Aside) {
+        let (on_ball, _) = force.wrenches();
+        for (sum, part) in self.aside.iter_mut().zip(on_ball) {
+            *sum += part;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::dual::Dual;
+    use crate::contact::iso16281::Iso16281;
+    use crate::contact::{Damping, Elastic, Law, Slices, Torus, Traction, Waves};
+    use crate::scene::Friction;
+
+    fn state<T: crate::simd::Number>(of: impl Fn(f64) -> T, velocity: [T; 3]) -> State<T> {
+        State {
+            elastic: of(120.0),
+            share: (of(0.8), of(0.6)),
+            slope: (of(0.55), of(f64::sqrt(1.0 - 0.55 * 0.55))),
+            velocity,
+            load: of(1e5),
+            depth: of(1e-5),
+            arm: of(6e-3),
+            rolling: Rolling::resting(of(0.03)),
+            radii: [of(6e-3), of(6.2e-3)],
+        }
+    }
+
+    fn laws() -> Vec<Option<Traction>> {
+        let frictions = [
+            Friction::None,
+            Friction::Coulomb {
+                coefficient: 0.1,
+                slip_speed: 0.1,
+            },
+            Friction::Stribeck {
+                static_coefficient: 0.12,
+                kinetic_coefficient: 0.05,
+                stribeck_speed: 0.3,
+                slip_speed: 0.05,
+            },
+            Friction::Traction {
+                a: -0.02,
+                b: 0.1,
+                c: 1.5,
+                d: 0.03,
+                slip_speed: 0.02,
+            },
+        ];
+        frictions.iter().map(Traction::new).collect()
+    }
+
+    /// Truth: the kernel, differentiated by itself, against the slope that is written out; pressed and pulling.
+    #[test]
+    fn the_slope_is_the_kernels() {
+        for traction in laws() {
+            for (clamp_pull, velocity) in [
+                (true, [0.2, -0.05, 0.3]),
+                (true, [-30.0, 0.4, 0.1]),
+                (false, [-30.0, 0.4, 0.1]),
+                (false, [0.01, 1e-4, -0.02]),
+            ] {
+                let law = Law {
+                    damping: Damping {
+                        coefficient: 0.2,
+                        clamp_pull,
+                    },
+                    traction,
+                    ..Law::elastic(Elastic::Iso16281(Iso16281::new(7e10, 0.5, 12e-3)))
+                };
+                let pair = Pair {
+                    race: Torus {
+                        sigma: 1.0,
+                        a: 30e-3,
+                        centre: 0.0,
+                        r: 6.24e-3,
+                        lowest: -6e-3,
+                        highest: 6e-3,
+                    },
+                    waves: Waves::default(),
+                    law,
+                    slices: Slices::Fixed(10),
+                    faults: Vec::new(),
+                };
+                let lanes = state(Lanes::all, velocity.map(Lanes::all));
+                let force = kernel::force::<_, false, false, true>(&law, &lanes);
+                let written = pair.slope::<false>(&lanes, &force, false);
+                let of = Dual::<f64, 3>::constant;
+                let variables = [0, 1, 2].map(|i| Dual::variable(velocity[i], i));
+                let dual = state(of, variables);
+                let told = kernel::force::<_, false, false, false>(&law, &dual).on_ring;
+                for i in 0..3 {
+                    assert!((force.on_ring[i][3] - told[i].value).abs() < 1e-12 * 120.0);
+                    for j in 0..3 {
+                        let (found, truth) = (written[i][j][5], told[i].slopes[j]);
+                        let off = (found - truth).abs() / (120.0 * 0.3);
+                        assert!(off < 1e-12, "{law:?} {velocity:?} {i} {j}: {found} {truth}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! What the contact kernel computes with: one number, or eight side by side.
+
+// Everything here must end up in the loop that uses it, compiled for that loop's instructions.
+#![allow(clippy::inline_always)]
+
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+use super::lanes::{Lanes, Mask, mul_add};
+
+/// Real numbers of one kind, of which each operation treats every one alone.
+pub(crate) trait Number:
+    Copy
+    + Neg<Output = Self>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Add<f64, Output = Self>
+    + Mul<f64, Output = Self>
+    + AddAssign
+{
+    /// What a comparison of them says.
+    type Decision: Decision;
+
+    /// A number of the same kind that is x everywhere.
+    fn same(self, x: f64) -> Self;
+
+    /// Square root.
+    fn sqrt(self) -> Self;
+
+    /// self · b + c, fused where the instructions have it: elsewhere a fused product is a slow call.
+    fn mul_add<const FMA: bool>(self, b: Self, c: Self) -> Self;
+
+    /// Another number where this one is positive, 0 where it is not; where this one is NaN, the other stays.
+    fn gates(self, other: Self) -> Self;
+
+    /// Where it is above another; nowhere where one of them is NaN.
+    fn above(self, other: Self) -> Self::Decision;
+
+    /// A function of each, with its slope from argument and value.
+    fn curve(self, f: impl Fn(f64) -> f64, slope: impl Fn(f64, f64) -> f64) -> Self;
+
+    /// Size without sign.
+    fn abs(self) -> Self;
+
+    /// A function of each with its partner in another; of neither any slope is known.
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self;
+
+    /// The least and the greatest of them.
+    fn range(self) -> (f64, f64);
+
+    /// 0 in place of what is below; a NaN stays.
+    #[inline(always)]
+    fn or_zero(self) -> Self {
+        self.gates(self)
+    }
+
+    /// e to the power of each.
+    fn exp(self) -> Self {
+        self.curve(f64::exp, |_, value| value)
+    }
+}
+
+/// Yes or no, for each number of its kind.
+pub(crate) trait Decision: Copy {
+    /// Where both say yes.
+    fn and(self, other: Self) -> Self;
+}
+
+impl Decision for bool {
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        self & other
+    }
+}
+
+impl Number for f64 {
+    type Decision = bool;
+
+    #[inline(always)]
+    fn same(self, x: f64) -> Self {
+        x
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+
+    #[inline(always)]
+    fn mul_add<const FMA: bool>(self, b: Self, c: Self) -> Self {
+        mul_add::<FMA>(self, b, c)
+    }
+
+    #[inline(always)]
+    fn gates(self, other: Self) -> Self {
+        if self <= 0.0 { 0.0 } else { other }
+    }
+
+    #[inline(always)]
+    fn above(self, other: Self) -> bool {
+        self > other
+    }
+
+    #[inline(always)]
+    fn curve(self, f: impl Fn(f64) -> f64, _slope: impl Fn(f64, f64) -> f64) -> Self {
+        f(self)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
+    }
+
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        f(self, other)
+    }
+
+    #[inline(always)]
+    fn range(self) -> (f64, f64) {
+        (self, self)
+    }
+}
+
+impl Decision for Mask {
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        self.and(other)
+    }
+}
+
+impl Number for Lanes {
+    type Decision = Mask;
+
+    #[inline(always)]
+    fn same(self, x: f64) -> Self {
+        Self::all(x)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+
+    #[inline(always)]
+    fn mul_add<const FMA: bool>(self, b: Self, c: Self) -> Self {
+        self.mul_add::<FMA>(b, c)
+    }
+
+    #[inline(always)]
+    fn gates(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a <= 0.0 { 0.0 } else { b })
+    }
+
+    #[inline(always)]
+    fn above(self, other: Self) -> Mask {
+        self.above(other)
+    }
+
+    #[inline(always)]
+    fn curve(self, f: impl Fn(f64) -> f64, _slope: impl Fn(f64, f64) -> f64) -> Self {
+        self.map(f)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
+    }
+
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        self.zip(other, f)
+    }
+
+    #[inline(always)]
+    fn range(self) -> (f64, f64) {
+        (self.least(), self.greatest())
+    }
+}
