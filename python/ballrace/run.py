@@ -12,7 +12,7 @@ from ._document import whole_number
 from ._progress import Bar
 from ._text import printable
 from .errors import AccuracyWarning, SceneError, SceneWarning
-from .scene import checked_scene
+from .scene.scene import checked_scene
 from .signals import Signals
 
 if TYPE_CHECKING:

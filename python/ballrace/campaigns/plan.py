@@ -12,7 +12,8 @@ from .. import _core
 from .._document import whole_number
 from .._text import printable
 from ..errors import CampaignError, CampaignWarning, SceneError, SceneWarning
-from ..scene import Scene, checked_scene
+from ..scene import Scene
+from ..scene.scene import checked_scene
 from .cases import BUDGET, RUN, Cases
 from .reading import resembling
 from .spread import Executor
