@@ -15,6 +15,7 @@ All numbers are in SI units, at every face.
 from __future__ import annotations
 
 from . import frequencies, presets, scene, spectra
+from ._features import features
 from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
 from .errors import (
     AccuracyWarning,
@@ -68,6 +69,7 @@ __all__ = [
     "campaign",
     "equilibrium",
     "explain",
+    "features",
     "frequencies",
     "grid",
     "latin_hypercube",

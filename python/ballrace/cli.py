@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from . import paper, presets
+from ._features import features
 from ._files import check_output, check_writable, whole
 from ._progress import Bar
 from ._text import printable
@@ -226,13 +227,11 @@ def _demo(options: argparse.Namespace) -> None:
 
 def _features(out: Signals) -> list[str]:
     """Root mean square, peak, kurtosis and mean impact of the demo's column."""
-    signal = out[_COLUMN]
-    centred = signal - signal.mean()
-    variance = np.mean(centred**2)
-    kurtosis = np.mean(centred**4) / variance**2 if variance > 0.0 else np.nan
-    rms, peak = np.sqrt(np.mean(signal**2)), np.max(np.abs(signal))
-    impact = _mean_impact(signal, out.fs / _passing(out.scene))
-    return [f"{rms:.2f}", f"{peak:.1f}", f"{kurtosis:.1f}", f"{impact:.1f}"]
+    found = features(out[_COLUMN], out.fs)
+    kurtosis = found["kurtosis"]
+    shape = "nan" if kurtosis is None else f"{kurtosis:.1f}"
+    impact = _mean_impact(out[_COLUMN], out.fs / _passing(out.scene))
+    return [f"{found['rms']:.2f}", f"{found['peak']:.1f}", shape, f"{impact:.1f}"]
 
 
 def _mean_impact(signal: NDArray[np.float64], passage: float) -> float:

@@ -9,8 +9,9 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::errors::{OrRaise, record};
+use super::features::options_from;
 use super::run::{bandwidth, hand_over, method, start};
-use crate::{Case, Error, FeatureOptions, Finished, Outcome, Run, Scene, features, simulate};
+use crate::{Case, Error, Finished, Outcome, Run, Scene, features, simulate};
 
 /// How a case is run.
 #[derive(Deserialize)]
@@ -97,14 +98,6 @@ pub(super) fn campaign(
     result.or_raise(py)
 }
 
-/// Columns whose features a scene gives, for options as JSON.
-#[pyfunction]
-pub(super) fn feature_columns(py: Python<'_>, scene: &str, options: &str) -> PyResult<Vec<String>> {
-    let scene = Scene::from_json(scene).or_raise(py)?;
-    let options = options_from(options).or_raise(py)?;
-    crate::feature_columns(&scene, &options).or_raise(py)
-}
-
 /// Refuse a run, as JSON, that no scene can be run by, or that does not give the features.
 #[pyfunction]
 pub(super) fn check_run(py: Python<'_>, run: &str, options: &str) -> PyResult<()> {
@@ -118,10 +111,6 @@ pub(super) fn check_run(py: Python<'_>, run: &str, options: &str) -> PyResult<()
 #[pyfunction]
 pub(super) fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
-}
-
-fn options_from(text: &str) -> crate::Result<FeatureOptions> {
-    serde_json::from_str(text).map_err(|e| Error::scene("features", text, e.to_string()))
 }
 
 /// The next case, if there is one.

@@ -6,6 +6,7 @@
 mod answer;
 mod campaign;
 mod errors;
+mod features;
 mod run;
 mod scene;
 mod statics;
@@ -16,7 +17,12 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use super::campaign::{available_threads, campaign, check_run, feature_columns};
+    use super::campaign::{available_threads, campaign, check_run};
+    #[pymodule_export]
+    use super::features::{
+        amplitudes, feature_columns, hann_weighted, orders, run_features, signal_features,
+        squared_envelope,
+    };
     #[pymodule_export]
     use super::run::{Model, explain, simulate};
     #[pymodule_export]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -173,28 +173,6 @@ def at_least_one(name: str, value: int) -> int:
     if number < 1:
         raise SceneError(name, str(value), "at least 1")
     return number
-
-
-def features_of(
-    columns: Sequence[str] | str | None, skip: float, band: Sequence[float] | None, loads: object
-) -> dict[str, Any]:
-    """Return the options of the features as the core reads them."""
-    if not isinstance(loads, bool):
-        raise SceneError("contact_loads", repr(loads), "True or False")
-    columns = [columns] if isinstance(columns, str) else columns
-    try:
-        low, high = (0.0, 0.0) if band is None else map(float, band)
-    except (TypeError, ValueError):
-        raise SceneError("band", repr(band), "two frequencies [Hz]") from None
-    try:
-        return {
-            "columns": None if columns is None else [str(name) for name in columns],
-            "skip": float(skip),
-            "band": None if band is None else [low, high],
-            "contact_loads": loads,
-        }
-    except (TypeError, ValueError):
-        raise SceneError("skip", repr(skip), "a time [s]") from None
 
 
 def warn_of_labels(cases: Cases, scenes: Mapping[str, str]) -> None:

@@ -9,6 +9,7 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
 
+from .._features import feature_options
 from .._text import printable
 from ..errors import CampaignError, CampaignWarning, SceneError
 from .cases import Cases, budget_document, run_document
@@ -18,7 +19,6 @@ from .plan import (
     Plan,
     at_least_one,
     check_choices,
-    features_of,
     scenes_of,
     shard_of,
     threads_of,
@@ -238,7 +238,7 @@ def campaign(
     budget = budget_document({"time_limit": time_limit, "max_steps": max_steps})
     if not (isinstance(progress, bool) or callable(progress)):
         raise SceneError("progress", repr(progress), "True, False or a callable")
-    features = features_of(columns, skip, band, contact_loads)
+    features = feature_options(columns, skip, band, contact_loads)
     scenes = scenes_of(scene, features)
     schema_version = json.loads(next(iter(scenes.values())))["schema"]
     engine, workers = (None, None) if executor is None else executor_of(executor)
