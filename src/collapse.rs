@@ -1,6 +1,7 @@
 //! When the step collapses: how it is seen, and which contacts did it.
 
 use crate::model::Model;
+use crate::told::{force, number};
 
 /// Steps in a row below the limit that make a collapse.
 const PATIENCE: usize = 1000;
@@ -48,7 +49,7 @@ impl std::fmt::Display for Culprit {
         let Self {
             name, state, rate, ..
         } = self;
-        write!(f, "{name} ({state}rate {rate:.1e} 1/s)")
+        write!(f, "{name} ({state}rate {} 1/s)", number(*rate))
     }
 }
 
@@ -86,8 +87,9 @@ fn contact(model: &Model, y: &[f64], j: usize, race: usize) -> Option<Culprit> {
         name: format!("{}.{}", body.name, ["outer", "inner"][race]),
         body: 2 + j,
         state: format!(
-            "load {:.3e} N, slip {:.3e} m/s, ",
-            contact.load, contact.slip
+            "load {}, slip {} m/s, ",
+            force(contact.load),
+            number(contact.slip)
         ),
         rate: contact.load * (friction + damping),
     })

@@ -7,6 +7,7 @@ use crate::integrate::{Failure, FailureKind};
 use crate::method;
 use crate::model::Model;
 use crate::step_limit;
+use crate::told::duration;
 
 const CRAWLING: &str = "the step has collapsed to less than 1e-5 of the contacts' period and stays there; \
                         raise slip_speed, lower the damping, or soften the contacts";
@@ -48,11 +49,14 @@ fn finer(model: &Model, step: f64) -> String {
     }
     let limit = step_limit::largest(method, &model.scales);
     let bears = if step > limit {
-        format!(", stability asks for at most {limit:.1e} s")
+        format!(", stability asks for at most {}", duration(limit))
     } else {
         String::new()
     };
-    format!("use a smaller max_step (the step was {step:.1e} s{bears})")
+    format!(
+        "use a smaller max_step (the step was {}{bears})",
+        duration(step)
+    )
 }
 
 /// The error of an integration that could not go on from its last state; its clock was 0 at `begins` \[s\].

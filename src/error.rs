@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::memory::GIB;
+use crate::told;
 
 /// What `ballrace` refuses or fails at.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -27,8 +28,8 @@ pub enum Error {
     /// The integration could not go on.
     #[error(
         "integration stopped at t = {}, step {}, at {body}: {reason}",
-        shown(.time),
-        shown(.step)
+        told::time(.time),
+        told::time(.step)
     )]
     Integration {
         /// Time reached \[s\].
@@ -44,7 +45,7 @@ pub enum Error {
         reason: String,
     },
     /// The observer (Ctrl-C, a callback) asked to stop.
-    #[error("interrupted at t = {}", shown(.time))]
+    #[error("interrupted at t = {}", told::time(.time))]
     Interrupted {
         /// Time reached \[s\].
         time: f64,
@@ -53,7 +54,7 @@ pub enum Error {
     #[error(
         "stopped at t = {}: {name} = {limit} is spent; allow more, or make the run cheaper (`ballrace explain` \
          tells how)",
-        shown(.time)
+        told::time(.time)
     )]
     Budget {
         /// Simulated time reached \[s\].
@@ -101,59 +102,23 @@ impl Error {
     }
 }
 
-/// A number that would print as a long row of digits, such as 1e300, as one with an exponent; other text as it is.
+/// A number with more digits than people write, as they would write it; other text as it is.
 fn readable(text: String) -> String {
     if text.len() < 16 {
         return text;
     }
-    match text.parse::<f64>() {
-        Ok(x) if x != 0.0 && x.is_finite() && !(1e-5..1e16).contains(&x.abs()) => format!("{x:e}"),
-        _ => text,
-    }
+    text.parse().map_or(text, told::given)
 }
 
 /// Shorthand for results of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
-
-/// A time as people say it: 0.0000000341 s is 34.1 ns.
-#[allow(clippy::trivially_copy_pass_by_ref)] // as it is handed over for a message
-fn shown(seconds: &f64) -> String {
-    const UNITS: [(f64, &str); 5] = [
-        (1.0, "s"),
-        (1e-3, "ms"),
-        (1e-6, "µs"),
-        (1e-9, "ns"),
-        (1e-12, "ps"),
-    ];
-    let size = seconds.abs();
-    match UNITS.iter().find(|(scale, _)| size >= *scale) {
-        Some((scale, unit)) => {
-            let value = format!("{:.6}", seconds / scale);
-            let value = value.trim_end_matches('0').trim_end_matches('.');
-            format!("{value} {unit}")
-        }
-        None if size == 0.0 => "0 s".to_owned(),
-        None => format!("{seconds:e} s"),
-    }
-}
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn times_have_units_of_their_size() {
-        let found = [0.0, 1.5, 100.0, 0.012_345_678_9, 3.41e-8, 1e-3, 2.5e-16].map(|t| shown(&t));
-        let told = [
-            "0 s",
-            "1.5 s",
-            "100 s",
-            "12.345679 ms",
-            "34.1 ns",
-            "1 ms",
-            "2.5e-16 s",
-        ];
-        assert_eq!(found, told);
+    fn times_have_units() {
         let error = Error::Integration {
             time: 1.25e-3,
             step: 3.4e-13,
@@ -174,6 +139,7 @@ mod tests {
         assert_eq!(value_of(1e300), "1e300");
         assert_eq!(value_of(-2.5e-300), "-2.5e-300");
         assert_eq!(value_of(0.1), "0.1");
+        assert_eq!(value_of(0.1 + 0.2), "0.3");
         assert_eq!(value_of(0.012_345_678_901_234_5), "0.0123456789012345");
         assert_eq!(value_of(f64::INFINITY), "inf");
     }

@@ -4,6 +4,7 @@ use crate::contact::{Meridian, Torus};
 use crate::dynamics::motion;
 use crate::model::Model;
 use crate::orbit;
+use crate::told::length;
 
 /// Which race a ball has left in a state of all bodies, which way and how far, and what may be to blame; `finer` says how the
 /// run is made more accurate.
@@ -33,10 +34,10 @@ pub(crate) fn reason(model: &Model, y: &[f64], body: usize, finer: &str) -> Stri
 fn way(race: &Torus, meridian: &Meridian, radius: f64) -> String {
     let (e, c) = (meridian.e, meridian.c.abs());
     if c >= e.abs() {
-        format!("{c:.2e} m beside the middle of")
+        format!("{} beside the middle of", length(c))
     } else if e > 0.0 {
-        format!("pressed {:.2e} m into", meridian.approach(radius))
+        format!("pressed {} into", length(meridian.approach(radius)))
     } else {
-        format!("{:.2e} m off", race.r - radius - e)
+        format!("{} off", length(race.r - radius - e))
     }
 }

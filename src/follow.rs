@@ -18,7 +18,7 @@ use crate::signals::{Recorder, Statistics};
 use crate::step_limit;
 
 /// How often progress is told, and after how many steps the clock is asked: of a small model's step that would take a
-/// fiftieth.
+/// fiftieth. One of a large model is long enough to ask after each.
 const TELL_EVERY: Duration = Duration::from_millis(20);
 const ASK_EVERY: usize = 8;
 /// Largest steps between corners of a table from which a step ends on each: with fewer, that would cost many more steps.
@@ -36,32 +36,36 @@ pub(crate) struct Stretch {
 /// Sees the first state of a stretch and every accepted step, on the integrator's clock.
 pub(crate) trait Watch: Send {
     fn first(&mut self, dynamics: &mut Dynamics<'_>, y: &[f64]);
-    fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>);
+
+    /// Breaks off to end the stretch.
+    fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) -> ControlFlow<()>;
 
     /// Until when it wants to see steps of a stretch with this end \[s\].
     fn until(&self, end: f64) -> f64 {
         end
     }
 
-    /// There are no more steps.
-    fn finish(&mut self) {}
+    /// There are no more steps. Breaks off where what is left is not wanted.
+    fn finish(&mut self) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 }
 
-impl Watch for Recorder {
+impl Watch for Recorder<'_> {
     fn first(&mut self, dynamics: &mut Dynamics<'_>, y: &[f64]) {
         Recorder::first(self, dynamics, 0.0, y);
     }
 
-    fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) {
-        Recorder::step(self, dynamics, step);
+    fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) -> ControlFlow<()> {
+        Recorder::step(self, dynamics, step)
     }
 
     fn until(&self, end: f64) -> f64 {
         Recorder::until(self, end)
     }
 
-    fn finish(&mut self) {
-        Recorder::finish(self);
+    fn finish(&mut self) -> ControlFlow<()> {
+        Recorder::finish(self)
     }
 }
 
@@ -85,6 +89,7 @@ pub(crate) fn follow(
     let (mut pulls, mut truncated, mut halt) = (0, 0, None);
     let mut crawl = Crawl::new(model, options.max_step);
     let (mut steps, mut spent) = (StepBudget::new(max_steps), false);
+    let ask_every = if model.is_large() { 1 } else { ASK_EVERY };
     let bounds = runaway::Bounds::new(&dynamics, y0);
     let tolerance = tolerance(&dynamics)?;
     let own = dynamics.compress(y0);
@@ -96,7 +101,7 @@ pub(crate) fn follow(
             pulls += dynamics.pulls();
             truncated += dynamics.truncated();
             let lost = dynamics.lost();
-            watch.step(dynamics, step);
+            let watched = watch.step(dynamics, step);
             last.copy_from_slice(step.y1());
             last_time = step.t1();
             let crawls = crawl.after(step.h());
@@ -112,10 +117,10 @@ pub(crate) fn follow(
                 return ControlFlow::Break(());
             }
             spent = steps.spent(stats) && step.t1() < length;
-            if spent {
+            if spent || watched.is_break() {
                 return ControlFlow::Break(());
             }
-            if stats.accepted.is_multiple_of(ASK_EVERY) && told.elapsed() >= TELL_EVERY {
+            if stats.accepted.is_multiple_of(ask_every) && told.elapsed() >= TELL_EVERY {
                 told = Instant::now();
                 return progress(step.t1() / length);
             }
@@ -146,7 +151,7 @@ pub(crate) fn follow(
     }
     let end = (solution.t, &solution.y[..]);
     let nfev_past_end = go_on(&mut dynamics, watch, end, (&tolerance, options), progress)?;
-    watch.finish();
+    finish(watch, begins + length)?;
     let _ = progress(1.0);
     let stats = solution.stats;
     let statistics = Statistics {
@@ -195,10 +200,10 @@ fn go_on(
             if dynamics.lost().is_some() || crawl.after(step.h()) {
                 return ControlFlow::Break(());
             }
-            watch.step(dynamics, step);
+            stopped = watch.step(dynamics, step).is_break();
             if told.elapsed() >= TELL_EVERY {
                 told = Instant::now();
-                stopped = progress(1.0).is_break();
+                stopped |= progress(1.0).is_break();
             }
             if stopped {
                 ControlFlow::Break(())
@@ -217,6 +222,14 @@ fn go_on(
         return Err(Error::Interrupted { time: end });
     }
     Ok(beyond.map_or(0, |(solution, _)| solution.stats.nfev))
+}
+
+/// There are no more steps of a stretch that ends at a time \[s\].
+fn finish(watch: &mut dyn Watch, time: f64) -> Result<()> {
+    match watch.finish() {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Error::Interrupted { time }),
+    }
 }
 
 /// How many threads share an evaluation.

@@ -36,7 +36,8 @@
 //!   from it, the places of defects among it; `start` ([`start()`]) — how a run begins; `settle` — what is left of that
 //!   dies down before t = 0.
 //! * `touched` ([`Touched`]) — which defects balls met in a run, and what their contacts carried there.
-//! * `signals` ([`Signals`]) — probes read from the dense output on a uniform grid, through a low-pass ([`Bandwidth`]).
+//! * `signals` ([`Signals`]) — probes read from the dense output on a uniform grid, through a low-pass ([`Bandwidth`]);
+//!   kept whole, or handed over in blocks ([`Block`]).
 //! * `residual`, `collapse`, `escape`, `orbit`, `runaway`, `ending`, `warning` ([`Warning`]) — whether a run can be
 //!   believed, who held it up, and what its error says.
 //! * `selftest` — whether this processor's vector instructions compute what they should, once a process.
@@ -44,10 +45,11 @@
 //! * `budget` — wall time and steps that a run may cost at most.
 //! * `method` — the method a run asked for, and the switch between two of them; `step_limit` — the largest step of each.
 //! * `run` ([`Run`]) — what a run is asked for; `follow` — steps over a stretch of time, and when to stop.
-//! * `simulate` ([`simulate()`]) — the run itself, the lines to read first.
+//! * `simulate` ([`simulate()`], [`simulate_into()`]) — the run itself, the lines to read first.
 //! * `explain` ([`explain()`]) — what a scene is compiled to, what it costs, what would make it cheaper.
 //! * `features` ([`Feature`]) — the few numbers a signal is known by: moments, fault lines, contact loads.
 //! * `interrupt` ([`Interrupt`]), `memory` — what ends work from outside; what a run may set aside.
+//! * `told` — numbers in messages, in units of their size.
 //! * `campaign` ([`campaign()`]) — many cases on all cores; a case that fails is an outcome.
 //! * `python` (feature `python`) — the only place that knows Python.
 //!
@@ -106,6 +108,7 @@ pub mod simd;
 mod simulate;
 mod start;
 mod step_limit;
+mod told;
 mod touched;
 mod warning;
 
@@ -122,8 +125,8 @@ pub use interrupt::Interrupt;
 pub use model::{Body, Degree, Model, Obstacle, Omission, Reduction, Scales};
 pub use run::Run;
 pub use scene::Scene;
-pub use signals::{Bandwidth, Column, Provenance, Signals, SliceRow, Statistics};
-pub use simulate::simulate;
+pub use signals::{Bandwidth, Block, Column, Provenance, Signals, SliceRow, Statistics};
+pub use simulate::{simulate, simulate_into};
 pub use start::{Start, start};
 pub use touched::Touched;
 pub use warning::Warning;

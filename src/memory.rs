@@ -4,6 +4,7 @@
 //! sets aside is counted before it is: against the machine's free memory, the limit of the process (`ulimit -v`,
 //! RLIMIT_AS) and those of its control groups (containers, batch systems), the smallest of which counts.
 
+use std::cell::Cell;
 use std::fs;
 use std::path::Path;
 
@@ -13,6 +14,8 @@ use crate::error::{Error, Result};
 const UNTOLD: f64 = 8.0 * GIB;
 /// Share of what there is that a run may set aside: the rest is for stacks, the solver and whoever asked.
 const SHARE: f64 = 0.9;
+/// Less than the stack of a thread: not worth asking the system, which takes as long as compiling a bearing \[bytes\].
+const SMALL: f64 = 1e6;
 pub(crate) const GIB: f64 = (1u64 << 30) as f64;
 
 /// Refuses to set aside more than there is; `what` says for what, and how to need less.
@@ -20,6 +23,9 @@ pub(crate) const GIB: f64 = (1u64 << 30) as f64;
 /// # Errors
 /// [`Error::Memory`].
 pub(crate) fn check(needed: f64, what: impl FnOnce() -> String) -> Result<()> {
+    if needed <= SMALL.min(PART.get()) {
+        return Ok(());
+    }
     let available = available();
     if needed <= available {
         return Ok(());
@@ -27,7 +33,14 @@ pub(crate) fn check(needed: f64, what: impl FnOnce() -> String) -> Result<()> {
     Err(Error::Memory {
         needed,
         available,
-        what: what(),
+        what: if PART.get().is_finite() {
+            format!(
+                "{}, or run fewer cases at once, which share the memory",
+                what()
+            )
+        } else {
+            what()
+        },
     })
 }
 
@@ -36,11 +49,30 @@ pub(crate) fn available() -> f64 {
     let root = Path::new("/");
     let told = [free(root), address_space(root), control_groups(root)];
     let least = told.into_iter().flatten().fold(f64::INFINITY, f64::min);
-    if least.is_finite() {
+    let all = if least.is_finite() {
         SHARE * least.max(0.0)
     } else {
         UNTOLD
+    };
+    all.min(PART.get())
+}
+
+thread_local! {
+    /// What the work of this thread may take of what there is \[bytes\].
+    static PART: Cell<f64> = const { Cell::new(f64::INFINITY) };
+}
+
+/// Works on this thread with a part of what there is \[bytes\]: several runs at once would each count on all of it.
+pub(crate) fn within<T>(part: f64, work: impl FnOnce() -> T) -> T {
+    /// Gives back what there was before, after a panic too.
+    struct Before(f64);
+    impl Drop for Before {
+        fn drop(&mut self) {
+            PART.set(self.0);
+        }
     }
+    let _before = Before(PART.replace(part));
+    work()
 }
 
 /// Memory of the machine that can be had without swapping.
@@ -167,6 +199,13 @@ mod tests {
         };
         assert_eq!(of("limited", "5000"), Some(3976.0));
         assert_eq!(of("unlimited", "unlimited"), None);
+    }
+
+    #[test]
+    fn a_part_holds_for_its_work() {
+        assert_eq!(within(1e3, available), 1e3);
+        assert!(within(1e3, || check(2e3, String::new)).is_err());
+        assert!(check(2e3, String::new).is_ok());
     }
 
     #[test]

@@ -4,6 +4,7 @@
 
 use crate::dynamics::Dynamics;
 use crate::scene::{Drive, Row};
+use crate::told::{length, number};
 
 /// Speed of a body or of a turning surface beyond which nothing holds together \[m/s\]: that of sound in steel.
 const FASTEST: f64 = 5000.0;
@@ -76,10 +77,13 @@ impl Bounds {
         let i = (0..y.len()).find(|&i| !stays(i))?;
         let (body, direction) = self.degrees[i % half];
         let does = match (i < half, direction) {
-            (true, 3) => format!("has turned by {:.1e} rad", y[i]),
-            (true, _) => format!("is {:.1e} m from its place", (y[i] - self.centre[i]).abs()),
-            (false, 3) => format!("spins at {:.1e} rad/s", y[i]),
-            (false, _) => format!("moves at {:.1e} m/s", y[i].abs()),
+            (true, 3) => format!("has turned by {} rad", number(y[i])),
+            (true, _) => format!(
+                "is {} from its place",
+                length((y[i] - self.centre[i]).abs())
+            ),
+            (false, 3) => format!("spins at {} rad/s", number(y[i])),
+            (false, _) => format!("moves at {} m/s", number(y[i].abs())),
         };
         Some((body, does))
     }
@@ -113,11 +117,11 @@ mod tests {
     #[test]
     fn what_leaves_is_named() {
         let far = said(&[(false, 4, 1, -0.1)]).unwrap();
-        assert!(far.0 == 4 && far.1.contains("m from its place"), "{far:?}");
+        assert!(far.0 == 4 && far.1.contains(" from its place"), "{far:?}");
         let fast = said(&[(true, 1, 0, -6e3)]).unwrap();
-        assert_eq!(fast, (1, "moves at 6.0e3 m/s".to_owned()));
+        assert_eq!(fast, (1, "moves at 6000 m/s".to_owned()));
         let turned = said(&[(true, 3, 3, 1e271)]).unwrap();
-        assert_eq!(turned, (3, "spins at 1.0e271 rad/s".to_owned()));
+        assert_eq!(turned, (3, "spins at 1e271 rad/s".to_owned()));
         assert_eq!(said(&[(false, 0, 3, f64::NAN)]).unwrap().0, 0);
         assert_eq!(said(&[(false, 2, 3, f64::INFINITY)]).unwrap().0, 2);
     }

@@ -99,7 +99,9 @@ struct Unseen;
 
 impl Watch for Unseen {
     fn first(&mut self, _: &mut Dynamics<'_>, _: &[f64]) {}
-    fn step(&mut self, _: &mut Dynamics<'_>, _: &DenseStep<'_>) {}
+    fn step(&mut self, _: &mut Dynamics<'_>, _: &DenseStep<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 }
 
 /// How long a start from equilibrium needs \[s\]: some decay times of the slowest ring, and some ball passes; where a

@@ -15,7 +15,7 @@ use crate::run::Run;
 use crate::scene::{SCHEMA, Scene};
 use crate::selftest;
 use crate::settle;
-use crate::signals::{Bandwidth, Demand, Provenance, Recorder, Sampling, Signals};
+use crate::signals::{Bandwidth, Block, Demand, Provenance, Recorder, Sampling, Signals, Sink};
 use crate::start::{Start, start};
 use crate::step_limit;
 
@@ -38,9 +38,54 @@ pub fn simulate(
     run: &Run,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Signals> {
+    limited(scene, run, None, progress)
+}
+
+/// Simulates a scene as [`simulate`] does, bit by bit, and hands its record to `sink` in blocks of at most 65 536
+/// samples, so that memory does not grow with the duration. `sink` is called on a thread of the run, which waits for it,
+/// and may stop the run.
+///
+/// ```
+/// use std::ops::ControlFlow::Continue;
+/// use ballrace::{Block, Run, scene::presets, simulate_into};
+/// let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+/// let run = Run { duration: 1e-3, ..Run::default() };
+/// let (mut samples, mut peak) = (0, 0.0_f64);
+/// let mut sink = |block: Block| {
+///     samples += block.t.len();
+///     let ay = block.columns.iter().find(|column| column.name == "outer.ay").unwrap();
+///     peak = ay.values.iter().fold(peak, |peak, a| peak.max(a.abs()));
+///     Continue(())
+/// };
+/// let told = simulate_into(&scene, &run, &mut sink, &mut |_| Continue(())).unwrap();
+/// assert_eq!((samples, told.t.len()), (50, 0));
+/// assert!(peak > 0.0 && told.stats.accepted > 0);
+/// ```
+///
+/// The signals that it returns tell everything else: statistics, provenance, forces of slices, names and units of the
+/// columns, which are empty.
+///
+/// # Errors
+/// As [`simulate`]; [`Error::Memory`] where a block does not fit, [`Error::Interrupted`] also if `sink` broke off.
+pub fn simulate_into<'a>(
+    scene: &Scene,
+    run: &Run,
+    sink: &'a mut (dyn FnMut(Block) -> ControlFlow<()> + Send + 'a),
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Signals> {
+    limited(scene, run, Some(sink), progress)
+}
+
+/// Simulates within the limits of the run.
+fn limited(
+    scene: &Scene,
+    run: &Run,
+    sink: Option<Sink<'_>>,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Signals> {
     check(run)?;
     budget::within(run.time_limit, progress, |progress| {
-        unlimited(scene, run, progress)
+        unlimited(scene, run, sink, progress)
     })
 }
 
@@ -58,6 +103,7 @@ pub(crate) fn check(run: &Run) -> Result<()> {
 fn unlimited(
     scene: &Scene,
     run: &Run,
+    sink: Option<Sink<'_>>,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Signals> {
     let (scene, placed) = place(scene)?;
@@ -69,7 +115,8 @@ fn unlimited(
     }
     let count = samples(run)?;
     // Before anything is computed; once more when it is known how fine signals are read.
-    check_memory(&scene, run, (count, 1))?;
+    let in_blocks = sink.is_some();
+    check_memory(&scene, run, (count, 1), in_blocks)?;
     let settled = settle::settle(&scene, run, progress)?;
     let before = settled.seconds;
     let accuracy = run.accuracy.map(|requested| {
@@ -79,8 +126,8 @@ fn unlimited(
     let accuracy = accuracy.transpose()?;
     let (model, distrust) = selftest::trusted(Model::new(&scene)?);
     let sampling = Sampling::new(run.bandwidth, run.fs, model.scales.frequency)?;
-    check_memory(&scene, run, (count, sampling.oversampling))?;
-    let mut recorder = Recorder::new(&model, sampling, count);
+    check_memory(&scene, run, (count, sampling.oversampling), in_blocks)?;
+    let mut recorder = Recorder::new(&model, sampling, count, sink);
     let threads = threads(&model, run.threads)?;
     let options = options(&model)?;
     let y0 = start(&model, &settled.from)?;
@@ -106,8 +153,8 @@ fn unlimited(
     };
     Ok(Signals {
         fs: run.fs,
-        t: recorder.t,
-        columns: recorder.columns,
+        t: recorder.held.t,
+        columns: recorder.held.columns,
         slices: recorder.slices,
         stats,
         provenance: Provenance {
@@ -183,14 +230,28 @@ fn samples(run: &Run) -> Result<usize> {
     Ok(count as usize)
 }
 
-/// Refuses what does not fit into memory: for so many samples, read so many times as fine.
-fn check_memory(scene: &Scene, run: &Run, (count, oversampling): (usize, usize)) -> Result<()> {
+/// Refuses what does not fit into memory: for so many samples, read so many times as fine, kept or leaving in blocks.
+fn check_memory(
+    scene: &Scene,
+    run: &Run,
+    (count, oversampling): (usize, usize),
+    in_blocks: bool,
+) -> Result<()> {
     let demand = Demand::of(scene);
-    memory::check(demand.bytes(count, oversampling), || {
+    let rows = demand.rows(count, in_blocks);
+    memory::check(demand.bytes(rows, oversampling), || {
+        let less = if in_blocks {
+            "record fewer probes".to_owned()
+        } else {
+            format!(
+                "shorten duration = {} s, lower fs, record fewer probes, or let a single run write its record to a file \
+                 as it goes on (out)",
+                run.duration
+            )
+        };
         format!(
-            "{count} samples of {} signals, and {} forces of slices; shorten duration = {} s, lower fs, or record fewer \
-             probes",
-            demand.columns, demand.slices, run.duration
+            "{rows} samples of {} signals, and {} forces of slices; {less}",
+            demand.columns, demand.slices
         )
     })
 }

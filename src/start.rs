@@ -39,13 +39,7 @@ pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
             Ok(y)
         }
         Start::State(state) => {
-            if state.len() != model.dim() {
-                return Err(Error::scene(
-                    "start",
-                    format!("{} numbers", state.len()),
-                    format!("{} numbers, named by the model", model.dim()),
-                ));
-            }
+            check_length(state.len(), model.dim())?;
             match state.iter().position(|x| !x.is_finite()) {
                 Some(i) => Err(Error::scene(
                     format!("start[{i}]"),
@@ -56,6 +50,18 @@ pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
             }
         }
     }
+}
+
+/// Refuses a state that is not as long as a model's.
+pub(crate) fn check_length(length: usize, dim: usize) -> Result<()> {
+    if length == dim {
+        return Ok(());
+    }
+    Err(Error::scene(
+        "start",
+        format!("{length} numbers"),
+        format!("{dim} numbers, named by the model"),
+    ))
 }
 
 /// Sets pure-rolling speeds at the places of a state.

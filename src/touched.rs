@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use serde::Serialize;
 
@@ -93,8 +94,8 @@ struct Watched {
     origin: f64,
     /// Whether its contacts are evaluated in the run.
     felt: bool,
-    /// Outer and inner race, to be looked at with few slices.
-    pairs: [Pair; 2],
+    /// Outer and inner race, to be looked at with few slices; they know all defects of the row, which share them.
+    pairs: Arc<[Pair; 2]>,
     eyes: Vec<Eye>,
     passes: usize,
     touched: usize,
@@ -102,6 +103,9 @@ struct Watched {
     /// Load of the most loaded contact that passed, and its place.
     most: (f64, f64),
 }
+
+/// Races by row and number of slices.
+type Pairs = BTreeMap<(usize, usize), Arc<[Pair; 2]>>;
 
 /// A contact that may meet a defect.
 struct Eye {
@@ -125,10 +129,11 @@ impl Watch {
     /// For a run of a model that has begun nowhere yet.
     pub fn new(model: &Model) -> Self {
         let defects = model.scene().defects.iter();
+        let mut pairs = BTreeMap::new();
         Self {
             defects: defects
                 .filter(|(_, defect)| is_there(defect))
-                .map(|(name, defect)| Watched::new(model, name, defect))
+                .map(|(name, defect)| Watched::new(model, name, defect, &mut pairs))
                 .collect(),
             y: Vec::new(),
             next: f64::NEG_INFINITY,
@@ -199,7 +204,7 @@ fn slices(length: f64, diameter: f64) -> usize {
 }
 
 impl Watched {
-    fn new(model: &Model, name: &str, defect: &Defect) -> Self {
+    fn new(model: &Model, name: &str, defect: &Defect, pairs: &mut Pairs) -> Self {
         let row = &model.rows[defect.row];
         let balls = row.first..row.first + row.count;
         let contacts: Vec<(usize, usize)> = match defect.on {
@@ -218,16 +223,20 @@ impl Watched {
         };
         let (fault, origin) = compiled(model, defect);
         let diameter = model.scene().rows[defect.row].ball_diameter;
+        let slices = slices(defect.length, diameter);
+        let pairs = pairs.entry((defect.row, slices)).or_insert_with(|| {
+            Arc::new(row.pairs.each_ref().map(|pair| Pair {
+                slices: Slices::Fixed(slices),
+                ..pair.clone()
+            }))
+        });
         Self {
             name: name.to_owned(),
             fault,
             on: defect.on,
             origin,
             felt: true,
-            pairs: row.pairs.each_ref().map(|pair| Pair {
-                slices: Slices::Fixed(slices(defect.length, diameter)),
-                ..pair.clone()
-            }),
+            pairs: Arc::clone(pairs),
             eyes: contacts.into_iter().map(eye).collect(),
             passes: 0,
             touched: 0,

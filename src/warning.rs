@@ -6,6 +6,7 @@ use crate::method;
 use crate::scene::Doubt;
 use crate::signals::Signals;
 use crate::simd::Distrust;
+use crate::told::duration;
 use crate::touched::Touched;
 
 /// Residual of the accelerations above which a run is warned of. Measured on the faulted wheel bearing in 140 runs
@@ -126,13 +127,16 @@ impl std::fmt::Display for Warning {
             } => write!(
                 f,
                 "accelerations are uncertain by about {:.0} %: they differ that much from the derivative of the \
-                 velocities. Use a max_step smaller than {step:.1e} s, or raise the friction's slip_speed",
-                100.0 * residual
+                 velocities. Use a max_step smaller than {}, or raise the friction's slip_speed",
+                100.0 * residual,
+                duration(*step)
             ),
             Self::FixedStep { step, limit } => write!(
                 f,
-                "a fixed step of {step:.1e} s is longer than the {limit:.1e} s by which the method is stable and \
-                 accurate in this scene. Use a smaller max_step, or keep solver.frequency_cap on"
+                "a fixed step of {} is longer than the {} by which the method is stable and \
+                 accurate in this scene. Use a smaller max_step, or keep solver.frequency_cap on",
+                duration(*step),
+                duration(*limit)
             ),
             Self::Shoulders { contacts, steps } => write!(
                 f,

@@ -331,9 +331,7 @@ fn with_step(method: Method, step: f64) -> Result<Signals, Error> {
 fn a_fixed_step_is_blamed_for_what_it_does() {
     let lost = with_step(Method::VelocityVerlet, 1e-5);
     let message = lost.expect_err("a failure").to_string();
-    assert!(
-        message.contains("smaller max_step (the step was 1.0e-5 s, stability asks for at most")
-    );
+    assert!(message.contains("smaller max_step (the step was 10 µs, stability asks for at most"));
     assert!(!message.contains("rtol"), "{message}");
     let out = with_step(Method::VelocityVerlet, 3.7e-6).unwrap();
     let warnings = out.warnings();
@@ -342,7 +340,7 @@ fn a_fixed_step_is_blamed_for_what_it_does() {
             .iter()
             .any(|warning| warning.to_string().contains(what))
     };
-    assert!(says("a fixed step of 3.7e-6 s is longer than") && !says("rtol"));
+    assert!(says("a fixed step of 3.7 µs is longer than") && !says("rtol"));
     assert!(out.provenance.step_limit < 3.7e-6);
     let fine = with_step(Method::VelocityVerlet, out.provenance.step_limit).unwrap();
     let long = |warning: &Warning| matches!(warning, Warning::FixedStep { .. });

@@ -106,6 +106,7 @@ def simulate(
     settle: float | None,
     time_limit: float | None = None,
     max_steps: int | None = None,
+    sink: Callable[[dict[str, _Array]], object] | None = None,
 ) -> _Signals: ...
 def campaign(
     cases: Iterable[tuple[str, str]],

@@ -6,6 +6,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from ._interrupt import answers_ctrl_c
 from .errors import SceneError
 from .scene.scene import checked_scene
 from .spectra import checked_signal
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["feature_options", "features"]
 
 
+@answers_ctrl_c
 def features(
     x: ArrayLike,
     fs: float,

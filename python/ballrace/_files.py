@@ -37,25 +37,24 @@ def check_writable(path: Path) -> None:
         raise PermissionError(errno.EACCES, "folder is not writable", str(folder))
 
 
-def check_output(path: Path, *, read: Path) -> None:
+def check_output(path: Path, *, name: str = "output", read: Path | None = None) -> None:
     """Refuse a place for signals that cannot be meant: the file they come from, or one of another format.
 
     Raises
     ------
     SceneError
-        It is standard output, the file ``read``, or ends as files of another format do.
+        It is standard output, the file ``read``, or ends as files of another format do; ``name`` is what it was
+        given as.
     OSError
         It cannot be written.
     """
     if str(path) == "-":
-        raise SceneError("output", "-", "the name of a file; Parquet is no text to stream")
+        raise SceneError(name, "-", "the name of a file; Parquet is no text to stream")
     if path.suffix.lower() not in PARQUET:
-        raise SceneError(
-            "output", str(path), "a file that ends in .parquet, which is what is written"
-        )
+        raise SceneError(name, str(path), "a file that ends in .parquet, which is what is written")
     check_writable(path)
-    if path.exists() and read.exists() and path.samefile(read):
-        raise SceneError("output", str(path), "another file than the scene, which it would replace")
+    if read is not None and path.exists() and read.exists() and path.samefile(read):
+        raise SceneError(name, str(path), "another file than the scene, which it would replace")
 
 
 @contextmanager

@@ -9,13 +9,16 @@ which other readers of Parquet pass over::
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import io
 import mmap
+import os
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, BinaryIO, TypeVar
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
     from pathlib import Path
 
     import polars as pl
@@ -27,6 +30,17 @@ _SIZE = 16
 """Length of the hash [bytes]."""
 _TAIL = 8
 """Length of what follows the footer: its own length, and the format's name [bytes]."""
+
+
+@contextmanager
+def writing_to(path: str | os.PathLike[str]) -> Iterator[None]:
+    """Have what polars cannot write, as to a full disk, be an ``OSError`` that names the file."""
+    import polars as pl
+
+    try:
+        yield
+    except pl.exceptions.PolarsError as error:
+        raise OSError(errno.EIO, f"cannot be written ({error})", os.fspath(path)) from error
 
 
 def seal(file: BinaryIO) -> None:
@@ -59,10 +73,40 @@ def read_sealed(path: Path) -> tuple[pl.DataFrame, dict[str, str]]:
     """
     import polars as pl
 
-    with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
-        _check(data)
+    _check_file(path)
     table = _unless_damaged(lambda: pl.read_parquet(path, glob=False))
     return table, _unless_damaged(lambda: pl.read_parquet_metadata(path))
+
+
+def scan_sealed(path: Path) -> dict[str, str]:
+    """Check a Parquet file as :func:`read_sealed` does, and read its metadata alone.
+
+    Raises
+    ------
+    ValueError
+        It is damaged, or not Parquet.
+    OSError
+        It cannot be read.
+    """
+    import polars as pl
+
+    _check_file(path)
+    return _unless_damaged(lambda: pl.read_parquet_metadata(path))
+
+
+def columns_and_rows(path: Path) -> tuple[list[str], int]:
+    """Return the names of the columns of a Parquet file, and how many rows it has."""
+    import polars as pl
+
+    table = pl.scan_parquet(path, glob=False)
+    return table.collect_schema().names(), table.select(pl.len()).collect().item()
+
+
+def read_columns(path: Path, names: list[str]) -> pl.DataFrame:
+    """Read some columns of a Parquet file whose hash is known to be right."""
+    import polars as pl
+
+    return pl.read_parquet(path, columns=names, glob=False)
 
 
 def read_bytes(data: bytes) -> pl.DataFrame:
@@ -76,6 +120,11 @@ def read_bytes(data: bytes) -> pl.DataFrame:
     import polars as pl
 
     return _unless_damaged(lambda: pl.read_parquet(io.BytesIO(data)))
+
+
+def _check_file(path: Path) -> None:
+    with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
+        _check(data)
 
 
 def _check(data: mmap.mmap) -> None:

@@ -303,9 +303,9 @@ def _run(options: argparse.Namespace) -> None:
         settle=options.settle,
         time_limit=options.time_limit,
         max_steps=options.max_steps,
+        out=options.output,
     )
-    out.write_parquet(options.output)
-    print(f"{printable(str(options.output))}: {len(out)} columns, {out.t.size} samples")
+    print(f"{printable(str(options.output))}: {len(out)} columns, {out.n_samples} samples")
 
 
 def _scene(options: argparse.Namespace) -> None:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ._text import printable
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
 __all__ = [
     "AccuracyWarning",
@@ -181,3 +181,10 @@ class CampaignError(BallraceError, RuntimeError):
 
 class CampaignWarning(UserWarning):
     """Something about a campaign that one should know, and that did not stop it."""
+
+
+def from_record(record: Mapping[str, Any]) -> BallraceError:
+    """Return the exception that a record of the core tells of: its ``class`` here, and its ``arguments``."""
+    made = globals()[record["class"]](*record["arguments"])
+    assert isinstance(made, BallraceError)
+    return made

@@ -2,26 +2,32 @@
 
 from __future__ import annotations
 
+import os
 import warnings
-from typing import TYPE_CHECKING, Literal
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
 from . import _core
 from ._document import whole_number
+from ._files import check_output
 from ._progress import Bar
+from ._record import Scanned, metadata, writing
 from ._text import printable
 from .errors import AccuracyWarning, SceneError, SceneWarning
 from .scene.scene import checked_scene
 from .signals import Signals
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
     from ._core import _Signals
     from .scene import Method, Scene
+
+    _Sink: TypeAlias = Callable[[Mapping[str, NDArray[np.float64]]], object]
 
 __all__ = ["simulate"]
 
@@ -44,6 +50,7 @@ def simulate(
     settle: float | None = None,
     time_limit: float | None = None,
     max_steps: int | None = None,
+    out: str | os.PathLike[str] | None = None,
 ) -> Signals:
     """Run a scene and record its probes.
 
@@ -105,11 +112,19 @@ def simulate(
     max_steps : int, optional
         Steps that the run may take, accepted and rejected ones; by default any. The same run ends at the same
         step everywhere.
+    out : path-like, optional
+        Parquet file to write the signals to while the run goes on, without keeping them: of a record of gigabytes
+        about a twentieth is in memory at the end, when the file is put together. It is the file that
+        :meth:`Signals.write_parquet` writes of the run without `out`, with units, scene, statistics and
+        provenance. It appears at once when the run is over and it is whole, and replaces one of the same name;
+        nothing of it is left where the run fails or is stopped. Until then a hidden folder beside it holds the
+        samples: the disk must have room for them twice.
 
     Returns
     -------
     Signals
-        The columns of the probes, with the scene and statistics.
+        The columns of the probes, with the scene and statistics. With `out` the columns stay in the file and are
+        read from there when they are asked for, as by :meth:`Signals.scan_parquet`.
 
     Raises
     ------
@@ -122,7 +137,10 @@ def simulate(
     BudgetError
         The run cost more than `time_limit` or `max_steps` allows; an IntegrationError that has the time reached.
     MemoryLimitError
-        The signals would take more memory than there is, a MemoryError; nothing was computed.
+        The signals would take more memory than there is, a MemoryError; nothing was computed. With `out` that is
+        a block of them, of at most 65 536 samples.
+    OSError
+        `out` cannot be written; what is known of that before is told before anything is computed.
 
     Warns
     -----
@@ -141,6 +159,7 @@ def simulate(
     >>> out["outer.ay"].shape
     (50,)
     """
+    target = None if out is None else _target(out)
     kind, state = (start, None) if isinstance(start, str) else ("state", _state(start))
     if threads < 0:
         raise SceneError("threads", str(threads), "0 to choose, or a number of threads")
@@ -152,21 +171,38 @@ def simulate(
         scene = scene.replace({"solver.reduce": reduce})
     document = scene.to_json()
 
-    def run(callback: Callable[[float], object] | None) -> _Signals:
+    def run(callback: Callable[[float], object] | None, sink: _Sink | None) -> _Signals:
         return _core.simulate(
             document, duration, fs, kind, state, rtol, accuracy, method, threads, callback,
-            bandwidth, settle, time_limit, steps,
+            bandwidth, settle, time_limit, steps, sink,
         )  # fmt: skip
 
-    if progress is True:
+    def shown(sink: _Sink | None) -> _Signals:
+        if progress is not True:
+            return run(progress or None, sink)
         with Bar(scene.name or "simulating") as bar:
-            raw = run(bar.show)
-    else:
-        raw = run(progress or None)
-    out = Signals._from_core(raw)
+            return run(bar.show, sink)
+
+    raw, written = (shown(None), None) if target is None else _written(target, shown)
     for category, text in raw["warnings"]:
         warnings.warn(printable(text), _CATEGORIES[category], stacklevel=2)
-    return out
+    return Signals._from_core(raw, written)
+
+
+def _target(out: str | os.PathLike[str]) -> Path:
+    if not isinstance(out, (str, os.PathLike)):
+        raise SceneError("out", type(out).__name__, "the name of a Parquet file, or None")
+    path = Path(out)
+    check_output(path, name="out")
+    return path
+
+
+def _written(path: Path, run: Callable[[_Sink], _Signals]) -> tuple[_Signals, Scanned]:
+    """Have a run write its samples to a file; return what else it tells, and the file's columns."""
+    with writing(path) as writer:
+        raw = run(writer.take)
+        writer.finish(metadata(Signals._from_core(raw)))
+    return raw, Scanned(path)
 
 
 def _state(start: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import base64
 import difflib
-import io
 import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -18,22 +16,20 @@ from numpy.typing import NDArray
 from . import _core
 from ._features import feature_options
 from ._files import whole
-from ._parquet import read_bytes, read_sealed, seal
+from ._parquet import read_sealed, scan_sealed, seal, writing_to
+from ._record import Scanned, described, metadata, samples, unless_damaged
 from ._text import printable
-from .errors import BallraceError, FileError
 from .scene import Scene, Surface
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     import polars as pl
 
     from ._core import _Signals
 
 __all__ = ["Record", "Signals", "Touched"]
-
-_FORMAT = "1"
 
 
 class Record(Mapping[str, Any]):
@@ -134,7 +130,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
         self,
         *,
         fs: float,
-        t: NDArray[np.float64],
+        t: NDArray[np.float64] | Scanned,
         columns: Mapping[str, NDArray[np.float64]],
         units: Mapping[str, str],
         scene: str,
@@ -145,7 +141,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
     ) -> None:
         self._fs = fs
         self._t = t
-        self._columns = dict(columns)
+        self._columns = columns if isinstance(columns, Scanned) else dict(columns)
         self._units = dict(units)
         self._scene: str | Scene = scene
         self._stats = Record(stats)
@@ -154,11 +150,12 @@ class Signals(Mapping[str, NDArray[np.float64]]):
         self._slices = slices
 
     @classmethod
-    def _from_core(cls, raw: _Signals) -> Signals:
+    def _from_core(cls, raw: _Signals, written: Scanned | None = None) -> Signals:
+        """Take over what a run gave; its samples from the file where they were written meanwhile."""
         return cls(
             fs=raw["fs"],
-            t=raw["t"],
-            columns={name: values for name, _, values in raw["columns"]},
+            t=raw["t"] if written is None else written,
+            columns=written or {name: values for name, _, values in raw["columns"]},
             units={name: unit for name, unit, _ in raw["columns"]},
             scene=raw["scene"],
             stats=json.loads(raw["stats"]),
@@ -192,7 +189,8 @@ class Signals(Mapping[str, NDArray[np.float64]]):
     __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
-        title = f"<Signals of {self.scene.name!r}: {len(self)} columns, {self._t.size} samples at {self._fs:g} Hz"
+        size = f"{len(self)} columns, {self.n_samples} samples at {self._fs:g} Hz"
+        title = f"<Signals of {self.scene.name!r}: {size}"
         groups: dict[str, list[str]] = {}
         for name in self._columns:
             group, _, column = name.partition(".")
@@ -203,7 +201,12 @@ class Signals(Mapping[str, NDArray[np.float64]]):
     @property
     def t(self) -> NDArray[np.float64]:
         """Times, shape (n_samples,) [s]."""
-        return self._t
+        return self._t.read("t") if isinstance(self._t, Scanned) else self._t
+
+    @property
+    def n_samples(self) -> int:
+        """Number of samples of each column."""
+        return self._t.rows if isinstance(self._t, Scanned) else self._t.size
 
     @property
     def fs(self) -> float:
@@ -318,7 +321,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
         """Return a table with the time ``t`` and all columns."""
         import polars as pl
 
-        return pl.DataFrame({"t": self._t, **self._columns})
+        return pl.DataFrame({"t": self.t, **self._columns})
 
     def write_parquet(self, path: str | os.PathLike[str]) -> None:
         """Write a Parquet file; units, scene, statistics and provenance go into its metadata.
@@ -329,23 +332,11 @@ class Signals(Mapping[str, NDArray[np.float64]]):
         Raises
         ------
         OSError
-            The folder does not exist or is not writable.
+            The folder does not exist or is not writable, or the disk is full.
         """
-        metadata = {
-            "ballrace": _FORMAT,
-            "sampling_rate": repr(float(self._fs)),
-            "units": json.dumps({"t": "s", **self._units}),
-            "scene": self.scene.to_json(),
-            "stats": json.dumps(self._stats.to_dict()),
-            "provenance": json.dumps(self._provenance.to_dict()),
-            "warnings": json.dumps(self._warnings),
-        }
-        if self.slices is not None:
-            table = io.BytesIO()
-            self.slices.write_parquet(table)
-            metadata["slices"] = base64.b64encode(table.getvalue()).decode()
         with whole(path) as temporary:
-            self.to_polars().write_parquet(temporary, metadata=metadata)
+            with writing_to(path):
+                self.to_polars().write_parquet(temporary, metadata=metadata(self))
             with temporary.open("r+b") as file:
                 seal(file)
 
@@ -361,82 +352,41 @@ class Signals(Mapping[str, NDArray[np.float64]]):
             The file cannot be read.
         """
         path = Path(path)
-        try:
-            table, metadata = read_sealed(path)
-        except ValueError as error:
-            raise FileError(str(path), f"not a Parquet file, or damaged ({error})") from error
-        if metadata.get("ballrace") != _FORMAT:
-            raise FileError(
-                str(path), "a Parquet file, but not written by this version of ballrace"
-            )
-        times = _samples(path, table, "t")
-        return cls(
-            t=times,
-            columns={name: _samples(path, table, name) for name in table.columns if name != "t"},
-            **_described(path, metadata, table.columns),
-        )
+        table, entries = unless_damaged(path, lambda: read_sealed(path))
+        told = described(path, entries, table.columns)
+        times = samples(path, table, "t")
+        columns = {name: samples(path, table, name) for name in table.columns if name != "t"}
+        return cls(t=times, columns=columns, **told)
 
+    @classmethod
+    def scan_parquet(cls, path: str | os.PathLike[str]) -> Signals:
+        """Open a file of signals, however long, without its samples in memory.
 
-def _samples(path: Path, table: pl.DataFrame, name: str) -> NDArray[np.float64]:
-    import polars as pl
+        :meth:`write_parquet` writes such files, and a run with `out`. A column, and the times, are read from the
+        file whenever they are asked for; keep what is used more than once. The file is checked against its hash
+        now, and must stay as it is.
 
-    if name not in table.columns:
-        raise FileError(str(path), f"damaged: the column {name} is missing")
-    column = table[name]
-    if column.dtype != pl.Float64 or column.null_count():
-        raise FileError(str(path), f"damaged: the column {name} has other entries than numbers")
-    return column.to_numpy()
+        Raises
+        ------
+        FileError
+            The file is not such a file, or damaged; the message says what of it. Later: it has changed.
+        OSError
+            The file cannot be read.
 
-
-def _described(path: Path, metadata: Mapping[str, str], columns: list[str]) -> dict[str, Any]:
-    """Return what the metadata of a file says beside its samples, as :class:`Signals` takes it."""
-    readers: dict[str, Callable[[str], Any]] = {
-        "sampling_rate": _rate, "units": _mapping, "scene": _scene, "stats": _mapping,
-        "provenance": _mapping, "warnings": _texts, "slices": _table,
-    }  # fmt: skip
-    found = {}
-    for entry, read in readers.items():
-        text = metadata.get(entry, {"warnings": "[]", "slices": ""}.get(entry))
-        if text is None:
-            raise FileError(str(path), f"damaged: its metadata has no {entry}")
-        try:
-            found[entry] = read(text)
-        except (ValueError, TypeError, BallraceError) as error:
-            reason = f"damaged: the entry {entry} of its metadata cannot be read ({error})"
-            raise FileError(str(path), reason) from error
-    units = found.pop("units")
-    missing = [name for name in columns if name not in units and name != "t"]
-    if missing:
-        raise FileError(str(path), f"damaged: its metadata has no unit of {missing[0]}")
-    found["units"] = {name: str(units[name]) for name in columns if name != "t"}
-    found["fs"] = found.pop("sampling_rate")
-    return found
-
-
-def _rate(text: str) -> float:
-    fs = float(text)
-    if not 0.0 < fs < float("inf"):
-        raise ValueError(f"{text} is no rate")
-    return fs
-
-
-def _mapping(text: str) -> dict[str, Any]:
-    document = json.loads(text)
-    if not isinstance(document, dict):
-        raise TypeError("it is no mapping")
-    return document
-
-
-def _scene(text: str) -> str:
-    return Scene.from_json(text).to_json()
-
-
-def _texts(text: str) -> list[str]:
-    return [str(warning) for warning in json.loads(text)]
-
-
-def _table(text: str) -> pl.DataFrame | None:
-    return read_bytes(base64.b64decode(text)) if text else None
+        Examples
+        --------
+        >>> import ballrace as br, pathlib, tempfile
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = pathlib.Path(folder) / "record.parquet"
+        ...     _ = br.simulate(br.presets.deep_groove_6205(), duration=0.001, out=path)
+        ...     out = br.Signals.scan_parquet(path)
+        ...     (out.n_samples, out["outer.ay"].shape)
+        (50, (50,))
+        """
+        path = Path(path)
+        entries = unless_damaged(path, lambda: scan_sealed(path))
+        columns = Scanned(path)
+        return cls(t=columns, columns=columns, **described(path, entries, list(columns)))
 
 
 def _shortened(names: list[str], limit: int) -> str:

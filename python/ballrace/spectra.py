@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from . import _core
+from ._interrupt import answers_ctrl_c
 from .errors import SceneError
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 __all__ = ["comb", "envelope", "floor", "line", "spectrum", "squared_envelope"]
 
 
+@answers_ctrl_c
 def squared_envelope(
     x: ArrayLike, fs: float, band: tuple[float, float] | None = None
 ) -> NDArray[np.float64]:
@@ -64,10 +66,11 @@ def squared_envelope(
     signal = checked_signal(x, fs)
     low, high = (0.0, fs / 2.0) if band is None else band
     if not 0.0 <= low < high <= fs / 2.0:
-        raise SceneError("band", str(band), f"two rising frequencies from 0 to fs/2, {fs / 2.0}")
+        raise SceneError("band", str(band), f"two rising frequencies from 0 to fs/2, {fs / 2.0:g}")
     return _core.squared_envelope(signal, fs, None if band is None else (low, high))
 
 
+@answers_ctrl_c
 def spectrum(x: ArrayLike, fs: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the amplitude spectrum of a signal.
 
@@ -158,6 +161,7 @@ def line(x: ArrayLike, fs: float, near: float, width: float) -> tuple[float, flo
     return f, float(values[0])
 
 
+@answers_ctrl_c
 def comb(
     x: ArrayLike,
     fs: float,
@@ -211,7 +215,7 @@ def comb(
     if not (width > 0.0 and multiples[0] * low + offset > 0.0):
         raise SceneError("width", str(width), "above 0, and lines at positive frequencies")
     if multiples[-1] * high + offset > fs / 2.0:
-        raise SceneError("near", str(near), f"lines up to fs/2, {fs / 2.0}")
+        raise SceneError("near", str(near), f"lines up to fs/2, {fs / 2.0:g}")
 
     padded = 4 * signal.size
     power = _core.amplitudes(signal, padded) ** 2

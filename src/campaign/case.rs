@@ -2,7 +2,6 @@
 
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use crate::error::{Error, Result};
@@ -10,6 +9,7 @@ use crate::features::{
     Feature, FeatureOptions, Recorded, check, feature_columns, features_of, with_load_probes,
     without_load_probes,
 };
+use crate::interrupt::Interrupt;
 use crate::run::Run;
 use crate::scene::Scene;
 use crate::signals::Signals;
@@ -45,14 +45,15 @@ pub struct Finished {
 }
 
 impl Case {
+    /// Runs it, until done or asked to stop.
     pub(super) fn outcome(
         &self,
         index: usize,
         options: &FeatureOptions,
-        stop: &AtomicBool,
+        stop: &Interrupt,
     ) -> Outcome {
         let begun = Instant::now();
-        let result = guarded(|| self.finish(options, stop));
+        let result = stop.heed(|| guarded(|| self.finish(options, stop)));
         let wall_time = begun.elapsed().as_secs_f64();
         Outcome {
             index,
@@ -61,7 +62,7 @@ impl Case {
         }
     }
 
-    fn finish(&self, options: &FeatureOptions, stop: &AtomicBool) -> Result<Finished> {
+    fn finish(&self, options: &FeatureOptions, stop: &Interrupt) -> Result<Finished> {
         let run = Run {
             threads: 1,
             ..self.run.clone()
@@ -69,7 +70,7 @@ impl Case {
         check(options, &run)?;
         let columns = feature_columns(&self.scene, options)?;
         let mut progress = |_| {
-            if stop.load(Ordering::Relaxed) {
+            if stop.is_set() {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
@@ -101,11 +102,26 @@ fn guarded<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::presets;
 
     #[test]
     fn a_panic_is_an_error_of_its_case() {
         let found = guarded::<()>(|| panic!("ball {} is lost", 3));
         let message = "ball 3 is lost".to_owned();
         assert_eq!(found, Err(Error::Internal { message }));
+    }
+
+    /// The static solve itself hears it: it would have told that the load cannot be carried.
+    #[test]
+    fn a_stop_reaches_the_static_solve_of_a_case() {
+        let case = Case {
+            scene: presets::wheel_bearing(1e9),
+            run: Run::default(),
+        };
+        let outcome = |stop: &Interrupt| case.outcome(0, &FeatureOptions::default(), stop).result;
+        let stop = Interrupt::new();
+        assert!(matches!(outcome(&stop), Err(Error::Equilibrium { .. })));
+        stop.set();
+        assert!(matches!(outcome(&stop), Err(Error::Interrupted { .. })));
     }
 }

@@ -1,11 +1,10 @@
 //! Cases in, outcomes out, with a bounded number on the way.
 //!
 //! The threads are the campaign's own. A shared pool would let campaigns in one process (a Dask worker has several)
-//! wait for each other, and a forked child would inherit one without its threads. A stop does not wait long for a
-//! case that does not hear it, such as one in a large static solve: its thread ends by itself with that case.
+//! wait for each other, and a forked child would inherit one without its threads. A stop reaches a case in its static
+//! solves and between its steps; where one evaluation takes long, its thread ends by itself after it.
 
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -13,6 +12,8 @@ use std::time::{Duration, Instant};
 use super::{Case, Outcome};
 use crate::error::{Error, Result};
 use crate::features::FeatureOptions;
+use crate::interrupt::Interrupt;
+use crate::memory;
 
 /// How long the calling thread waits at most before it looks up.
 const ATTENTION: Duration = Duration::from_millis(50);
@@ -20,14 +21,17 @@ const ATTENTION: Duration = Duration::from_millis(50);
 /// How long a stop waits at most for cases that finish meanwhile, of what Ctrl-C may take: half a second.
 const PATIENCE: Duration = Duration::from_millis(150);
 
-/// Cases handed out a thread: one that runs and one that waits.
+/// Cases handed out a thread: one that runs and one that waits, or has finished and waits to be seen.
 const AHEAD: usize = 2;
+/// Records of a case that are there at once: its samples, and what its features are computed from.
+const RECORDS: f64 = 2.0;
 
 /// Runs cases as they come from an iterator, on `threads` threads (0: all cores).
 ///
 /// `watch` is called on this thread at least about every 50 ms with the outcomes that have come in since, in any
 /// order (see [`Outcome::index`]), or none; it may stop everything. Cases interrupted by that are not reported;
-/// those that finish within 150 ms are, in one last call. No more than two cases a thread are held at a time.
+/// those that finish within 150 ms are, in one last call. No more than two cases a thread are held at a time, and each
+/// has its part of the memory that there is at the beginning.
 ///
 /// # Errors
 /// [`Error::Scene`] for more than 1024 threads, or more than the system grants.
@@ -43,7 +47,8 @@ pub fn stream(
     let shared = Arc::new(Shared {
         queue: Mutex::new(queue),
         options: options.clone(),
-        stop: AtomicBool::new(false),
+        stop: Interrupt::new(),
+        memory: memory::available() / (RECORDS * AHEAD as f64 * threads as f64),
     });
     for i in 0..threads {
         let (shared, hand_in) = (Arc::clone(&shared), hand_in.clone());
@@ -72,7 +77,9 @@ pub fn stream(
 struct Shared {
     queue: Mutex<Receiver<(usize, Case)>>,
     options: FeatureOptions,
-    stop: AtomicBool,
+    stop: Interrupt,
+    /// What each case may set aside \[bytes\].
+    memory: f64,
 }
 
 /// Number of threads asked for, or of cores.
@@ -90,15 +97,16 @@ fn work(shared: &Shared, hand_in: &Sender<Outcome>) {
         queue,
         options,
         stop,
+        memory,
     } = shared;
     loop {
         // The lock is let go before the case runs.
         let next = queue.lock().unwrap_or_else(PoisonError::into_inner).recv();
         let Ok((index, case)) = next else { return };
-        if stop.load(Ordering::Relaxed) {
+        if stop.is_set() {
             continue;
         }
-        let outcome = case.outcome(index, options, stop);
+        let outcome = memory::within(*memory, || case.outcome(index, options, stop));
         if matches!(outcome.result, Err(Error::Interrupted { .. }))
             || hand_in.send(outcome).is_err()
         {
@@ -113,7 +121,7 @@ fn feed(
     window: usize,
     hand_out: Sender<(usize, Case)>,
     outcomes: &Receiver<Outcome>,
-    stop: &AtomicBool,
+    stop: &Interrupt,
     watch: &mut dyn FnMut(Vec<Outcome>) -> ControlFlow<()>,
 ) {
     let mut cases = cases.enumerate();
@@ -136,7 +144,7 @@ fn feed(
             break;
         }
     }
-    stop.store(true, Ordering::Relaxed);
+    stop.set();
     drop(hand_out);
     let last = await_last(outcomes);
     if !last.is_empty() {
@@ -162,7 +170,7 @@ fn gather(outcomes: &Receiver<Outcome>) -> Vec<Outcome> {
 mod tests {
     use super::*;
 
-    /// As of a thread in a large static solve, which does not hear the stop: to wait for it would be for ever.
+    /// As of a thread in a very long evaluation, which does not hear the stop before its end.
     #[test]
     fn a_stop_does_not_wait_for_the_deaf() {
         let (deaf, outcomes) = channel::<Outcome>();

@@ -9,6 +9,7 @@ use super::{FINE, TOLERANCE};
 use crate::contact::V2;
 use crate::error::{Error, Result};
 use crate::interrupt;
+use crate::told;
 
 /// Newton iterations of a ball before giving up.
 const BALL_ITERATIONS: usize = 100;
@@ -146,9 +147,9 @@ impl Problem<'_> {
         }
         Err(Error::Equilibrium {
             reason: format!(
-                "{} finds no place between the rings: {:.3e} N are not balanced",
+                "{} finds no place between the rings: {} are not balanced",
                 body.name,
-                found.force.norm()
+                told::force(found.force.norm())
             ),
         })
     }

@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
-use super::{Equilibrium, doubts, equilibrium, place};
+use super::{BallEquilibrium, Equilibrium, doubts, equilibrium, place};
 use crate::error::{Error, Result};
+use crate::memory;
 use crate::scene::{Row, Scene, Surface};
 
 /// Exponents of the mean for a ring that turns and for one that stands under the load (ball bearings).
@@ -50,7 +51,7 @@ pub struct EquivalentLoads {
 /// ```
 ///
 /// # Errors
-/// As [`super::equilibrium()`]; [`Error::Scene`] for no positions.
+/// As [`super::equilibrium()`]; [`Error::Scene`] for no positions, [`Error::Memory`] for more than fit.
 pub fn load_distribution(scene: &Scene, positions: usize) -> Result<LoadDistribution> {
     if positions == 0 {
         return Err(Error::scene("positions", "0", "at least 1 per ball pitch"));
@@ -69,7 +70,8 @@ pub fn load_distribution(scene: &Scene, positions: usize) -> Result<LoadDistribu
     } else {
         TAU
     };
-    let count = pitches * positions;
+    let count = pitches.saturating_mul(positions);
+    check_memory(&scene, count)?;
     let turn: Vec<f64> = (0..count)
         .map(|k| range * k as f64 / count as f64)
         .collect();
@@ -99,6 +101,15 @@ pub fn load_distribution(scene: &Scene, positions: usize) -> Result<LoadDistribu
     })
 }
 
+/// Refuses more positions than fit into memory: they are here, and in the arrays of their columns.
+fn check_memory(scene: &Scene, count: usize) -> Result<()> {
+    let balls: usize = scene.rows.iter().map(|row| row.ball_count).sum();
+    let position = 2 * (size_of::<Equilibrium>() + balls * size_of::<BallEquilibrium>());
+    memory::check(count as f64 * position as f64, || {
+        format!("the loads of {balls} balls at {count} positions; lower positions")
+    })
+}
+
 /// Whether a turn by one pitch leaves everything as it was.
 fn repeats(scene: &Scene) -> bool {
     let alike = |row: &Row| {
@@ -112,7 +123,7 @@ fn mean(
     equilibria: &[Equilibrium],
     row: usize,
     p: f64,
-    load: impl Fn(&super::BallEquilibrium) -> f64,
+    load: impl Fn(&BallEquilibrium) -> f64,
 ) -> f64 {
     let balls = || equilibria.iter().flat_map(|found| &found.balls);
     let loads = || balls().filter(|ball| ball.row == row).map(&load);

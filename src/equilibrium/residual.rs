@@ -7,6 +7,7 @@ use crate::contact::Motion;
 use crate::dynamics::link;
 use crate::error::{Error, Result};
 use crate::interrupt;
+use crate::told;
 
 /// Force left on a body, over the largest load, above which there is no equilibrium.
 const REFUSED: f64 = 1e-4;
@@ -114,12 +115,13 @@ impl Problem<'_> {
         }
         Err(Error::Equilibrium {
             reason: format!(
-                "{:.3e} N on {} are not balanced, {:.1e} of the largest load ({:.3e} N), where {REFUSED:e} is allowed; \
+                "{} on {} are not balanced, {} % of the largest load ({}), where {} % is allowed; \
                  check loads, clearance and cage, cut contacts by fitted nodes, or start rolling",
-                residual.force,
+                told::force(residual.force),
                 self.model.bodies[residual.body].name,
-                residual.share(),
-                residual.largest
+                told::number(100.0 * residual.share()),
+                told::force(residual.largest),
+                told::number(100.0 * REFUSED)
             ),
         })
     }
@@ -154,6 +156,6 @@ mod tests {
         assert!((0.05..1.0).contains(&off.force), "{off:?}");
         let error = problem.accept(&off).unwrap_err().to_string();
         assert!(error.contains(" N on outer are not balanced"), "{error}");
-        assert!(error.contains("where 1e-4 is allowed"), "{error}");
+        assert!(error.contains("where 0.01 % is allowed"), "{error}");
     }
 }

@@ -10,6 +10,7 @@ use super::{FINE, STALLED};
 use crate::contact::V2;
 use crate::error::{Error, Result};
 use crate::interrupt;
+use crate::told;
 
 /// Newton iterations of the rings before giving up.
 const RING_ITERATIONS: usize = 200;
@@ -129,9 +130,9 @@ impl Problem<'_> {
         }
         Err(Error::Equilibrium {
             reason: format!(
-                "the load cannot be carried: {:.3e} of the load is not \
+                "the load cannot be carried: {} % of the load is not \
                  balanced; check loads, clearance, supports and contact angle, or start rolling",
-                self.error(&state.residual)
+                told::number(100.0 * self.error(&state.residual))
             ),
         })
     }
@@ -297,12 +298,13 @@ impl Problem<'_> {
                 if left {
                     return Err(Error::Equilibrium {
                         reason: format!(
-                            "{} leaves the groove of the {} race: its contact lies {point:.3e} m from the groove's \
-                             middle, which ends at {:.3e} and {:.3e}; lower the load or widen the groove",
+                            "{} leaves the groove of the {} race: its contact lies {} from the groove's \
+                             middle, which ends at {} and {}; lower the load or widen the groove",
                             self.model.bodies[2 + j].name,
                             ["outer", "inner"][race],
-                            pair.race.lowest,
-                            pair.race.highest
+                            told::length(point),
+                            told::length(pair.race.lowest),
+                            told::length(pair.race.highest)
                         ),
                     });
                 }

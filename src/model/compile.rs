@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::body::{Body, Degree, ball_mass, groove_radius, ring_mass};
-use super::{Ball, LoadModel, Model, RowModel, Scales, Spring, UnbalanceModel, nodes};
+use super::{Ball, LoadModel, Model, RowModel, Scales, Spring, UnbalanceModel, demand, nodes};
 use crate::contact::hertz::Hertz;
 use crate::contact::iso16281::Iso16281;
 use crate::contact::{BallSide, Fault, Friction, Law, Pair, Rules, Slices, Torus, Waves};
@@ -12,10 +12,12 @@ use crate::scene::{
     self, Approximations, Defect, Drive, Mount, NormalLaw, RingName, Row, Scene, Surface,
 };
 use crate::simd::Level;
+use crate::told::number;
 
 /// Checks and compiles a scene whose defects all have numbers for their places; [`Model::new`] gives them those.
 pub(crate) fn compile(scene: &Scene) -> Result<Model> {
     scene.validate()?;
+    demand::check(scene)?;
     let scene = &Approximations::simplified(scene);
     let mut bodies = vec![
         ring(scene, &scene.outer_ring, RingName::Outer)?,
@@ -116,7 +118,10 @@ fn ring(scene: &Scene, ring: &scene::Ring, name: RingName) -> Result<Body> {
             return Err(Error::scene(
                 format!("{label}_ring.width"),
                 format!("{:?}", ring.width),
-                format!("a ring wide enough for its grooves: its {field} would be {value:.3e}"),
+                format!(
+                    "a ring wide enough for its grooves: its {field} would be {}",
+                    number(value)
+                ),
             ));
         }
     }
@@ -267,8 +272,9 @@ fn unbalances(scene: &Scene, bodies: &[Body]) -> Result<Vec<UnbalanceModel>> {
                 format!("unbalances.{name}.moment"),
                 unbalance.moment,
                 format!(
-                    "all of a ring that turns freely below √(mass · inertia) = {most:.3e} kg m, \
-                     or it has no inertia about its centre of mass"
+                    "all of a ring that turns freely below √(mass · inertia) = {} kg m, \
+                     or it has no inertia about its centre of mass",
+                    number(most)
                 ),
             ));
         }

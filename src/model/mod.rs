@@ -5,6 +5,7 @@
 
 mod body;
 mod compile;
+mod demand;
 mod nodes;
 mod reduction;
 mod scales;

@@ -6,16 +6,35 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use numpy::IntoPyArray;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use super::errors::OrRaise;
-use crate::{Interrupt, Result};
+use crate::{Block, Column, Interrupt, Result};
 
 /// Longest time between two looks at signals, and least time between two calls of a callback.
 const ATTENTION: Duration = Duration::from_millis(50);
 
 /// What work tells the share done to, and is stopped by.
 pub(super) type Progress<'a> = &'a mut dyn FnMut(f64) -> ControlFlow<()>;
+
+/// What work hands blocks of a record to.
+pub(super) type Sink<'a> = &'a mut (dyn FnMut(Block) -> ControlFlow<()> + Send);
+
+/// What the waiting thread is told.
+enum Told {
+    Share(f64),
+    Block(Block),
+}
+
+/// Python's callables, called on the thread that waits: one takes the share done, the other the columns of a block by
+/// their names, the times `t` first.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Callbacks<'a> {
+    pub progress: Option<&'a Py<PyAny>>,
+    pub sink: Option<&'a Py<PyAny>>,
+}
 
 /// Works on a thread of its own while this one waits for Ctrl-C and calls `progress` with the share done.
 ///
@@ -26,26 +45,44 @@ pub(super) fn answering<T: Send + 'static>(
     progress: Option<&Py<PyAny>>,
     work: impl FnOnce(Progress<'_>) -> Result<T> + Send + 'static,
 ) -> PyResult<T> {
+    let callbacks = Callbacks {
+        progress,
+        sink: None,
+    };
+    handing_over(py, callbacks, |progress, _| work(progress))
+}
+
+/// As [`answering`], for work that hands over blocks, too; it waits while one is taken.
+pub(super) fn handing_over<T: Send + 'static>(
+    py: Python<'_>,
+    callbacks: Callbacks<'_>,
+    work: impl FnOnce(Progress<'_>, Sink<'_>) -> Result<T> + Send + 'static,
+) -> PyResult<T> {
     let stop = Interrupt::new();
-    let (tell, listen) = mpsc::channel();
+    // A block is given when it is asked for, so that they do not pile up.
+    let (tell, listen) = mpsc::sync_channel(0);
     let heeded = stop.clone();
     let worker = thread::Builder::new()
         .name("ballrace".to_owned())
         .spawn(move || {
             // Owned here, so that listening ends with the work.
             let tell = tell;
-            heeded.heed(|| {
-                work(&mut |share| {
-                    let _ = tell.send(share);
-                    if heeded.is_set() {
-                        ControlFlow::Break(())
-                    } else {
-                        ControlFlow::Continue(())
-                    }
-                })
-            })
+            let mut progress = |share| {
+                // What nobody has time for just now is old at the next look.
+                let _ = tell.try_send(Told::Share(share));
+                if heeded.is_set() {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            };
+            let mut sink = |block| match tell.send(Told::Block(block)) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(_) => ControlFlow::Break(()),
+            };
+            heeded.heed(|| work(&mut progress, &mut sink))
         })?;
-    py.detach(move || wait(&listen, progress))
+    py.detach(move || wait(&listen, callbacks))
         .inspect_err(|_| stop.set())?;
     let result = py.detach(|| worker.join());
     result
@@ -54,17 +91,21 @@ pub(super) fn answering<T: Send + 'static>(
 }
 
 /// Until the other end is gone.
-fn wait(listen: &Receiver<f64>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
+fn wait(listen: &Receiver<Told>, callbacks: Callbacks<'_>) -> PyResult<()> {
     let mut looked = Instant::now();
     loop {
-        let told = match listen.recv_timeout(ATTENTION) {
-            Ok(share) => Some(share),
+        let share = match listen.recv_timeout(ATTENTION) {
+            Ok(Told::Share(share)) => Some(share),
+            Ok(Told::Block(block)) => {
+                Python::attach(|py| hand_over(py, callbacks.sink, block))?;
+                None
+            }
             Err(RecvTimeoutError::Timeout) => None,
             Err(RecvTimeoutError::Disconnected) => return Ok(()),
         };
         if looked.elapsed() >= ATTENTION {
             looked = Instant::now();
-            Python::attach(|py| attend(py, progress, told))?;
+            Python::attach(|py| attend(py, callbacks.progress, share))?;
         }
     }
 }
@@ -76,4 +117,15 @@ fn attend(py: Python<'_>, progress: Option<&Py<PyAny>>, told: Option<f64>) -> Py
         (Some(callback), Some(share)) => callback.call1(py, (share,)).map(drop),
         _ => Ok(()),
     }
+}
+
+/// Gives a block as arrays that take over its memory.
+fn hand_over(py: Python<'_>, sink: Option<&Py<PyAny>>, block: Block) -> PyResult<()> {
+    let Some(sink) = sink else { return Ok(()) };
+    let columns = PyDict::new(py);
+    columns.set_item("t", block.t.into_pyarray(py))?;
+    for Column { name, values, .. } in block.columns {
+        columns.set_item(name, values.into_pyarray(py))?;
+    }
+    sink.call1(py, (columns,)).map(drop)
 }

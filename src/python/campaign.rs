@@ -11,7 +11,11 @@ use serde_json::json;
 use super::errors::{OrRaise, record};
 use super::features::options_from;
 use super::run::{bandwidth, hand_over, method, start};
-use crate::{Case, Error, Finished, Outcome, Run, Scene, features, simulate};
+use crate::{Case, Error, Finished, Outcome, Run, Scene, features, memory, simulate};
+
+/// Share of the memory for cases whose signals are kept: the rest is for those that wait to be written, and for the
+/// table they are written from.
+const KEEPING: f64 = 0.4;
 
 /// How a case is run.
 #[derive(Deserialize)]
@@ -90,7 +94,12 @@ pub(super) fn campaign(
                 }
             }
         };
-        crate::stream(pull, threads, &options, &mut watch)
+        let stream = || crate::stream(pull, threads, &options, &mut watch);
+        if keep_signals {
+            memory::within(KEEPING * memory::available(), stream)
+        } else {
+            stream()
+        }
     });
     if let Some(exception) = raised.or(failed_pull) {
         return Err(exception);

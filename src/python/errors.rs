@@ -36,48 +36,24 @@ pub(super) fn record(error: &Error) -> Value {
 }
 
 /// The exception that says the same as `error`.
+#[allow(clippy::needless_pass_by_value)] // so that it can be handed to `map_err`
 pub(super) fn raise(py: Python<'_>, error: Error) -> PyErr {
-    let made = match error {
-        Error::Scene {
-            path,
-            value,
-            allowed,
-        } => make(py, "SceneError", (path, value, allowed)),
-        Error::Equilibrium { .. } => make(py, "EquilibriumError", (error.to_string(),)),
-        Error::Integration {
-            ref time,
-            ref step,
-            ref body,
-            ref contacts,
-            ..
-        } => make(
-            py,
-            "IntegrationError",
-            (error.to_string(), *time, *step, body, contacts.clone()),
-        ),
-        Error::Budget { time, name, limit } => {
-            make(py, "BudgetError", (error.to_string(), time, name, limit))
-        }
-        Error::Memory {
-            needed, available, ..
-        } => make(
-            py,
-            "MemoryLimitError",
-            (error.to_string(), needed, available),
-        ),
-        Error::Internal { .. } => make(py, "BallraceError", (error.to_string(),)),
+    match error {
         // The observer's own exception takes precedence over this one.
-        Error::Interrupted { .. } => return PyKeyboardInterrupt::new_err(error.to_string()),
-    };
-    made.unwrap_or_else(|failure| failure)
+        Error::Interrupted { .. } => PyKeyboardInterrupt::new_err(error.to_string()),
+        _ => made(py, &record(&error)).unwrap_or_else(|failure| failure),
+    }
 }
 
-fn make<'py, A>(py: Python<'py>, name: &str, arguments: A) -> PyResult<PyErr>
-where
-    A: pyo3::call::PyCallArgs<'py>,
-{
-    let class = py.import("ballrace.errors")?.getattr(name)?;
-    Ok(PyErr::from_value(class.call1(arguments)?))
+/// The exception of a record, made where those of campaigns are.
+fn made(py: Python<'_>, record: &Value) -> PyResult<PyErr> {
+    let record = py
+        .import("json")?
+        .call_method1("loads", (record.to_string(),))?;
+    let exception = py
+        .import("ballrace.errors")?
+        .call_method1("from_record", (record,))?;
+    Ok(PyErr::from_value(exception))
 }
 
 /// `Result<T>` of the crate as `PyResult<T>`.

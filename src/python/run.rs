@@ -12,9 +12,10 @@ use serde::Deserialize;
 use serde::de::IntoDeserializer;
 use serde::de::value::Error as ValueError;
 
-use super::answer::{Progress, answering};
+use super::answer::{Callbacks, answering, handing_over};
 use super::errors::{OrRaise, to_json};
 use crate::scene::{Method, RingName};
+use crate::start::check_length;
 use crate::{Bandwidth, Error, Run, Scene, Signals, SliceRow, Start};
 
 /// A compiled scene.
@@ -91,9 +92,8 @@ impl Model {
 impl Model {
     /// A copy of a state of the right length: other threads may write to the array once the GIL is released.
     fn state(&self, py: Python<'_>, y: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<f64>> {
-        let y: Vec<f64> = y.as_array().iter().copied().collect();
-        if y.len() == self.0.dim() {
-            Ok(y)
+        if y.as_array().len() == self.0.dim() {
+            Ok(y.as_array().iter().copied().collect())
         } else {
             let wanted = format!(
                 "an array of shape ({},), one number per state",
@@ -101,7 +101,7 @@ impl Model {
             );
             Err(Error::scene(
                 "y",
-                format!("an array of shape ({},)", y.len()),
+                format!("an array of shape ({},)", y.as_array().len()),
                 wanted,
             ))
             .or_raise(py)
@@ -110,10 +110,12 @@ impl Model {
 }
 
 /// Run a scene; returns a dict of `fs`, `t`, `columns`, `slices`, `stats`, `provenance` and `scene`.
+///
+/// With a `sink` times and columns come back empty: it was given them, block by block, as dicts of arrays.
 #[pyfunction]
 #[pyo3(signature = (
     scene, duration, fs, kind, state, rtol, accuracy, method, threads, progress, bandwidth, settle,
-    time_limit = None, max_steps = None
+    time_limit = None, max_steps = None, sink = None
 ))]
 #[allow(clippy::too_many_arguments)]
 pub(super) fn simulate<'py>(
@@ -132,9 +134,13 @@ pub(super) fn simulate<'py>(
     settle: Option<f64>,
     time_limit: Option<f64>,
     max_steps: Option<usize>,
+    sink: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let scene = Scene::from_json(scene).or_raise(py)?;
-    let state = state.map(|y| y.as_array().iter().copied().collect());
+    let state = state
+        .map(|y| state_of(&scene, &y))
+        .transpose()
+        .or_raise(py)?;
     let run = Run {
         duration,
         fs,
@@ -148,12 +154,29 @@ pub(super) fn simulate<'py>(
         time_limit,
         max_steps,
     };
-    let work = move |told: Progress<'_>| crate::simulate(&scene, &run, told);
-    let signals = answering(py, progress.as_ref(), work)?;
+    let callbacks = Callbacks {
+        progress: progress.as_ref(),
+        sink: sink.as_ref(),
+    };
+    let in_blocks = sink.is_some();
+    let signals = handing_over(py, callbacks, move |told, sink| {
+        if in_blocks {
+            crate::simulate_into(&scene, &run, sink, told)
+        } else {
+            crate::simulate(&scene, &run, told)
+        }
+    })?;
     if let Some(callback) = progress {
         callback.call1(py, (1.0,))?;
     }
     hand_over(py, signals)
+}
+
+/// A copy of a state to begin from, if it has the length for it.
+fn state_of(scene: &Scene, y: &PyReadonlyArray1<'_, f64>) -> crate::Result<Vec<f64>> {
+    let balls: usize = scene.rows.iter().map(|row| row.ball_count).sum();
+    check_length(y.as_array().len(), 8 * (2 + balls))?;
+    Ok(y.as_array().iter().copied().collect())
 }
 
 /// What a scene is compiled to and costs, as JSON and as text.

@@ -36,6 +36,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
+use crate::memory;
 
 pub(crate) use antiderivative::Antiderivative;
 pub use approximations::Approximations;
@@ -108,12 +109,26 @@ pub struct Scene {
     pub solver: Solver,
 }
 
+/// Memory that reading takes over the length of the text, where it is a list of one-digit numbers: of TOML its tokens and
+/// the document, of JSON the scene, or the document where the scene has an error.
+const TOML: f64 = 50.0;
+const JSON: f64 = 8.0;
+const DOCUMENT: f64 = 40.0;
+
+/// Refuses to read a text that does not fit into memory.
+fn check_length(text: &str, factor: f64) -> Result<()> {
+    memory::check(factor * text.len() as f64, || {
+        format!("a scene of {} characters; give it fewer", text.len())
+    })
+}
+
 impl Scene {
     /// Reads a scene from TOML and checks it.
     ///
     /// # Errors
     /// [`Error::Scene`] names the first field that is unknown, missing or not usable.
     pub fn from_toml(text: &str) -> Result<Self> {
+        check_length(text, TOML)?;
         let document = toml::from_str(text)
             .map_err(|e| Error::scene("scene", "not TOML", e.to_string().trim_end()))?;
         Self::read(&document)
@@ -131,8 +146,10 @@ impl Scene {
 
     /// Reads a scene from JSON for [`crate::Model::new`], which checks it.
     pub(crate) fn from_json_unchecked(text: &str) -> Result<Self> {
+        check_length(text, JSON)?;
         // The document takes three times as long; it knows the path and the value of what is wrong.
         serde_json::from_str(text).or_else(|_| {
+            check_length(text, DOCUMENT)?;
             let document = serde_json::from_str(text)
                 .map_err(|e| Error::scene("scene", "not JSON", e.to_string()))?;
             Self::interpret(&document)

@@ -25,7 +25,8 @@ pub(super) fn set(document: &mut Value, path: &str, value: Value) -> Result<()> 
             (Step::Key(key), Value::Object(map)) => {
                 let known = map.keys().cloned().collect::<Vec<_>>().join(", ");
                 map.get_mut(key).ok_or_else(|| {
-                    Error::scene(path, key, format!("no such field; there are: {known}"))
+                    let new = a_new_one(path, key).unwrap_or_default();
+                    Error::scene(path, key, format!("no such field; there are: {known}{new}"))
                 })?
             }
             (Step::Index(index), Value::Array(items)) => {
@@ -96,4 +97,11 @@ fn steps(path: &str) -> Result<Vec<Step<'_>>> {
         }
     }
     Ok(steps)
+}
+/// How to give a new entry, of which a path names but a field.
+fn a_new_one(path: &str, key: &str) -> Option<String> {
+    let (part, rest) = path.split_once('.')?;
+    let field = rest.strip_prefix(key)?;
+    (NAMED.contains(&part) && !field.is_empty())
+        .then(|| format!("; a new one is given whole, as {part}.{key}"))
 }

@@ -15,6 +15,8 @@ pub(super) struct Decimator {
     taps: Taps,
     /// The columns that are filtered, and how.
     columns: Vec<(usize, Kind)>,
+    /// The point of the grid where row 0 of the columns stands.
+    row0: i64,
     /// The first point, and the values there.
     first: Option<(i64, Vec<f64>)>,
     /// The last points, one more than the filter reaches.
@@ -27,6 +29,7 @@ impl Decimator {
         Self {
             taps,
             columns,
+            row0: 0,
             first: None,
             latest: VecDeque::new(),
             next: 0,
@@ -36,6 +39,16 @@ impl Decimator {
     /// Points from the middle of the filter to its last.
     pub fn reach(&self) -> i64 {
         self.taps.reach()
+    }
+
+    /// Samples that no later point counts for.
+    pub fn finished(&self) -> usize {
+        self.taps.finished(self.next)
+    }
+
+    /// So many samples have left the columns.
+    pub fn drop_samples(&mut self, count: usize) {
+        self.row0 += self.taps.points(count);
     }
 
     /// Takes the values at the next point of the grid, one a filtered column; the first may be any.
@@ -66,7 +79,7 @@ impl Decimator {
     fn spread(&self, point: i64, values: &[f64], out: &mut [Column]) {
         for ((column, how), value) in self.columns.iter().zip(values) {
             self.taps
-                .spread(*how, point, *value, &mut out[*column].values);
+                .spread(*how, point - self.row0, *value, &mut out[*column].values);
         }
     }
 

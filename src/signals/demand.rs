@@ -1,6 +1,7 @@
 //! What a run's record takes, counted before anything of it is there.
 
 use super::SliceRow;
+use super::blocks::rows_in_memory;
 use super::filter::HALF;
 use crate::dynamics::{CONTRIBUTIONS, Energy};
 use crate::scene::{Component, ContactQuantity, Probe, Scene, Slices};
@@ -82,6 +83,15 @@ impl Demand {
             };
         }
         demand
+    }
+
+    /// Samples of a run that are in memory: all, or those of blocks where it leaves in blocks.
+    pub fn rows(&self, count: usize, in_blocks: bool) -> usize {
+        if in_blocks {
+            rows_in_memory(self.columns, count)
+        } else {
+            count
+        }
     }
 
     /// Memory for so many samples, of signals that are read so many times as fine: samples and their times, names, the table

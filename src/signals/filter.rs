@@ -74,6 +74,18 @@ impl Taps {
         signed(HALF * self.oversampling) - 1
     }
 
+    /// Points of the grid in so many samples.
+    pub fn points(&self, samples: usize) -> i64 {
+        signed(samples * self.oversampling)
+    }
+
+    /// Samples that need nothing of a point of the grid, nor of any after it.
+    pub fn finished(&self, point: i64) -> usize {
+        // The last of them takes from `reach` points after its own.
+        let last = (point - 1 - self.reach()).div_euclid(signed(self.oversampling));
+        index((last + 1).max(0))
+    }
+
     /// The samples that a point of the grid counts for, from the first on, and where their coefficients begin.
     fn place(&self, point: i64) -> (i64, usize) {
         let over = signed(self.oversampling);

@@ -6,7 +6,10 @@
 //! low-pass (`filter`, `decimate`); accelerations come from the velocities there, by the filter's derivative. What
 //! tells a state (contacts, energies, forces by origin, slices) is read at the samples' own times and never filtered:
 //! a contact angle does not exist without load, energies balance and forces add up at an instant.
+//!
+//! A record is kept whole, or it leaves in blocks (`blocks`) of samples that nothing changes any more.
 
+mod blocks;
 mod decimate;
 mod demand;
 mod filter;
@@ -22,6 +25,8 @@ use crate::scene::{RingName, Scene};
 use crate::simd::Distrust;
 use crate::touched::Touched;
 
+pub use blocks::Block;
+pub(crate) use blocks::Sink;
 pub(crate) use demand::Demand;
 pub(crate) use probes::columns;
 pub(crate) use recorder::Recorder;
@@ -33,7 +38,7 @@ pub(crate) use sampling::Sampling;
 pub struct Signals {
     /// Sampling rate \[Hz\].
     pub fs: f64,
-    /// Times k / fs from 0, the duration itself excluded \[s\].
+    /// Times k / fs from 0, the duration itself excluded; empty where blocks have taken them \[s\].
     pub t: Vec<f64>,
     /// The signals, each as long as `t`.
     pub columns: Vec<Column>,

@@ -1,9 +1,12 @@
 //! Reads the probes along a run.
 
+use std::ops::ControlFlow;
+
+use super::blocks::{Held, Sink};
 use super::decimate::Decimator;
-use super::filter::{Taps, signed};
+use super::filter::{HALF, Taps, signed};
 use super::probes::{Probes, Reader};
-use super::{Column, Sampling, SliceRow};
+use super::{Sampling, SliceRow};
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
 use crate::integrate::{DenseStep, System};
@@ -24,9 +27,8 @@ struct Reading {
 /// Reads the probes of a scene along a run: at the samples' times, and signals that are filtered on a finer grid.
 ///
 /// Times may begin before 0: what is read there only feeds the filter.
-pub(crate) struct Recorder {
+pub(crate) struct Recorder<'s> {
     sampling: Sampling,
-    count: usize,
     /// What is read at the samples' times.
     points: Reading,
     /// What is read on the grid, and the filter from there to the samples.
@@ -45,14 +47,13 @@ pub(crate) struct Recorder {
     dy: Vec<f64>,
     pub residual: Residual,
     pub watch: Watch,
-    pub t: Vec<f64>,
-    pub columns: Vec<Column>,
+    pub held: Held<'s>,
     pub slices: Vec<SliceRow>,
 }
 
-impl Recorder {
-    /// For `count` samples.
-    pub fn new(model: &Model, sampling: Sampling, count: usize) -> Self {
+impl<'s> Recorder<'s> {
+    /// For `count` samples, which go to `sink` block by block, or stay.
+    pub fn new(model: &Model, sampling: Sampling, count: usize, sink: Option<Sink<'s>>) -> Self {
         let filtered = sampling.oversampling > 1;
         let probes = Probes::new(model);
         let (mut points, mut grid) = (Reading::default(), Reading::default());
@@ -75,7 +76,6 @@ impl Recorder {
         });
         Self {
             sampling,
-            count,
             points,
             grid,
             next: 0,
@@ -87,8 +87,7 @@ impl Recorder {
             dy: Vec::new(),
             residual: Residual::default(),
             watch: Watch::new(model),
-            t: Vec::new(),
-            columns: probes.columns,
+            held: Held::new(probes.columns, count, sink),
             slices: Vec::new(),
         }
     }
@@ -101,13 +100,14 @@ impl Recorder {
         }
     }
 
-    /// Sets memory aside for all samples of a run from a state of all bodies.
+    /// Sets memory aside for the samples of a run from a state of all bodies.
     ///
     /// # Errors
     /// [`Error::Memory`] where the system does not give it.
     pub fn prepare(&mut self, dynamics: &Dynamics<'_>, start: &[f64]) -> Result<()> {
-        self.reserve().map_err(|()| Error::Memory {
-            needed: 8.0 * self.count as f64 * (self.columns.len() + 1) as f64,
+        let values = self.held.rows() as f64 * (self.held.columns.len() + 1) as f64;
+        self.held.reserve().map_err(|_| Error::Memory {
+            needed: 8.0 * values,
             available: memory::available(),
             what: "the signals; the system did not grant it: shorten the run, lower fs, or record fewer probes"
                 .to_owned(),
@@ -117,19 +117,17 @@ impl Recorder {
         (self.y, self.dy) = (start.to_vec(), vec![0.0; start.len()]);
         self.residual = Residual::new(dynamics);
         self.watch.prepare(dynamics, start);
-        if let Some((reading, _)) = &self.grid {
-            for column in &reading.columns {
-                // Sums, that grow as the grid is read.
-                self.columns[*column].values.resize(self.count, 0.0);
-            }
-        }
+        self.open(0.0);
         Ok(())
     }
 
-    fn reserve(&mut self) -> std::result::Result<(), ()> {
-        let columns = self.columns.iter_mut().map(|column| &mut column.values);
-        let mut all = columns.chain([&mut self.t]);
-        all.try_for_each(|values| values.try_reserve_exact(self.count).map_err(drop))
+    /// Has sums stand ready for all samples that a point of the grid until `t` counts for.
+    fn open(&mut self, t: f64) {
+        if let Some((reading, _)) = &self.grid {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let sample = (t * self.sampling.fs) as usize;
+            self.held.open(&reading.columns, sample + 2 * HALF);
+        }
     }
 
     /// The run's states where it begins.
@@ -151,19 +149,20 @@ impl Recorder {
         self.list(dynamics, t, |_, _| {});
     }
 
-    /// All samples within an accepted step.
-    pub fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) {
+    /// All samples within an accepted step. Breaks off where a block was taken with the wish to.
+    pub fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) -> ControlFlow<()> {
         // What the filter still sees beyond the end is no part of the run.
-        if step.t0() * self.sampling.fs < self.count as f64 {
+        if step.t0() * self.sampling.fs < self.held.count() as f64 {
             self.watch.step(dynamics, step);
         }
+        self.open(step.t1());
         while self.grid.is_some() && self.grid_time() <= step.t1() && self.next <= self.last() {
             let t = self.grid_time();
             step.interpolate(t, &mut self.own.0);
             self.grid_point(dynamics, t);
         }
-        while self.t.len() < self.count {
-            let t = self.t.len() as f64 / self.sampling.fs;
+        while self.held.sampled() < self.held.count() {
+            let t = self.held.sampled() as f64 / self.sampling.fs;
             if t > step.t1() {
                 break;
             }
@@ -174,13 +173,30 @@ impl Recorder {
             }
         }
         self.list(dynamics, step.t1(), |t, y| step.interpolate(t, y));
+        let filtered = self
+            .grid
+            .as_ref()
+            .map(|(_, decimator)| decimator.finished());
+        let sampled = self.held.sampled();
+        self.leave(filtered.map_or(sampled, |filtered| filtered.min(sampled)))
     }
 
     /// Completes the last samples where the run has ended before the grid.
-    pub fn finish(&mut self) {
-        if let Some((_, decimator)) = &mut self.grid {
-            decimator.finish(&mut self.columns);
+    pub fn finish(&mut self) -> ControlFlow<()> {
+        if let Some((reading, decimator)) = &mut self.grid {
+            self.held.open(&reading.columns, self.held.count());
+            decimator.finish(&mut self.held.columns);
         }
+        self.leave(self.held.sampled())
+    }
+
+    /// Hands over samples that nothing changes any more.
+    fn leave(&mut self, finished: usize) -> ControlFlow<()> {
+        let left = self.held.leave(finished)?;
+        if let Some((_, decimator)) = &mut self.grid {
+            decimator.drop_samples(left);
+        }
+        ControlFlow::Continue(())
     }
 
     /// Time of the next point of the grid \[s\].
@@ -191,7 +207,7 @@ impl Recorder {
     /// The last point of the grid that any sample needs.
     fn last(&self) -> i64 {
         let reach = self.grid.as_ref().map_or(0, |(_, d)| d.reach());
-        signed((self.count - 1) * self.sampling.oversampling) + reach
+        signed((self.held.count() - 1) * self.sampling.oversampling) + reach
     }
 
     /// Accelerations are the derivatives of the velocities, which the filter takes.
@@ -206,7 +222,7 @@ impl Recorder {
         };
         let velocities = &self.y[self.y.len() / 2..];
         reading.read(dynamics, t, &self.y, velocities);
-        decimator.push(self.next, &reading.values, &mut self.columns);
+        decimator.push(self.next, &reading.values, &mut self.held.columns);
         self.next += 1;
     }
 
@@ -218,12 +234,12 @@ impl Recorder {
             dynamics.rhs(t, y, dy);
             dynamics.expand_rates(t, y, dy, &mut self.dy);
         }
-        self.t.push(t);
+        self.held.t.push(t);
         let accelerations = &self.dy[self.dy.len() / 2..];
         let points = &mut self.points;
         points.read(dynamics, t, &self.y, accelerations);
         for (column, value) in points.columns.iter().zip(&points.values) {
-            self.columns[*column].values.push(*value);
+            self.held.columns[*column].values.push(*value);
         }
     }
 
@@ -269,30 +285,36 @@ impl Reading {
 
 #[cfg(test)]
 mod tests {
-    use std::ops::ControlFlow;
-
+    use super::super::{Block, Column};
     use super::*;
     use crate::integrate::{self, DORMAND_PRINCE, Options, Tolerance, integrate};
-    use crate::scene::presets;
+    use crate::scene::{Probe, Scene, presets};
     use crate::signals::Bandwidth;
     use crate::start::{Start, start};
 
     const FS: f64 = 50e3;
+    const COUNT: usize = 40;
 
-    /// Vertical acceleration of the outer ring in 40 samples of a run that begins at some time \[s\].
-    fn recorded(from: f64) -> Vec<f64> {
-        let model = Model::new(&presets::wheel_bearing(0.0)).unwrap();
+    /// What a recorder of 40 samples gives of a run that begins at some time \[s\]: names, times and all columns.
+    fn recorded(
+        scene: &Scene,
+        from: f64,
+        bandwidth: Bandwidth,
+        sink: Option<Sink<'_>>,
+    ) -> Vec<(String, Vec<f64>)> {
+        let model = Model::new(scene).unwrap();
         let y0 = start(&model, &Start::Rolling).unwrap();
-        let sampling = Sampling::new(Bandwidth::Auto, FS, model.scales().frequency).unwrap();
+        let sampling = Sampling::new(bandwidth, FS, model.scales().frequency).unwrap();
         let mut dynamics = Dynamics::new(&model);
-        let mut recorder = Recorder::new(&model, sampling, 40);
+        let mut recorder = Recorder::new(&model, sampling, COUNT, sink);
+        recorder.held.block = 7;
         recorder.prepare(&dynamics, &y0).unwrap();
         recorder.first(&mut dynamics, from, &y0);
         let options = Options {
             max_step: 1.0 / model.scales().frequency,
             ..Options::default()
         };
-        let span = (from, recorder.until(40.0 / FS) + 10.0 / FS);
+        let span = (from, recorder.until(COUNT as f64 / FS) + 10.0 / FS);
         integrate(
             &mut dynamics,
             &DORMAND_PRINCE,
@@ -301,22 +323,77 @@ mod tests {
             &Tolerance::uniform(y0.len(), 1e-9, 1e-9).unwrap(),
             &options,
             &mut |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &integrate::Statistics| {
-                recorder.step(dynamics, step);
-                ControlFlow::Continue(())
+                recorder.step(dynamics, step)
             },
         )
         .unwrap();
-        recorder.finish();
-        assert_eq!(recorder.t.len(), 40);
-        let ay = recorder.columns.iter().find(|c| c.name == "outer.ay");
-        ay.unwrap().values.clone()
+        assert!(recorder.finish().is_continue());
+        assert_eq!(recorder.held.sampled(), COUNT);
+        named(recorder.held.t, recorder.held.columns)
+    }
+
+    fn named(t: Vec<f64>, columns: Vec<Column>) -> Vec<(String, Vec<f64>)> {
+        let columns = columns.into_iter().map(|c| (c.name, c.values));
+        std::iter::once(("t".to_owned(), t))
+            .chain(columns)
+            .collect()
+    }
+
+    /// Vertical acceleration of the outer ring.
+    fn acceleration(from: f64) -> Vec<f64> {
+        let scene = presets::wheel_bearing(0.0);
+        let columns = recorded(&scene, from, Bandwidth::Auto, None);
+        let mut ay = columns.into_iter().filter(|(name, _)| name == "outer.ay");
+        ay.next().unwrap().1
+    }
+
+    /// Truth: the record that is kept whole, of filtered columns and of points, in blocks that are shorter than the filter
+    /// reaches and do not divide it.
+    #[test]
+    fn blocks_are_the_whole_record_bit_by_bit() {
+        let mut scene = presets::wheel_bearing(0.0);
+        scene
+            .probes
+            .insert("cage".to_owned(), Probe::Cage { row: 0 });
+        scene.probes.insert("energy".to_owned(), Probe::Energy {});
+        for bandwidth in [Bandwidth::Auto, Bandwidth::Raw] {
+            let whole = recorded(&scene, 0.0, bandwidth, None);
+            let mut joined: Vec<(String, Vec<f64>)> = Vec::new();
+            let mut lengths = Vec::new();
+            let mut sink = |block: Block| {
+                lengths.push(block.t.len());
+                let columns = named(block.t, block.columns);
+                if joined.is_empty() {
+                    joined = columns;
+                } else {
+                    for (all, (name, values)) in joined.iter_mut().zip(columns) {
+                        assert_eq!((&all.0, values.len()), (&name, lengths[lengths.len() - 1]));
+                        all.1.extend(values);
+                    }
+                }
+                ControlFlow::Continue(())
+            };
+            let left = recorded(&scene, 0.0, bandwidth, Some(&mut sink));
+            assert!(left.iter().all(|(_, values)| values.is_empty()));
+            assert_eq!(lengths, [7, 7, 7, 7, 7, 5]);
+            assert_eq!(joined.len(), whole.len());
+            for ((name, values), (_, kept)) in joined.iter().zip(&whole) {
+                assert!(
+                    values
+                        .iter()
+                        .map(|x| x.to_bits())
+                        .eq(kept.iter().map(|x| x.to_bits())),
+                    "{name}"
+                );
+            }
+        }
     }
 
     /// Limit: nothing here depends on time itself, so a run that begins 18 samples before 0 gives what one from 0 gives
     /// later; what it read before 0 stands in the filter in the place of a reflection.
     #[test]
     fn times_before_zero_feed_the_first_samples() {
-        let (from_zero, before) = (recorded(0.0), recorded(-18.0 / FS));
+        let (from_zero, before) = (acceleration(0.0), acceleration(-18.0 / FS));
         let size = from_zero.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
         for (later, early) in from_zero[18..].iter().zip(&before) {
             assert!((later - early).abs() < 1e-4 * size, "{later} {early}");

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -97,3 +98,35 @@ def test_a_budget_error_crosses_processes() -> None:
     error = br.BudgetError("spent", 0.1, "max_steps", 50.0)
     again = pickle.loads(pickle.dumps(error))
     assert (str(again), again.time, again.budget, again.limit) == ("spent", 0.1, "max_steps", 50.0)
+
+
+@pytest.mark.parametrize(
+    ("changes", "options"),
+    [
+        ({}, {"duration": 1.0, "fs": 1.0}),
+        ({"loads.axial.force": 1e9}, {"duration": 1e-3}),
+        ({"cage.damping": 1e9}, {"duration": 1e-3, "start": "rolling"}),
+        ({}, {"duration": 1e-3, "max_steps": 5}),
+        ({}, {"duration": 1e6, "fs": 1e9, "start": "rolling"}),
+    ],
+    ids=["SceneError", "EquilibriumError", "IntegrationError", "BudgetError", "MemoryLimitError"],
+)
+def test_an_error_is_the_same_alone_and_from_a_campaign(
+    changes: dict[str, object],
+    options: dict[str, object],
+    tmp_path: Path,
+    request: pytest.FixtureRequest,
+) -> None:
+    scene = br.presets.wheel_bearing().replace(changes)
+    with pytest.raises(br.BallraceError) as alone:
+        br.simulate(scene, **options)  # type: ignore[arg-type]
+    with pytest.raises(br.BallraceError) as there:
+        br.campaign([{}], tmp_path, scene=scene, on_error="raise", progress=False, **options)  # type: ignore[call-overload]
+    assert type(alone.value) is type(there.value)
+    assert type(alone.value).__name__ in request.node.callspec.id
+    if isinstance(alone.value, br.MemoryLimitError):
+        # What there is changes from call to call, and with the cases at once.
+        assert isinstance(there.value, br.MemoryLimitError)
+        assert there.value.needed == alone.value.needed
+    else:
+        assert vars(there.value) == vars(alone.value)

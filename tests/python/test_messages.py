@@ -83,3 +83,31 @@ def test_large_numbers_print_as_such(value: float) -> None:
     exponent = str(value).partition("e")[2].replace("+", "")
     assert f"e{exponent}" in str(caught.value)
     assert len(str(caught.value)) < 200
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({"rows[0].clearance": 0.1 + 0.2}, "rows[0].clearance = 0.3: from -0.000794 to 0.00397"),
+        ({"cage.play": -1.0}, "cage.play = -1: from 0 to 1"),
+        ({"contact.damping": 1e4}, "contact.damping = 10000: from 0 to 1000"),
+        ({"rows[0].contact_angle": 30.0}, "contact_angle = 30: from 0 to 1.396 rad, which is 80°"),
+        ({"rows[0].ball_count": 40}, "less than the distance of neighbouring balls, 3.063 mm, for"),
+        ({"outer_ring.diameter": 0.01}, "above the groove bottom of rows[0], 46.98 mm"),
+    ],
+)
+def test_limits_are_told_in_a_readers_numbers(changes: dict[str, object], told: str) -> None:
+    with pytest.raises(br.SceneError) as caught:
+        br.presets.deep_groove_6205().replace(changes)
+    assert told in str(caught.value)
+
+
+def test_what_cannot_be_carried_is_told_as_a_share() -> None:
+    with pytest.raises(br.EquilibriumError, match=r"carried: [0-9.]+ % of the load is not"):
+        br.equilibrium(br.presets.wheel_bearing(1e9))
+
+
+def test_a_field_of_a_new_entry_says_how_to_give_one() -> None:
+    scene = br.presets.deep_groove_6205()
+    with pytest.raises(br.SceneError, match=r"a new one is given whole, as defects\.new"):
+        scene.replace({"defects.new.width": 1e-3})

@@ -5,17 +5,19 @@ from __future__ import annotations
 import json
 import math
 import time
+import uuid
 from concurrent.futures import FIRST_COMPLETED, Future, wait
+from contextlib import suppress
 from dataclasses import asdict
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from .._core import available_threads
-from ..errors import BallraceError, CampaignError
+from ..errors import BallraceError, CampaignError, from_record
 from .progress import Counts
 from .store import Store
-from .work import Job, check_process, exception, run_here, version
+from .work import Job, check_process, run_here, version
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -75,8 +77,10 @@ def run_spread(
     The first tasks have one case each; later ones as many as fit into twenty seconds, and fewer towards the end,
     so that all workers end together.
     """
+    stop = uuid.uuid4().hex
     common = {
         "root": str(store.root), "key": store.key, "version": version(), "job": asdict(job),
+        "stop": stop,
     }  # fmt: skip
     pending: set[Future[str]] = set()
     counts, handed = Counts(), 0
@@ -98,11 +102,20 @@ def run_spread(
                 seconds += result["wall_time"]
                 told(counts)
                 if result["error"]:
-                    raise exception(result["error"])
+                    raise from_record(result["error"])
             told(counts)
     finally:
         for future in pending:
             future.cancel()
+        if pending:
+            # What a worker has taken cannot be cancelled; it looks for this file, which the next call sweeps.
+            with suppress(OSError):
+                _stopped(store, stop).touch()
+
+
+def _stopped(store: Store, stop: str) -> Path:
+    """Return the file that is there once a campaign has been stopped."""
+    return store.root / "tmp" / stop
 
 
 def _size(mean: float | None, threads: int, left: int, in_flight: int) -> int:
@@ -138,8 +151,12 @@ def run_task(text: str) -> str:
     job = Job(**task["job"])
     result: dict[str, Any] = {"counts": Counts(), "error": None, "wall_time": 0.0}
 
+    stop = _stopped(store, task["stop"])
+
     def told(counts: Counts) -> None:
         result["counts"] = counts
+        if stop.exists():
+            raise CampaignError("the campaign was stopped")
 
     began = time.monotonic()
     try:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from ..errors import SceneError
 
@@ -44,10 +45,15 @@ def grid(values: Mapping[str, Iterable[object]]) -> pl.DataFrame:
             raise SceneError(name, "[]", "at least one value")
     if not lists:
         raise SceneError("values", "{}", "at least one column")
-    rows = list(itertools.product(*lists.values()))
-    # A number beside a word would become a word.
-    kinds = {name: pl.Object if _is_mixed(column) else None for name, column in lists.items()}
-    return pl.DataFrame(rows, schema=kinds, orient="row", infer_schema_length=None)
+    count = math.prod(len(column) for column in lists.values())
+    each, columns = count, []
+    for name, column in lists.items():
+        each //= len(column)
+        # A number beside a word would become a word.
+        kind = pl.Object if _is_mixed(column) else None
+        place = np.arange(count) // each % len(column)
+        columns.append(pl.Series(name, column, dtype=kind, strict=False)[place])
+    return pl.DataFrame(columns)
 
 
 def _is_mixed(column: list[object]) -> bool:

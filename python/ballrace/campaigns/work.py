@@ -10,9 +10,9 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from .. import _core, errors
+from .. import _core
 from .._text import printable
-from ..errors import BallraceError, CampaignError
+from ..errors import BallraceError, CampaignError, from_record
 from .progress import Counts
 from .store import BUDGET, FAULTS, STATISTICS, SURFACES, schema
 
@@ -155,7 +155,7 @@ def run_here(
         for index, text, signals in outcomes:
             record = json.loads(text)
             if "error" in record and job.raise_errors:
-                raise exception(record["error"])
+                raise from_record(record["error"])
             counts = counts.plus(Counts(1, "error" in record, bool(record.get("warnings"))))
             writer.add(ids[index], record, signals)
         writer.flush_when_due()
@@ -214,13 +214,6 @@ def _touched(defects: Iterable[dict[str, Any]]) -> Iterator[tuple[str, float | N
         yield f"{name}.passes", float(passes)
         yield f"{name}.touched", defect["touched"] / passes if passes else None
         yield f"{name}.largest_load", defect["largest_load"]
-
-
-def exception(error: dict[str, Any]) -> BallraceError:
-    """Return the exception that a record tells of."""
-    made = getattr(errors, error["class"])(*error["arguments"])
-    assert isinstance(made, BallraceError)
-    return made
 
 
 def record_of(error: BallraceError) -> dict[str, Any]:

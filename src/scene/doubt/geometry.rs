@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::{Doubt, angle, length, short};
+use super::{Doubt, angle, length};
 use crate::scene::{Material, Ring, Row, Scene, Waviness};
+use crate::told::number;
 
 /// Largest ball, largest pitch or ring diameter, and any other length \[m\]: a bearing of a bore of one metre has balls of
 /// some 70 mm and is 1.42 m wide outside (dimension series 10 of ISO 15).
@@ -93,8 +94,8 @@ fn balls(path: &str, row: &Row, material: &Material, found: &mut Vec<Doubt>) {
         if let Some(value) = value
             && !(0.1..=10.0).contains(&(value / usual))
         {
-            let told = format!("a solid ball of the diameter has {} {unit}", short(usual));
-            let value = format!("{} {unit}", short(value));
+            let told = format!("a solid ball of the diameter has {} {unit}", number(usual));
+            let value = format!("{} {unit}", number(value));
             found.push(Doubt::new(format!("{path}.{field}"), value, told));
         }
     }
@@ -113,8 +114,8 @@ fn ring(path: &str, ring: &Ring, material: &Material, row: &Row, found: &mut Vec
     if !(least..=most).contains(&mass) {
         let told = format!(
             "with what moves with it a ring of this size has {} to {} kg; masses are in kilograms",
-            short(least),
-            short(most)
+            number(least),
+            number(most)
         );
         found.push(Doubt::new(at("mass"), format!("{mass} kg"), told));
     }
@@ -134,7 +135,7 @@ fn material(path: &str, material: &Material, found: &mut Vec<Doubt>) {
             1e-9 * low,
             1e-9 * high
         );
-        let value = format!("{} GPa", short(1e-9 * material.youngs_modulus));
+        let value = format!("{} GPa", number(1e-9 * material.youngs_modulus));
         found.push(Doubt::new(format!("{path}.youngs_modulus"), value, usual));
     }
 }
@@ -143,6 +144,6 @@ fn material(path: &str, material: &Material, found: &mut Vec<Doubt>) {
 fn within(path: String, value: f64, [low, high]: [f64; 2], found: &mut Vec<Doubt>) {
     if !(low..=high).contains(&value) {
         let usual = format!("bearings have {low} to {high}");
-        found.push(Doubt::new(path, short(value), usual));
+        found.push(Doubt::new(path, number(value), usual));
     }
 }

@@ -13,6 +13,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::{Profile, Scene, TimeFunction};
+use crate::told::number;
 
 /// Largest Hertz pressure of a contact of hardened steel at the static load rating of a ball bearing \[Pa\]: it leaves a
 /// dent of a ten-thousandth of the ball diameter. ISO 76 gives it for the *centre* of the most heavily loaded contact,
@@ -83,19 +84,8 @@ impl Scene {
     }
 }
 
-/// Four digits, without trailing zeros.
-fn short(x: f64) -> String {
-    if x == 0.0 || !(1e-3..1e6).contains(&x.abs()) {
-        return format!("{x:.3e}");
-    }
-    // Between 10⁻³ and 10⁶ the exponent is small.
-    #[allow(clippy::cast_possible_truncation)]
-    let scale = 10_f64.powi(3 - x.abs().log10().floor() as i32);
-    format!("{}", (x * scale).round() / scale)
-}
-
 fn millimetres(x: f64) -> String {
-    format!("{} mm", short(1e3 * x))
+    format!("{} mm", number(1e3 * x))
 }
 
 /// A length \[m\] beyond the most that is usual.
@@ -114,7 +104,7 @@ fn angle(path: String, value: f64, found: &mut Vec<Doubt>) {
     // Half a degree of rounding.
     if value.abs() > std::f64::consts::TAU + 0.01 {
         let usual = "more than a turn; angles are in radians";
-        found.push(Doubt::new(path, format!("{} rad", short(value)), usual));
+        found.push(Doubt::new(path, format!("{} rad", number(value)), usual));
     }
 }
 

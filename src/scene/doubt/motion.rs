@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::{Doubt, angle, length, phase, short};
+use super::{Doubt, angle, length, phase};
 use crate::scene::{Drive, Friction, Scene};
+use crate::told::number;
 
 /// Speed times pitch diameter, n d_m \[mm/min\]: bearings of aircraft engines come near it, and one of 120 mm bore on a
 /// test rig reached 3.9 million (E. N. Bamberger, E. V. Zaretsky, H. Signer, NASA TN D-7870, 1975).
@@ -27,7 +28,7 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
     let gravity = scene.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
     if gravity > GRAVITY {
         let usual = "more than a hundred times the earth's 9.81 m/s²";
-        let value = format!("{} m/s²", short(gravity));
+        let value = format!("{} m/s²", number(gravity));
         found.push(Doubt::new("gravity", value, usual));
     }
     for (name, load) in &scene.loads {
@@ -39,10 +40,10 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
             let force = unbalance.moment * fastest(scene).powi(2);
             let usual = format!(
                 "machines keep below {UNBALANCE} kg m; it pulls with {} N at {} rev/min",
-                short(force),
-                short(fastest(scene) * 60.0 / TAU)
+                number(force),
+                number(fastest(scene) * 60.0 / TAU)
             );
-            let value = format!("{} kg m", short(unbalance.moment));
+            let value = format!("{} kg m", number(unbalance.moment));
             found.push(Doubt::new(
                 format!("unbalances.{name}.moment"),
                 value,
@@ -94,14 +95,14 @@ fn friction(friction: &Friction, found: &mut Vec<Doubt>) {
             let usual = "rolling bearings have 0.001 to 0.2, dry steel less than 1";
             found.push(Doubt::new(
                 format!("friction.{law}.{field}"),
-                short(value),
+                number(value),
                 usual,
             ));
         }
     }
     if slip_speed > SLIP {
         let usual = "below it friction fades, so that rolling balls would have none; speeds are in metres a second";
-        let value = format!("{} m/s", short(slip_speed));
+        let value = format!("{} m/s", number(slip_speed));
         found.push(Doubt::new(
             format!("friction.{law}.slip_speed"),
             value,
@@ -136,10 +137,10 @@ fn speed(scene: &Scene, found: &mut Vec<Doubt>) {
         let usual = format!(
             "times the pitch diameter {} mm/min, and the fastest bearings, of aircraft engines, come near {}; speeds \
              are in radians a second",
-            short(factor),
-            short(SPEED_FACTOR)
+            number(factor),
+            number(SPEED_FACTOR)
         );
-        let value = format!("{} rev/min", short(turns));
+        let value = format!("{} rev/min", number(turns));
         found.push(Doubt::new(path, value, usual));
     }
 }

@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use super::check::{positive, within};
 use crate::error::{Error, Result};
 use crate::scene::{Mount, RingName, Row, Scene, Support};
+use crate::told;
 
 pub(super) fn row(path: &str, row: &Row) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
@@ -18,7 +19,7 @@ pub(super) fn row(path: &str, row: &Row) -> Result<()> {
         return Err(Error::scene(
             at("pitch_diameter"),
             dm,
-            format!("more than the ball diameter {d}"),
+            format!("more than the ball diameter, {}", told::length(d)),
         ));
     }
     let count = row.ball_count as f64;
@@ -28,7 +29,9 @@ pub(super) fn row(path: &str, row: &Row) -> Result<()> {
             at("ball_diameter"),
             d,
             format!(
-                "less than the distance of neighbouring balls, {gap:.6e} m, for {count} balls on pitch diameter {dm}"
+                "less than the distance of neighbouring balls, {}, for {count} balls on pitch diameter {}",
+                told::length(gap),
+                told::length(dm)
             ),
         ));
     }
@@ -40,11 +43,15 @@ pub(super) fn row(path: &str, row: &Row) -> Result<()> {
             return Err(Error::scene(at(field), f, "above 0.5 and at most 1"));
         }
     }
-    within(
-        &at("contact_angle"),
-        row.contact_angle,
-        0.0..=80_f64.to_radians(),
-    )?;
+    let steepest = 80_f64.to_radians();
+    if !(0.0..=steepest).contains(&row.contact_angle) {
+        let allowed = format!("from 0 to {} rad, which is 80°", told::number(steepest));
+        return Err(Error::scene(
+            at("contact_angle"),
+            row.contact_angle,
+            allowed,
+        ));
+    }
     if row.side != 1 && row.side != -1 {
         return Err(Error::scene(at("side"), row.side, "+1 or -1"));
     }
@@ -132,7 +139,10 @@ pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
                 return Err(Error::scene(
                     at("diameter"),
                     diameter,
-                    format!("{word} the groove bottom of rows[{i}], {limit:.6e}"),
+                    format!(
+                        "{word} the groove bottom of rows[{i}], {}",
+                        told::length(limit)
+                    ),
                 ));
             }
         }

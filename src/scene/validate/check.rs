@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use crate::error::{Error, Result};
+use crate::told::number;
 
 pub(super) fn finite(path: &str, value: f64) -> Result<()> {
     if value.is_finite() {
@@ -27,7 +28,11 @@ pub(super) fn within(path: &str, value: f64, range: RangeInclusive<f64>) -> Resu
         Err(Error::scene(
             path,
             value,
-            format!("from {:e} to {:e}", range.start(), range.end()),
+            format!(
+                "from {} to {}",
+                number(*range.start()),
+                number(*range.end())
+            ),
         ))
     }
 }
@@ -39,7 +44,7 @@ pub(super) fn below(path: &str, value: f64, limit: f64, what: &str) -> Result<()
         Err(Error::scene(
             path,
             value,
-            format!("below {what}, {limit:.6e}"),
+            format!("below {what}, {}", number(limit)),
         ))
     }
 }

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::check::{below, finite, positive, within};
 use crate::error::{Error, Result};
 use crate::scene::{Defect, Row, Scene, Surface, Width};
+use crate::told;
 
 pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
@@ -89,7 +90,10 @@ fn on_ball(path: &str, row: &Row, defect: &Defect) -> Result<()> {
         return Err(Error::scene(
             at("length"),
             defect.length,
-            format!("|axial_offset| + length/2 below the ball's radius {radius:.6e}"),
+            format!(
+                "|axial_offset| + length/2 below the ball's radius, {}",
+                told::length(radius)
+            ),
         ));
     }
     // The smallest slice that carries the defect.
@@ -134,10 +138,10 @@ fn on_race(path: &str, row: &Row, defect: &Defect, outer: bool) -> Result<()> {
             at("length"),
             defect.length,
             format!(
-                "a defect within the race: its middle is at {offset:.6e}, the race ends at {:.6e} and {:.6e} from \
-                 the row's plane",
-                centre - limits[0],
-                centre + limits[1]
+                "a defect within the race: its middle is at {}, the race ends at {} and {} from the row's plane",
+                told::length(offset),
+                told::length(centre - limits[0]),
+                told::length(centre + limits[1])
             ),
         ));
     }

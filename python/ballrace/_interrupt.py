@@ -1,0 +1,55 @@
+"""Long calls of numpy that answer Ctrl-C: Python hears it between two calls, and one may take half a minute."""
+
+from __future__ import annotations
+
+import functools
+import threading
+from concurrent.futures import Future, wait
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+_LONG = 500_000
+"""Samples of a signal from which its transform may take a tenth of a second."""
+
+_ATTENTION = 0.05
+"""Longest time between two looks at signals [s]."""
+
+
+def answers_ctrl_c(function: Callable[P, T]) -> Callable[P, T]:
+    """Let a function of a signal ``x`` work on a thread of its own where the signal is long.
+
+    After Ctrl-C the thread goes on to the end of its call, and what it gives goes to nobody.
+    """
+
+    @functools.wraps(function)
+    def called(*args: P.args, **kwargs: P.kwargs) -> T:
+        x = args[0] if args else kwargs.get("x")
+        if getattr(x, "size", 0) < _LONG or not _hears_signals():
+            return function(*args, **kwargs)
+        return _apart(lambda: function(*args, **kwargs))
+
+    return called
+
+
+def _hears_signals() -> bool:
+    return threading.current_thread() is threading.main_thread()
+
+
+def _apart(work: Callable[[], T]) -> T:
+    outcome: Future[T] = Future()
+
+    def run() -> None:
+        try:
+            outcome.set_result(work())
+        except BaseException as error:  # noqa: BLE001 (raised where it is waited for)
+            outcome.set_exception(error)
+
+    threading.Thread(target=run, name="ballrace", daemon=True).start()
+    while not wait([outcome], timeout=_ATTENTION).done:
+        pass
+    return outcome.result()

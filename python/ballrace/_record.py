@@ -1,0 +1,208 @@
+"""The record of a run as a Parquet file: its metadata, and columns that are written and read in parts.
+
+A record that is written while it is made comes in blocks. What ends a Parquet file, its metadata, is known
+when the run is over; so each block goes into a file of its own in a folder beside, and at the end polars copies
+these, some blocks at a time, into one. The run itself takes memory for a few blocks; of copying 5 GB polars held
+0.2 GB more than of 0.7 GB. The disk holds the samples twice for that while.
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+from collections.abc import Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._files import whole
+from ._parquet import columns_and_rows, read_bytes, read_columns, seal, writing_to
+from .errors import BallraceError, FileError
+from .scene import Scene
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable, Sequence
+
+    import polars as pl
+
+    from .signals import Signals
+
+_FORMAT = "1"
+
+
+class Writer:
+    """Takes the blocks of a record, and makes one file of them."""
+
+    def __init__(self, target: str | os.PathLike[str], path: Path, folder: Path) -> None:
+        self._target = target
+        self._path = path
+        self._folder = folder
+        self._blocks: list[Path] = []
+        self._rows = 0
+
+    def take(self, columns: Mapping[str, NDArray[np.float64]]) -> None:
+        """Write a block: columns of one length, the same names in each block."""
+        import polars as pl
+
+        table = pl.DataFrame(dict(columns))
+        block = self._folder / f"{len(self._blocks):08}.parquet"
+        with writing_to(self._target):
+            table.write_parquet(block, compression="uncompressed", statistics=False)
+        self._blocks.append(block)
+        self._rows = max(self._rows, table.height)
+
+    def finish(self, metadata: dict[str, str]) -> None:
+        """Write the one file, sealed."""
+        # This thread waits, so that Ctrl-C is answered here, once; polars itself ends what it does then.
+        with writing_to(self._target), ThreadPoolExecutor(1) as pool:
+            pool.submit(self._join, metadata).result()
+        with self._path.open("r+b") as file:
+            seal(file)
+
+    def _join(self, metadata: dict[str, str]) -> None:
+        import polars as pl
+
+        table = pl.scan_parquet(self._blocks, glob=False)
+        table.sink_parquet(self._path, metadata=metadata, row_group_size=self._rows)
+
+
+@contextmanager
+def writing(path: str | os.PathLike[str]) -> Iterator[Writer]:
+    """Give what takes the blocks of a file; after an error nothing of it is left."""
+    with (
+        whole(path) as temporary,
+        TemporaryDirectory(
+            prefix=f"{temporary.name}s.", dir=temporary.parent, ignore_cleanup_errors=True
+        ) as folder,
+    ):
+        yield Writer(path, temporary, Path(folder))
+
+
+class Scanned(Mapping[str, NDArray[np.float64]]):
+    """The columns of a file, each read when it is asked for."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path.resolve()
+        self._all, self.rows = columns_and_rows(self._path)
+        self._names = tuple(name for name in self._all if name != "t")
+        self._stamp = self._stamped()
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        if name not in self._names:
+            raise KeyError(name)
+        return self.read(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def read(self, name: str) -> NDArray[np.float64]:
+        """Read a column, or the times ``t``."""
+        if self._stamped() != self._stamp:
+            raise FileError(str(self._path), "has changed since it was opened; open it again")
+        table = read_columns(self._path, [name] if name in self._all else [])
+        return samples(self._path, table, name)
+
+    def _stamped(self) -> tuple[int, int]:
+        found = self._path.stat()
+        return found.st_size, found.st_mtime_ns
+
+
+def metadata(signals: Signals) -> dict[str, str]:
+    """Return what stands in a file beside the samples."""
+    entries = {
+        "ballrace": _FORMAT,
+        "sampling_rate": repr(float(signals.fs)),
+        "units": json.dumps({"t": "s", **signals.units}),
+        "scene": signals.scene.to_json(),
+        "stats": json.dumps(signals.stats.to_dict()),
+        "provenance": json.dumps(signals.provenance.to_dict()),
+        "warnings": json.dumps(signals.warnings),
+    }
+    if signals.slices is not None:
+        table = io.BytesIO()
+        signals.slices.write_parquet(table)
+        entries["slices"] = base64.b64encode(table.getvalue()).decode()
+    return entries
+
+
+def unless_damaged(path: Path, read: Callable[[], Any]) -> Any:
+    """Read a file; what makes it none of ours is told with its name."""
+    try:
+        return read()
+    except ValueError as error:
+        raise FileError(str(path), f"not a Parquet file, or damaged ({error})") from error
+
+
+def samples(path: Path, table: pl.DataFrame, name: str) -> NDArray[np.float64]:
+    """Return a column of a file, which has to hold numbers."""
+    import polars as pl
+
+    if name not in table.columns:
+        raise FileError(str(path), f"damaged: the column {name} is missing")
+    column = table[name]
+    if column.dtype != pl.Float64 or column.null_count():
+        raise FileError(str(path), f"damaged: the column {name} has other entries than numbers")
+    return column.to_numpy()
+
+
+def described(path: Path, metadata: Mapping[str, str], columns: Sequence[str]) -> dict[str, Any]:
+    """Return what the metadata of a file says beside its samples, as :class:`Signals` takes it."""
+    if metadata.get("ballrace") != _FORMAT:
+        raise FileError(str(path), "a Parquet file, but not written by this version of ballrace")
+    readers: dict[str, Callable[[str], Any]] = {
+        "sampling_rate": _rate, "units": _mapping, "scene": _scene, "stats": _mapping,
+        "provenance": _mapping, "warnings": _texts, "slices": _table,
+    }  # fmt: skip
+    found = {}
+    for entry, read in readers.items():
+        text = metadata.get(entry, {"warnings": "[]", "slices": ""}.get(entry))
+        if text is None:
+            raise FileError(str(path), f"damaged: its metadata has no {entry}")
+        try:
+            found[entry] = read(text)
+        except (ValueError, TypeError, BallraceError) as error:
+            reason = f"damaged: the entry {entry} of its metadata cannot be read ({error})"
+            raise FileError(str(path), reason) from error
+    units = found.pop("units")
+    missing = [name for name in columns if name not in units and name != "t"]
+    if missing:
+        raise FileError(str(path), f"damaged: its metadata has no unit of {missing[0]}")
+    found["units"] = {name: str(units[name]) for name in columns if name != "t"}
+    found["fs"] = found.pop("sampling_rate")
+    return found
+
+
+def _rate(text: str) -> float:
+    fs = float(text)
+    if not 0.0 < fs < float("inf"):
+        raise ValueError(f"{text} is no rate")
+    return fs
+
+
+def _mapping(text: str) -> dict[str, Any]:
+    document = json.loads(text)
+    if not isinstance(document, dict):
+        raise TypeError("it is no mapping")
+    return document
+
+
+def _scene(text: str) -> str:
+    return Scene.from_json(text).to_json()
+
+
+def _texts(text: str) -> list[str]:
+    return [str(warning) for warning in json.loads(text)]
+
+
+def _table(text: str) -> pl.DataFrame | None:
+    return read_bytes(base64.b64decode(text)) if text else None

@@ -1,0 +1,98 @@
+//! What a scene takes once it is compiled and settled, counted before anything of it is there.
+
+use crate::error::Result;
+use crate::memory;
+use crate::scene::{Defect, Drive, Probe, Profile, Row, Scene, TimeFunction, Waviness, Width};
+
+/// Copies of a scene's lists that are held at once: the document, the scene as placed, simplified, frozen to settle and
+/// handed over. Measured with tables of 10⁶ points: 9.
+const COPIES: f64 = 12.0;
+/// A load, defect or probe with its name \[bytes\].
+const ENTRY: f64 = 400.0;
+/// A ball: its body, its contacts in the static solve, and what an evaluation notes of it \[bytes\]. Measured with
+/// 16 rows of 1000: 5 kB.
+const BALL: f64 = 10_000.0;
+/// A ball that a defect may meet, as it is watched \[bytes\].
+const EYE: f64 = 64.0;
+
+/// Refuses to compile what does not fit into memory.
+pub(super) fn check(scene: &Scene) -> Result<()> {
+    let balls: usize = scene.rows.iter().map(|row| row.ball_count).sum();
+    memory::check(bytes(scene), || {
+        format!(
+            "a model of {balls} balls, {} defects and {} numbers in lists; give the scene fewer of them",
+            scene.defects.len(),
+            numbers(scene)
+        )
+    })
+}
+
+fn bytes(scene: &Scene) -> f64 {
+    let entries = scene.loads.len() + scene.probes.len() + scene.defects.len();
+    let eyes = |defect: &Defect| scene.rows[defect.row].ball_count as f64;
+    COPIES * (8.0 * numbers(scene) as f64 + ENTRY * entries as f64)
+        + EYE * scene.defects.values().map(eyes).sum::<f64>()
+        + BALL
+            * scene
+                .rows
+                .iter()
+                .map(|row| row.ball_count as f64)
+                .sum::<f64>()
+}
+
+/// Numbers in the lists of a scene, which may be as long as one likes.
+fn numbers(scene: &Scene) -> usize {
+    let (Drive::Speed(drive) | Drive::Torque { value: drive, .. }) = &scene.drive;
+    let loads = scene.loads.values().map(|load| in_time(&load.force));
+    let defects = scene.defects.values().map(|defect| match &defect.width {
+        Width::Constant(_) => 1,
+        Width::Profile(profile) => profile.positions.len() + profile.widths.len(),
+    });
+    let probes = scene.probes.values().map(|probe| match probe {
+        Probe::Slices { times, .. } => times.len(),
+        _ => 0,
+    });
+    let rows = scene.rows.iter().map(|row: &Row| {
+        let waves = row.outer_waviness.len() + row.inner_waviness.len();
+        waves * size_of::<Waviness>() / size_of::<f64>() + row.diameter_errors.len()
+    });
+    in_time(drive)
+        + loads
+            .chain(defects)
+            .chain(probes)
+            .chain(rows)
+            .sum::<usize>()
+}
+
+fn in_time(value: &TimeFunction) -> usize {
+    match value {
+        TimeFunction::Profile(Profile::Table { times, values }) => times.len() + values.len(),
+        _ => 1,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Error;
+    use crate::model::Model;
+    use crate::scene::presets;
+
+    #[test]
+    fn what_does_not_fit_is_not_compiled() {
+        let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+        let times: Vec<f64> = (0..1000).map(f64::from).collect();
+        scene.drive = Drive::Speed(TimeFunction::Profile(Profile::Table {
+            values: vec![1.0; times.len()],
+            times,
+        }));
+        let compiled = |scene: &Scene| memory::within(200e3, || Model::new(scene));
+        let error = compiled(&scene).unwrap_err();
+        assert!(
+            matches!(error, Error::Memory { .. }) && error.to_string().contains("2002 numbers"),
+            "{error}"
+        );
+        scene.drive = Drive::Speed(1.0.into());
+        assert!(compiled(&scene).is_ok());
+    }
+}
