@@ -32,6 +32,7 @@ from .errors import (
 )
 from .explanation import Explanation, explain
 from .model import Model
+from .options import Run
 from .run import simulate
 from .scene import Scene
 from .signals import Record, Signals, Touched
@@ -60,6 +61,7 @@ __all__ = [
     "MemoryLimitError",
     "Model",
     "Record",
+    "Run",
     "Scene",
     "SceneError",
     "SceneWarning",

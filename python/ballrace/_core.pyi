@@ -19,6 +19,7 @@ __all__ = [
     "preset_deep_groove_6205",
     "preset_wheel_bearing",
     "run_features",
+    "run_from_json",
     "scene_doubts",
     "scene_from_json",
     "scene_from_toml",
@@ -93,19 +94,9 @@ class _LoadDistribution(_Turning):
 
 def simulate(
     scene: str,
-    duration: float,
-    fs: float,
-    kind: str,
-    state: _Array | None,
-    rtol: float | None,
-    accuracy: float | None,
-    method: str | None,
-    threads: int,
-    progress: Callable[[float], object] | None,
-    bandwidth: str | None,
-    settle: float | None,
-    time_limit: float | None = None,
-    max_steps: int | None = None,
+    run: str,
+    state: _Array | None = None,
+    progress: Callable[[float], object] | None = None,
     sink: Callable[[dict[str, _Array]], object] | None = None,
 ) -> _Signals: ...
 def campaign(
@@ -115,6 +106,7 @@ def campaign(
     keep_signals: bool,
     done: Callable[[list[tuple[int, str, _Signals | None]]], object],
 ) -> None: ...
+def run_from_json(text: str) -> str: ...
 def check_run(run: str, options: str) -> None: ...
 def feature_columns(scene: str, options: str) -> list[str]: ...
 def run_features(

@@ -24,7 +24,7 @@ mod _core {
         squared_envelope,
     };
     #[pymodule_export]
-    use super::run::{Model, explain, simulate};
+    use super::run::{Model, explain, run_from_json, simulate};
     #[pymodule_export]
     use super::scene::{
         preset_deep_groove_6205, preset_wheel_bearing, scene_doubts, scene_from_json,

@@ -12,9 +12,10 @@ from .. import _core
 from .._document import whole_number
 from .._text import printable
 from ..errors import CampaignError, CampaignWarning, SceneError, SceneWarning
+from ..options import BUDGET, DECIDING
 from ..scene import Scene
 from ..scene.scene import checked_scene
-from .cases import BUDGET, RUN, Cases
+from .cases import Cases
 from .reading import resembling
 from .spread import Executor
 from .work import Job, version
@@ -179,7 +180,7 @@ def warn_of_labels(cases: Cases, scenes: Mapping[str, str]) -> None:
     """Warn of columns that are carried along as labels, but may have been meant for fields."""
     documents = [json.loads(scene) for scene in scenes.values()]
     for label in cases.labels:
-        near = resembling(label, documents, (*RUN, *BUDGET))
+        near = resembling(label, documents, (*DECIDING, *BUDGET))
         if near is not None:
             text = (
                 f"the column {label} is no field: it changes nothing and is carried along as a label; if it is "
