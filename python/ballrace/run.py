@@ -54,7 +54,8 @@ def simulate(
 ) -> Signals:
     """Run a scene and record its probes.
 
-    Other Python threads go on meanwhile, and Ctrl-C stops the run at once.
+    Other Python threads go on meanwhile, and Ctrl-C stops the run at once. A :class:`ballrace.Run` holds the arguments
+    as one document: ``br.simulate(scene, **run.to_dict())``.
 
     Parameters
     ----------
@@ -160,7 +161,7 @@ def simulate(
     (50,)
     """
     target = None if out is None else _target(out)
-    # A state goes as an array: as text it would take ten times as long.
+    # A state goes beside the document, as an array: as text it would take far longer.
     state = None if isinstance(start, str) else _state(start)
     asked = Run(
         duration=duration, fs=fs, start=start if isinstance(start, str) else "rolling", rtol=rtol,
