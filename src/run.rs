@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use crate::error::{Error, Result};
 use crate::scene::Method;
@@ -78,11 +79,14 @@ impl Run {
     /// # Errors
     /// [`Error::Scene`] names the first field that is unknown or not usable.
     pub fn from_json(text: &str) -> Result<Self> {
-        let reader = &mut serde_json::Deserializer::from_str(text);
-        let run: Self = serde_path_to_error::deserialize(reader).map_err(|e| {
-            let place = e.path().to_string();
-            let field = if place == "." { "run" } else { &place };
-            Error::scene(field, text, e.inner().to_string())
+        let document: Value = serde_json::from_str(text)
+            .map_err(|e| Error::scene("run", "not JSON", e.to_string()))?;
+        let run: Self = serde_path_to_error::deserialize(&document).map_err(|e| {
+            let field = e.path().to_string();
+            match document.get(&field) {
+                Some(value) => Error::scene(field, value, e.inner().to_string()),
+                None => Error::scene("run", &document, e.inner().to_string()),
+            }
         })?;
         run.validate()?;
         Ok(run)
@@ -224,6 +228,7 @@ mod tests {
     #[test]
     fn errors_name_the_field() {
         for (text, field) in [
+            ("{", "run"),
             (r#"{"steps": 3}"#, "steps"),
             (r#"{"fs": 0}"#, "fs"),
             (r#"{"duration": "long"}"#, "duration"),
