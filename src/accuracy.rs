@@ -91,10 +91,7 @@ pub(crate) fn choose(
 }
 
 /// Refuses what cannot be asked for, of this scene.
-pub(crate) fn check(requested: f64, scene: &Scene) -> Result<()> {
-    if !(1e-4..=1e-1).contains(&requested) {
-        return Err(Error::scene("accuracy", requested, "1e-4 to 1e-1"));
-    }
+pub(crate) fn check(scene: &Scene) -> Result<()> {
     if scene.solver.method != Method::DormandPrince {
         let allowed =
             "dormand-prince where `accuracy` is given: its choice is measured on that method";

@@ -7,19 +7,6 @@ use crate::error::{Error, Result};
 use crate::integrate::Statistics;
 use crate::interrupt;
 
-/// Checks the limits of a run.
-pub(crate) fn check(time_limit: Option<f64>, max_steps: Option<usize>) -> Result<()> {
-    if let Some(limit) = time_limit.filter(|s| !(*s > 0.0 && s.is_finite())) {
-        let allowed = "a finite wall time above 0 [s], or absent for no limit";
-        return Err(Error::scene("time_limit", limit, allowed));
-    }
-    if max_steps == Some(0) {
-        let allowed = "at least 1 step, or absent for no limit";
-        return Err(Error::scene("max_steps", 0, allowed));
-    }
-    Ok(())
-}
-
 /// Works under a limit of wall time \[s\], looked at as often as `progress` is told, so about every 20 ms, and by static
 /// solves at every iteration.
 ///

@@ -47,7 +47,7 @@
 //! * `run` ([`Run`]) — what a run is asked for; `follow` — steps over a stretch of time, and when to stop.
 //! * `simulate` ([`simulate()`], [`simulate_into()`]) — the run itself, the lines to read first.
 //! * `explain` ([`explain()`]) — what a scene is compiled to, what it costs, what would make it cheaper.
-//! * `features` ([`Feature`]) — the few numbers a case is known by: moments, fault lines, contact loads.
+//! * `features` ([`Feature`]) — the few numbers a signal is known by: moments, fault lines, contact loads.
 //! * `interrupt` ([`Interrupt`]), `memory` — what ends work from outside; what a run may set aside.
 //! * `told` — numbers in messages, in units of their size.
 //! * `campaign` ([`campaign()`]) — many cases on all cores; a case that fails is an outcome.
@@ -120,7 +120,7 @@ pub use equilibrium::{
 };
 pub use error::{Error, Result};
 pub use explain::{ContactKind, Cost, Explanation, LawExplanation, Variant, explain};
-pub use features::{Feature, FeatureOptions, feature_columns};
+pub use features::{Feature, FeatureOptions, feature_columns, features, signal_features};
 pub use interrupt::Interrupt;
 pub use model::{Body, Degree, Model, Obstacle, Omission, Reduction, Scales};
 pub use run::Run;

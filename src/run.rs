@@ -1,17 +1,33 @@
-//! What a run is asked for.
+//! What a run is asked for: one document, which Rust, Python and the command line share.
 
+use std::ops::RangeInclusive;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::error::{Error, Result};
 use crate::scene::Method;
 use crate::signals::Bandwidth;
 use crate::start::Start;
 
-/// What to run.
-#[derive(Debug, Clone, PartialEq)]
+/// What to run. As a document it says `start` as `"equilibrium"`, `"rolling"` or the list of a state's numbers, and
+/// `bandwidth` as `"auto"` or, of point samples, `null`; what is absent has its default, and other fields are refused.
+///
+/// ```
+/// let run = ballrace::Run::from_json(r#"{"duration": 0.5, "method": "verner"}"#)?;
+/// assert_eq!((run.duration, run.fs), (0.5, 50e3));
+/// assert_eq!(ballrace::Run::from_json(&run.to_json())?, run);
+/// # Ok::<(), ballrace::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Run {
     /// Simulated time \[s\].
     pub duration: f64,
     /// Sampling rate \[Hz\].
     pub fs: f64,
     /// How it begins.
+    #[serde(with = "starts")]
     pub start: Start,
     /// Relative tolerance; absent: the scene's.
     pub rtol: Option<f64>,
@@ -23,6 +39,7 @@ pub struct Run {
     /// Threads that share the balls of one evaluation; 0: as many as pay. The bits are the same for any.
     pub threads: usize,
     /// Whether signals are filtered before they are sampled.
+    #[serde(with = "bandwidths")]
     pub bandwidth: Bandwidth,
     /// Time before t = 0 in which what is left of the start dies down \[s\]; absent: as long as the scene needs from
     /// equilibrium, 0 from any other start. Loads and drive are then as at t = 0, and rings and cage are wound back, so
@@ -52,6 +69,182 @@ impl Default for Run {
             settle: None,
             time_limit: None,
             max_steps: None,
+        }
+    }
+}
+
+impl Run {
+    /// Reads a run from JSON and checks it.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] names the first field that is unknown or not usable.
+    pub fn from_json(text: &str) -> Result<Self> {
+        let document: Value = serde_json::from_str(text)
+            .map_err(|e| Error::scene("run", "not JSON", e.to_string()))?;
+        let run: Self = serde_path_to_error::deserialize(&document).map_err(|e| {
+            let field = e.path().to_string();
+            match document.get(&field) {
+                Some(value) => Error::scene(field, value, e.inner().to_string()),
+                None => Error::scene("run", &document, e.inner().to_string()),
+            }
+        })?;
+        run.validate()?;
+        Ok(run)
+    }
+
+    /// The run as JSON on one line, every field written out.
+    ///
+    /// # Panics
+    /// Never: every run has a JSON form.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("a run is a JSON document")
+    }
+
+    /// Checks the ranges of its numbers.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] names the field.
+    pub fn validate(&self) -> Result<()> {
+        if !(self.duration > 0.0 && self.duration <= 1e6) {
+            let allowed = "above 0 and at most 1e6 s";
+            return Err(Error::scene("duration", self.duration, allowed));
+        }
+        if !(self.fs > 0.0 && self.fs <= 1e9) {
+            return Err(Error::scene("fs", self.fs, "above 0 and at most 1e9 Hz"));
+        }
+        within(
+            "rtol",
+            self.rtol,
+            1e-12..=1e-1,
+            "1e-12 to 1e-1, or absent: the scene's",
+        )?;
+        within(
+            "accuracy",
+            self.accuracy,
+            1e-4..=1e-1,
+            "1e-4 to 1e-1, or absent",
+        )?;
+        let settle = "0 to switch it off, at most 1000 s, or absent: as long as the scene needs";
+        within("settle", self.settle, 0.0..=1e3, settle)?;
+        let limit = "a finite wall time above 0 [s], or absent for no limit";
+        within(
+            "time_limit",
+            self.time_limit,
+            f64::MIN_POSITIVE..=f64::MAX,
+            limit,
+        )?;
+        if self.max_steps == Some(0) {
+            let allowed = "at least 1 step, or absent for no limit";
+            return Err(Error::scene("max_steps", 0, allowed));
+        }
+        Ok(())
+    }
+}
+
+fn within(name: &str, value: Option<f64>, range: RangeInclusive<f64>, allowed: &str) -> Result<()> {
+    match value {
+        Some(value) if !range.contains(&value) => Err(Error::scene(name, value, allowed)),
+        _ => Ok(()),
+    }
+}
+
+/// How a document says where a run starts.
+mod starts {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+
+    use crate::start::Start;
+
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Said {
+        Name(String),
+        State(Vec<f64>),
+    }
+
+    pub fn serialize<S: Serializer>(start: &Start, to: S) -> Result<S::Ok, S::Error> {
+        match start {
+            Start::Equilibrium => to.serialize_str("equilibrium"),
+            Start::Rolling => to.serialize_str("rolling"),
+            Start::State(state) => state.serialize(to),
+        }
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Start, D::Error> {
+        let known = || de::Error::custom("\"equilibrium\", \"rolling\" or an array of states");
+        match Said::deserialize(from).map_err(|_| known())? {
+            Said::Name(name) if name == "equilibrium" => Ok(Start::Equilibrium),
+            Said::Name(name) if name == "rolling" => Ok(Start::Rolling),
+            Said::Name(_) => Err(known()),
+            Said::State(state) => Ok(Start::State(state)),
+        }
+    }
+}
+
+/// How a document says whether signals are filtered.
+mod bandwidths {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+
+    use crate::signals::Bandwidth;
+
+    // Serde gives a reference.
+    #[allow(clippy::trivially_copy_pass_by_ref)]
+    pub fn serialize<S: Serializer>(bandwidth: &Bandwidth, to: S) -> Result<S::Ok, S::Error> {
+        let said = match bandwidth {
+            Bandwidth::Auto => Some("auto"),
+            Bandwidth::Raw => None,
+        };
+        said.serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Bandwidth, D::Error> {
+        match Option::<String>::deserialize(from)?.as_deref() {
+            Some("auto") => Ok(Bandwidth::Auto),
+            None => Ok(Bandwidth::Raw),
+            Some(_) => Err(de::Error::custom("\"auto\" or null")),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_is_a_document_both_ways() {
+        let run = Run {
+            duration: 0.1 + 0.2,
+            start: Start::State(vec![0.1, -1.0 / 3.0]),
+            rtol: Some(1e-7),
+            method: Some(Method::RungeKutta4),
+            bandwidth: Bandwidth::Raw,
+            settle: Some(0.0),
+            max_steps: Some(7),
+            ..Run::default()
+        };
+        assert_eq!(Run::from_json(&run.to_json()), Ok(run));
+        assert_eq!(Run::from_json("{}"), Ok(Run::default()));
+    }
+
+    #[test]
+    fn errors_name_the_field() {
+        for (text, field) in [
+            ("{", "run"),
+            (r#"{"steps": 3}"#, "steps"),
+            (r#"{"fs": 0}"#, "fs"),
+            (r#"{"duration": "long"}"#, "duration"),
+            (r#"{"settle": -1}"#, "settle"),
+            (r#"{"rtol": 1}"#, "rtol"),
+            (r#"{"accuracy": 1}"#, "accuracy"),
+            (r#"{"start": "standing"}"#, "start"),
+            (r#"{"time_limit": 0}"#, "time_limit"),
+            (r#"{"max_steps": 0}"#, "max_steps"),
+            (r#"{"method": "euler"}"#, "method"),
+            (r#"{"bandwidth": "none"}"#, "bandwidth"),
+        ] {
+            let Err(Error::Scene { path, .. }) = Run::from_json(text) else {
+                panic!("{text}");
+            };
+            assert_eq!(path, field);
         }
     }
 }

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use crate::dynamics::Dynamics;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::follow::{Stretch, Watch, follow, options, threads};
 use crate::integrate::{DenseStep, Options};
 use crate::model::{Degree, Model};
@@ -29,8 +29,6 @@ const LONGEST: f64 = 0.1;
 const TAKE_UP: f64 = 0.75 * TAU;
 /// Ball passes to wait for at least: in a wheel bearing under 3 kN of thrust the first is twice as loud as the third.
 const PASSES: f64 = 2.0;
-/// The longest time that may be asked for \[s\].
-const MOST: f64 = 1e3;
 
 /// From where a run goes on at t = 0, and what it took to get there.
 pub(crate) struct Settled {
@@ -54,11 +52,6 @@ pub(crate) fn settle(
         accepted: 0,
         nfev: 0,
     };
-    if let Some(asked) = run.settle.filter(|asked| !(0.0..=MOST).contains(asked)) {
-        let allowed =
-            format!("0 to switch it off, at most {MOST} s, or absent: as long as the scene needs");
-        return Err(Error::scene("settle", asked, allowed));
-    }
     let chosen = run.settle.is_none() && run.start == Start::Equilibrium;
     if !chosen && run.settle.is_none_or(|asked| asked == 0.0) {
         return Ok(unsettled);

@@ -15,6 +15,7 @@ All numbers are in SI units, at every face.
 from __future__ import annotations
 
 from . import frequencies, presets, scene, spectra
+from ._features import features
 from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
 from .errors import (
     AccuracyWarning,
@@ -31,6 +32,7 @@ from .errors import (
 )
 from .explanation import Explanation, explain
 from .model import Model
+from .options import Run
 from .run import simulate
 from .scene import Scene
 from .signals import Record, Signals, Touched
@@ -59,6 +61,7 @@ __all__ = [
     "MemoryLimitError",
     "Model",
     "Record",
+    "Run",
     "Scene",
     "SceneError",
     "SceneWarning",
@@ -68,6 +71,7 @@ __all__ = [
     "campaign",
     "equilibrium",
     "explain",
+    "features",
     "frequencies",
     "grid",
     "latin_hypercube",

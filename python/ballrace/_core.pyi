@@ -1,4 +1,4 @@
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Literal, TypeAlias, TypedDict, final
 
 import numpy as np
@@ -6,21 +6,28 @@ from numpy.typing import NDArray
 
 __all__ = [
     "Model",
+    "amplitudes",
     "available_threads",
     "campaign",
     "check_run",
     "equilibrium",
     "explain",
     "feature_columns",
+    "hann_weighted",
     "load_distribution",
+    "orders",
     "preset_deep_groove_6205",
     "preset_wheel_bearing",
+    "run_features",
+    "run_from_json",
     "scene_doubts",
     "scene_from_json",
     "scene_from_toml",
     "scene_replace",
     "scene_to_toml",
+    "signal_features",
     "simulate",
+    "squared_envelope",
     "stiffness",
 ]
 
@@ -87,19 +94,9 @@ class _LoadDistribution(_Turning):
 
 def simulate(
     scene: str,
-    duration: float,
-    fs: float,
-    kind: str,
-    state: _Array | None,
-    rtol: float | None,
-    accuracy: float | None,
-    method: str | None,
-    threads: int,
-    progress: Callable[[float], object] | None,
-    bandwidth: str | None,
-    settle: float | None,
-    time_limit: float | None = None,
-    max_steps: int | None = None,
+    run: str,
+    state: _Array | None = None,
+    progress: Callable[[float], object] | None = None,
     sink: Callable[[dict[str, _Array]], object] | None = None,
 ) -> _Signals: ...
 def campaign(
@@ -109,8 +106,25 @@ def campaign(
     keep_signals: bool,
     done: Callable[[list[tuple[int, str, _Signals | None]]], object],
 ) -> None: ...
+def run_from_json(text: str) -> str: ...
 def check_run(run: str, options: str) -> None: ...
 def feature_columns(scene: str, options: str) -> list[str]: ...
+def run_features(
+    columns: Mapping[str, _Array],
+    fs: float,
+    scene: str,
+    largest_pressure: float | None,
+    options: str,
+) -> list[tuple[str, float | None]]: ...
+def signal_features(
+    x: _Array, fs: float, name: str, scene: str | None, options: str
+) -> list[tuple[str, float | None]]: ...
+def orders(
+    ball_count: float, ball_diameter: float, pitch_diameter: float, contact_angle: float
+) -> tuple[float, float, float, float]: ...
+def squared_envelope(x: _Array, fs: float, band: tuple[float, float] | None) -> _Array: ...
+def amplitudes(x: _Array, length: int) -> _Array: ...
+def hann_weighted(x: _Array) -> _Array: ...
 def available_threads() -> int: ...
 def equilibrium(scene: str) -> _Equilibrium: ...
 def explain(scene: str) -> tuple[str, str]: ...

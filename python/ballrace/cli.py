@@ -10,11 +10,12 @@ import os
 import sys
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
 from . import paper, presets
+from ._features import features
 from ._files import check_output, check_writable, whole
 from ._progress import Bar
 from ._text import printable
@@ -23,8 +24,9 @@ from .campaigns.cli import add_command as add_campaign
 from .errors import BallraceError, SceneError
 from .explanation import explain
 from .frequencies import of_row
+from .options import ARGUMENTS, Run
 from .run import simulate
-from .scene import Scene, SpeedDrive
+from .scene import Method, Scene, SpeedDrive
 from .statics import Equilibrium, equilibrium, load_distribution, stiffness
 
 if TYPE_CHECKING:
@@ -39,6 +41,31 @@ __all__ = ["main"]
 _AXIAL_LOADS = {"axial 0": 0.0, "axial +3 kN": 3000.0, "axial -3 kN": -3000.0}
 _COLUMN = "outer.ay"
 _FS = 50_000.0
+_DEFAULTS = Run()
+_RUN_OPTIONS: dict[str, dict[str, Any]] = {
+    "duration": {
+        "type": float, "metavar": "SECONDS", "help": "simulated time (default: %(default)s)",
+    },
+    "fs": {"type": float, "metavar": "HZ", "help": "sampling rate (default: %(default)g)"},
+    "start": {
+        "choices": ("equilibrium", "rolling"), "help": "where the run starts (default: %(default)s)",
+    },
+    "rtol": {"type": float, "help": "relative tolerance (default: the scene's)"},
+    "accuracy": {
+        "type": float, "help": "error of accelerations to stay below, in place of --rtol",
+    },
+    "method": {"choices": get_args(Method), "help": "method of integration (default: the scene's)"},
+    "settle": {
+        "type": float, "metavar": "SECONDS",
+        "help": "time before t = 0 in which the start dies down (default: as long as the scene needs; 0: none)",
+    },
+    "threads": {"type": int, "help": "threads (default: chosen; no influence on the result)"},
+    "bandwidth": {
+        "choices": ("auto", "none"),
+        "help": "auto: signals through a low-pass of 0.4 fs; none: point samples (default: %(default)s)",
+    },
+}  # fmt: skip
+"""Options of a run beside its budget, by the names of its arguments."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -112,35 +139,8 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument(
         "-o", "--output", type=Path, required=True, metavar="FILE", help="Parquet file to write"
     )
-    run.add_argument(
-        "--duration", type=float, default=0.1, metavar="SECONDS",
-        help="simulated time (default: %(default)s)",
-    )  # fmt: skip
-    run.add_argument(
-        "--fs", type=float, default=_FS, metavar="HZ", help="sampling rate (default: %(default)g)"
-    )
-    run.add_argument(
-        "--start", choices=("equilibrium", "rolling"), default="equilibrium",
-        help="where the run starts (default: %(default)s)",
-    )  # fmt: skip
-    run.add_argument("--rtol", type=float, help="relative tolerance (default: the scene's)")
-    run.add_argument(
-        "--accuracy", type=float, help="error of accelerations to stay below, in place of --rtol"
-    )
-    run.add_argument(
-        "--settle", type=float, metavar="SECONDS",
-        help="time before t = 0 in which the start dies down (default: as long as the scene needs; 0: none)",
-    )  # fmt: skip
-    run.add_argument(
-        "--threads",
-        type=int,
-        default=0,
-        help="threads (default: chosen; no influence on the result)",
-    )
-    run.add_argument(
-        "--bandwidth", choices=("auto", "none"), default="auto",
-        help="auto: signals through a low-pass of 0.4 fs; none: point samples (default: %(default)s)",
-    )  # fmt: skip
+    for name, option in _RUN_OPTIONS.items():
+        run.add_argument(f"--{name}", default=getattr(_DEFAULTS, name), **option)
     add_budget(run, "the run")
     run.set_defaults(command=_run)
 
@@ -226,13 +226,11 @@ def _demo(options: argparse.Namespace) -> None:
 
 def _features(out: Signals) -> list[str]:
     """Root mean square, peak, kurtosis and mean impact of the demo's column."""
-    signal = out[_COLUMN]
-    centred = signal - signal.mean()
-    variance = np.mean(centred**2)
-    kurtosis = np.mean(centred**4) / variance**2 if variance > 0.0 else np.nan
-    rms, peak = np.sqrt(np.mean(signal**2)), np.max(np.abs(signal))
-    impact = _mean_impact(signal, out.fs / _passing(out.scene))
-    return [f"{rms:.2f}", f"{peak:.1f}", f"{kurtosis:.1f}", f"{impact:.1f}"]
+    found = features(out[_COLUMN], out.fs)
+    kurtosis = found["kurtosis"]
+    shape = "nan" if kurtosis is None else f"{kurtosis:.1f}"
+    impact = _mean_impact(out[_COLUMN], out.fs / _passing(out.scene))
+    return [f"{found['rms']:.2f}", f"{found['peak']:.1f}", shape, f"{impact:.1f}"]
 
 
 def _mean_impact(signal: NDArray[np.float64], passage: float) -> float:
@@ -291,19 +289,11 @@ def _paper(options: argparse.Namespace) -> None:
 
 def _run(options: argparse.Namespace) -> None:
     check_output(options.output, read=options.scene)
+    options.bandwidth = None if options.bandwidth == "none" else options.bandwidth
     out = simulate(
         Scene.load(options.scene),
-        duration=options.duration,
-        fs=options.fs,
-        start=options.start,
-        rtol=options.rtol,
-        accuracy=options.accuracy,
-        threads=options.threads,
+        **{name: getattr(options, name) for name in ARGUMENTS},
         progress=True,
-        bandwidth="auto" if options.bandwidth == "auto" else None,
-        settle=options.settle,
-        time_limit=options.time_limit,
-        max_steps=options.max_steps,
         out=options.output,
     )
     print(f"{printable(str(options.output))}: {len(out)} columns, {out.n_samples} samples")

@@ -6,7 +6,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from .scene import checked_scene
+from .scene.scene import checked_scene
 from .signals import Record
 
 if TYPE_CHECKING:

@@ -10,6 +10,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from . import _core
 from .errors import SceneError
 
 if TYPE_CHECKING:
@@ -86,13 +87,8 @@ def orders(
         )
     if not abs(contact_angle) < math.pi / 2:
         raise SceneError("contact_angle", str(contact_angle), "between -π/2 and π/2")
-    gamma = ball_diameter * math.cos(contact_angle) / pitch_diameter
-    return Orders(
-        ftf=(1.0 - gamma) / 2.0,
-        bpfo=ball_count * (1.0 - gamma) / 2.0,
-        bpfi=ball_count * (1.0 + gamma) / 2.0,
-        bsf=pitch_diameter / (2.0 * ball_diameter) * (1.0 - gamma**2),
-    )
+    ftf, bpfo, bpfi, bsf = _core.orders(ball_count, ball_diameter, pitch_diameter, contact_angle)
+    return Orders(ftf=ftf, bpfo=bpfo, bpfi=bpfi, bsf=bsf)
 
 
 def of_row(row: Row) -> Orders:

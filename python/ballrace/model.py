@@ -9,7 +9,7 @@ import numpy as np
 from . import _core
 from .errors import SceneError
 from .explanation import Explanation, explain
-from .scene import checked_scene
+from .scene.scene import checked_scene
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 
 from . import _core
-from ._document import whole_number
 from ._files import check_output
 from ._progress import Bar
 from ._record import Scanned, metadata, writing
 from ._text import printable
 from .errors import AccuracyWarning, SceneError, SceneWarning
-from .scene import checked_scene
+from .options import Run
+from .scene.scene import checked_scene
 from .signals import Signals
 
 if TYPE_CHECKING:
@@ -54,7 +54,8 @@ def simulate(
 ) -> Signals:
     """Run a scene and record its probes.
 
-    Other Python threads go on meanwhile, and Ctrl-C stops the run at once.
+    Other Python threads go on meanwhile, and Ctrl-C stops the run at once. A :class:`ballrace.Run` holds the
+    arguments as one document: ``br.simulate(scene, **run.to_dict())``.
 
     Parameters
     ----------
@@ -160,22 +161,20 @@ def simulate(
     (50,)
     """
     target = None if out is None else _target(out)
-    kind, state = (start, None) if isinstance(start, str) else ("state", _state(start))
-    if threads < 0:
-        raise SceneError("threads", str(threads), "0 to choose, or a number of threads")
-    steps = None if max_steps is None else whole_number("max_steps", max_steps)
-    if steps is not None and steps < 1:
-        raise SceneError("max_steps", str(max_steps), "at least 1 step, or None for no limit")
+    # A state goes beside the document, as an array: as text it would take far longer.
+    state = None if isinstance(start, str) else _state(start)
+    asked = Run(
+        duration=duration, fs=fs, start=start if isinstance(start, str) else "rolling", rtol=rtol,
+        accuracy=accuracy, method=method, threads=threads, bandwidth=bandwidth, settle=settle,
+        time_limit=time_limit, max_steps=max_steps,
+    ).to_json()  # fmt: skip
     scene = checked_scene(scene)
     if reduce is not None:
         scene = scene.replace({"solver.reduce": reduce})
     document = scene.to_json()
 
     def run(callback: Callable[[float], object] | None, sink: _Sink | None) -> _Signals:
-        return _core.simulate(
-            document, duration, fs, kind, state, rtol, accuracy, method, threads, callback,
-            bandwidth, settle, time_limit, steps, sink,
-        )  # fmt: skip
+        return _core.simulate(document, asked, state, callback, sink)
 
     def shown(sink: _Sink | None) -> _Signals:
         if progress is not True:

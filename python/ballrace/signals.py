@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _core
+from ._features import feature_options
 from ._files import whole
 from ._parquet import read_sealed, scan_sealed, seal, writing_to
 from ._record import Scanned, described, metadata, samples, unless_damaged
@@ -21,6 +23,7 @@ from .scene import Scene, Surface
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Sequence
 
     import polars as pl
 
@@ -267,6 +270,52 @@ class Signals(Mapping[str, NDArray[np.float64]]):
 
             self._slices = pl.DataFrame(self._slices)
         return self._slices
+
+    def features(
+        self,
+        *,
+        columns: Sequence[str] | None = None,
+        skip: float = 0.0,
+        band: tuple[float, float] | None = None,
+        contact_loads: bool = False,
+    ) -> dict[str, float | None]:
+        """Return the features of the run, by the names that they have in the table of a campaign.
+
+        Parameters
+        ----------
+        columns : sequence of str, optional
+            Columns whose features are computed; by default all accelerations. :func:`ballrace.campaign` tells at
+            ``columns`` which features there are.
+        skip : float
+            Beginning of the run that is left out [s].
+        band : tuple of two floats, optional
+            Band of the envelope [Hz]; by default all frequencies.
+        contact_loads : bool
+            Whether the extremes of the contact loads are among them, ``row0.outer.load_max`` and so on [N]. Probes
+            must have recorded the loads of all contacts, such as ``ContactsProbe(row=0, quantities=("load",))``.
+
+        Returns
+        -------
+        dict of str to float or None
+            Those of the columns in their units, squared for an envelope, and ``largest_pressure`` [Pa]. None where
+            the run cannot give one: a line for which it is too short.
+
+        Raises
+        ------
+        SceneError
+            An argument is not usable, or a column was not recorded.
+
+        Examples
+        --------
+        >>> import ballrace as br
+        >>> out = br.simulate(br.presets.deep_groove_6205(), duration=0.001)
+        >>> list(out.features(columns=["outer.ay"]))[:2]
+        ['outer.ay.rms', 'outer.ay.peak']
+        """
+        options = json.dumps(feature_options(columns, skip, band, contact_loads))
+        pressure = self._stats.get("largest_pressure")
+        found = _core.run_features(self, self._fs, self.scene.to_json(), pressure, options)
+        return dict(found)
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with the time ``t`` and all columns."""

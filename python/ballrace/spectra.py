@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from . import _core
 from ._interrupt import answers_ctrl_c
 from .errors import SceneError
 
@@ -62,18 +63,11 @@ def squared_envelope(
     >>> bool(np.allclose(found, (1.0 + 0.5 * np.cos(2 * np.pi * 7.0 * t)) ** 2))
     True
     """
-    signal = _signal(x, fs)
-    n = signal.size
+    signal = checked_signal(x, fs)
     low, high = (0.0, fs / 2.0) if band is None else band
     if not 0.0 <= low < high <= fs / 2.0:
         raise SceneError("band", str(band), f"two rising frequencies from 0 to fs/2, {fs / 2.0:g}")
-    lines = np.fft.rfft(signal)
-    f = np.fft.rfftfreq(n, 1.0 / fs)
-    lines[(f < low) | (f > high)] = 0.0
-    # The analytic signal: no negative frequencies, and twice the positive ones.
-    lines[1 : (n + 1) // 2] *= 2.0
-    analytic = np.fft.ifft(lines, n)
-    return analytic.real**2 + analytic.imag**2
+    return _core.squared_envelope(signal, fs, None if band is None else (low, high))
 
 
 @answers_ctrl_c
@@ -101,10 +95,9 @@ def spectrum(x: ArrayLike, fs: float) -> tuple[NDArray[np.float64], NDArray[np.f
     >>> float(f[at]), round(float(value[at]), 3)
     (50.0, 2.0)
     """
-    weighted = _weighted(_signal(x, fs))
-    f = np.fft.rfftfreq(weighted.size, 1.0 / fs)
-    value = np.abs(np.fft.rfft(weighted))
-    return f.astype(np.float64, copy=False), value.astype(np.float64, copy=False)
+    signal = checked_signal(x, fs)
+    f = np.fft.rfftfreq(signal.size, 1.0 / fs)
+    return f.astype(np.float64, copy=False), _core.amplitudes(signal, signal.size)
 
 
 def envelope(
@@ -214,7 +207,7 @@ def comb(
     >>> round(f, 3), value.round(2).tolist()
     (20.123, [1.0, 0.5, 0.33])
     """
-    signal = _signal(x, fs)
+    signal = checked_signal(x, fs)
     multiples = sorted(set(orders))
     if not multiples or multiples[0] < 1:
         raise SceneError("orders", str(orders), "at least one, from 1")
@@ -224,15 +217,15 @@ def comb(
     if multiples[-1] * high + offset > fs / 2.0:
         raise SceneError("near", str(near), f"lines up to fs/2, {fs / 2.0:g}")
 
-    weighted = _weighted(signal)
-    padded = 4 * weighted.size
-    power = np.abs(np.fft.rfft(weighted, padded)) ** 2
+    padded = 4 * signal.size
+    power = _core.amplitudes(signal, padded) ** 2
     table = np.fft.rfftfreq(padded, 1.0 / fs)
     step = fs / (padded * multiples[-1])
     grid = np.linspace(low, high, max(3, math.ceil((high - low) / step) + 1))
     sums = sum(np.interp(k * grid + offset, table, power) for k in multiples)
     found = float(grid[int(np.argmax(sums))])
 
+    weighted = _core.hann_weighted(signal)
     t = (np.arange(signal.size) - signal.size / 2.0) / fs
 
     def amplitude(f: float) -> float:
@@ -283,7 +276,14 @@ def floor(
     return at, float(np.median(value[near]))
 
 
-def _signal(x: ArrayLike, fs: float) -> NDArray[np.float64]:
+def checked_signal(x: ArrayLike, fs: float) -> NDArray[np.float64]:
+    """Return a signal as the core reads it.
+
+    Raises
+    ------
+    SceneError
+        It is no row of finite numbers, or too short, or its sampling rate is not usable.
+    """
     signal = np.asarray(x, dtype=np.float64)
     if signal.ndim != 1 or signal.size < 8:
         raise SceneError(
@@ -294,13 +294,6 @@ def _signal(x: ArrayLike, fs: float) -> NDArray[np.float64]:
     if not 0.0 < fs < math.inf:
         raise SceneError("fs", str(fs), "above 0")
     return signal
-
-
-def _weighted(signal: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Weigh a signal so that the magnitude of its transform is the amplitude."""
-    window = 1.0 - np.cos(2.0 * np.pi * (np.arange(signal.size) + 0.5) / signal.size)
-    window *= 2.0 / window.sum()
-    return window * (signal - np.sum(window * signal) / 2.0)
 
 
 def _summit(function: Callable[[float], float], middle: float, span: float) -> float:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from .errors import SceneError, SceneWarning
-from .scene import checked_scene
+from .scene.scene import checked_scene
 
 if TYPE_CHECKING:
     import polars as pl

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use crate::error::{Error, Result};
 use crate::features::{
-    Feature, FeatureOptions, check, feature_columns, features, with_load_probes,
+    Feature, FeatureOptions, Recorded, check, feature_columns, features_of, with_load_probes,
     without_load_probes,
 };
 use crate::interrupt::Interrupt;
@@ -78,11 +78,11 @@ impl Case {
         };
         if !options.contact_loads {
             let signals = simulate(&self.scene, &run, &mut progress)?;
-            let features = features(&signals, &columns, options);
+            let features = features_of(&Recorded::from(&signals), &columns, options);
             return Ok(Finished { features, signals });
         }
         let signals = simulate(&with_load_probes(&self.scene), &run, &mut progress)?;
-        let features = features(&signals, &columns, options);
+        let features = features_of(&Recorded::from(&signals), &columns, options);
         let signals = without_load_probes(signals, &self.scene);
         Ok(Finished { features, signals })
     }

@@ -1,10 +1,9 @@
 //! Lines at the fault frequencies of the rows, with their harmonics and sidebands.
 
-use rustfft::FftPlanner;
-
-use super::Feature;
 use super::shaft::Shaft;
-use super::spectrum::{Spectrum, squared_envelope};
+use super::spectrum::Spectrum;
+use super::transform::squared_envelope;
+use super::{Feature, named};
 use crate::scene::Row;
 
 /// A line is sought this far from its kinematic frequency: the operating contact angle differs from the
@@ -48,7 +47,6 @@ pub(super) fn faults(row: &Row) -> [Fault; 4] {
 /// Lines of a signal and of its squared envelope at the frequencies of every row; without values where the speed of the
 /// shaft is not known.
 pub(super) fn of(
-    planner: &mut FftPlanner<f64>,
     name: &str,
     x: &[f64],
     (fs, band): (f64, Option<[f64; 2]>),
@@ -56,11 +54,11 @@ pub(super) fn of(
     rows: &[Row],
 ) -> Vec<Feature> {
     let spectra = shaft.map(|shaft| {
-        let envelope = squared_envelope(planner, x, fs, band);
-        let mut spectrum = |x: &[f64]| {
+        let envelope = squared_envelope(x, fs, band);
+        let spectrum = |x: &[f64]| {
             let (x, rate) = shaft.by_angle(x, fs);
             let bin = rate / x.len() as f64;
-            (Spectrum::new(planner, &x, rate), shaft.frequency(), bin)
+            (Spectrum::new(&x, rate), shaft.frequency(), bin)
         };
         [spectrum(x), spectrum(&envelope)]
     });
@@ -72,7 +70,7 @@ pub(super) fn of(
                     let (spectrum, shaft, bin) = &spectra[i];
                     Lines::of(&fault, spectrum, *shaft, *bin)
                 });
-                let prefix = format!("{name}.row{row}.{}{suffix}", fault.name);
+                let prefix = named(name, &format!("row{row}.{}{suffix}", fault.name));
                 found.extend(Lines::features(lines.flatten().as_ref(), &prefix, &fault));
             }
         }
@@ -143,8 +141,7 @@ mod tests {
 
     fn lines(scene: &Scene, x: &[f64], fs: f64) -> impl Fn(&str) -> Option<f64> + use<> {
         let shaft = Shaft::of(scene, 0.0, x.len(), fs);
-        let planner = &mut FftPlanner::new();
-        let found = of(planner, "x", x, (fs, None), shaft.as_ref(), &scene.rows);
+        let found = of("x", x, (fs, None), shaft.as_ref(), &scene.rows);
         move |name: &str| {
             let wanted = format!("x.row0.{name}");
             let feature = found.iter().find(|feature| feature.name == wanted);
@@ -167,15 +164,7 @@ mod tests {
     fn a_short_record_has_no_lines() {
         let scene = scene();
         let shaft = Shaft::of(&scene, 0.0, 50, 50e3);
-        let planner = &mut FftPlanner::new();
-        let found = of(
-            planner,
-            "x",
-            &[1.0; 50],
-            (50e3, None),
-            shaft.as_ref(),
-            &scene.rows,
-        );
+        let found = of("x", &[1.0; 50], (50e3, None), shaft.as_ref(), &scene.rows);
         assert_eq!(found.len(), 2 * (2 + 2 + 3 + 3));
         assert!(found.iter().all(|f| f.value.is_none()));
     }

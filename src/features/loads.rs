@@ -1,10 +1,11 @@
-//! Extremes of the contact loads, read by probes of their own that leave no columns behind.
+//! Extremes of the contact loads; those of a campaign are read by probes of their own that leave no columns behind.
 
-use super::Feature;
-use crate::scene::{ContactQuantity, Probe, Scene};
+use super::{Feature, Recorded};
+use crate::error::{Error, Result};
+use crate::scene::{ContactQuantity, Probe, RingName, Scene};
 use crate::signals::Signals;
 
-const RACES: [&str; 2] = ["outer", "inner"];
+const RACES: [RingName; 2] = [RingName::Outer, RingName::Inner];
 
 /// Name of the probe of a row. One of a user's would have to be named so on purpose.
 fn probe_name(row: usize) -> String {
@@ -39,26 +40,74 @@ pub(crate) fn without_load_probes(mut signals: Signals, scene: &Scene) -> Signal
     signals
 }
 
-/// Largest and smallest load of any ball of a row on each race, from a sample on; nothing without the probes.
-pub(super) fn extremes(signals: &Signals, first: usize) -> Vec<Feature> {
-    let mut found = Vec::new();
-    for row in 0..signals.scene.rows.len() {
+/// Names of the columns that hold the load of every ball of a row on a race.
+///
+/// # Errors
+/// [`Error::Scene`] if no probe of the scene records them all.
+fn columns_of(scene: &Scene, row: usize, race: RingName) -> Result<Vec<String>> {
+    let recorded = scene.recorded();
+    let records = |probe: &Probe| match probe {
+        Probe::Contacts {
+            row: of,
+            balls: None,
+            races,
+            quantities,
+        } => {
+            let has_race = races.as_ref().is_none_or(|r| r.contains(&race));
+            let load = ContactQuantity::Load;
+            let has_load = quantities.as_ref().is_none_or(|q| q.contains(&load));
+            *of == row && has_race && has_load
+        }
+        _ => false,
+    };
+    let Some((name, _)) = recorded.iter().find(|(_, probe)| records(probe)) else {
+        let allowed =
+            format!("probes that record the loads of all contacts; none does of row {row}");
+        return Err(Error::scene("contact_loads", true, allowed));
+    };
+    let balls = 0..scene.rows[row].ball_count;
+    Ok(balls
+        .map(|ball| format!("{name}.ball{ball}.{}.load", label(race)))
+        .collect())
+}
+
+fn label(race: RingName) -> &'static str {
+    match race {
+        RingName::Outer => "outer",
+        RingName::Inner => "inner",
+    }
+}
+
+/// Names of all columns that the extremes are read from.
+///
+/// # Errors
+/// [`Error::Scene`] if no probe of the scene records them all.
+pub(crate) fn columns(scene: &Scene) -> Result<Vec<String>> {
+    let mut names = Vec::new();
+    for row in 0..scene.rows.len() {
         for race in RACES {
-            let (before, after) = (probe_name(row) + ".", format!(".{race}.load"));
-            let mut range: Option<(f64, f64)> = None;
-            for column in signals
-                .columns
-                .iter()
-                .filter(|c| c.name.starts_with(&before) && c.name.ends_with(&after))
-            {
-                for &load in &column.values[first..] {
-                    let (low, high) = range.unwrap_or((load, load));
-                    range = Some((low.min(load), high.max(load)));
-                }
-            }
+            names.extend(columns_of(scene, row, race)?);
+        }
+    }
+    Ok(names)
+}
+
+/// Largest and smallest load of any ball of a row on each race, from a sample on; nothing of what is not recorded.
+pub(super) fn extremes(recorded: &Recorded<'_>, first: usize) -> Vec<Feature> {
+    let mut found = Vec::new();
+    for row in 0..recorded.scene.rows.len() {
+        for race in RACES {
+            let names = columns_of(recorded.scene, row, race).unwrap_or_default();
+            let columns = names.iter().filter_map(|name| recorded.get(name));
+            let loads = columns.flat_map(|values| &values[first..]).copied();
+            let range = loads.fold(None, |range: Option<(f64, f64)>, load| {
+                let (low, high) = range.unwrap_or((load, load));
+                Some((low.min(load), high.max(load)))
+            });
             if let Some((low, high)) = range {
-                found.push(Feature::new(format!("row{row}.{race}.load_max"), high));
-                found.push(Feature::new(format!("row{row}.{race}.load_min"), low));
+                let name = |what: &str| format!("row{row}.{}.{what}", label(race));
+                found.push(Feature::new(name("load_max"), high));
+                found.push(Feature::new(name("load_min"), low));
             }
         }
     }

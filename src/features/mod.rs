@@ -1,4 +1,4 @@
-//! Features of a run: the few numbers a case of a campaign is known by.
+//! Features of signals: the few numbers a case of a campaign, a run or a measurement is known by.
 //!
 //! | name | what | source |
 //! |---|---|---|
@@ -14,21 +14,23 @@
 //! there without a value, so that a table of cases has the same columns throughout.
 
 mod lines;
-mod loads;
+pub(crate) mod loads;
 mod moments;
+mod recorded;
 mod shaft;
 mod spectrum;
+pub(crate) mod transform;
 
-use rustfft::FftPlanner;
 use serde::Deserialize;
 
 use crate::error::{Error, Result};
 use crate::run::Run;
 use crate::scene::Scene;
 use crate::signals::{Signals, columns};
-use shaft::Shaft;
 
 pub(crate) use loads::{with_load_probes, without_load_probes};
+pub use recorded::signal_features;
+pub(crate) use recorded::{Recorded, features_of};
 
 /// What to compute the features of.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
@@ -86,48 +88,53 @@ pub fn feature_columns(scene: &Scene, options: &FeatureOptions) -> Result<Vec<St
 /// # Errors
 /// [`Error::Scene`] names the option.
 pub(crate) fn check(options: &FeatureOptions, run: &Run) -> Result<()> {
-    if !(options.skip >= 0.0 && options.skip < run.duration) {
-        let allowed = format!("from 0 to below the duration, {} s", run.duration);
+    check_record(options, run.duration, run.fs)
+}
+
+/// Checks the options against a record of a duration \[s\] and a sampling rate \[Hz\].
+fn check_record(options: &FeatureOptions, duration: f64, fs: f64) -> Result<()> {
+    if !(options.skip >= 0.0 && options.skip < duration) {
+        let allowed = format!("from 0 to below the duration, {duration} s");
         return Err(Error::scene("skip", options.skip, allowed));
     }
     match options.band {
-        Some([low, high]) if !(0.0 <= low && low < high && high <= run.fs / 2.0) => {
-            let allowed = format!("two rising frequencies from 0 to fs/2, {} Hz", run.fs / 2.0);
+        Some([low, high]) if !(0.0 <= low && low < high && high <= fs / 2.0) => {
+            let allowed = format!("two rising frequencies from 0 to fs/2, {} Hz", fs / 2.0);
             Err(Error::scene("band", format!("[{low}, {high}]"), allowed))
         }
         _ => Ok(()),
     }
 }
 
-/// The features of the given columns, then the extremes of the contact loads if they were read, and the largest pressure.
-pub(crate) fn features(
-    signals: &Signals,
-    columns: &[String],
-    options: &FeatureOptions,
-) -> Vec<Feature> {
-    let first = signals.t.partition_point(|&t| t < options.skip);
-    let count = signals.t.len() - first;
-    let shaft = Shaft::of(&signals.scene, options.skip, count, signals.fs);
-    // Twiddle factors cost more than the transforms that use them, and are the same for all columns.
-    let mut planner = FftPlanner::new();
-    let mut found = Vec::new();
-    for name in columns {
-        let Some(values) = signals.get(name) else {
-            continue;
-        };
-        let x = &values[first..];
-        found.extend(moments::of(name, x));
-        found.extend(lines::of(
-            &mut planner,
-            name,
-            x,
-            (signals.fs, options.band),
-            shaft.as_ref(),
-            &signals.scene.rows,
-        ));
+/// The features of a run: of its columns, of the contact loads if they were asked for, and the largest pressure.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use ballrace::{FeatureOptions, Run, features, scene::presets, simulate};
+///
+/// let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+/// let run = Run { duration: 2e-3, ..Run::default() };
+/// let out = simulate(&scene, &run, &mut |_share| ControlFlow::Continue(()))?;
+/// let found = features(&out, &FeatureOptions::default())?;
+/// assert!(found.iter().any(|feature| feature.name == "outer.ay.rms"));
+/// # Ok::<(), ballrace::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Scene`] names an option that the signals do not give: a column that was not recorded, or contact loads that
+/// no probe has recorded all of.
+pub fn features(signals: &Signals, options: &FeatureOptions) -> Result<Vec<Feature>> {
+    let columns = feature_columns(&signals.scene, options)?;
+    let recorded = Recorded::from(signals);
+    recorded.check(options)?;
+    Ok(features_of(&recorded, &columns, options))
+}
+
+/// The name of a feature of a column; of a signal without a name, what the feature itself is called.
+fn named(column: &str, what: &str) -> String {
+    if column.is_empty() {
+        what.to_owned()
+    } else {
+        format!("{column}.{what}")
     }
-    found.extend(loads::extremes(signals, first));
-    let pressure = signals.stats.largest_pressure;
-    found.push(Feature::new("largest_pressure".to_owned(), pressure));
-    found
 }

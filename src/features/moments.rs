@@ -1,30 +1,35 @@
 //! Moments of a signal.
 
-use super::Feature;
+use super::{Feature, named};
 
 /// rms √⟨x²⟩, peak max |x|, crest factor peak/rms, and kurtosis ⟨(x − ⟨x⟩)⁴⟩ / ⟨(x − ⟨x⟩)²⟩², which is 3 for
 /// Gaussian noise and 1.5 for a sine.
 pub(super) fn of(name: &str, x: &[f64]) -> [Feature; 4] {
     let count = x.len() as f64;
-    let mean = x.iter().sum::<f64>() / count;
-    let square = x.iter().map(|x| x * x).sum::<f64>() / count;
-    let (mut second, mut fourth) = (0.0, 0.0);
-    for x in x {
-        let squared = (x - mean) * (x - mean);
-        second += squared;
-        fourth += squared * squared;
-    }
+    let mean = sum(x, &|x| x) / count;
+    let square = sum(x, &|x| x * x) / count;
+    let second = sum(x, &|x| (x - mean).powi(2));
+    let fourth = sum(x, &|x| (x - mean).powi(4));
     let (rms, peak) = (
         square.sqrt(),
         x.iter().fold(0.0, |p: f64, x| p.max(x.abs())),
     );
-    let feature = |what: &str, value| Feature::new(format!("{name}.{what}"), value);
+    let feature = |what: &str, value| Feature::new(named(name, what), value);
     [
         feature("rms", rms),
         feature("peak", peak),
         feature("crest_factor", peak / rms),
         feature("kurtosis", count * fourth / (second * second)),
     ]
+}
+
+/// The sum of a function of every sample, by halves, so that its rounding error does not grow with the number of samples.
+pub(super) fn sum(x: &[f64], of: &impl Fn(f64) -> f64) -> f64 {
+    if x.len() <= 64 {
+        return x.iter().map(|x| of(*x)).sum();
+    }
+    let (left, right) = x.split_at(x.len() / 2);
+    sum(left, of) + sum(right, of)
 }
 
 #[cfg(test)]

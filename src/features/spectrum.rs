@@ -1,35 +1,6 @@
-//! Squared envelope, and amplitudes of lines, as in `ballrace.spectra` on the Python side.
+//! Amplitudes of lines, between the entries of a spectrum.
 
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex64;
-
-/// Squared magnitude of the analytic signal within a band \[Hz\] with sharp edges: the Fourier transform
-/// without negative frequencies and with twice the positive ones (J. Antoni, R. B. Randall, Mech. Syst. Signal
-/// Process. 20 (2006) 308).
-pub(super) fn squared_envelope(
-    planner: &mut FftPlanner<f64>,
-    x: &[f64],
-    fs: f64,
-    band: Option<[f64; 2]>,
-) -> Vec<f64> {
-    let count = x.len();
-    let [low, high] = band.unwrap_or([0.0, fs / 2.0]);
-    let mut lines: Vec<Complex64> = x.iter().map(|&x| x.into()).collect();
-    planner.plan_fft_forward(count).process(&mut lines);
-    for (k, line) in lines.iter_mut().enumerate() {
-        let f = k as f64 * fs / count as f64;
-        let weight = if 2 * k > count || f < low || f > high {
-            0.0
-        } else if k == 0 || 2 * k == count {
-            1.0
-        } else {
-            2.0
-        };
-        *line *= weight / count as f64;
-    }
-    planner.plan_fft_inverse(count).process(&mut lines);
-    lines.iter().map(Complex64::norm_sqr).collect()
-}
+use super::transform::amplitudes;
 
 /// Amplitude spectrum under a Hann window, padded so that a line is seen between the bins.
 pub(super) struct Spectrum {
@@ -40,22 +11,10 @@ pub(super) struct Spectrum {
 
 impl Spectrum {
     /// A sine of amplitude 2 has a line of height 2.
-    pub fn new(planner: &mut FftPlanner<f64>, x: &[f64], fs: f64) -> Self {
-        let count = x.len() as f64;
-        let window: Vec<f64> = (0..x.len())
-            .map(|i| 1.0 - (std::f64::consts::TAU * (i as f64 + 0.5) / count).cos())
-            .collect();
-        let sum: f64 = window.iter().sum();
-        let mean = window.iter().zip(x).map(|(w, x)| w * x).sum::<f64>() / sum;
+    pub fn new(x: &[f64], fs: f64) -> Self {
         let padded = (4 * x.len()).next_power_of_two();
-        let mut lines = vec![Complex64::default(); padded];
-        for ((line, w), x) in lines.iter_mut().zip(&window).zip(x) {
-            *line = (2.0 / sum * w * (x - mean)).into();
-        }
-        planner.plan_fft_forward(padded).process(&mut lines);
-        lines.truncate(padded / 2 + 1);
         Self {
-            amplitudes: lines.iter().map(|line| line.norm()).collect(),
+            amplitudes: amplitudes(x, padded),
             spacing: fs / padded as f64,
         }
     }
@@ -108,6 +67,7 @@ fn index(place: f64) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use super::super::transform::squared_envelope;
     use super::*;
 
     fn sine(amplitude: f64, f: f64, fs: f64, count: u32) -> Vec<f64> {
@@ -120,7 +80,7 @@ mod tests {
     #[test]
     fn a_sine_has_its_amplitude() {
         for f in [50.0, 50.13, 50.37, 50.5] {
-            let found = Spectrum::new(&mut FftPlanner::new(), &sine(3.0, f, 1000.0, 1009), 1000.0)
+            let found = Spectrum::new(&sine(3.0, f, 1000.0, 1009), 1000.0)
                 .highest(45.0, 55.0)
                 .1;
             assert!((found / 3.0 - 1.0).abs() < 2e-4, "{f}: {found}");
@@ -131,18 +91,17 @@ mod tests {
     /// m²/2 at 2Ω. A band without the carrier is silent.
     #[test]
     fn the_envelope_drops_the_carrier() {
-        let mut planner = FftPlanner::new();
         let burst: Vec<f64> = sine(1.0, 200.0, 1000.0, 1000)
             .iter()
             .enumerate()
             .map(|(i, x)| x * (1.0 + 0.5 * (std::f64::consts::TAU * 7.0 * i as f64 / 1000.0).cos()))
             .collect();
-        let envelope = squared_envelope(&mut planner, &burst, 1000.0, Some([150.0, 250.0]));
+        let envelope = squared_envelope(&burst, 1000.0, Some([150.0, 250.0]));
         assert!((envelope[0] - 2.25).abs() < 1e-9, "{}", envelope[0]);
-        let spectrum = Spectrum::new(&mut planner, &envelope, 1000.0);
+        let spectrum = Spectrum::new(&envelope, 1000.0);
         assert!((spectrum.highest(6.0, 8.0).1 - 1.0).abs() < 1e-3);
         assert!((spectrum.highest(13.0, 15.0).1 - 0.125).abs() < 1e-3);
-        let beside = squared_envelope(&mut planner, &burst, 1000.0, Some([300.0, 400.0]));
+        let beside = squared_envelope(&burst, 1000.0, Some([300.0, 400.0]));
         assert!(beside.iter().all(|x| *x < 1e-20));
     }
 }

@@ -5,56 +5,16 @@ use std::ops::ControlFlow;
 
 use pyo3::prelude::*;
 use pyo3::types::PyList;
-use serde::Deserialize;
 use serde_json::json;
 
 use super::errors::{OrRaise, record};
-use super::run::{bandwidth, hand_over, method, start};
-use crate::{
-    Case, Error, FeatureOptions, Finished, Outcome, Run, Scene, features, memory, simulate,
-};
+use super::features::options_from;
+use super::run::hand_over;
+use crate::{Case, Finished, Outcome, Run, Scene, features, memory, simulate};
 
 /// Share of the memory for cases whose signals are kept: the rest is for those that wait to be written, and for the
 /// table they are written from.
 const KEEPING: f64 = 0.4;
-
-/// How a case is run.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RunDocument {
-    duration: f64,
-    fs: f64,
-    start: String,
-    rtol: Option<f64>,
-    accuracy: Option<f64>,
-    method: Option<String>,
-    bandwidth: Option<String>,
-    settle: Option<f64>,
-    #[serde(default)]
-    time_limit: Option<f64>,
-    #[serde(default)]
-    max_steps: Option<usize>,
-}
-
-impl RunDocument {
-    fn read(text: &str) -> crate::Result<Run> {
-        let document: Self =
-            serde_json::from_str(text).map_err(|e| Error::scene("run", text, e.to_string()))?;
-        Ok(Run {
-            duration: document.duration,
-            fs: document.fs,
-            start: start(&document.start, None)?,
-            rtol: document.rtol,
-            accuracy: document.accuracy,
-            method: document.method.as_deref().map(method).transpose()?,
-            bandwidth: bandwidth(document.bandwidth.as_deref())?,
-            settle: document.settle,
-            time_limit: document.time_limit,
-            max_steps: document.max_steps,
-            ..Run::default()
-        })
-    }
-}
 
 /// Run cases on threads of their own, each a pair of scene and run as JSON.
 ///
@@ -108,18 +68,10 @@ pub(super) fn campaign(
     result.or_raise(py)
 }
 
-/// Columns whose features a scene gives, for options as JSON.
-#[pyfunction]
-pub(super) fn feature_columns(py: Python<'_>, scene: &str, options: &str) -> PyResult<Vec<String>> {
-    let scene = Scene::from_json(scene).or_raise(py)?;
-    let options = options_from(options).or_raise(py)?;
-    crate::feature_columns(&scene, &options).or_raise(py)
-}
-
 /// Refuse a run, as JSON, that no scene can be run by, or that does not give the features.
 #[pyfunction]
 pub(super) fn check_run(py: Python<'_>, run: &str, options: &str) -> PyResult<()> {
-    let checked = RunDocument::read(run).and_then(|run| {
+    let checked = Run::from_json(run).and_then(|run| {
         simulate::check(&run).and_then(|()| features::check(&options_from(options)?, &run))
     });
     checked.or_raise(py)
@@ -131,10 +83,6 @@ pub(super) fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }
 
-fn options_from(text: &str) -> crate::Result<FeatureOptions> {
-    serde_json::from_str(text).map_err(|e| Error::scene("features", text, e.to_string()))
-}
-
 /// The next case, if there is one.
 fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<Case>> {
     let Some(next) = cases.bind(py).clone().next() else {
@@ -142,7 +90,7 @@ fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<
     };
     let (scene, run): (String, String) = next?.extract()?;
     let scene = Scene::from_json(&scene).or_raise(py)?;
-    let run = RunDocument::read(&run).or_raise(py)?;
+    let run = Run::from_json(&run).or_raise(py)?;
     Ok(Some(Case { scene, run }))
 }
 

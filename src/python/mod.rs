@@ -6,6 +6,7 @@
 mod answer;
 mod campaign;
 mod errors;
+mod features;
 mod run;
 mod scene;
 mod statics;
@@ -16,9 +17,14 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use super::campaign::{available_threads, campaign, check_run, feature_columns};
+    use super::campaign::{available_threads, campaign, check_run};
     #[pymodule_export]
-    use super::run::{Model, explain, simulate};
+    use super::features::{
+        amplitudes, feature_columns, hann_weighted, orders, run_features, signal_features,
+        squared_envelope,
+    };
+    #[pymodule_export]
+    use super::run::{Model, explain, run_from_json, simulate};
     #[pymodule_export]
     use super::scene::{
         preset_deep_groove_6205, preset_wheel_bearing, scene_doubts, scene_from_json,

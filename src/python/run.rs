@@ -8,15 +8,12 @@ use std::sync::Arc;
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use serde::Deserialize;
-use serde::de::IntoDeserializer;
-use serde::de::value::Error as ValueError;
 
 use super::answer::{Callbacks, answering, handing_over};
 use super::errors::{OrRaise, to_json};
-use crate::scene::{Method, RingName};
+use crate::scene::RingName;
 use crate::start::check_length;
-use crate::{Bandwidth, Error, Run, Scene, Signals, SliceRow, Start};
+use crate::{Error, Run, Scene, Signals, SliceRow, Start};
 
 /// A compiled scene.
 #[pyclass(frozen, module = "ballrace._core")]
@@ -51,7 +48,14 @@ impl Model {
 
     /// State at which a run starts.
     fn start<'py>(&self, py: Python<'py>, kind: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let start = start(kind, None).or_raise(py)?;
+        let start = match kind {
+            "equilibrium" => Start::Equilibrium,
+            "rolling" => Start::Rolling,
+            _ => {
+                let allowed = "\"equilibrium\" or \"rolling\"";
+                return Err(Error::scene("kind", format!("{kind:?}"), allowed)).or_raise(py);
+            }
+        };
         let model = Arc::clone(&self.0);
         Ok(answering(py, None, move |_| crate::start(&model, &start))?.into_pyarray(py))
     }
@@ -112,48 +116,23 @@ impl Model {
 /// Run a scene; returns a dict of `fs`, `t`, `columns`, `slices`, `stats`, `provenance` and `scene`.
 ///
 /// With a `sink` times and columns come back empty: it was given them, block by block, as dicts of arrays.
+///
+/// The run is a JSON document; a `state` goes before its start.
 #[pyfunction]
-#[pyo3(signature = (
-    scene, duration, fs, kind, state, rtol, accuracy, method, threads, progress, bandwidth, settle,
-    time_limit = None, max_steps = None, sink = None
-))]
-#[allow(clippy::too_many_arguments)]
+#[pyo3(signature = (scene, run, state = None, progress = None, sink = None))]
 pub(super) fn simulate<'py>(
     py: Python<'py>,
     scene: &str,
-    duration: f64,
-    fs: f64,
-    kind: &str,
+    run: &str,
     state: Option<PyReadonlyArray1<'py, f64>>,
-    rtol: Option<f64>,
-    accuracy: Option<f64>,
-    method: Option<&str>,
-    threads: usize,
     progress: Option<Py<PyAny>>,
-    bandwidth: Option<&str>,
-    settle: Option<f64>,
-    time_limit: Option<f64>,
-    max_steps: Option<usize>,
     sink: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let scene = Scene::from_json(scene).or_raise(py)?;
-    let state = state
-        .map(|y| state_of(&scene, &y))
-        .transpose()
-        .or_raise(py)?;
-    let run = Run {
-        duration,
-        fs,
-        start: start(kind, state).or_raise(py)?,
-        rtol,
-        accuracy,
-        method: method.map(self::method).transpose().or_raise(py)?,
-        threads,
-        bandwidth: self::bandwidth(bandwidth).or_raise(py)?,
-        settle,
-        time_limit,
-        max_steps,
-    };
+    let mut run = Run::from_json(run).or_raise(py)?;
+    if let Some(y) = state {
+        run.start = Start::State(state_of(&scene, &y).or_raise(py)?);
+    }
     let callbacks = Callbacks {
         progress: progress.as_ref(),
         sink: sink.as_ref(),
@@ -172,6 +151,12 @@ pub(super) fn simulate<'py>(
     hand_over(py, signals)
 }
 
+/// Read a checked run from JSON and return it as JSON with every field written out.
+#[pyfunction]
+pub(super) fn run_from_json(py: Python<'_>, text: &str) -> PyResult<String> {
+    Ok(Run::from_json(text).or_raise(py)?.to_json())
+}
+
 /// A copy of a state to begin from, if it has the length for it.
 fn state_of(scene: &Scene, y: &PyReadonlyArray1<'_, f64>) -> crate::Result<Vec<f64>> {
     let balls: usize = scene.rows.iter().map(|row| row.ball_count).sum();
@@ -185,37 +170,6 @@ pub(super) fn explain(py: Python<'_>, scene: &str) -> PyResult<(String, String)>
     let scene = Scene::from_json(scene).or_raise(py)?;
     let told = answering(py, None, move |_| crate::explain(&scene))?;
     Ok((to_json(&told)?, told.to_string()))
-}
-
-pub(super) fn start(kind: &str, state: Option<Vec<f64>>) -> crate::Result<Start> {
-    match (kind, state) {
-        (_, Some(state)) => Ok(Start::State(state)),
-        ("equilibrium", None) => Ok(Start::Equilibrium),
-        ("rolling", None) => Ok(Start::Rolling),
-        (other, None) => Err(Error::scene(
-            "start",
-            format!("{other:?}"),
-            "\"equilibrium\", \"rolling\" or an array of states",
-        )),
-    }
-}
-
-pub(super) fn method(name: &str) -> crate::Result<Method> {
-    Method::deserialize(name.into_deserializer())
-        .map_err(|e: ValueError| Error::scene("method", format!("{name:?}"), e.to_string()))
-}
-
-/// None asks for point samples.
-pub(super) fn bandwidth(name: Option<&str>) -> crate::Result<Bandwidth> {
-    match name {
-        Some("auto") => Ok(Bandwidth::Auto),
-        None => Ok(Bandwidth::Raw),
-        Some(other) => Err(Error::scene(
-            "bandwidth",
-            format!("{other:?}"),
-            "\"auto\" or None",
-        )),
-    }
 }
 
 pub(super) fn hand_over(py: Python<'_>, signals: Signals) -> PyResult<Bound<'_, PyDict>> {

@@ -4,18 +4,40 @@ use std::f64::consts::TAU;
 
 use super::{Drive, Row, Scene, Surface};
 
+/// Kinematic orders of Z balls of diameter D on the pitch diameter d_m at the contact angle α \[rad\] from pure rolling, the
+/// outer ring at rest, with γ = D cos α / d_m: FTF (1 − γ)/2, BPFO Z(1 − γ)/2, BPFI Z(1 + γ)/2, BSF d_m/2D (1 − γ²), in
+/// turns of the inner ring.
+///
+/// ```
+/// // The bearing 6205 of the Case Western Reserve data; both diameters in the same unit.
+/// let [ftf, bpfo, bpfi, bsf] = ballrace::scene::kinematic_orders(9.0, 7.94, 39.04, 0.0);
+/// assert!((bpfo - 3.5848).abs() < 1e-4 && (bpfi - 5.4152).abs() < 1e-4);
+/// assert!((ftf - 0.3983).abs() < 1e-4 && (2.0 * bsf - 4.7135).abs() < 1e-4);
+/// ```
+pub fn kinematic_orders(
+    ball_count: f64,
+    ball_diameter: f64,
+    pitch_diameter: f64,
+    contact_angle: f64,
+) -> [f64; 4] {
+    let gamma = ball_diameter * contact_angle.cos() / pitch_diameter;
+    [
+        (1.0 - gamma) / 2.0,
+        ball_count * (1.0 - gamma) / 2.0,
+        ball_count * (1.0 + gamma) / 2.0,
+        pitch_diameter / (2.0 * ball_diameter) * (1.0 - gamma * gamma),
+    ]
+}
+
 impl Row {
-    /// Kinematic orders at the nominal contact angle, outer ring at rest, with γ = D cos α / d_m:
-    /// FTF (1 − γ)/2, BPFO Z(1 − γ)/2, BPFI Z(1 + γ)/2, BSF d_m/2D (1 − γ²), in turns of the inner ring.
+    /// Kinematic orders FTF, BPFO, BPFI and BSF at the nominal contact angle, in turns of the inner ring.
     pub fn orders(&self) -> [f64; 4] {
-        let gamma = self.ball_diameter * self.contact_angle.cos() / self.pitch_diameter;
-        let count = self.ball_count as f64;
-        [
-            (1.0 - gamma) / 2.0,
-            count * (1.0 - gamma) / 2.0,
-            count * (1.0 + gamma) / 2.0,
-            self.pitch_diameter / (2.0 * self.ball_diameter) * (1.0 - gamma * gamma),
-        ]
+        kinematic_orders(
+            self.ball_count as f64,
+            self.ball_diameter,
+            self.pitch_diameter,
+            self.contact_angle,
+        )
     }
 }
 

@@ -44,6 +44,7 @@ pub use bearing::{Mount, Ring, RingName, Row, Support, Waviness};
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
 pub use defect::{AxialOffset, Defect, Floor, Surface, Width, WidthProfile};
 pub use doubt::{Doubt, STATIC_PRESSURE};
+pub use fault_lines::kinematic_orders;
 pub use load::{Drive, Load, Unbalance};
 pub use material::{Material, Materials};
 pub use probe::{Component, ContactQuantity, Probe};

@@ -190,7 +190,7 @@ def test_on_error_raise(tmp_path: Path) -> None:
         ([{"rows[3].clearance": 1.0}], {}, "an index below 1"),
         ([{"status": "new"}], {}, "status = a column of cases: another name"),
         ([{"scene": "a"}], {}, "several scenes by name"),
-        ([{}], {"duration": -1.0}, "duration = -1.0: above 0"),
+        ([{}], {"duration": -1.0}, "duration = -1: above 0"),
         ([{}], {"start": "running"}, "start = 'running'"),
         ([{}], {"columns": ["outer.by"]}, "columns = outer.by: columns of the scene's probes"),
         ([{}], {"keep": "all"}, "keep = 'all': one of"),

@@ -114,8 +114,8 @@ with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("fork")) as p
         print(error)
     scene = sweeps.SCENE.to_json()
     # A single run is not in danger: it has no threads but those of a pool of its process.
-    rest = (None, None, None, None, 2, None, "auto", 0.0)
-    print(pool.submit(br._core.simulate, scene, 1e-3, 5e4, "rolling", *rest).result()["fs"])
+    run = br.Run(duration=1e-3, start="rolling", threads=2, settle=0.0).to_json()
+    print(pool.submit(br._core.simulate, scene, run).result()["fs"])
 """
 
 

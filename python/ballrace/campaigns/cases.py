@@ -8,23 +8,18 @@ import math
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any
 
 from .. import _core
-from .._document import encode, whole_number
+from .._document import encode
 from ..errors import SceneError
-from ..scene import Method, Scene
-from .reading import EMPTY, rows_of
+from ..options import BUDGET, DECIDING, EMPTY, document
+from ..scene import Scene
+from .reading import rows_of
 from .store import BASE
 
 if TYPE_CHECKING:
     import polars as pl
-
-RUN = ("duration", "fs", "start", "rtol", "accuracy", "method", "bandwidth", "settle")
-"""Columns that say how a case is run, instead of the campaign's own arguments."""
-
-BUDGET = ("time_limit", "max_steps")
-"""Columns that say what a case may cost: no part of what it is known by, since no result depends on them."""
 
 RESULTS = (*BASE, "changes")
 """Columns of the manifest that a table may not have."""
@@ -112,16 +107,16 @@ class Cases:
 
     def _changes(self, row: Mapping[str, Any]) -> dict[str, Any]:
         """Leave labels and empty cells out."""
-        wanted = (*self._parameters, *RUN, "scene")
+        wanted = (*self._parameters, *DECIDING, "scene")
         return {name: row[name] for name in wanted if row.get(name) is not None}
 
     def _limits(self, row: Mapping[str, Any]) -> dict[str, float | int]:
         own = {name: row[name] for name in BUDGET if row.get(name) is not None}
-        return budget_document({**self._budget, **own})
+        return document({**self._budget, **own})
 
     def _meant(self) -> set[str]:
         """Return the columns that mean something to a case."""
-        return {*self._parameters, *RUN, *BUDGET, "scene"}
+        return {*self._parameters, *DECIDING, *BUDGET, "scene"}
 
     def _case(self, row: Mapping[str, Any]) -> Case:
         changes = self._changes(row)
@@ -146,7 +141,7 @@ class Cases:
         if "scene" not in self.names and len(self._scenes) > 1:
             known = ", ".join(self._scenes)
             raise SceneError("cases", "no column scene", f"a column scene that says which: {known}")
-        if not {*RUN, *BUDGET}.intersection(self.names):
+        if not {*DECIDING, *BUDGET}.intersection(self.names):
             # Arguments that fail every case fail before the first.
             _core.check_run(json.dumps({**self._run, **self._budget}), self._features)
         for name in self._parameters:
@@ -169,94 +164,13 @@ def apply(
     name = rest.pop("scene", next(iter(scenes)))
     if name not in scenes:
         raise SceneError("scene", str(name), f"one of {', '.join(scenes)}")
-    own = {key: rest.pop(key) for key in RUN if key in rest}
+    own = {key: rest.pop(key) for key in DECIDING if key in rest}
     for path, value in rest.items():
         if isinstance(value, float) and math.isnan(value):
             raise SceneError(path, "nan", f"a finite number; {EMPTY}")
     pairs = [(path, encode(value, path)) for path, value in rest.items()]
     scene = _core.scene_replace(scenes[name], json.dumps(pairs))
-    return scene, json.dumps(run_document({**run, **own}))
-
-
-def run_document(run: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the arguments of a run as JSON has them.
-
-    Raises
-    ------
-    SceneError
-        One is not usable.
-    """
-    document: dict[str, Any] = {"start": run["start"]}
-    if document["start"] not in ("equilibrium", "rolling"):
-        raise SceneError("start", _shown(document["start"]), "'equilibrium' or 'rolling'")
-    document["method"] = run.get("method")
-    document["bandwidth"] = _bandwidth(run["bandwidth"])
-    if document["method"] not in (None, *get_args(Method)):
-        methods = ", ".join(get_args(Method))
-        raise SceneError("method", _shown(document["method"]), f"one of {methods}")
-    limits = {
-        "duration": (0.0, 1e6),
-        "fs": (0.0, 1e9),
-        "rtol": (1e-12, 1e-1),
-        "accuracy": (1e-4, 1e-1),
-        "settle": (0.0, 1e3),
-    }
-    for name, (low, high) in limits.items():
-        value: Any = run.get(name)
-        if value is None and name in ("rtol", "accuracy", "settle"):
-            document[name] = None
-            continue
-        number = _number(name, value)
-        ends_count = low > 0.0 or name == "settle"
-        if not (low < number <= high or (number == low and ends_count)):
-            least = "at least 0" if name == "settle" else f"above {low:g}"
-            raise SceneError(name, _shown(value), f"{least} and at most {high:g}")
-        document[name] = number
-    return document
-
-
-def _bandwidth(value: object) -> str | None:
-    """Return what the core takes; a table, whose empty cells change nothing, and TOML say "none"."""
-    if value not in ("auto", "none", None):
-        raise SceneError("bandwidth", _shown(value), "'auto' or None ('none' in tables and sweeps)")
-    return "auto" if value == "auto" else None
-
-
-def budget_document(budget: Mapping[str, Any]) -> dict[str, float | int]:
-    """Return the limits of a case as JSON has them, those that there are.
-
-    Raises
-    ------
-    SceneError
-        One is not usable.
-    """
-    document: dict[str, float | int] = {}
-    if budget.get("time_limit") is not None:
-        seconds = _number("time_limit", budget["time_limit"])
-        if not 0.0 < seconds < math.inf:
-            raise SceneError(
-                "time_limit", _shown(budget["time_limit"]), "a finite time above 0 [s]"
-            )
-        document["time_limit"] = seconds
-    if budget.get("max_steps") is not None:
-        document["max_steps"] = whole_number("max_steps", budget["max_steps"])
-        if document["max_steps"] < 1:
-            raise SceneError("max_steps", _shown(budget["max_steps"]), "at least 1 step")
-    return document
-
-
-def _number(name: str, value: Any) -> float:
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise SceneError(name, _shown(value), "a number") from None
-
-
-def _shown(value: Any) -> str:
-    """Return a cell as a message shows it; for one that is not a number, how to leave it empty."""
-    if isinstance(value, float) and math.isnan(value):
-        return f"{value} ({EMPTY})"
-    return repr(value)
+    return scene, json.dumps(document({**run, **own}))
 
 
 def _is_parameter(name: str) -> bool:

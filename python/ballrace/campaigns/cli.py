@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from .. import presets
 from .._text import printable
 from ..errors import SceneError
+from ..options import ARGUMENTS, BUDGET
 from ..scene import Scene
 from .bearings import scatter
 from .result import Campaign
@@ -21,8 +22,7 @@ if TYPE_CHECKING:
     import polars as pl
 
 _ARGUMENTS = (
-    "duration", "fs", "start", "rtol", "accuracy", "method", "bandwidth", "settle", "keep", "columns", "skip",
-    "band", "contact_loads", "time_limit", "max_steps",
+    *(name for name in ARGUMENTS if name != "threads"), "keep", "columns", "skip", "band", "contact_loads",
 )  # fmt: skip
 _BUILDERS = ("table", "grid", "latin_hypercube", "sobol", "scatter")
 _PLAN = (
@@ -87,7 +87,7 @@ def _command(options: argparse.Namespace) -> None:
         raise SceneError("output", "-", "a folder; a campaign is more than a stream")
     sweep = read(options.sweep)
     # What is asked for now goes before what the sweep says: a budget is no part of what a campaign is.
-    for name in ("time_limit", "max_steps"):
+    for name in BUDGET:
         if getattr(options, name) is not None:
             sweep[name] = getattr(options, name)
     # What a plan may not say, the command does.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -12,8 +12,10 @@ from .. import _core
 from .._document import whole_number
 from .._text import printable
 from ..errors import CampaignError, CampaignWarning, SceneError, SceneWarning
-from ..scene import Scene, checked_scene
-from .cases import BUDGET, RUN, Cases
+from ..options import BUDGET, DECIDING
+from ..scene import Scene
+from ..scene.scene import checked_scene
+from .cases import Cases
 from .reading import resembling
 from .spread import Executor
 from .work import Job, version
@@ -174,33 +176,11 @@ def at_least_one(name: str, value: int) -> int:
     return number
 
 
-def features_of(
-    columns: Sequence[str] | str | None, skip: float, band: Sequence[float] | None, loads: object
-) -> dict[str, Any]:
-    """Return the options of the features as the core reads them."""
-    if not isinstance(loads, bool):
-        raise SceneError("contact_loads", repr(loads), "True or False")
-    columns = [columns] if isinstance(columns, str) else columns
-    try:
-        low, high = (0.0, 0.0) if band is None else map(float, band)
-    except (TypeError, ValueError):
-        raise SceneError("band", repr(band), "two frequencies [Hz]") from None
-    try:
-        return {
-            "columns": None if columns is None else [str(name) for name in columns],
-            "skip": float(skip),
-            "band": None if band is None else [low, high],
-            "contact_loads": loads,
-        }
-    except (TypeError, ValueError):
-        raise SceneError("skip", repr(skip), "a time [s]") from None
-
-
 def warn_of_labels(cases: Cases, scenes: Mapping[str, str]) -> None:
     """Warn of columns that are carried along as labels, but may have been meant for fields."""
     documents = [json.loads(scene) for scene in scenes.values()]
     for label in cases.labels:
-        near = resembling(label, documents, (*RUN, *BUDGET))
+        near = resembling(label, documents, (*DECIDING, *BUDGET))
         if near is not None:
             text = (
                 f"the column {label} is no field: it changes nothing and is carried along as a label; if it is "

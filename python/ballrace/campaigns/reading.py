@@ -9,8 +9,6 @@ from typing import Any
 
 from ..errors import SceneError
 
-EMPTY = "an empty cell is None, or null in a data frame"
-
 
 def rows_of(table: object) -> tuple[list[dict[str, Any]], list[str]]:
     """Return the rows of a table of any kind, and the names of its columns.

@@ -9,16 +9,17 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
 
+from .._features import feature_options
 from .._text import printable
 from ..errors import CampaignError, CampaignWarning, SceneError
-from .cases import Cases, budget_document, run_document
+from ..options import BUDGET, DECIDING, Run, document
+from .cases import Cases
 from .estimate import Estimate, estimate
 from .locks import hold, in_turn
 from .plan import (
     Plan,
     at_least_one,
     check_choices,
-    features_of,
     scenes_of,
     shard_of,
     threads_of,
@@ -223,22 +224,17 @@ def campaign(
     """
     check_process()
     check_choices(keep=keep, resume=resume, on_error=on_error)
-    run = run_document(
-        {
-            "duration": duration,
-            "fs": fs,
-            "start": start,
-            "rtol": rtol,
-            "accuracy": accuracy,
-            "method": method,
-            "bandwidth": bandwidth,
-            "settle": settle,
-        }
-    )
-    budget = budget_document({"time_limit": time_limit, "max_steps": max_steps})
+    asked = Run(
+        duration=duration, fs=fs, start=start, rtol=rtol, accuracy=accuracy, method=method,
+        bandwidth=bandwidth, settle=settle, time_limit=time_limit, max_steps=max_steps,
+    )  # fmt: skip
+    asked.to_json()  # refuses what no scene can be run by
+    run = document({name: getattr(asked, name) for name in DECIDING})
+    limits = {name: getattr(asked, name) for name in BUDGET}
+    budget = document({name: limit for name, limit in limits.items() if limit is not None})
     if not (isinstance(progress, bool) or callable(progress)):
         raise SceneError("progress", repr(progress), "True, False or a callable")
-    features = features_of(columns, skip, band, contact_loads)
+    features = feature_options(columns, skip, band, contact_loads)
     scenes = scenes_of(scene, features)
     schema_version = json.loads(next(iter(scenes.values())))["schema"]
     engine, workers = (None, None) if executor is None else executor_of(executor)

@@ -90,9 +90,7 @@ def envelope_line(
     >>> round(envelope_line(tone, 200_000.0, 100.0), 6)
     0.25
     """
-    spectrum = np.fft.fft(signal)
-    f = np.fft.fftfreq(signal.size, 1.0 / fs)
-    envelope = np.abs(np.fft.ifft(np.where((f >= band[0]) & (f <= band[1]), 2.0 * spectrum, 0.0)))
+    envelope = np.sqrt(spectra.squared_envelope(signal, fs, band))
     carrier = np.exp(-2j * np.pi * frequency * np.arange(signal.size) / fs)
     return float(2.0 * np.abs(np.mean((envelope - envelope.mean()) * carrier)))
 

@@ -1,0 +1,104 @@
+"""The few numbers that a signal is known by, as in the table of a campaign."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from . import _core
+from ._interrupt import answers_ctrl_c
+from .errors import SceneError
+from .scene.scene import checked_scene
+from .spectra import checked_signal
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike
+
+    from .scene import Scene
+
+__all__ = ["feature_options", "features"]
+
+
+@answers_ctrl_c
+def features(
+    x: ArrayLike,
+    fs: float,
+    *,
+    name: str = "",
+    scene: Scene | None = None,
+    skip: float = 0.0,
+    band: tuple[float, float] | None = None,
+) -> dict[str, float | None]:
+    """Return the features of a signal, whoever recorded it, by the names of a campaign's columns.
+
+    What is told here of a measurement is comparable, name by name, with the manifest of a campaign;
+    :meth:`ballrace.Signals.features` tells it of a run.
+
+    Parameters
+    ----------
+    x : array_like, shape (n,)
+        Signal.
+    fs : float
+        Sampling rate [Hz].
+    name : str
+        Name of the column that the features are of: ``"outer.ay"`` gives ``outer.ay.rms``, no name ``rms``.
+    scene : Scene, optional
+        The bearing and its speed, for the lines at the fault frequencies of its rows; its loads and defects do not
+        matter. Without it there are only the moments: ``rms``, ``peak``, ``crest_factor`` and ``kurtosis``.
+    skip : float
+        Beginning of the signal that is left out [s].
+    band : tuple of two floats, optional
+        Band of the envelope [Hz]; by default all frequencies.
+
+    Returns
+    -------
+    dict of str to float or None
+        In the unit of ``x``, squared for an envelope; which there are, :func:`ballrace.campaign` tells at
+        ``columns``. None where the signal cannot give a feature: a line for which it is too short.
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable.
+
+    Examples
+    --------
+    >>> import ballrace as br, numpy as np
+    >>> t = np.arange(12_000) / 12_000.0
+    >>> found = br.features(np.sin(2 * np.pi * 50.0 * t), fs=12_000.0, name="sensor")
+    >>> round(found["sensor.rms"], 4), round(found["sensor.kurtosis"], 4)
+    (0.7071, 1.5)
+    """
+    document = None if scene is None else checked_scene(scene).to_json()
+    options = json.dumps(feature_options(None, skip, band, loads=False))
+    return dict(_core.signal_features(checked_signal(x, fs), fs, name, document, options))
+
+
+def feature_options(
+    columns: Sequence[str] | str | None, skip: float, band: Sequence[float] | None, loads: object
+) -> dict[str, Any]:
+    """Return the options of the features as the core reads them.
+
+    Raises
+    ------
+    SceneError
+        One is not usable.
+    """
+    if not isinstance(loads, bool):
+        raise SceneError("contact_loads", repr(loads), "True or False")
+    columns = [columns] if isinstance(columns, str) else columns
+    try:
+        low, high = (0.0, 0.0) if band is None else map(float, band)
+    except (TypeError, ValueError):
+        raise SceneError("band", repr(band), "two frequencies [Hz]") from None
+    try:
+        return {
+            "columns": None if columns is None else [str(name) for name in columns],
+            "skip": float(skip),
+            "band": None if band is None else [low, high],
+            "contact_loads": loads,
+        }
+    except (TypeError, ValueError):
+        raise SceneError("skip", repr(skip), "a time [s]") from None

@@ -1,0 +1,91 @@
+"""What a user says: the scene, frozen dataclasses in SI units.
+
+Every class mirrors one of the same document that the TOML files hold. Objects are checked as a whole when
+they are used (or by :meth:`Scene.validate`); an error names the path of the field, its value and what is
+allowed there. Nothing here changes in place: make variants of a scene with :meth:`Scene.replace` or
+:func:`dataclasses.replace`.
+
+Where a field may be one of several things, its type says so: ``friction="none"`` or
+``friction=Coulomb(coefficient=0.05, slip_speed=0.1)``.
+"""
+
+from __future__ import annotations
+
+from .approximations import Approximations
+from .bearing import Ring, RingName, Row, Waviness
+from .cage import Cage
+from .contact import AccurateSlices, Contact, FittedSlices, FixedSlices, Iso16281, NormalLaw, Slices
+from .defect import AxialOffset, Defect, Floor, Surface, Width, WidthProfile
+from .drive import Drive, SpeedDrive, TorqueDrive
+from .friction import Coulomb, Friction, Stribeck, Traction
+from .load import Load, Unbalance
+from .material import Material, Materials
+from .probe import (
+    CageProbe,
+    Component,
+    ContactQuantity,
+    ContactsProbe,
+    EnergyProbe,
+    ForcesProbe,
+    MotionProbe,
+    Probe,
+    SlicesProbe,
+    TorqueProbe,
+)
+from .scene import Scene
+from .solver import Method, Solver
+from .support import Mount, Spring, Support
+from .time import Ramp, Sine, Table, TimeFunction
+
+__all__ = [
+    "AccurateSlices",
+    "Approximations",
+    "AxialOffset",
+    "Cage",
+    "CageProbe",
+    "Component",
+    "Contact",
+    "ContactQuantity",
+    "ContactsProbe",
+    "Coulomb",
+    "Defect",
+    "Drive",
+    "EnergyProbe",
+    "FittedSlices",
+    "FixedSlices",
+    "Floor",
+    "ForcesProbe",
+    "Friction",
+    "Iso16281",
+    "Load",
+    "Material",
+    "Materials",
+    "Method",
+    "MotionProbe",
+    "Mount",
+    "NormalLaw",
+    "Probe",
+    "Ramp",
+    "Ring",
+    "RingName",
+    "Row",
+    "Scene",
+    "Sine",
+    "Slices",
+    "SlicesProbe",
+    "Solver",
+    "SpeedDrive",
+    "Spring",
+    "Stribeck",
+    "Support",
+    "Surface",
+    "Table",
+    "TimeFunction",
+    "TorqueDrive",
+    "TorqueProbe",
+    "Traction",
+    "Unbalance",
+    "Waviness",
+    "Width",
+    "WidthProfile",
+]

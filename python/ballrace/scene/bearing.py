@@ -1,0 +1,121 @@
+"""Rows of balls and the rings around them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from .._document import Part
+from .support import Support
+
+__all__ = ["Ring", "RingName", "Row", "Waviness"]
+
+
+RingName = Literal["outer", "inner"]
+"""Which ring."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Waviness(Part):
+    """One harmonic of a race's radius, ``amplitude * cos(order * phi + phase)``, phi from the ring's x axis.
+
+    Attributes
+    ----------
+    order : int
+        Waves around the circumference, 1 to 1000.
+    amplitude : float
+        Amplitude of the radius [m].
+    phase : float
+        Phase [rad].
+    """
+
+    order: int
+    amplitude: float
+    phase: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row(Part):
+    """One row of balls between two grooves.
+
+    Attributes
+    ----------
+    ball_count : int
+        Number of balls, 1 to 1000.
+    ball_diameter : float
+        Ball diameter D [m].
+    pitch_diameter : float
+        Pitch diameter [m].
+    outer_conformity, inner_conformity : float
+        Groove radius over ball diameter, above 0.5 and at most 1.
+    contact_angle : float
+        Nominal contact angle at zero clearance [rad], 0 to 80°.
+    side : int
+        Sign of the axial part of the direction from ball to outer contact, +1 or -1.
+    axial_position : float
+        Axial place of the row [m].
+    clearance : float
+        Diametral clearance [m]; negative: interference.
+    axial_preload : float
+        Axial preload [m]; negative: an axial gap.
+    start_angle : float
+        Start angle of ball 0, counter-clockwise from +x [rad].
+    outer_shoulders, inner_shoulders : tuple of two floats, or None
+        Shoulder angles towards -z and +z, from the groove's centre [rad]; None: no shoulders.
+    outer_waviness, inner_waviness : tuple of Waviness
+        Waviness of the races; turns with the rings.
+    diameter_errors : tuple of float
+        Diameter error of each ball [m]; empty: none.
+    ball_mass : float or None
+        Mass of a ball [kg]; None: from density and diameter.
+    ball_inertia : float or None
+        Moment of inertia of a ball about z [kg m²]; None: 2/5 m R².
+    ball_support : Support
+        How every ball of the row hangs on the inertial frame; by default free.
+    """
+
+    ball_count: int
+    ball_diameter: float
+    pitch_diameter: float
+    outer_conformity: float
+    inner_conformity: float
+    contact_angle: float = 0.0
+    side: int = 1
+    axial_position: float = 0.0
+    clearance: float = 0.0
+    axial_preload: float = 0.0
+    start_angle: float = 0.0
+    outer_shoulders: tuple[float, float] | None = None
+    inner_shoulders: tuple[float, float] | None = None
+    outer_waviness: tuple[Waviness, ...] = ()
+    inner_waviness: tuple[Waviness, ...] = ()
+    diameter_errors: tuple[float, ...] = ()
+    ball_mass: float | None = None
+    ball_inertia: float | None = None
+    ball_support: Support = Support()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ring(Part):
+    """A ring: its mass and how it is held.
+
+    Attributes
+    ----------
+    mass : float or None
+        Mass, with what turns or moves with the ring [kg]; None: from ``diameter``, ``width`` and density.
+    inertia : float or None
+        Moment of inertia about z [kg m²]; None: from ``diameter``, ``width`` and density, or of a thin
+        ring of ``mass`` at the pitch radius.
+    diameter : float or None
+        Boundary diameter [m]: outside diameter of the outer ring, bore of the inner.
+    width : float or None
+        Axial width [m].
+    support : Support
+        How the ring hangs on the inertial frame.
+    """
+
+    mass: float | None = None
+    inertia: float | None = None
+    diameter: float | None = None
+    width: float | None = None
+    support: Support = Support()

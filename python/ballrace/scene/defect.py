@@ -1,0 +1,95 @@
+"""Defects of races and balls."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from .._document import Part
+
+__all__ = ["AxialOffset", "Defect", "Floor", "Surface", "Width", "WidthProfile"]
+
+
+Surface = Literal["outer_race", "inner_race", "ball"]
+"""The surface that carries a defect."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class WidthProfile(Part):
+    """Width given at axial places, linear between them, constant beyond.
+
+    Attributes
+    ----------
+    positions : tuple of float
+        Axial places from the defect's middle, increasing [m].
+    widths : tuple of float
+        Widths [m].
+    """
+
+    positions: tuple[float, ...]
+    widths: tuple[float, ...]
+
+
+Width = float | WidthProfile
+"""Width of a defect along its length; a plain number is constant [m]."""
+
+AxialOffset = float | Literal["contact"]
+"""Axial place of a defect's middle: a number [m], or where the contact runs (see :class:`Defect`)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Floor(Part):
+    """Fault circles between the edges of a defect, their crests at a depth: a bed of bumps.
+
+    Attributes
+    ----------
+    depth : float
+        Depth of the crests below the surface [m].
+    elements : int
+        Number of circles, 1 to 1000.
+    """
+
+    depth: float
+    elements: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class Defect(Part):
+    """A surface that is absent over an arc, with fault circles at its edges; it turns with its body.
+
+    Attributes
+    ----------
+    on : {"outer_race", "inner_race", "ball"}
+        Which surface.
+    row : int
+        Row, from 0.
+    ball : int or None
+        Ball of the row, from 0; needed for a ball defect, absent otherwise.
+    angle : float
+        Angular place on the body, counter-clockwise from its own x axis [rad].
+    axial_offset : AxialOffset
+        Axial place of the middle, from the row's plane (races) or the ball's centre [m]. ``"contact"`` places it
+        where the contact runs that it is there for: the most loaded of those that meet it over a turn of the
+        balls, at the static equilibrium of the healthy bearing under the largest value of every load. Of a
+        defect on the outer race that is a ball's at the defect's own angle; of one on a ball, its contact with
+        the race that loads it more. Without equilibrium or load it is the place of the nominal contact angle.
+        A run records the number in ``out.scene`` and tells in ``out.defects`` where it comes from.
+    length : float
+        Axial length [m].
+    width : Width
+        Arc length along the surface [m].
+    edge_radius : float
+        Radius of the fault circles at the edges [m].
+    floor : Floor or None
+        Recessed circles between the edges; None: no floor.
+    """
+
+    on: Surface
+    row: int = 0
+    ball: int | None = None
+    angle: float
+    axial_offset: AxialOffset = "contact"
+    length: float
+    width: Width
+    edge_radius: float
+    floor: Floor | None = None

@@ -1,0 +1,135 @@
+"""What a run records."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from .._document import Variant
+from .bearing import RingName
+
+__all__ = [
+    "CageProbe",
+    "Component",
+    "ContactQuantity",
+    "ContactsProbe",
+    "EnergyProbe",
+    "ForcesProbe",
+    "MotionProbe",
+    "Probe",
+    "SlicesProbe",
+    "TorqueProbe",
+]
+
+
+Component = Literal["x", "y", "z", "theta", "vx", "vy", "vz", "omega", "ax", "ay", "az", "alpha"]
+"""One component of a motion: position [m], angle [rad], their rates and the rates of those."""
+
+ContactQuantity = Literal["load", "angle", "zone_centre", "zone_width", "slip"]
+"""One quantity of a contact: load [N], angle [rad], middle and extent of the zone [m], slip speed [m/s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class MotionProbe(Variant, tag="motion"):
+    """Position, velocity and acceleration of a body: columns ``<probe>.x`` and so on, filtered.
+
+    Attributes
+    ----------
+    body : str
+        ``outer``, ``inner`` or a ball such as ``row0.ball3``.
+    components : tuple of Component, or None
+        Which of them; None: all twelve.
+    """
+
+    body: str
+    components: tuple[Component, ...] | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactsProbe(Variant, tag="contacts"):
+    """What happens between balls and races: columns ``<probe>.ball3.outer.load`` and so on, as points in time.
+
+    Attributes
+    ----------
+    row : int
+        Row, from 0.
+    balls : tuple of int, or None
+        Balls of the row; None: all.
+    races : tuple of {"outer", "inner"}, or None
+        Races; None: both.
+    quantities : tuple of ContactQuantity, or None
+        Which quantities; None: all.
+    """
+
+    row: int = 0
+    balls: tuple[int, ...] | None = None
+    races: tuple[RingName, ...] | None = None
+    quantities: tuple[ContactQuantity, ...] | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class CageProbe(Variant, tag="cage"):
+    """Force of every cage link of a row, positive in tension: columns ``<probe>.link0``, … [N], filtered.
+
+    Attributes
+    ----------
+    row : int
+        Row, from 0.
+    """
+
+    row: int = 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class EnergyProbe(Variant, tag="energy"):
+    """Energies [J] and dissipated powers [W], as points in time."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TorqueProbe(Variant, tag="torque"):
+    """Friction torque about z that the balls put on each ring: ``<probe>.outer``, ``<probe>.inner`` [N m].
+
+    It is filtered, and takes an evaluation of the model at every point that the filter reads: a run of the wheel
+    bearing takes a sixth longer.
+    """
+
+
+@dataclass(frozen=True, kw_only=True)
+class ForcesProbe(Variant, tag="forces"):
+    """The forces on a body by origin: ``<probe>.contact.x`` and so on [N], about z [N m], as points in time.
+
+    Attributes
+    ----------
+    body : str
+        ``outer``, ``inner`` or a ball such as ``row0.ball3``.
+    """
+
+    body: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class SlicesProbe(Variant, tag="slices"):
+    """Forces of the single slices of chosen contacts at chosen times; a table beside the signals.
+
+    Attributes
+    ----------
+    row : int
+        Row, from 0.
+    balls : tuple of int, or None
+        Balls of the row; None: all.
+    races : tuple of {"outer", "inner"}, or None
+        Races; None: both.
+    times : tuple of float
+        Times within the run [s].
+    """
+
+    row: int = 0
+    balls: tuple[int, ...] | None = None
+    races: tuple[RingName, ...] | None = None
+    times: tuple[float, ...]
+
+
+Probe = (
+    MotionProbe | ContactsProbe | CageProbe | EnergyProbe | TorqueProbe | ForcesProbe | SlicesProbe
+)
+"""A named set of signals."""

@@ -1,0 +1,246 @@
+"""The whole document, and how it is read, checked and changed."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from .. import _core
+from .._document import Part, decode, encode
+from ..errors import SceneError
+from .approximations import Approximations
+from .bearing import Ring, Row
+from .cage import Cage
+from .contact import Contact
+from .defect import Defect
+from .drive import Drive
+from .friction import Friction
+from .load import Load, Unbalance
+from .material import Materials
+from .probe import Probe
+from .solver import Solver
+
+__all__ = ["Scene", "checked_scene"]
+
+
+def _empty() -> MappingProxyType[str, Any]:
+    return MappingProxyType({})
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Scene(Part):
+    """A whole bearing, its loads, its defects and what to record of it.
+
+    Attributes
+    ----------
+    schema : int
+        Version of the document, 1.
+    name : str
+        A title.
+    rows : tuple of Row
+        The rows of balls, at least one.
+    outer_ring, inner_ring : Ring
+        The rings.
+    materials : Materials
+        Materials.
+    contact : Contact
+        Contact of balls and races.
+    friction : Friction
+        Friction of balls and races.
+    cage : Cage or None
+        Cage; None: the balls are not linked.
+    drive : Drive
+        What turns the inner ring.
+    gravity : tuple of three floats
+        Gravity [m/s²].
+    loads : mapping of str to Load
+        Loads by name.
+    unbalances : mapping of str to Unbalance
+        Unbalances by name.
+    defects : mapping of str to Defect
+        Defects by name.
+    probes : mapping of str to Probe
+        Probes by name. None: the motion of the outer ring if it can move along x, y or z, else of the inner
+        ring, in the directions that can move; where both are held, the loads of all contacts (``row0`` and so on).
+    approximations : Approximations
+        What is given up for speed; nothing by default.
+    solver : Solver
+        Options of the integrator.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> scene = br.presets.wheel_bearing(axial_load=3000.0)
+    >>> scene.loads["axial"].force
+    3000.0
+    >>> scene.replace({"loads.axial.force": -3000.0}).loads["axial"].force
+    -3000.0
+    """
+
+    schema: int = 1
+    name: str = ""
+    rows: tuple[Row, ...]
+    outer_ring: Ring = Ring()
+    inner_ring: Ring = Ring()
+    materials: Materials = Materials()
+    contact: Contact = Contact()
+    friction: Friction = "none"
+    cage: Cage | None = None
+    drive: Drive
+    gravity: tuple[float, float, float] = (0.0, -9.81, 0.0)
+    loads: Mapping[str, Load] = field(default_factory=_empty)
+    unbalances: Mapping[str, Unbalance] = field(default_factory=_empty)
+    defects: Mapping[str, Defect] = field(default_factory=_empty)
+    probes: Mapping[str, Probe] = field(default_factory=_empty)
+    approximations: Approximations = Approximations()
+    solver: Solver = Solver()
+
+    def __repr__(self) -> str:
+        balls = " + ".join(str(row.ball_count) for row in self.rows)
+        named = {kind: getattr(self, kind) for kind in ("loads", "unbalances", "defects", "probes")}
+        parts = [f"{balls} balls", *(f"{kind}: {', '.join(v)}" for kind, v in named.items() if v)]
+        return f"<Scene {self.name!r}: {'; '.join(parts)}>"
+
+    @classmethod
+    def from_toml(cls, text: str) -> Scene:
+        """Read a scene from TOML and check it.
+
+        Raises
+        ------
+        SceneError
+            Names the first field that is unknown, missing or not usable.
+        """
+        return cls._read(_core.scene_from_toml(text))
+
+    @classmethod
+    def from_json(cls, text: str) -> Scene:
+        """Read a scene from JSON and check it.
+
+        Raises
+        ------
+        SceneError
+            Names the first field that is unknown, missing or not usable.
+        """
+        return cls._read(_core.scene_from_json(text))
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Scene:
+        """Read a scene from a file that ends in ``.toml`` or ``.json`` and check it.
+
+        Raises
+        ------
+        SceneError
+            Names the first field that is unknown, missing or not usable.
+        OSError
+            The file cannot be read.
+        """
+        path = Path(path)
+        readers = {".toml": cls.from_toml, ".json": cls.from_json}
+        reader = readers.get(path.suffix.lower())
+        if reader is None:
+            raise SceneError("path", str(path), "a file that ends in .toml or .json")
+        try:
+            text = path.read_text(encoding="utf-8")
+        except UnicodeDecodeError as error:
+            raise SceneError("path", str(path), f"a text file in UTF-8 ({error})") from error
+        return reader(text)
+
+    def validate(self) -> Scene:
+        """Check every field, and return the scene as the core reads it.
+
+        Raises
+        ------
+        SceneError
+            With the path, the value and what is allowed, for the first field that is not usable.
+        """
+        return self.from_json(self._document())
+
+    def doubts(self) -> tuple[str, ...]:
+        """Check the scene and return what is unusual about its numbers and probes, of an ordinary bearing nothing.
+
+        Runs, static solutions and campaigns warn of the same (:class:`ballrace.SceneWarning`), and of contacts
+        beyond the static load rating.
+
+        Raises
+        ------
+        SceneError
+            A field is not usable.
+        """
+        return tuple(_core.scene_doubts(self._document()))
+
+    def to_toml(self) -> str:
+        """Check the scene and return it as TOML.
+
+        Raises
+        ------
+        SceneError
+            A field is not usable.
+        """
+        return _core.scene_to_toml(self._document())
+
+    def to_json(self) -> str:
+        """Check the scene and return it as JSON on one line, every field written out.
+
+        Raises
+        ------
+        SceneError
+            A field is not usable.
+        """
+        return _core.scene_from_json(self._document())
+
+    def replace(self, changes: Mapping[str, object]) -> Scene:
+        """Return a checked copy with some fields replaced, each by its dotted path.
+
+        Parameters
+        ----------
+        changes : mapping of str to object
+            Paths such as ``loads.axial.force`` or ``rows[0].clearance``, and new values: numbers, text,
+            lists, or parts of a scene. ``defects.new`` adds an entry to loads, unbalances, defects or
+            probes and takes the whole of it; to remove one, use :func:`dataclasses.replace`.
+
+        Raises
+        ------
+        SceneError
+            A path leads nowhere, or the new scene is not usable.
+        """
+        pairs = [(path, encode(value, path)) for path, value in changes.items()]
+        return self._read(_core.scene_replace(self._document(), json.dumps(pairs)))
+
+    @classmethod
+    def _read(cls, text: str) -> Scene:
+        scene = decode(Scene, json.loads(text))
+        object.__setattr__(scene, "_text", text)
+        return scene
+
+    def _document(self) -> str:
+        """JSON, not yet checked; kept, since a scene does not change."""
+        text: str | None = self.__dict__.get("_text")
+        if text is None:
+            text = json.dumps(encode(self, ""))
+            object.__setattr__(self, "_text", text)
+        return text
+
+
+def checked_scene(given: object) -> Scene:
+    """Return a scene where one is meant.
+
+    Raises
+    ------
+    SceneError
+        It is something else; the message says how to come by a scene.
+    """
+    if isinstance(given, Scene):
+        return given
+    if isinstance(given, str | os.PathLike):
+        allowed = (
+            "a Scene; ballrace.Scene.load(path) reads one from a file, ballrace.presets has some"
+        )
+        raise SceneError("scene", repr(os.fspath(given)), allowed)
+    raise SceneError(
+        "scene", f"a {type(given).__name__}", "a Scene, as ballrace.Scene.load reads it"
+    )

@@ -1,0 +1,58 @@
+"""How the equations are integrated."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from .._document import Part
+
+__all__ = ["Method", "Solver"]
+
+
+Method = Literal[
+    "dormand-prince",
+    "bogacki-shampine",
+    "tsitouras",
+    "verner",
+    "runge-kutta-4",
+    "velocity-verlet",
+    "implicit-friction",
+    "auto",
+]
+"""The method of integration: explicit pairs of order 5, 3, 5 and 6, two of fixed steps, the one that
+is explicit in positions and implicit in velocities, and the choice of it or the first by friction's stiffness."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Solver(Part):
+    """How the equations are integrated.
+
+    Attributes
+    ----------
+    method : Method
+        The method. Explicit steps shrink with the slip speed of friction; those of ``"implicit-friction"`` do
+        not, and ``"auto"`` chooses. Methods of fixed steps take the largest step allowed.
+    rtol : float
+        Relative tolerance, 1e-12 to 1e-1; each kind of state has its scale from the scene.
+    first_step : float or None
+        First step [s]; None: Hairer's estimate.
+    max_step : float or None
+        Largest step [s]; None: no limit but the one below.
+    frequency_cap : bool
+        Whether the step is also kept below what the method's stability and accuracy ask for: a share of the
+        period of the highest contact frequency, less for methods of low order where contacts ring undamped; for
+        fixed steps also a share of the time in which friction and damping act (``provenance.step_limit``).
+        Without it, loose tolerances report success with accelerations wrong by 30 % and more, and fixed steps
+        longer than that are warned of.
+    reduce : bool
+        Whether a run leaves out what does not change the motion: directions without forces, mirror images, slices
+        where a closed form says the same.
+    """
+
+    method: Method = "dormand-prince"
+    rtol: float = 1e-6
+    first_step: float | None = None
+    max_step: float | None = None
+    frequency_cap: bool = True
+    reduce: bool = True

@@ -1,0 +1,148 @@
+//! Features of what is recorded, wherever it is kept: signals of a run, arrays of another program, measurements.
+
+use super::shaft::Shaft;
+use super::{Feature, FeatureOptions, check_record, lines, loads, moments};
+use crate::error::Result;
+use crate::scene::Scene;
+use crate::signals::Signals;
+
+/// Columns of a run, by their names, all of the same length.
+pub(crate) struct Recorded<'a> {
+    /// What was run.
+    pub scene: &'a Scene,
+    /// Sampling rate \[Hz\].
+    pub fs: f64,
+    /// Names and samples.
+    pub columns: Vec<(&'a str, &'a [f64])>,
+    /// Largest Hertz pressure of any contact at the start or the end of the run \[Pa\].
+    pub largest_pressure: f64,
+}
+
+impl<'a> From<&'a Signals> for Recorded<'a> {
+    fn from(signals: &'a Signals) -> Self {
+        let columns = signals.columns.iter();
+        Self {
+            scene: &signals.scene,
+            fs: signals.fs,
+            columns: columns.map(|c| (c.name.as_str(), &*c.values)).collect(),
+            largest_pressure: signals.stats.largest_pressure,
+        }
+    }
+}
+
+impl<'a> Recorded<'a> {
+    /// The samples of a column.
+    pub(super) fn get(&self, name: &str) -> Option<&'a [f64]> {
+        let found = self.columns.iter().find(|(known, _)| *known == name);
+        found.map(|(_, values)| *values)
+    }
+
+    /// Number of samples.
+    fn count(&self) -> usize {
+        self.columns.first().map_or(0, |(_, values)| values.len())
+    }
+
+    /// Refuses options that the record does not give.
+    ///
+    /// # Errors
+    /// [`crate::Error::Scene`] names the option.
+    pub fn check(&self, options: &FeatureOptions) -> Result<()> {
+        if options.contact_loads {
+            loads::columns(self.scene)?;
+        }
+        check_record(options, self.count() as f64 / self.fs, self.fs)
+    }
+}
+
+/// The features of the given columns, then the extremes of the contact loads if they are asked for, and the largest
+/// pressure.
+pub(crate) fn features_of(
+    recorded: &Recorded<'_>,
+    columns: &[String],
+    options: &FeatureOptions,
+) -> Vec<Feature> {
+    let first = first_sample(options.skip, recorded.fs, recorded.count());
+    let of = Analysis::new(
+        Some(recorded.scene),
+        recorded.fs,
+        recorded.count() - first,
+        options,
+    );
+    let mut found = Vec::new();
+    for name in columns {
+        if let Some(values) = recorded.get(name) {
+            found.extend(of.column(name, &values[first..]));
+        }
+    }
+    if options.contact_loads {
+        found.extend(loads::extremes(recorded, first));
+    }
+    let pressure = recorded.largest_pressure;
+    found.push(Feature::new("largest_pressure".to_owned(), pressure));
+    found
+}
+
+/// The features of one signal, whoever recorded it: its moments, and with a scene, which tells the rows of balls and the
+/// speed of the shaft, the lines at their fault frequencies.
+///
+/// `fs` is the sampling rate \[Hz\]; features are called by the name of the column they are of, `outer.ay.rms`, and without a
+/// name by their own, `rms`. Of the options `columns` and `contact_loads` do not count.
+///
+/// ```
+/// use ballrace::{FeatureOptions, signal_features};
+///
+/// let x: Vec<f64> = (0..1000).map(|i| (0.1 * f64::from(i)).sin()).collect();
+/// let found = signal_features(&x, 50e3, "sensor", None, &FeatureOptions::default())?;
+/// assert_eq!(found[1].name, "sensor.peak");
+/// # Ok::<(), ballrace::Error>(())
+/// ```
+///
+/// # Errors
+/// [`crate::Error::Scene`] names an option that the signal does not give.
+pub fn signal_features(
+    x: &[f64],
+    fs: f64,
+    name: &str,
+    scene: Option<&Scene>,
+    options: &FeatureOptions,
+) -> Result<Vec<Feature>> {
+    check_record(options, x.len() as f64 / fs, fs)?;
+    let x = &x[first_sample(options.skip, fs, x.len())..];
+    Ok(Analysis::new(scene, fs, x.len(), options).column(name, x))
+}
+
+/// The first sample that is not left out: samples stand at k / fs.
+fn first_sample(skip: f64, fs: f64, count: usize) -> usize {
+    let counted = (0..count).find(|k| *k as f64 / fs >= skip);
+    counted.unwrap_or(count)
+}
+
+/// What the features of all columns of a record share.
+struct Analysis<'a> {
+    scene: Option<&'a Scene>,
+    shaft: Option<Shaft>,
+    fs: f64,
+    band: Option<[f64; 2]>,
+}
+
+impl<'a> Analysis<'a> {
+    /// Of so many samples.
+    fn new(scene: Option<&'a Scene>, fs: f64, count: usize, options: &FeatureOptions) -> Self {
+        Self {
+            scene,
+            shaft: scene.and_then(|scene| Shaft::of(scene, options.skip, count, fs)),
+            fs,
+            band: options.band,
+        }
+    }
+
+    fn column(&self, name: &str, x: &[f64]) -> Vec<Feature> {
+        let mut found = Vec::from(moments::of(name, x));
+        if let Some(scene) = self.scene {
+            let course = (self.fs, self.band);
+            let shaft = self.shaft.as_ref();
+            found.extend(lines::of(name, x, course, shaft, &scene.rows));
+        }
+        found
+    }
+}

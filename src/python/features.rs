@@ -1,0 +1,135 @@
+//! Kinematic orders, spectra and features of plain arrays.
+//!
+//! Arrays are copied before the GIL is released: other threads may write to them meanwhile.
+
+// Arguments from Python come by value.
+#![allow(clippy::needless_pass_by_value)]
+
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+use super::errors::OrRaise;
+use crate::features::{Recorded, features_of, loads, transform};
+use crate::scene::kinematic_orders;
+use crate::{Error, Feature, FeatureOptions, Scene};
+
+type Array<'py> = PyReadonlyArray1<'py, f64>;
+
+/// Names and values; `None` where a signal cannot give one.
+type Named = Vec<(String, Option<f64>)>;
+
+/// FTF, BPFO, BPFI and BSF in orders.
+#[pyfunction]
+pub(super) fn orders(
+    ball_count: f64,
+    ball_diameter: f64,
+    pitch_diameter: f64,
+    contact_angle: f64,
+) -> (f64, f64, f64, f64) {
+    kinematic_orders(ball_count, ball_diameter, pitch_diameter, contact_angle).into()
+}
+
+/// Squared envelope within a band.
+#[pyfunction]
+pub(super) fn squared_envelope<'py>(
+    py: Python<'py>,
+    x: Array<'py>,
+    fs: f64,
+    band: Option<[f64; 2]>,
+) -> Bound<'py, PyArray1<f64>> {
+    let x = copied(&x);
+    let found = py.detach(|| transform::squared_envelope(&x, fs, band));
+    found.into_pyarray(py)
+}
+
+/// Amplitudes under a Hann window, of a signal padded with zeros to a length.
+#[pyfunction]
+pub(super) fn amplitudes<'py>(
+    py: Python<'py>,
+    x: Array<'py>,
+    length: usize,
+) -> Bound<'py, PyArray1<f64>> {
+    let x = copied(&x);
+    let found = py.detach(|| transform::amplitudes(&x, length));
+    found.into_pyarray(py)
+}
+
+/// A signal without its mean under a Hann window.
+#[pyfunction]
+pub(super) fn hann_weighted<'py>(py: Python<'py>, x: Array<'py>) -> Bound<'py, PyArray1<f64>> {
+    let x = copied(&x);
+    py.detach(|| transform::hann_weighted(&x)).into_pyarray(py)
+}
+
+/// Columns whose features a scene gives, for options as JSON.
+#[pyfunction]
+pub(super) fn feature_columns(py: Python<'_>, scene: &str, options: &str) -> PyResult<Vec<String>> {
+    let scene = Scene::from_json(scene).or_raise(py)?;
+    let options = options_from(options).or_raise(py)?;
+    crate::feature_columns(&scene, &options).or_raise(py)
+}
+
+/// Features of a run whose columns a mapping holds.
+#[pyfunction]
+pub(super) fn run_features(
+    py: Python<'_>,
+    columns: &Bound<'_, PyAny>,
+    fs: f64,
+    scene: &str,
+    largest_pressure: Option<f64>,
+    options: &str,
+) -> PyResult<Named> {
+    let scene = Scene::from_json(scene).or_raise(py)?;
+    let options = options_from(options).or_raise(py)?;
+    let asked = crate::feature_columns(&scene, &options).or_raise(py)?;
+    let mut needed = asked.clone();
+    if options.contact_loads {
+        needed.extend(loads::columns(&scene).or_raise(py)?);
+    }
+    let mut held = Vec::new();
+    for name in needed {
+        let values: Array<'_> = columns.get_item(&name)?.extract()?;
+        held.push((name, copied(&values)));
+    }
+    let found = py.detach(|| {
+        let recorded = Recorded {
+            scene: &scene,
+            fs,
+            columns: held.iter().map(|(name, x)| (&**name, &**x)).collect(),
+            largest_pressure: largest_pressure.unwrap_or(f64::NAN),
+        };
+        recorded.check(&options)?;
+        Ok(features_of(&recorded, &asked, &options))
+    });
+    Ok(named(found.or_raise(py)?))
+}
+
+/// Features of one signal; of its moments alone without a scene.
+#[pyfunction]
+pub(super) fn signal_features(
+    py: Python<'_>,
+    x: Array<'_>,
+    fs: f64,
+    name: &str,
+    scene: Option<&str>,
+    options: &str,
+) -> PyResult<Named> {
+    let scene = scene.map(Scene::from_json).transpose().or_raise(py)?;
+    let options = options_from(options).or_raise(py)?;
+    let x = copied(&x);
+    let found = py.detach(|| crate::signal_features(&x, fs, name, scene.as_ref(), &options));
+    Ok(named(found.or_raise(py)?))
+}
+
+/// Options of the features from JSON.
+pub(super) fn options_from(text: &str) -> crate::Result<FeatureOptions> {
+    serde_json::from_str(text).map_err(|e| Error::scene("features", text, e.to_string()))
+}
+
+fn copied(x: &Array<'_>) -> Vec<f64> {
+    x.as_array().iter().copied().collect()
+}
+
+fn named(features: Vec<Feature>) -> Named {
+    features.into_iter().map(|f| (f.name, f.value)).collect()
+}

@@ -1,0 +1,152 @@
+"""Features, spectra and orders are coded once; here they meet independent formulas, each other and a campaign."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+import scipy.signal
+import scipy.stats
+
+import ballrace as br
+from ballrace import frequencies, spectra
+from ballrace.scene import ContactsProbe, TorqueDrive
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+FS = 12_000.0
+LENGTHS = [8, 9, 64, 1000, 6001, 7919, 50_000]
+
+
+def noise(samples: int) -> NDArray[np.float64]:
+    """Noise that stands high above zero, with a line."""
+    t = np.arange(samples) / FS
+    return 3.0 + np.random.default_rng(samples).normal(size=samples) + np.sin(1234.5 * t)
+
+
+def assert_same(found: NDArray[np.float64], wanted: NDArray[np.float64]) -> None:
+    np.testing.assert_allclose(found, wanted, rtol=0.0, atol=1e-12 * np.abs(wanted).max())
+
+
+@pytest.mark.parametrize("samples", LENGTHS)
+def test_squared_envelope_is_that_of_scipys_analytic_signal(samples: int) -> None:
+    x = noise(samples)
+    assert_same(spectra.squared_envelope(x, FS), np.abs(scipy.signal.hilbert(x)) ** 2)
+    lines, f = np.fft.fft(x), np.abs(np.fft.fftfreq(samples, 1.0 / FS))
+    in_band = np.fft.ifft(np.where((f >= 1510.0) & (f <= 3990.0), lines, 0.0)).real
+    found = spectra.squared_envelope(x, FS, band=(1510.0, 3990.0))
+    assert_same(found, np.abs(scipy.signal.hilbert(in_band)) ** 2)
+
+
+@pytest.mark.parametrize("samples", LENGTHS)
+def test_spectrum_is_numpys_under_a_hann_window(samples: int) -> None:
+    x = noise(samples)
+    window = np.sin(np.pi * (np.arange(samples) + 0.5) / samples) ** 2
+    window /= window.sum()
+    value = 2.0 * np.abs(np.fft.rfft(window * (x - np.sum(window * x))))
+    f, found = spectra.spectrum(x, FS)
+    assert_same(found, value)
+    np.testing.assert_allclose(f, np.arange(samples // 2 + 1) * FS / samples, rtol=1e-14)
+
+
+def test_plans_of_many_lengths_are_kept_and_dropped() -> None:
+    # More samples than plans are kept of, and then the first length again.
+    for samples in (600_000, 500_000, 400_000, 1000, 600_000):
+        x = noise(samples)
+        assert_same(spectra.squared_envelope(x, FS)[:50], np.abs(scipy.signal.hilbert(x)[:50]) ** 2)
+
+
+@pytest.mark.parametrize("samples", LENGTHS)
+def test_moments_are_scipys(samples: int) -> None:
+    x = noise(samples)
+    rms, peak = math.sqrt(np.mean(x**2)), np.abs(x).max()
+    wanted = {
+        "rms": rms,
+        "peak": peak,
+        "crest_factor": peak / rms,
+        "kurtosis": scipy.stats.kurtosis(x, fisher=False),
+    }
+    assert br.features(x, FS) == pytest.approx(wanted, rel=1e-12)
+
+
+def test_orders_are_those_of_the_formula() -> None:
+    gamma = 11.906 * math.cos(0.23) / 60.0
+    found = frequencies.orders(13, 11.906, 60.0, 0.23)
+    assert found.ftf == pytest.approx((1.0 - gamma) / 2.0, rel=1e-12)
+    assert found.bpfo == pytest.approx(13 * (1.0 - gamma) / 2.0, rel=1e-12)
+    assert found.bpfi == pytest.approx(13 * (1.0 + gamma) / 2.0, rel=1e-12)
+    assert found.bsf == pytest.approx((60.0 / 11.906 - gamma * math.cos(0.23)) / 2.0, rel=1e-12)
+
+
+def test_arrays_of_any_kind() -> None:
+    x = noise(1000)
+    wide = np.stack([x, x], axis=1)
+    for other in (list(x), wide[:, 0], x.astype(np.longdouble)):
+        np.testing.assert_array_equal(
+            spectra.squared_envelope(other, FS), spectra.squared_envelope(x, FS)
+        )
+        assert br.features(other, FS) == br.features(x, FS)
+
+
+def test_a_run_an_array_and_a_campaign_say_the_same(tmp_path: Path) -> None:
+    probe = ContactsProbe(row=0, quantities=("load",))
+    scene = br.presets.deep_groove_6205().replace({"probes.all": probe})
+    run: Any = {"duration": 0.1, "fs": FS}
+    chosen: Any = {"skip": 0.01, "band": (500.0, 5000.0)}
+    out = br.simulate(scene, **run)
+    found = out.features(contact_loads=True, **chosen)
+    done = br.campaign(
+        [{"loads.radial.force": 500.0}], tmp_path / "c", scene=scene, progress=False,
+        contact_loads=True, **run, **chosen,
+    )  # fmt: skip
+    (row,) = done.manifest.to_dicts()
+    assert "row0.inner.load_min" in found
+    assert found["outer.ay.row0.bpfo_envelope_harmonics"] is not None
+    assert found == {name: row[name] for name in found}
+    loads = [out[f"all.ball{i}.outer.load"][120:] for i in range(9)]
+    assert found["row0.outer.load_max"] == np.max(loads)
+
+    alone = br.features(out["outer.ay"], FS, name="outer.ay", scene=scene, **chosen)
+    assert alone == {name: value for name, value in found.items() if name.startswith("outer.ay.")}
+    unnamed = br.features(out["outer.ay"], FS, scene=scene, **chosen)
+    assert list(unnamed)[:5] == ["rms", "peak", "crest_factor", "kurtosis", "row0.ftf"]
+    out.write_parquet(tmp_path / "out.parquet")
+    again = br.Signals.read_parquet(tmp_path / "out.parquet")
+    assert again.features(contact_loads=True, **chosen) == found
+    assert list(out.features(columns="outer.ay")) == [*alone, "largest_pressure"]
+
+
+def test_what_a_signal_cannot_give_is_none() -> None:
+    scene = br.presets.deep_groove_6205()
+    found = br.features(np.zeros(100), FS, scene=scene)
+    assert found["rms"] == 0.0
+    assert found["kurtosis"] is None
+    assert found["row0.bpfo"] is None
+    driven = scene.replace({"drive": TorqueDrive(value=0.1)})
+    assert br.features(noise(12_000), FS, scene=driven)["row0.bpfo"] is None
+
+
+def test_bad_arguments_are_refused() -> None:
+    x = np.ones(100)
+    out = br.simulate(br.presets.deep_groove_6205(), duration=1e-3, start="rolling", settle=0.0)
+    calls: list[tuple[str, Callable[[], object]]] = [
+        ("x", lambda: br.features(np.ones((3, 3)), FS)),
+        ("fs", lambda: br.features(x, 0.0)),
+        ("scene", lambda: br.features(x, FS, scene="6205")),  # type: ignore[arg-type]
+        ("skip", lambda: br.features(x, FS, skip=1.0)),
+        ("band", lambda: br.features(x, FS, band=(0.0, 1e9))),
+        ("band", lambda: out.features(band=(5.0, 2.0))),
+        ("skip", lambda: out.features(skip=1e-3)),
+        ("columns", lambda: out.features(columns=["outer.jerk"])),
+        ("contact_loads", lambda: out.features(contact_loads=True)),
+    ]
+    for path, call in calls:
+        with pytest.raises(br.SceneError) as caught:
+            call()
+        assert caught.value.path == path
