@@ -53,7 +53,7 @@ impl Model {
             "rolling" => Start::Rolling,
             _ => {
                 let allowed = "\"equilibrium\" or \"rolling\"";
-                return Err(Error::scene("kind", format!("{kind:?}"), allowed)).or_raise(py);
+                return Err(Error::scene("start", format!("{kind:?}"), allowed)).or_raise(py);
             }
         };
         let model = Arc::clone(&self.0);
