@@ -10,7 +10,7 @@ use ballrace::dynamics::Dynamics;
 use ballrace::integrate::{DORMAND_PRINCE, Options, System, Tolerance, integrate};
 use ballrace::scene::{NormalLaw, Scene, Slices, TimeFunction, presets};
 use ballrace::simd::Level;
-use ballrace::{Model, Run, Start, equilibrium, load_distribution, simulate, start};
+use ballrace::{Model, Race, Run, Start, equilibrium, load_distribution, simulate, start};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use rayon::ThreadPoolBuilder;
 
@@ -48,7 +48,7 @@ fn contact(c: &mut Criterion) {
         let (model, y) = loaded(&wheel(NormalLaw::iso16281(), slices));
         // Ball 1 of row 0 carries most.
         group.bench_function(format!("{slices:?}"), |b| {
-            b.iter(|| model.contact(black_box(&y), 1, 0));
+            b.iter(|| model.contact(black_box(&y), 1, Race::Outer));
         });
     }
     group.finish();

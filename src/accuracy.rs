@@ -8,7 +8,7 @@
 use serde::Serialize;
 
 use crate::error::{Error, Result};
-use crate::model::{Degree, Model};
+use crate::model::{Body, Dof, Model};
 use crate::scene::{Component, Method, Probe, Scene, Slices};
 use crate::start::{Start, start};
 
@@ -170,8 +170,8 @@ impl<'a, 'b> Pilots<'a, 'b> {
     /// `model` gives the state from which they start, where none is given.
     fn new(scene: &Scene, model: &Model, from: &Start, pilot: &'a mut Pilot<'b>) -> Result<Self> {
         let mut scene = scene.clone();
-        let moves = |degree: &Degree| matches!(degree, Degree::Free { .. });
-        let body = model.bodies.iter().find(|body| moves(&body.degrees[1]));
+        let moves = |body: &&Body| body.degrees[Dof::Y].is_free();
+        let body = model.bodies.iter().find(moves);
         let probe = Probe::Motion {
             body: body.unwrap_or(&model.bodies[0]).name.clone(),
             components: Some(vec![Component::Ay]),

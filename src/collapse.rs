@@ -1,6 +1,6 @@
 //! When the step collapses: how it is seen, and which contacts did it.
 
-use crate::model::Model;
+use crate::model::{BodyId, Dof, Model, Race};
 
 /// Steps in a row below the limit that make a collapse.
 const PATIENCE: usize = 1000;
@@ -36,7 +36,7 @@ pub(crate) struct Culprit {
     /// `row0.ball3.outer` (ball and race), `row0.cage` or `outer.support`.
     pub name: String,
     /// A body it acts on.
-    pub body: usize,
+    pub body: BodyId,
     /// What it does, in numbers.
     state: String,
     /// Rate at which its friction and damping change the motion of what it acts on \[1/s\].
@@ -54,18 +54,22 @@ impl std::fmt::Display for Culprit {
 
 /// The contacts that touch, cages and supports of a body in a state, the fastest first; all without a body. An
 /// explicit step is held below about 3.3 over the rate.
-pub(crate) fn culprits(model: &Model, y: &[f64], body: Option<usize>) -> Vec<Culprit> {
-    let concerns = |touched: &[usize]| body.is_none_or(|b| touched.contains(&b));
+pub(crate) fn culprits(model: &Model, y: &[f64], body: Option<BodyId>) -> Vec<Culprit> {
+    let concerns = |touched: &[BodyId]| body.is_none_or(|b| touched.contains(&b));
     let contacts = (0..model.balls.len())
-        .flat_map(|j| [(j, 0), (j, 1)])
-        .filter(|&(j, race)| concerns(&[2 + j, race]))
+        .flat_map(|j| Race::BOTH.map(|race| (j, race)))
+        .filter(|&(j, race)| concerns(&[BodyId::ball(j), race.ring()]))
         .filter_map(|(j, race)| contact(model, y, j, race));
     let cages = (0..model.rows.len())
-        .filter(|&row| body.is_none_or(|b| b > 1 && model.balls[b - 2].row == row))
+        .filter(|&row| {
+            let links = |ball: usize| model.balls[ball].row == row;
+            body.is_none_or(|body| body.as_ball().is_some_and(links))
+        })
         .filter_map(|row| cage(model, row));
-    let supports = (0..model.bodies.len())
-        .filter(|&b| concerns(&[b]))
-        .filter_map(|b| support(model, b));
+    let supports = model.layout().bodies();
+    let supports = supports
+        .filter(|&body| concerns(&[body]))
+        .filter_map(|body| support(model, body));
     let mut found: Vec<Culprit> = contacts.chain(cages).chain(supports).collect();
     found.sort_by(|a, b| b.rate.total_cmp(&a.rate));
     found.truncate(NAMED);
@@ -73,18 +77,18 @@ pub(crate) fn culprits(model: &Model, y: &[f64], body: Option<usize>) -> Vec<Cul
 }
 
 /// A sliding ball's N (1/m + R²/I) μ(u)/√(u² + v_s²), and Hunt–Crossley's 3/2 α_d N/m.
-fn contact(model: &Model, y: &[f64], j: usize, race: usize) -> Option<Culprit> {
-    let (ball, body) = (&model.balls[j], &model.bodies[2 + j]);
+fn contact(model: &Model, y: &[f64], j: usize, race: Race) -> Option<Culprit> {
+    let (ball, body) = (&model.balls[j], &model.bodies[BodyId::ball(j)]);
     let pair = &model.rows[ball.row].pairs[race];
     let contact = model.contact(y, j, race);
-    let mobility = 1.0 / body.mass[0] + ball.side.radius.powi(2) / body.mass[3];
+    let mobility = 1.0 / body.mass[Dof::X] + ball.side.radius.powi(2) / body.mass[Dof::Theta];
     let friction = pair
         .friction
         .map_or(0.0, |law| law.factor(contact.slip) * mobility);
-    let damping = 1.5 * pair.damping / body.mass[0];
+    let damping = 1.5 * pair.damping / body.mass[Dof::X];
     (contact.load > 0.0).then(|| Culprit {
-        name: format!("{}.{}", body.name, ["outer", "inner"][race]),
-        body: 2 + j,
+        name: format!("{}.{}", body.name, race.name()),
+        body: BodyId::ball(j),
         state: format!(
             "load {:.3e} N, slip {:.3e} m/s, ",
             contact.load, contact.slip
@@ -98,18 +102,18 @@ fn cage(model: &Model, row: usize) -> Option<Culprit> {
     let rate = model.cage_rate(row);
     (rate > 0.0).then(|| Culprit {
         name: format!("row{row}.cage"),
-        body: 2 + model.rows[row].first,
+        body: model.rows[row].first_body(),
         state: String::new(),
         rate,
     })
 }
 
 /// The fastest direction of a body's dampers.
-fn support(model: &Model, index: usize) -> Option<Culprit> {
-    let rate = model.support_rate(index);
+fn support(model: &Model, body: BodyId) -> Option<Culprit> {
+    let rate = model.support_rate(body);
     (rate > 0.0).then(|| Culprit {
-        name: format!("{}.support", model.bodies[index].name),
-        body: index,
+        name: format!("{}.support", model.bodies[body].name),
+        body,
         state: String::new(),
         rate,
     })

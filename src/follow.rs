@@ -10,7 +10,7 @@ use crate::ending::{Halt, broken};
 use crate::error::{Error, Result};
 use crate::integrate::{self, DenseStep, Options, Tolerance};
 use crate::method::{self, Choice, Task};
-use crate::model::Model;
+use crate::model::{BodyId, DOFS, Model};
 use crate::orbit;
 use crate::runaway;
 use crate::scene::Drive;
@@ -95,7 +95,7 @@ pub(crate) fn follow(
             // The last evaluation was at the accepted state.
             pulls += dynamics.pulls();
             truncated += dynamics.truncated();
-            let lost = dynamics.lost();
+            let lost = dynamics.lost().and_then(BodyId::as_ball);
             watch.step(dynamics, step);
             last.copy_from_slice(step.y1());
             last_time = step.t1();
@@ -282,15 +282,15 @@ pub(crate) fn tolerance(dynamics: &Dynamics<'_>) -> Result<Tolerance> {
     let model = dynamics.model();
     let (scales, rtol) = (&model.scales, model.scene.solver.rtol);
     let degrees = dynamics.degrees();
-    let mut kept = vec![0; model.body_count()];
+    let mut kept = vec![0_u32; model.body_count()];
     for (body, _) in &degrees {
         kept[*body] += 1;
     }
     let half = |length: f64| {
-        degrees.iter().map(move |&(body, direction)| {
+        degrees.iter().map(move |&(body, dof)| {
             (
                 body,
-                if direction == 3 {
+                if dof.is_rotation() {
                     length / model.radius(body)
                 } else {
                     length
@@ -302,9 +302,9 @@ pub(crate) fn tolerance(dynamics: &Dynamics<'_>) -> Result<Tolerance> {
     let atol = half(length)
         .chain(half(length * scales.frequency))
         // What is left out has no error: it counts in a body's mean as if it were there.
-        .map(|(body, atol)| atol * (4.0 / f64::from(kept[body])).sqrt())
+        .map(|(body, atol)| atol * (DOFS as f64 / f64::from(kept[body])).sqrt())
         .collect();
-    let bodies = degrees.iter().map(|(body, _)| *body);
+    let bodies = degrees.iter().map(|(body, _)| body.index());
     let group = bodies.clone().chain(bodies).collect();
     Tolerance::new(0.0, atol, &vec![false; 2 * degrees.len()], group)
         .map_err(|invalid| Error::scene("solver.rtol", rtol, invalid.to_string()))

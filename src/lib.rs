@@ -119,7 +119,10 @@ pub use error::{Error, Result};
 pub use explain::{ContactKind, Cost, Explanation, LawExplanation, Variant, explain};
 pub use features::{Feature, FeatureOptions, feature_columns};
 pub use interrupt::Interrupt;
-pub use model::{Body, Degree, Model, Obstacle, Omission, Reduction, Scales};
+pub use model::{
+    Body, BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Obstacle, Omission, Race, Reduction,
+    Scales,
+};
 pub use run::Run;
 pub use scene::Scene;
 pub use signals::{Bandwidth, Column, Provenance, Signals, SliceRow, Statistics};

@@ -4,8 +4,7 @@
 //! damping, which slows a ball a little whenever it enters or leaves the load zone: of a 6205 under 500 N about a hundredth a
 //! second.
 
-use crate::dynamics::motion;
-use crate::model::Model;
+use crate::model::{BodyId, Model};
 
 /// What is told of a scene whose balls nothing drives; nothing where friction does, or where the orbit is given.
 pub(crate) fn note(model: &Model) -> Option<&'static str> {
@@ -27,7 +26,7 @@ pub(crate) fn note(model: &Model) -> Option<&'static str> {
 /// the speed of the inner ring; none where something drives them, or where they do not orbit.
 pub(crate) fn slowed(model: &Model, from: &[f64], to: &[f64]) -> Option<f64> {
     note(model)?;
-    let speed = |y: &[f64]| motion(y, 1).omega;
+    let speed = |y: &[f64]| model.layout().motion(y, BodyId::INNER).omega;
     let reference = if speed(from) == 0.0 {
         model.rolling_share() * speed(to)
     } else {
@@ -39,7 +38,7 @@ pub(crate) fn slowed(model: &Model, from: &[f64], to: &[f64]) -> Option<f64> {
 /// Mean rate of the balls about the axis \[rad/s\].
 fn rate(model: &Model, y: &[f64]) -> f64 {
     let of = |j: usize| {
-        let ball = motion(y, 2 + j);
+        let ball = model.layout().motion(y, BodyId::ball(j));
         crate::contact::cross(ball.centre, ball.velocity) / ball.centre.norm_squared()
     };
     let count = model.balls.len();

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use crate::dynamics::Dynamics;
 use crate::integrate::System;
-use crate::model::Model;
+use crate::model::{BodyId, Dof, Model};
 use crate::scene::{Friction, Scene, presets};
 use crate::simd::{Distrust, Level};
 use crate::start::{Start, start};
@@ -68,10 +68,12 @@ fn difference(scene: &Scene, level: Level) -> crate::Result<f64> {
     const SPREAD: f64 = 1.0 + 5e-4;
     let model = Model::new(scene)?.with_level(level);
     let mut y = start(&model, &Start::Rolling)?;
-    y[5] -= PRESSED;
-    for body in 2..model.body_count() {
-        y[4 * body] *= SPREAD;
-        y[4 * body + 1] *= SPREAD;
+    let layout = model.layout();
+    y[layout.at(BodyId::INNER, Dof::Y)] -= PRESSED;
+    for ball in 0..model.balls.len() {
+        for dof in Dof::PLANE {
+            y[layout.at(BodyId::ball(ball), dof)] *= SPREAD;
+        }
     }
     let reduction = model.reduction(&y);
     let mut dynamics = Dynamics::begin(&model, reduction.as_ref(), &y);

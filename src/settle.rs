@@ -13,7 +13,7 @@ use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
 use crate::follow::{Stretch, Watch, follow, options, threads};
 use crate::integrate::{DenseStep, Options};
-use crate::model::{Degree, Model};
+use crate::model::{BodyId, Degree, Dof, Model, Race};
 use crate::pool::on;
 use crate::run::Run;
 use crate::scene::{Drive, RingName, Scene, Surface, TimeFunction};
@@ -106,8 +106,8 @@ impl Watch for Unseen {
 /// cage has play and balls are loose most of a turn of it, until gravity has let all of them fall from one end of the
 /// play to the other. Not at all where nothing takes energy.
 fn needed(model: &Model, y0: &[f64]) -> f64 {
-    let rings = (0..2).map(|ring| decay(model, y0, ring));
-    let slowest = rings.fold(0.0, f64::max);
+    let rings = Race::BOTH.map(|race| decay(model, y0, race));
+    let slowest = rings.into_iter().fold(0.0, f64::max);
     let rubs = model.rows[0].pairs[0].friction.is_some();
     if slowest.is_infinite() && !rubs && model.scene.contact.damping == 0.0 {
         return 0.0;
@@ -132,18 +132,19 @@ fn needed(model: &Model, y0: &[f64]) -> f64 {
 }
 
 fn has_loose_balls(model: &Model, y: &[f64], row: usize) -> bool {
-    let row = &model.rows[row];
-    (row.first..row.first + row.count).any(|j| model.contact(y, j, 1).load == 0.0)
+    let is_loose = |j| model.contact(y, j, Race::Inner).load == 0.0;
+    model.rows[row].balls().any(is_loose)
 }
 
 /// Decay time 2 m/c of a ring's slowest direction \[s\]: damped by its support and by the contacts, each of which damps
 /// by (3/2) α_d F and takes half the approach speed of the rings. Infinite where nothing damps it, 0 for one that is held.
-fn decay(model: &Model, y: &[f64], ring: usize) -> f64 {
-    let loads = (0..model.balls.len()).map(|j| model.contact(y, j, ring).load);
+fn decay(model: &Model, y: &[f64], race: Race) -> f64 {
+    let loads = (0..model.balls.len()).map(|j| model.contact(y, j, race).load);
     let contacts = 0.75 * model.scene.contact.damping * loads.sum::<f64>();
-    let body = &model.bodies[ring];
-    let times = (0..3).filter_map(|i| match body.degrees[i] {
-        Degree::Free { damping, .. } => Some(2.0 * body.mass[i] / (damping + contacts)),
+    let body = &model.bodies[race.ring()];
+    let times = Dof::TRANSLATIONS.into_iter();
+    let times = times.filter_map(|dof| match body.degrees[dof] {
+        Degree::Free { damping, .. } => Some(2.0 * body.mass[dof] / (damping + contacts)),
         Degree::Fixed | Degree::Driven => None,
     });
     times.fold(0.0, f64::max)
@@ -167,9 +168,10 @@ fn before(model: &Model, from: &Start, y0: Vec<f64>, seconds: f64) -> Result<Vec
     }
     let turned = Turned::since(model, &y0, seconds);
     let mut y = start(&Model::new(&turned.back(&model.scene))?, from)?;
-    y[7] = -turned.inner;
+    let angle = |body| model.layout().at(body, Dof::Theta);
+    y[angle(BodyId::INNER)] = -turned.inner;
     for (j, ball) in model.balls.iter().enumerate() {
-        y[4 * (2 + j) + 3] = -turned.balls[ball.row];
+        y[angle(BodyId::ball(j))] = -turned.balls[ball.row];
     }
     Ok(y)
 }
@@ -185,23 +187,25 @@ struct Turned {
 
 impl Turned {
     fn since(model: &Model, y0: &[f64], seconds: f64) -> Self {
-        let half = y0.len() / 2;
+        let speed = |body| y0[model.layout().speed_at(body, Dof::Theta)];
         let spin = |row: usize| {
             let row = &model.rows[row];
-            let balls = row.first..row.first + row.count;
-            balls.map(|j| y0[half + 4 * (2 + j) + 3]).sum::<f64>() / row.count as f64
+            let spins = row.balls().map(|j| speed(BodyId::ball(j)));
+            spins.sum::<f64>() / row.count as f64
         };
         let rows = 0..model.rows.len();
         // Balls on supports of their own stay where they are.
-        let orbit = |row: usize| match model.bodies[2 + model.rows[row].first].degrees[..2] {
-            [
-                Degree::Free { stiffness: 0.0, .. },
-                Degree::Free { stiffness: 0.0, .. },
-            ] => model.orbit_speed(row, y0),
-            _ => 0.0,
+        let orbit = |row: usize| {
+            let ball = &model.bodies[model.rows[row].first_body()];
+            let loose = |dof: &Dof| matches!(ball.degrees[*dof], Degree::Free { stiffness, .. } if stiffness == 0.0);
+            if Dof::PLANE.iter().all(loose) {
+                model.orbit_speed(row, y0)
+            } else {
+                0.0
+            }
         };
         Self {
-            inner: seconds * y0[half + 7],
+            inner: seconds * speed(BodyId::INNER),
             rows: rows.clone().map(|row| seconds * orbit(row)).collect(),
             balls: rows.map(|row| seconds * spin(row)).collect(),
         }

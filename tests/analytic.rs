@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use ballrace::scene::{
     Defect, Friction, Load, NormalLaw, Probe, RingName, Scene, Slices, Support, Surface, presets,
 };
-use ballrace::{Bandwidth, Model, Run, Signals, Start, simulate, start};
+use ballrace::{Bandwidth, Model, Race, Run, Signals, Start, simulate, start};
 
 /// The wheel bearing at +3 kN without its defect.
 fn healthy() -> Scene {
@@ -236,7 +236,7 @@ fn force_at(model: &Model, y: &[f64], angle: f64, spin: f64) -> ([f64; 4], [f64;
     let half = y.len() / 2;
     y[half..].fill(0.0);
     let forces = &model.forces(0.0, &y)[0].1;
-    let loads = [0, 1].map(|race| model.contact(&y, 0, race).load);
+    let loads = Race::BOTH.map(|race| model.contact(&y, 0, race).load);
     ([forces[0], forces[1], forces[4], forces[5]], loads)
 }
 

@@ -12,7 +12,7 @@ use ballrace::scene::{
     Approximations, Defect, Drive, Method, Mount, NormalLaw, Profile, Scene, Surface, TimeFunction,
     presets,
 };
-use ballrace::{Model, Run, Start, simulate, start};
+use ballrace::{Model, Race, Run, Start, simulate, start};
 use common::Noise;
 
 const ROLLING: Approximations = Approximations {
@@ -276,7 +276,7 @@ fn an_unloaded_row_goes() {
     let free = shaken.free();
     let loads = |row: usize| -> f64 {
         (13 * row..13 * (row + 1))
-            .map(|j| model.contact(&shaken.full, j, 1).load)
+            .map(|j| model.contact(&shaken.full, j, Race::Inner).load)
             .sum()
     };
     let idle = usize::from(loads(1) < loads(0));

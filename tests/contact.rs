@@ -5,7 +5,7 @@ use ballrace::contact::{
     BallSide, Law, Motion, Pair, Rules, Sink, Slices, Torus, Touch, V2, Waves,
 };
 use ballrace::scene::{Component, Friction, NormalLaw, Probe, presets};
-use ballrace::{Model, Start, start};
+use ballrace::{Model, Race, Start, start};
 
 #[derive(Default)]
 struct Total {
@@ -113,7 +113,7 @@ fn rolling_start_does_not_slip() {
     .into();
     let model = Model::new(&scene).unwrap();
     let y = start(&model, &Start::Rolling).unwrap();
-    for race in [0, 1] {
+    for race in Race::BOTH {
         let contact = model.contact(&y, 3, race);
         assert!(contact.load > 1.0);
         assert!(

@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use ballrace::dynamics::Dynamics;
 use ballrace::scene::{Defect, Friction, NormalLaw, Scene, Slices, Surface, Waviness, presets};
 use ballrace::simd::Level;
-use ballrace::{Model, Start, start};
+use ballrace::{Model, Race, Start, start};
 use common::Noise;
 
 /// Largest difference of the two evaluations at random states around an equilibrium, over the sum of the contact
@@ -29,7 +29,7 @@ fn difference(scene: &Scene, level: Level) -> f64 {
         }
         let found = dynamics.forces(0.0, &y);
         let parts = model.forces(0.0, &y);
-        let loads = |j: usize| [0, 1].map(|race| model.contact(&y, j, race).load);
+        let loads = |j: usize| Race::BOTH.map(|race| model.contact(&y, j, race).load);
         let balls: Vec<[f64; 2]> = (0..model.body_count() - 2).map(loads).collect();
         for (b, force) in found.iter().enumerate() {
             let size: f64 = if b < 2 {

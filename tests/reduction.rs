@@ -11,7 +11,7 @@ use ballrace::scene::{
     Defect, Drive, Friction, Mount, NormalLaw, Profile, Scene, Slices, Surface, TimeFunction,
     Waviness, Width, WidthProfile, presets,
 };
-use ballrace::{Bandwidth, Model, Reduction, Run, Start, simulate, start};
+use ballrace::{Bandwidth, Model, Race, Reduction, Run, Start, simulate, start};
 use common::Noise;
 
 /// A healthy deep-groove bearing under a radial load.
@@ -87,7 +87,7 @@ fn difference(scene: &Scene) -> f64 {
         dynamics.expand_rates(t, &y, &own, &mut rates);
         model.rhs(t, &full, &mut wanted);
         let loads: f64 = (0..model.body_count() - 2)
-            .flat_map(|j| [0, 1].map(|race| model.contact(&full, j, race).load))
+            .flat_map(|j| Race::BOTH.map(|race| model.contact(&full, j, race).load))
             .sum();
         let forces = model.forces(t, &full);
         for i in 0..half {

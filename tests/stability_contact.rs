@@ -10,7 +10,7 @@ use ballrace::contact::iso16281::Iso16281;
 use ballrace::dynamics::Dynamics;
 use ballrace::integrate::{DORMAND_PRINCE, DenseStep, Options, System, Tolerance, integrate};
 use ballrace::scene::{NormalLaw, Scene};
-use ballrace::{Bandwidth, Model, Run, Start, start};
+use ballrace::{Bandwidth, Model, Race, Run, Start, start};
 use common::{ball_mass, one_ball, rms, run, slope};
 
 /// A mass that flies against one slice of the ISO law: ẍ = −F(x)/m.
@@ -300,7 +300,7 @@ fn a_torn_contact_does_not_pull_and_is_counted() {
             let mut dy = y.clone();
             dynamics.rhs(0.0, &y, &mut dy);
             let outer: f64 = model
-                .slice_forces(&y, 0, 0)
+                .slice_forces(&y, 0, Race::Outer)
                 .iter()
                 .map(|slice| slice.force)
                 .sum();

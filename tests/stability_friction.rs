@@ -5,7 +5,7 @@
 mod common;
 
 use ballrace::scene::{Drive, Friction, NormalLaw, Probe, Profile, Scene, TimeFunction, presets};
-use ballrace::{Bandwidth, Model, Run, Start, start};
+use ballrace::{Bandwidth, Model, Race, Run, Start, start};
 use common::{ball_mass, one_ball, run, short, soon_over_the_spall};
 
 fn with_friction(mut scene: Scene, slip_speed: f64) -> Scene {
@@ -28,9 +28,9 @@ fn sticking_is_a_creep_that_falls_with_the_slip_speed() {
         scene.probes.insert("energy".to_owned(), Probe::Energy {});
         let model = Model::new(&scene).unwrap();
         let y0 = start(&model, &Start::Rolling).unwrap();
-        let loads: f64 = [0, 1]
-            .iter()
-            .map(|&race| model.contact(&y0, 0, race).load)
+        let loads: f64 = Race::BOTH
+            .into_iter()
+            .map(|race| model.contact(&y0, 0, race).load)
             .sum();
         let expected = ball_mass() * 9.81 * slip_speed / (0.05 * loads);
         let out = run(

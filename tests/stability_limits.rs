@@ -9,7 +9,7 @@ use ballrace::integrate::{
     DORMAND_PRINCE, FailureKind, Options, Solution, System, Tableau, Tolerance, integrate,
 };
 use ballrace::scene::Friction;
-use ballrace::{Model, Run, Signals, Start, Warning, start};
+use ballrace::{Model, Race, Run, Signals, Start, Warning, start};
 use common::{apart, one_ball, run, short, soon_over_the_spall};
 
 /// A method, its stability polynomial's coefficients from z² on, and where it ends on the two axes.
@@ -216,7 +216,7 @@ fn friction_holds_the_step_at_the_stability_limit() {
         scene.friction = coulomb(0.05, slip_speed);
         let model = Model::new(&scene).unwrap();
         let y0 = squeezed_in_balance(&model);
-        let loads = [0, 1].map(|race| model.contact(&y0, 0, race).load);
+        let loads = Race::BOTH.map(|race| model.contact(&y0, 0, race).load);
         let mass = 7850.0 * std::f64::consts::PI * 7.94e-3_f64.powi(3) / 6.0;
         let rate = 5.0 * 0.05 * f64::midpoint(loads[0], loads[1]) / (mass * slip_speed);
         let spin = y0.len() - 1;

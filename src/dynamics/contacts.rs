@@ -1,7 +1,7 @@
 //! What a probe wants to know of a contact.
 
 use crate::contact::{Sink, Touch, V2};
-use crate::model::Model;
+use crate::model::{BodyId, Model, Race};
 
 /// A contact in a few numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,11 +75,10 @@ impl Sink for List {
 }
 
 impl Model {
-    /// A contact in a few numbers: ball `j` among all balls, race 0 (outer) or 1 (inner).
-    pub fn contact(&self, y: &[f64], j: usize, race: usize) -> ContactSummary {
+    /// A contact in a few numbers: ball `j` among all balls on a race.
+    pub fn contact(&self, y: &[f64], j: usize, race: Race) -> ContactSummary {
         let mut sum = Summary::default();
         let side = self.visit(y, j, race, &mut sum);
-        let sigma = if race == 0 { 1.0 } else { -1.0 };
         if sum.weight == 0.0 {
             return ContactSummary {
                 load: 0.0,
@@ -92,7 +91,7 @@ impl Model {
         let radial = sum.plane.norm();
         ContactSummary {
             load: radial.hypot(sum.axial),
-            angle: (sum.axial * sigma * side).atan2(radial),
+            angle: (sum.axial * race.sigma() * side).atan2(radial),
             zone_centre: sum.moment / sum.weight,
             zone_width: sum.high - sum.low,
             slip: sum.slip / sum.weight,
@@ -102,33 +101,29 @@ impl Model {
     /// Largest Hertz pressure of any contact \[Pa\], at the zone's centre; of the smooth race where there is a defect.
     pub(crate) fn largest_pressure(&self, y: &[f64]) -> f64 {
         let balls = 0..self.balls.len();
-        let contacts = balls.flat_map(|j| [(j, 0), (j, 1)]);
+        let contacts = balls.flat_map(|j| Race::BOTH.map(|race| (j, race)));
         contacts
             .map(|(j, race)| self.pressure(j, race, self.contact(y, j, race).load))
             .fold(0.0, f64::max)
     }
 
     /// Hertz pressure \[Pa\] of a ball on a race under a load \[N\].
-    pub(crate) fn pressure(&self, j: usize, race: usize, load: f64) -> f64 {
+    pub(crate) fn pressure(&self, j: usize, race: Race, load: f64) -> f64 {
         self.rows[self.balls[j].row].hertz[race].pressure(load)
     }
 
     /// The forces of the slices of one contact, in order of ζ; on a fault a slice may appear more than once.
-    pub fn slice_forces(&self, y: &[f64], j: usize, race: usize) -> Vec<SliceForce> {
+    pub fn slice_forces(&self, y: &[f64], j: usize, race: Race) -> Vec<SliceForce> {
         let mut list = List(Vec::new());
         self.visit(y, j, race, &mut list);
         list.0
     }
 
-    fn visit<S: Sink>(&self, y: &[f64], j: usize, race: usize, sink: &mut S) -> f64 {
+    fn visit<S: Sink>(&self, y: &[f64], j: usize, race: Race, sink: &mut S) -> f64 {
         let ball = &self.balls[j];
         let row = &self.rows[ball.row];
-        row.pairs[race].evaluate(
-            &ball.side,
-            &super::motion(y, 2 + j),
-            &super::motion(y, race),
-            sink,
-        );
+        let [at, ring] = [BodyId::ball(j), race.ring()].map(|body| self.layout().motion(y, body));
+        row.pairs[race].evaluate(&ball.side, &at, &ring, sink);
         row.side
     }
 }

@@ -1,8 +1,8 @@
 //! Energies and dissipated powers of a state.
 
-use super::{motion, others};
+use super::others;
 use crate::contact::{Sink, Touch};
-use crate::model::{Degree, Model};
+use crate::model::{BodyId, Degree, Dof, Model, Race};
 
 /// Energies \[J\] and dissipated powers \[W\]. Loads and drive do work on top of these.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -68,22 +68,24 @@ impl Model {
     /// Energies and dissipated powers of a state.
     pub fn energy(&self, y: &[f64]) -> Energy {
         let mut energy = Energy::default();
-        let half = y.len() / 2;
-        for (b, body) in self.bodies.iter().enumerate() {
-            for i in 0..4 {
-                let (position, speed) = (y[4 * b + i] - body.nominal[i], y[half + 4 * b + i]);
-                energy.kinetic += 0.5 * body.mass[i] * speed * speed;
-                if let Degree::Free { stiffness, damping } = body.degrees[i] {
+        let layout = self.layout();
+        for id in layout.bodies() {
+            let body = &self.bodies[id];
+            for dof in Dof::ALL {
+                let position = y[layout.at(id, dof)] - body.nominal[dof];
+                let speed = y[layout.speed_at(id, dof)];
+                energy.kinetic += 0.5 * body.mass[dof] * speed * speed;
+                if let Degree::Free { stiffness, damping } = body.degrees[dof] {
                     energy.support += 0.5 * stiffness * position * position;
                     energy.support_power += damping * speed * speed;
                 }
             }
-            for (i, g) in self.scene.gravity.iter().enumerate() {
-                energy.gravity -= body.mass[i] * g * y[4 * b + i];
+            for (dof, g) in Dof::TRANSLATIONS.into_iter().zip(self.scene.gravity) {
+                energy.gravity -= body.mass[dof] * g * y[layout.at(id, dof)];
             }
         }
         for unbalance in &self.unbalances {
-            let ring = motion(y, unbalance.ring);
+            let ring = layout.motion(y, unbalance.ring.ring());
             let (sin, cos) = (ring.theta + unbalance.angle).sin_cos();
             let [gx, gy, _] = self.scene.gravity;
             let along = ring.velocity.y * cos - ring.velocity.x * sin;
@@ -92,13 +94,11 @@ impl Model {
         }
         let mut contacts = Contacts::default();
         for (j, ball) in self.balls.iter().enumerate() {
-            for (race, pair) in self.rows[ball.row].pairs.iter().enumerate() {
-                pair.evaluate(
-                    &ball.side,
-                    &motion(y, 2 + j),
-                    &motion(y, race),
-                    &mut contacts,
-                );
+            let at = layout.motion(y, BodyId::ball(j));
+            for race in Race::BOTH {
+                let ring = layout.motion(y, race.ring());
+                let pair = &self.rows[ball.row].pairs[race];
+                pair.evaluate(&ball.side, &at, &ring, &mut contacts);
             }
         }
         energy.contact = contacts.energy;
@@ -107,12 +107,8 @@ impl Model {
         if let Some(cage) = &self.scene.cage {
             for row in &self.rows {
                 for (i, j) in row.links() {
-                    let link = others::link(
-                        cage,
-                        row.cage_distance,
-                        &motion(y, 2 + i),
-                        &motion(y, 2 + j),
-                    );
+                    let [first, second] = [i, j].map(|ball| layout.motion(y, BodyId::ball(ball)));
+                    let link = others::link(cage, row.cage_distance, &first, &second);
                     energy.cage += link.energy;
                     energy.support_power += link.power;
                 }
@@ -127,13 +123,8 @@ impl Model {
         cage.map_or_else(Vec::new, |cage| {
             row.links()
                 .map(|(i, j)| {
-                    others::link(
-                        cage,
-                        row.cage_distance,
-                        &motion(y, 2 + i),
-                        &motion(y, 2 + j),
-                    )
-                    .force
+                    let ball = |ball| self.layout().motion(y, BodyId::ball(ball));
+                    others::link(cage, row.cage_distance, &ball(i), &ball(j)).force
                 })
                 .collect()
         })

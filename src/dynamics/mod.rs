@@ -21,9 +21,11 @@ use std::sync::Arc;
 
 use rayon::ThreadPool;
 
-use crate::contact::{Motion, Pair, Slices};
+use crate::contact::{Pair, Slices};
 use crate::integrate::System;
-use crate::model::{Degree, Model, Reduction, RowModel, Spring};
+use crate::model::{
+    BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Race, Reduction, RowModel, Spring,
+};
 use crate::scene::Drive;
 
 pub use contacts::{ContactSummary, SliceForce};
@@ -73,9 +75,6 @@ pub const CONTRIBUTIONS: [&str; 8] = [
     "contact", "damping", "friction", "cage", "support", "gravity", "load", "drive",
 ];
 
-/// The body whose rotation a speed drives.
-const INNER: usize = 1;
-
 impl<'m> Dynamics<'m> {
     /// For evaluations on one thread, of states as [`Model::names`] orders them.
     pub fn new(model: &'m Model) -> Self {
@@ -96,7 +95,7 @@ impl<'m> Dynamics<'m> {
         };
         let driven = reduction
             .degrees()
-            .position(|(body, i)| model.bodies[body].degrees[i] == Degree::Driven);
+            .position(|(body, dof)| model.bodies[body].degrees[dof] == Degree::Driven);
         let rolling = Rolling::new(&reduction);
         let order = Order::Kept(Box::new(Kept {
             reduction,
@@ -108,7 +107,7 @@ impl<'m> Dynamics<'m> {
         let kept = dynamics.degrees();
         dynamics
             .springs
-            .retain(|spring| kept.contains(&(spring.body, spring.direction)));
+            .retain(|spring| kept.contains(&(spring.body, spring.dof)));
         let mut places = start.to_vec();
         let kept = dynamics.compress(start);
         dynamics.expand(0.0, &kept, &mut places);
@@ -144,8 +143,8 @@ impl<'m> Dynamics<'m> {
         let (mut constant, mut mobility) = (Table::zeros(bodies), Table::zeros(bodies));
         others::gravity(model, &mut constant);
         others::loads(model, true, 0.0, &mut constant);
-        for (body, of) in model.mobility.iter().enumerate() {
-            mobility.add(body, of);
+        for body in model.layout().bodies() {
+            mobility.add(body, &model.mobility[body]);
         }
         Self {
             model,
@@ -188,8 +187,8 @@ impl<'m> Dynamics<'m> {
 
     /// The first body among the balls that had left its groove in the last evaluation, if any: pressed deeper than
     /// half its radius, beside the groove, or off the race ([`crate::contact::Torus::farthest`]).
-    pub fn lost(&self) -> Option<usize> {
-        self.contacts.lost().map(|ball| 2 + ball)
+    pub fn lost(&self) -> Option<BodyId> {
+        self.contacts.lost().map(BodyId::ball)
     }
 
     /// The forces on every body at a state of the run: x, y, z \[N\] and about z \[N m\]. For a direction that is fixed
@@ -197,12 +196,11 @@ impl<'m> Dynamics<'m> {
     ///
     /// # Panics
     /// If the length of `y` is not [`System::dim`].
-    pub fn forces(&mut self, t: f64, y: &[f64]) -> Vec<[f64; 4]> {
+    pub fn forces(&mut self, t: f64, y: &[f64]) -> Vec<[f64; DOFS]> {
         self.read(t, y);
         self.sum(t);
-        (0..self.model.bodies.len())
-            .map(|body| self.forces.of(body))
-            .collect()
+        let bodies = self.model.layout().bodies();
+        bodies.map(|body| self.forces.of(body)).collect()
     }
 
     /// Moment about z that the balls put on outer and inner ring in the last evaluation \[N m\].
@@ -210,12 +208,10 @@ impl<'m> Dynamics<'m> {
         self.contact_torques
     }
 
-    /// What each state belongs to, as (body, direction): those of the first half of a state vector, in their order.
-    pub(crate) fn degrees(&self) -> Vec<(usize, usize)> {
+    /// What each state belongs to: those of the first half of a state vector, in their order.
+    pub(crate) fn degrees(&self) -> Vec<(BodyId, Dof)> {
         match &self.order {
-            Order::Bodies => (0..4 * self.model.bodies.len())
-                .map(|i| (i / 4, i % 4))
-                .collect(),
+            Order::Bodies => self.model.layout().degrees().collect(),
             Order::Kept(kept) => kept.reduction.degrees().collect(),
         }
     }
@@ -308,11 +304,11 @@ impl<'m> Dynamics<'m> {
 
     /// M⁻¹ F of a body. Directions that are fixed do not accelerate; the driven ring's rotation accelerates as
     /// prescribed.
-    fn acceleration(&self, t: f64, body: usize) -> [f64; 4] {
+    fn acceleration(&self, t: f64, body: BodyId) -> [f64; DOFS] {
         let (force, mobility) = (self.forces.of(body), &self.model.mobility[body]);
         let mut acceleration = std::array::from_fn(|i| force[i] * mobility[i]);
-        if let (INNER, Drive::Speed(speed)) = (body, &self.model.scene.drive) {
-            acceleration[3] = speed.rate(t);
+        if let (BodyId::INNER, Drive::Speed(speed)) = (body, &self.model.scene.drive) {
+            acceleration[Dof::Theta] = speed.rate(t);
         }
         acceleration
     }
@@ -324,14 +320,16 @@ impl<'m> Dynamics<'m> {
         let mut state = State::new(bodies);
         state.read(y);
         let mut parts = vec![Table::zeros(bodies); CONTRIBUTIONS.len()];
-        let rings = [state.motion(0), state.motion(1)];
+        let rings = state.rings();
         for (j, ball) in model.balls.iter().enumerate() {
-            for (side, pair) in model.rows[ball.row].pairs.iter().enumerate() {
+            let body = BodyId::ball(j);
+            for race in Race::BOTH {
                 let mut named = Named::default();
-                pair.evaluate(&ball.side, &state.motion(2 + j), &rings[side], &mut named);
+                let pair = &model.rows[ball.row].pairs[race];
+                pair.evaluate(&ball.side, &state.motion(body), &rings[race], &mut named);
                 for (part, (on_ball, on_ring)) in parts.iter_mut().zip(named.wrenches()) {
-                    part.add(2 + j, &on_ball);
-                    part.add(side, &on_ring);
+                    part.add(body, &on_ball);
+                    part.add(race.ring(), &on_ring);
                 }
             }
         }
@@ -342,12 +340,13 @@ impl<'m> Dynamics<'m> {
             others::loads(model, constant, t, &mut parts[6]);
         }
         others::drive(model, t, &mut parts[7]);
-        for ring in 0..2 {
-            let of = |i: usize| parts.iter().map(|part| part.get(ring, i)).sum();
-            let all = std::array::from_fn(of);
-            parts[6].add(ring, &others::unbalance(model, t, &state, ring, &all));
+        for race in Race::BOTH {
+            let ring = race.ring();
+            let all = Dof::ALL.map(|dof| parts.iter().map(|part| part.get(ring, dof)).sum());
+            parts[6].add(ring, &others::unbalance(model, t, &state, race, &all));
         }
-        let listed = |part: Table| (0..bodies).flat_map(|body| part.of(body)).collect();
+        let bodies = model.layout().bodies();
+        let listed = |part: Table| bodies.clone().flat_map(|body| part.of(body)).collect();
         CONTRIBUTIONS
             .into_iter()
             .zip(parts.into_iter().map(listed))
@@ -375,8 +374,9 @@ impl System for Dynamics<'_> {
         rates.copy_from_slice(&y[half..]);
         match &self.order {
             Order::Bodies => {
-                for (b, acceleration) in accelerations.as_chunks_mut().0.iter_mut().enumerate() {
-                    *acceleration = self.acceleration(t, b);
+                let bodies = Layout::each_mut(accelerations).iter_mut();
+                for (body, acceleration) in bodies.enumerate() {
+                    *acceleration = self.acceleration(t, BodyId::new(body));
                 }
             }
             Order::Kept(kept) => {
@@ -418,10 +418,10 @@ impl Model {
 impl Model {
     /// The radius that makes a length of a body's rotation \[m\]: a ball's own, half the pitch diameter of the
     /// first row for a ring.
-    pub(crate) fn radius(&self, body: usize) -> f64 {
-        match body.checked_sub(2) {
-            Some(ball) => self.balls[ball].side.radius,
-            None => self.scene.rows[0].pitch_diameter / 2.0,
+    pub(crate) fn radius(&self, body: BodyId) -> f64 {
+        match body.kind() {
+            BodyKind::Ball(ball) => self.balls[ball].side.radius,
+            BodyKind::Ring(_) => self.scene.rows[0].pitch_diameter / 2.0,
         }
     }
 
@@ -442,16 +442,7 @@ impl Model {
     }
 }
 
-/// Motion of a body in a state vector.
-pub(crate) fn motion(y: &[f64], body: usize) -> Motion {
-    let half = y.len() / 2;
-    Motion::new(
-        &y[4 * body..4 * body + 4],
-        &y[half + 4 * body..half + 4 * body + 4],
-    )
-}
-
-fn add(sum: &mut [f64; 4], part: &[f64; 4]) {
+fn add(sum: &mut [f64; DOFS], part: &[f64; DOFS]) {
     for (s, p) in sum.iter_mut().zip(part) {
         *s += p;
     }

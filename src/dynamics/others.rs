@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::state::{State, Table};
 use crate::contact::{Motion, V2, cross};
-use crate::model::{Model, RowModel, Spring, UnbalanceModel};
+use crate::model::{BodyId, DOFS, Dof, Model, Race, RowModel, Spring, UnbalanceModel};
 use crate::scene::{Cage, Drive, TimeFunction};
 use crate::simd::{Simd, Vector, Wide};
 
@@ -72,7 +72,7 @@ impl Wide for Links<'_> {
             forces,
         } = self;
         let all = |x: f64| Vector::all(simd, x);
-        let (from, balls) = (2 + row.first, row.count);
+        let (from, balls) = (row.first_body().index(), row.count);
         let [x, y, ..] = state.q.directions();
         let [vx, vy, ..] = state.v.directions();
         let of = [x, y, vx, vy];
@@ -136,17 +136,16 @@ pub(super) fn pull<S: Simd>(
 
 pub(super) fn supports(springs: &[Spring], state: &State, forces: &mut Table) {
     for spring in springs {
-        let (direction, body) = (spring.direction, spring.body);
-        *forces.get_mut(body, direction) -= spring.stiffness
-            * (state.q.get(body, direction) - spring.nominal)
-            + spring.damping * state.v.get(body, direction);
+        let (body, dof) = (spring.body, spring.dof);
+        *forces.get_mut(body, dof) -= spring.stiffness * (state.q.get(body, dof) - spring.nominal)
+            + spring.damping * state.v.get(body, dof);
     }
 }
 
 pub(super) fn gravity(model: &Model, forces: &mut Table) {
-    for (b, body) in model.bodies.iter().enumerate() {
-        for (i, g) in model.scene.gravity.iter().enumerate() {
-            *forces.get_mut(b, i) += body.mass[i] * g;
+    for id in model.layout().bodies() {
+        for (dof, g) in Dof::TRANSLATIONS.into_iter().zip(model.scene.gravity) {
+            *forces.get_mut(id, dof) += model.bodies[id].mass[dof] * g;
         }
     }
 }
@@ -157,7 +156,7 @@ pub(super) fn loads(model: &Model, constant: bool, t: f64, forces: &mut Table) {
         if matches!(load.force, TimeFunction::Constant(_)) == constant {
             let force = load.force.at(t);
             let [x, y, z] = load.direction.map(|direction| force * direction);
-            forces.add(load.ring, &[x, y, z, 0.0]);
+            forces.add(load.ring.ring(), &[x, y, z, 0.0]);
         }
     }
 }
@@ -178,15 +177,15 @@ pub(super) fn unbalance(
     model: &Model,
     t: f64,
     state: &State,
-    ring: usize,
-    others: &[f64; 4],
-) -> [f64; 4] {
-    let mut sum = [0.0; 4];
+    ring: Race,
+    others: &[f64; DOFS],
+) -> [f64; DOFS] {
+    let mut sum = [0.0; DOFS];
     let of_ring = model.unbalances.iter().filter(|u| u.ring == ring);
     if of_ring.clone().next().is_none() {
         return sum;
     }
-    let motion = state.motion(ring);
+    let motion = state.motion(ring.ring());
     let square = motion.omega * motion.omega;
     let direction = |u: &UnbalanceModel| (motion.theta + u.angle).sin_cos();
     let mut whole = V2::zeros();
@@ -195,7 +194,7 @@ pub(super) fn unbalance(
         whole += V2::new(cos, sin) * unbalance.moment;
     }
     let [gx, gy, _] = model.scene.gravity;
-    let mobility = &model.mobility[ring];
+    let mobility = &model.mobility[ring.ring()];
     let accelerate = |spin: f64| {
         V2::new(
             mobility[0] * (others[0] + square * whole.x + spin * whole.y),
@@ -203,7 +202,7 @@ pub(super) fn unbalance(
         )
     };
     let weight = cross(whole, V2::new(gx, gy));
-    let spin = if let (Drive::Speed(speed), 1) = (&model.scene.drive, ring) {
+    let spin = if let (Drive::Speed(speed), Race::Inner) = (&model.scene.drive, ring) {
         speed.rate(t)
     } else {
         let coupled = mobility[1] * whole.x * whole.x + mobility[0] * whole.y * whole.y;
@@ -222,15 +221,15 @@ pub(super) fn unbalance(
 /// Adds them to the forces on both rings, after all others.
 pub(super) fn unbalances(model: &Model, t: f64, state: &State, forces: &mut Table) {
     if !model.unbalances.is_empty() {
-        for ring in 0..2 {
-            let others = forces.of(ring);
-            forces.add(ring, &unbalance(model, t, state, ring, &others));
+        for race in Race::BOTH {
+            let others = forces.of(race.ring());
+            forces.add(race.ring(), &unbalance(model, t, state, race, &others));
         }
     }
 }
 
 pub(super) fn drive(model: &Model, t: f64, forces: &mut Table) {
     if let Drive::Torque { value, .. } = &model.scene.drive {
-        *forces.get_mut(1, 3) += TimeFunction::at(value, t);
+        *forces.get_mut(BodyId::INNER, Dof::Theta) += TimeFunction::at(value, t);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Dynamics;
 use crate::contact::{Law, Slices};
-use crate::model::Model;
+use crate::model::{Model, Race};
 use crate::scene::{Drive, TimeFunction};
 
 /// What becomes of a force in a run.
@@ -59,8 +59,8 @@ impl Dynamics<'_> {
         self.contacts.rows().contains(&row) || self.contacts.is_mirrored()
     }
 
-    /// How the contacts of a row with outer (0) or inner race are evaluated where nothing is in their way.
-    pub(crate) fn evaluation(&self, row: usize, side: usize) -> String {
+    /// How the contacts of a row with a race are evaluated where nothing is in their way.
+    pub(crate) fn evaluation(&self, row: usize, race: Race) -> String {
         if !self.contacts.rows().contains(&row) {
             let instead = if self.contacts.is_mirrored() {
                 "image of row 0"
@@ -69,10 +69,10 @@ impl Dynamics<'_> {
             };
             return instead.to_owned();
         }
-        if self.contacts.is_closed(row, side) {
+        if self.contacts.is_closed(row, race) {
             return "closed form".to_owned();
         }
-        let pair = &self.model.rows[row].pairs[side];
+        let pair = &self.model.rows[row].pairs[race];
         let law = match pair.law {
             Law::Iso16281(_) => "ISO law",
             Law::Hertz(_) => "Hertz law",

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::positions;
 use crate::error::{Error, Result};
-use crate::model::{Model, compile};
+use crate::model::{BodyId, Dof, Model, Race, compile};
 use crate::scene::{AxialOffset, Defect, Row, Scene, Surface, TimeFunction};
 
 /// Where the number of a defect's axial place comes from.
@@ -78,8 +78,8 @@ pub(crate) struct Meeting {
     pub model: Model,
     /// A state vector with zero velocities.
     pub y: Vec<f64>,
-    /// Ball among all balls, and race: 0 (outer) or 1 (inner).
-    pub contacts: Vec<(usize, usize)>,
+    /// Ball among all balls, and race.
+    pub contacts: Vec<(usize, Race)>,
 }
 
 impl Meeting {
@@ -102,11 +102,13 @@ impl Meeting {
         }
         let model = compile(&healthy)?;
         let row = &model.rows[defect.row];
-        let balls = row.first..row.first + row.count;
         let contacts = match defect.on {
-            Surface::OuterRace => vec![(row.first, 0)],
-            Surface::InnerRace => balls.map(|j| (j, 1)).collect(),
-            Surface::Ball => balls.flat_map(|j| [(j, 0), (j, 1)]).collect(),
+            Surface::OuterRace => vec![(row.first, Race::Outer)],
+            Surface::InnerRace => row.balls().map(|j| (j, Race::Inner)).collect(),
+            Surface::Ball => {
+                let both = |j| Race::BOTH.map(|race| (j, race));
+                row.balls().flat_map(both).collect()
+            }
         };
         match positions(&model) {
             Ok(y) => Ok(Some(Self { model, y, contacts })),
@@ -119,9 +121,9 @@ impl Meeting {
     fn place(&self, defect: &Defect) -> Option<f64> {
         let told = self.contacts.iter().map(|&(j, race)| {
             let contact = self.model.contact(&self.y, j, race);
-            let z = |body: usize| self.y[4 * body + 2];
+            let z = |body: BodyId| self.y[self.model.layout().at(body, Dof::Z)];
             let from = match defect.on {
-                Surface::Ball => z(2 + j) - z(race),
+                Surface::Ball => z(BodyId::ball(j)) - z(race.ring()),
                 _ => self.model.scene().rows[defect.row].axial_position,
             };
             (contact.load, contact.zone_centre - from)

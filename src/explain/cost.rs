@@ -12,7 +12,7 @@ use crate::follow::{options, tolerance};
 use crate::integrate::{DenseStep, Statistics, System};
 use crate::interrupt;
 use crate::method::{self, Task};
-use crate::model::Model;
+use crate::model::{BodyId, Dof, Model};
 
 /// Places of the cage over a ball's pitch.
 const PLACES: usize = 8;
@@ -162,16 +162,17 @@ fn time_at_places(
 /// A state with the balls turned about the axis by parts of their pitch: a ball in a defect costs more than the others,
 /// and it is not always there.
 fn places(model: &Model, y0: &[f64]) -> Vec<Vec<f64>> {
-    let half = y0.len() / 2;
+    let layout = model.layout();
     let turned = |part: usize| {
         let mut y = y0.to_vec();
         for (j, ball) in model.balls.iter().enumerate() {
             let pitch = TAU / model.rows[ball.row].count as f64;
             let (sin, cos) = (pitch * part as f64 / PLACES as f64).sin_cos();
-            for at in [4 * (2 + j), half + 4 * (2 + j)] {
-                let (along_x, along_y) = (y[at], y[at + 1]);
-                y[at] = cos * along_x - sin * along_y;
-                y[at + 1] = sin * along_x + cos * along_y;
+            for half in y.chunks_mut(layout.half()) {
+                let body = layout.of_mut(half, BodyId::ball(j));
+                let [along_x, along_y] = Dof::PLANE.map(|dof| body[dof]);
+                body[Dof::X] = cos * along_x - sin * along_y;
+                body[Dof::Y] = sin * along_x + cos * along_y;
             }
         }
         y

@@ -10,11 +10,11 @@ use std::fmt;
 use serde::Serialize;
 
 use crate::contact::Sighted;
-use crate::dynamics::{Dynamics, motion};
+use crate::dynamics::Dynamics;
 use crate::equilibrium::{Meeting, Placed, describe, place};
 use crate::error::Result;
 use crate::interrupt;
-use crate::model::{Model, Obstacle, Omission, Reduction};
+use crate::model::{BodyId, Model, Obstacle, Omission, Race, Reduction};
 use crate::orbit;
 use crate::scene::{Defect, Doubt, Scene, Surface};
 use crate::start::{Start, start};
@@ -152,7 +152,8 @@ fn met(mut told: Touched, defect: &Defect, meeting: &Meeting) -> Touched {
     };
     let mut most = 0.0;
     for &(j, race) in contacts {
-        let (ball, ring) = (motion(y, 2 + j), motion(y, race));
+        let [ball, ring] =
+            [BodyId::ball(j), race.ring()].map(|body| model.layout().motion(y, body));
         let pair = &model.rows[defect.row].pairs[race];
         let found = pair.load_within(&model.balls[j].side, &ball, &ring, &sighted);
         told.passes += 1;
@@ -168,10 +169,10 @@ fn met(mut told: Touched, defect: &Defect, meeting: &Meeting) -> Touched {
 fn contacts(model: &Model, dynamics: &Dynamics<'_>) -> Vec<ContactKind> {
     let rows = model.scene().rows.iter().enumerate();
     rows.flat_map(|(row, of)| {
-        [0, 1].map(|side| ContactKind {
-            race: format!("row {row}, {} race", ["outer", "inner"][side]),
+        Race::BOTH.map(|race| ContactKind {
+            race: format!("row {row}, {} race", race.name()),
             contacts: of.ball_count,
-            evaluation: dynamics.evaluation(row, side),
+            evaluation: dynamics.evaluation(row, race),
         })
     })
     .collect()

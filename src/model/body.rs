@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::{DOFS, Dof};
 use crate::scene::{Mount, Ring, Row, Scene};
 
 /// A body compiled.
@@ -10,16 +11,23 @@ pub struct Body {
     /// Its name, as in the names of the states.
     pub name: String,
     /// Mass along x, y, z \[kg\] and moment of inertia about z \[kg m²\].
-    pub mass: [f64; 4],
+    pub mass: [f64; DOFS],
     /// How each direction moves.
-    pub degrees: [Degree; 4],
+    pub degrees: [Degree; DOFS],
     /// Nominal place x, y, z \[m\] and angle \[rad\]: rings at the origin, balls on the pitch circle.
-    pub nominal: [f64; 4],
+    pub nominal: [f64; DOFS],
 }
 
 impl Body {
+    /// Whether forces move it along any axis.
+    pub(crate) fn moves_along_axes(&self) -> bool {
+        Dof::TRANSLATIONS
+            .iter()
+            .any(|dof| self.degrees[*dof].is_free())
+    }
+
     /// One over the mass where a direction is free, 0 where it is not.
-    pub(super) fn mobility(&self) -> [f64; 4] {
+    pub(super) fn mobility(&self) -> [f64; DOFS] {
         std::array::from_fn(|i| match self.degrees[i] {
             Degree::Free { .. } => 1.0 / self.mass[i],
             Degree::Fixed | Degree::Driven => 0.0,
@@ -44,6 +52,11 @@ pub enum Degree {
 }
 
 impl Degree {
+    /// Whether forces move it.
+    pub(crate) fn is_free(&self) -> bool {
+        matches!(self, Self::Free { .. })
+    }
+
     /// Of the spring to the frame \[N/m\], about z \[N m/rad\]; 0 where nothing moves by forces.
     pub(crate) fn stiffness(&self) -> f64 {
         match self {

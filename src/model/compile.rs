@@ -3,14 +3,15 @@
 use std::f64::consts::PI;
 
 use super::body::{Body, Degree, ball_mass, groove_radius, ring_mass};
-use super::{Ball, LoadModel, Model, RowModel, Scales, Spring, UnbalanceModel, nodes};
+use super::{
+    Ball, BodyId, DOFS, Dof, LoadModel, Model, Race, RowModel, Scales, Spring, UnbalanceModel,
+    nodes,
+};
 use crate::contact::hertz::Hertz;
 use crate::contact::iso16281::Iso16281;
 use crate::contact::{BallSide, Fault, Friction, Law, Pair, Rules, Slices, Torus, Waves};
 use crate::error::{Error, Result};
-use crate::scene::{
-    self, Approximations, Defect, Drive, Mount, NormalLaw, RingName, Row, Scene, Surface,
-};
+use crate::scene::{self, Approximations, Defect, Drive, Mount, NormalLaw, Row, Scene, Surface};
 use crate::simd::Level;
 
 /// Checks and compiles a scene whose defects all have numbers for their places; [`Model::new`] gives them those.
@@ -18,23 +19,20 @@ pub(crate) fn compile(scene: &Scene) -> Result<Model> {
     scene.validate()?;
     let scene = &Approximations::simplified(scene);
     let mut bodies = vec![
-        ring(scene, &scene.outer_ring, RingName::Outer)?,
-        ring(scene, &scene.inner_ring, RingName::Inner)?,
+        ring(scene, &scene.outer_ring, Race::Outer)?,
+        ring(scene, &scene.inner_ring, Race::Inner)?,
     ];
     if matches!(scene.drive, Drive::Speed(_)) {
-        bodies[1].degrees[3] = Degree::Driven;
+        bodies[BodyId::INNER].degrees[Dof::Theta] = Degree::Driven;
     }
     let mut rows = Vec::new();
     let mut balls = Vec::new();
     for (i, row) in scene.rows.iter().enumerate() {
-        let hertz = [1.0, -1.0].map(|sigma| hertz(scene, row, sigma));
+        let hertz = Race::BOTH.map(|race| hertz(scene, row, race.sigma()));
         rows.push(RowModel {
             first: balls.len(),
             count: row.ball_count,
-            pairs: [
-                pair(scene, i, row, 1.0, hertz[0]),
-                pair(scene, i, row, -1.0, hertz[1]),
-            ],
+            pairs: Race::BOTH.map(|race| pair(scene, i, row, race.sigma(), hertz[race])),
             hertz,
             cage_distance: row.pitch_diameter * (PI / row.ball_count as f64).sin(),
             side: f64::from(row.side),
@@ -89,7 +87,7 @@ pub(crate) fn compile(scene: &Scene) -> Result<Model> {
 /// Gives each race the fewest nodes that reach an accuracy.
 fn fit_nodes(model: &mut Model, accuracy: f64) {
     let exponent = model.rows[0].pairs[0].law.exponent();
-    let fewest = [0, 1].map(|side| nodes::fewest(model, side, exponent, accuracy));
+    let fewest = Race::BOTH.map(|race| nodes::fewest(model, race, exponent, accuracy));
     for row in &mut model.rows {
         for (pair, count) in row.pairs.iter_mut().zip(fewest) {
             pair.slices = Slices::Fitted(Rules::new(count, exponent));
@@ -97,20 +95,13 @@ fn fit_nodes(model: &mut Model, accuracy: f64) {
     }
 }
 
-/// Body of a ring.
-pub(crate) fn ring_body(ring: RingName) -> usize {
-    match ring {
-        RingName::Outer => 0,
-        RingName::Inner => 1,
-    }
-}
-
-fn ring(scene: &Scene, ring: &scene::Ring, name: RingName) -> Result<Body> {
-    let (label, sigma, absent) = match name {
-        RingName::Outer => ("outer", 1.0, Mount::Fixed),
-        RingName::Inner => ("inner", -1.0, Mount::Free),
+fn ring(scene: &Scene, ring: &scene::Ring, race: Race) -> Result<Body> {
+    let label = race.name();
+    let absent = match race {
+        Race::Outer => Mount::Fixed,
+        Race::Inner => Mount::Free,
     };
-    let (mass, inertia) = ring_mass(scene, ring, sigma);
+    let (mass, inertia) = ring_mass(scene, ring, race.sigma());
     for (field, value) in [("mass", mass), ("inertia", inertia)] {
         if value <= 0.0 {
             return Err(Error::scene(
@@ -122,7 +113,7 @@ fn ring(scene: &Scene, ring: &scene::Ring, name: RingName) -> Result<Body> {
     }
     Ok(Body {
         name: label.to_owned(),
-        nominal: [0.0; 4],
+        nominal: [0.0; DOFS],
         mass: [mass, mass, mass, inertia],
         degrees: ring.support.mounts(absent).map(Degree::from),
     })
@@ -236,16 +227,16 @@ fn offset(defect: &Defect) -> f64 {
 fn springs(bodies: &[Body]) -> Vec<Spring> {
     let mut springs = Vec::new();
     for (b, body) in bodies.iter().enumerate() {
-        for (direction, degree) in body.degrees.iter().enumerate() {
-            if let Degree::Free { stiffness, damping } = *degree
+        for dof in Dof::ALL {
+            if let Degree::Free { stiffness, damping } = body.degrees[dof]
                 && (stiffness != 0.0 || damping != 0.0)
             {
                 springs.push(Spring {
-                    body: b,
-                    direction,
+                    body: BodyId::new(b),
+                    dof,
                     stiffness,
                     damping,
-                    nominal: body.nominal[direction],
+                    nominal: body.nominal[dof],
                 });
             }
         }
@@ -258,11 +249,11 @@ fn unbalances(scene: &Scene, bodies: &[Body]) -> Result<Vec<UnbalanceModel>> {
     let mut sums = [0.0; 2];
     let mut found = Vec::new();
     for (name, unbalance) in &scene.unbalances {
-        let ring = ring_body(unbalance.ring);
-        let body = &bodies[ring];
+        let ring = Race::from(unbalance.ring);
+        let body = &bodies[ring.ring().index()];
         sums[ring] += unbalance.moment;
-        let most = (body.mass[0] * body.mass[3]).sqrt();
-        if matches!(body.degrees[3], Degree::Free { .. }) && sums[ring] >= most {
+        let most = (body.mass[Dof::X] * body.mass[Dof::Theta]).sqrt();
+        if body.degrees[Dof::Theta].is_free() && sums[ring] >= most {
             return Err(Error::scene(
                 format!("unbalances.{name}.moment"),
                 unbalance.moment,
@@ -288,7 +279,7 @@ fn loads(scene: &Scene) -> Vec<LoadModel> {
         .map(|load| {
             let size = load.direction.iter().map(|x| x * x).sum::<f64>().sqrt();
             LoadModel {
-                ring: ring_body(load.ring),
+                ring: load.ring.into(),
                 direction: load.direction.map(|x| x / size),
                 force: load.force.clone(),
             }

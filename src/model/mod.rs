@@ -1,21 +1,27 @@
 //! The scene compiled: indices, arrays and constants that a run only reads.
 //!
 //! Bodies stand in one order everywhere: outer ring, inner ring, balls row by row. The state vector holds
-//! (x, y, z, θ) of every body, then (vx, vy, vz, ω) of every body.
+//! (x, y, z, θ) of every body, then (vx, vy, vz, ω) of every body; [`Layout`] says where.
 
 mod body;
 mod compile;
+mod layout;
 mod nodes;
 mod reduction;
 mod scales;
 
 use crate::contact::hertz::Hertz;
-use crate::contact::{BallSide, Pair};
+use std::ops::Range;
+
+use crate::contact::{BallSide, Pair, cross};
 use crate::scene::{Component, Method, Scene, TimeFunction};
 use crate::simd::Level;
 
 pub use body::{Body, Degree};
 pub(crate) use compile::{ball_fault, compile, race_fault};
+pub use layout::{BodyId, BodyKind, DOFS, Dof, Layout, Race};
+pub(crate) use layout::{RING_DOFS, RINGS};
+pub(crate) use reduction::AxialPlaces;
 pub use reduction::{Obstacle, Omission, Reduction};
 pub use scales::Scales;
 
@@ -37,7 +43,7 @@ pub struct Model {
     pub(crate) unbalances: Vec<UnbalanceModel>,
     pub(crate) springs: Vec<Spring>,
     /// One over the mass of every body's free directions, 0 for the others.
-    pub(crate) mobility: Vec<[f64; 4]>,
+    pub(crate) mobility: Vec<[f64; DOFS]>,
     pub(crate) scales: Scales,
     pub(crate) level: Level,
 }
@@ -58,6 +64,16 @@ pub(crate) struct RowModel {
 }
 
 impl RowModel {
+    /// Its balls among those of all rows.
+    pub fn balls(&self) -> Range<usize> {
+        self.first..self.first + self.count
+    }
+
+    /// The body of its first ball; the others follow.
+    pub fn first_body(&self) -> BodyId {
+        BodyId::ball(self.first)
+    }
+
     /// Neighbours that the cage links, as indices among all balls: none for one ball, one link for two.
     pub fn links(&self) -> impl Iterator<Item = (usize, usize)> {
         let (first, count) = (self.first, self.count);
@@ -78,9 +94,8 @@ pub(crate) struct Ball {
 /// Spring and damper of a direction of a body against the frame, relaxed at its nominal place.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Spring {
-    pub body: usize,
-    /// 0 to 3.
-    pub direction: usize,
+    pub body: BodyId,
+    pub dof: Dof,
     pub stiffness: f64,
     pub damping: f64,
     pub nominal: f64,
@@ -89,7 +104,7 @@ pub(crate) struct Spring {
 /// A load compiled: force at a ring's centre.
 #[derive(Debug, Clone)]
 pub(crate) struct LoadModel {
-    pub ring: usize,
+    pub ring: Race,
     pub direction: [f64; 3],
     pub force: TimeFunction,
 }
@@ -97,7 +112,7 @@ pub(crate) struct LoadModel {
 /// An unbalance compiled.
 #[derive(Debug, Clone)]
 pub(crate) struct UnbalanceModel {
-    pub ring: usize,
+    pub ring: Race,
     pub moment: f64,
     pub angle: f64,
 }
@@ -114,9 +129,14 @@ impl Model {
         self.bodies.len()
     }
 
-    /// Length of the state vector: eight a body.
+    /// Length of the state vector: a place and a speed for each direction of every body.
     pub fn dim(&self) -> usize {
-        8 * self.bodies.len()
+        self.layout().dim()
+    }
+
+    /// Where the places and speeds of all bodies stand in a state vector.
+    pub fn layout(&self) -> Layout {
+        Layout::of_balls(self.balls.len())
     }
 
     /// Names of the bodies in their order: `outer`, `inner`, `row0.ball0`, …
@@ -136,8 +156,8 @@ impl Model {
                 })
                 .collect::<Vec<_>>()
         };
-        let (positions, velocities) = (&Component::ALL[..4], &Component::ALL[4..8]);
-        [of(positions), of(velocities)].concat()
+        let (positions, velocities) = Component::ALL.split_at(DOFS);
+        [of(positions), of(&velocities[..DOFS])].concat()
     }
 
     /// Slices or nodes of a contact with the outer and with the inner race.
@@ -189,12 +209,12 @@ impl Model {
 
     /// Speed of a row's balls about the axis in a state of all bodies, in the mean \[rad/s\].
     pub(crate) fn orbit_speed(&self, row: usize, y: &[f64]) -> f64 {
-        let half = y.len() / 2;
-        let RowModel { first, count, .. } = self.rows[row];
+        let row = &self.rows[row];
         let mut speed = 0.0;
-        for body in 2 + first..2 + first + count {
-            let [x, y_, vx, vy] = [0, 1, half, half + 1].map(|at| y[4 * body + at]);
-            speed += (x * vy - y_ * vx) / (x * x + y_ * y_) / count as f64;
+        for ball in row.balls() {
+            let ball = self.layout().motion(y, BodyId::ball(ball));
+            let orbit = cross(ball.centre, ball.velocity) / ball.centre.norm_squared();
+            speed += orbit / row.count as f64;
         }
         speed
     }

@@ -1,6 +1,6 @@
 //! As many nodes as a contact needs for a requested accuracy of its force.
 
-use super::{Model, RowModel, Scales};
+use super::{Model, Race, RowModel, Scales};
 use crate::contact::{BallSide, Motion, Pair, Rules, Sink, Slices, Touch, V2, Waves};
 
 /// Nodes against which others are measured.
@@ -15,11 +15,11 @@ const TURNS: [f64; 2] = [0.0, 0.2];
 
 /// The fewest nodes that give normal and friction force of every row's rolling balls on one race to an accuracy,
 /// relative to the normal force.
-pub(super) fn fewest(model: &Model, side: usize, exponent: f64, accuracy: f64) -> usize {
+pub(super) fn fewest(model: &Model, race: Race, exponent: f64, accuracy: f64) -> usize {
     let error = |m: usize| {
         let rules = Slices::Fitted(Rules::new(m, exponent));
         (0..model.rows.len())
-            .map(|row| worst(model, row, side, &rules))
+            .map(|row| worst(model, row, race, &rules))
             .fold(0.0, f64::max)
     };
     let mut before = error(FEWEST);
@@ -35,16 +35,16 @@ pub(super) fn fewest(model: &Model, side: usize, exponent: f64, accuracy: f64) -
 }
 
 /// Largest error over approaches and angles.
-fn worst(model: &Model, row: usize, side: usize, rules: &Slices) -> f64 {
+fn worst(model: &Model, row: usize, race: Race, rules: &Slices) -> f64 {
     let compiled = &model.rows[row];
     let pair = Pair {
         slices: rules.clone(),
         faults: Vec::new(),
         waves: Waves::default(),
-        ..compiled.pairs[side].clone()
+        ..compiled.pairs[race].clone()
     };
     let many = Pair {
-        slices: compiled.pairs[side].slices.clone(),
+        slices: compiled.pairs[race].slices.clone(),
         ..pair.clone()
     };
     let ball = BallSide {

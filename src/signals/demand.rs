@@ -3,6 +3,7 @@
 use super::SliceRow;
 use super::filter::HALF;
 use crate::dynamics::{CONTRIBUTIONS, Energy};
+use crate::model::{DOFS, RINGS};
 use crate::scene::{Component, ContactQuantity, Probe, Scene, Slices};
 
 /// A column besides its values: its name twice, and what finds it \[bytes\]. An estimate, generous for names of some tens
@@ -36,7 +37,7 @@ impl Demand {
         };
         for (_, probe) in scene.recorded().iter() {
             let contacts = |row: usize, balls: Option<usize>, races: Option<usize>| {
-                balls.unwrap_or(scene.rows[row].ball_count) * races.unwrap_or(2)
+                balls.unwrap_or(scene.rows[row].ball_count) * races.unwrap_or(RINGS)
             };
             demand.columns += match probe {
                 Probe::Motion { components, .. } => {
@@ -62,8 +63,8 @@ impl Demand {
                     (_, count) => count,
                 },
                 Probe::Energy {} => Energy::default().entries().len(),
-                Probe::Torque {} => 2,
-                Probe::Forces { .. } => 4 * CONTRIBUTIONS.len(),
+                Probe::Torque {} => RINGS,
+                Probe::Forces { .. } => DOFS * CONTRIBUTIONS.len(),
                 Probe::Slices {
                     row,
                     balls,

@@ -10,7 +10,6 @@ use crate::integrate::{DenseStep, System};
 use crate::memory;
 use crate::model::Model;
 use crate::residual::Residual;
-use crate::scene::RingName;
 use crate::touched::Watch;
 
 /// What is read at one kind of times: some readers, and the columns that theirs are.
@@ -240,11 +239,7 @@ impl Recorder {
                         time: listing.time,
                         row: ball.row,
                         ball: ball.index,
-                        race: if race == 0 {
-                            RingName::Outer
-                        } else {
-                            RingName::Inner
-                        },
+                        race: race.into(),
                         zeta: slice.zeta,
                         z: slice.z,
                         width: slice.width,

@@ -3,7 +3,7 @@
 use super::Single;
 use crate::contact::{Constants, Motion, Octet, Press, Raise};
 use crate::dynamics::state::State;
-use crate::model::{Ball, Model};
+use crate::model::{Ball, BodyId, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
 
 /// Constants of all contacts with one ring.
@@ -29,15 +29,15 @@ pub(in crate::dynamics) struct Touching {
 /// Up to eight contacts with one ring; the last one fills the lanes that are left.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Group {
-    pub side: usize,
+    pub race: Race,
     pub contacts: [Touching; LANES],
     pub count: usize,
     pub press: Press,
 }
 
 impl SideConstants {
-    pub fn new(model: &Model, side: usize) -> Self {
-        let of = |ball: &Ball| model.rows[ball.row].pairs[side].constants(ball.side.radius);
+    pub fn new(model: &Model, race: Race) -> Self {
+        let of = |ball: &Ball| model.rows[ball.row].pairs[race].constants(ball.side.radius);
         let balls: Vec<_> = model.balls.iter().map(of).collect();
         let mut first = Constants::default();
         (0..LANES).for_each(|lane| first.set(lane, &balls[0]));
@@ -52,7 +52,7 @@ impl SideConstants {
             wavy: model
                 .rows
                 .iter()
-                .any(|row| !row.pairs[side].waves.is_round()),
+                .any(|row| !row.pairs[race].waves.is_round()),
         }
     }
 
@@ -62,10 +62,7 @@ impl SideConstants {
     #[inline(always)]
     pub fn octet(&self, contacts: &[Touching; LANES], state: &State) -> Octet {
         let State { q, v } = state;
-        let (q, v) = (
-            [0, 1, 2].map(|k| q.along(k)),
-            [0, 1, 2, 3].map(|k| v.along(k)),
-        );
+        let (q, v) = (Dof::TRANSLATIONS.map(|dof| q.along(dof)), v.directions());
         let mut octet = Octet {
             constants: self.first,
             wavy: self.wavy,
@@ -81,7 +78,7 @@ impl SideConstants {
             if self.wavy {
                 octet.raise.set(lane, contact.raise);
             }
-            let body = 2 + contact.ball;
+            let body = BodyId::ball(contact.ball).index();
             for (to, from) in octet.q.iter_mut().zip(q) {
                 to[lane] = from[body];
             }
@@ -101,7 +98,7 @@ pub(super) fn leave(groups: &[Group], singles: &mut Vec<Single>) {
             .careful
             .lanes()
             .filter(|lane| *lane < group.count);
-        singles.extend(lanes.map(|lane| Single::new(group.side, group.contacts[lane].ball)));
+        singles.extend(lanes.map(|lane| Single::new(group.race, group.contacts[lane].ball)));
     }
 }
 
@@ -123,14 +120,14 @@ impl Task for Eight<'_> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let group = self.group;
-        let side = group.side;
-        let mut octet = self.constants[side].octet(&group.contacts, self.state);
+        let race = group.race;
+        let mut octet = self.constants[race].octet(&group.contacts, self.state);
         // Lanes left over must not count as pulling.
         for lane in group.count..LANES {
             octet.constants.radius[lane] *= 0.5;
         }
-        let pair = &self.model.rows[0].pairs[side];
-        let (ring, skip) = (&self.rings[side], Mask::default());
+        let pair = &self.model.rows[0].pairs[race];
+        let (ring, skip) = (&self.rings[race], Mask::default());
         group.press = if self.plane {
             pair.press::<FMA, true>(&octet, ring, skip, None)
         } else {

@@ -6,7 +6,7 @@
 use super::{Balls, Direction, Plane};
 use crate::contact::{InPlane, LevelBalls, LevelRace, Motion, Pair, V2};
 use crate::dynamics::others::pull;
-use crate::model::Model;
+use crate::model::{Model, Race};
 use crate::scene::Cage;
 use crate::simd::{Simd, Vector, Wide};
 
@@ -32,7 +32,7 @@ impl Wide for Rates<'_> {
         let (q, v) = y.split_at(y.len() / 2);
         let (rates, accelerations) = dy.split_at_mut(q.len());
         rates.copy_from_slice(v);
-        let rings = [plane.motion(0, q, v), plane.motion(1, q, v)];
+        let rings = Race::BOTH.map(|race| plane.motion(race, q, v));
         let mut on_rings = [[0.0; 2]; 2];
         for row in &mut plane.rows {
             let compiled = &model.rows[row.row];
@@ -61,8 +61,8 @@ impl Wide for Rates<'_> {
 
 impl Plane {
     #[inline(always)]
-    fn motion(&self, ring: usize, q: &[f64], v: &[f64]) -> Motion {
-        let [(x, vx), (y, vy)] = [self.rings[ring][0].of(q, v), self.rings[ring][1].of(q, v)];
+    fn motion(&self, race: Race, q: &[f64], v: &[f64]) -> Motion {
+        let [(x, vx), (y, vy)] = self.rings[race].each_ref().map(|along| along.of(q, v));
         Motion {
             centre: V2::new(x, y),
             velocity: V2::new(vx, vy),
