@@ -9,11 +9,12 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
+use crate::contact::Pair;
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
 use crate::follow::{Stretch, Watch, follow, options, threads};
 use crate::integrate::{DenseStep, Options};
-use crate::model::{BodyId, Degree, Dof, Model, Race};
+use crate::model::{BodyId, Degree, Dof, Model, Race, RowModel};
 use crate::pool::on;
 use crate::run::Run;
 use crate::scene::{Drive, RingName, Scene, Surface, TimeFunction};
@@ -108,8 +109,9 @@ impl Watch for Unseen {
 fn needed(model: &Model, y0: &[f64]) -> f64 {
     let rings = Race::BOTH.map(|race| decay(model, y0, race));
     let slowest = rings.into_iter().fold(0.0, f64::max);
-    let rubs = model.rows[0].pairs[0].friction.is_some();
-    if slowest.is_infinite() && !rubs && model.scene.contact.damping == 0.0 {
+    let takes_energy = |pair: &Pair| pair.friction.is_some() || pair.damping > 0.0;
+    let mut pairs = model.rows.iter().flat_map(|row| &row.pairs);
+    if slowest.is_infinite() && !pairs.any(takes_energy) {
         return 0.0;
     }
     let has_play = model
@@ -139,8 +141,11 @@ fn has_loose_balls(model: &Model, y: &[f64], row: usize) -> bool {
 /// Decay time 2 m/c of a ring's slowest direction \[s\]: damped by its support and by the contacts, each of which damps
 /// by (3/2) α_d F and takes half the approach speed of the rings. Infinite where nothing damps it, 0 for one that is held.
 fn decay(model: &Model, y: &[f64], race: Race) -> f64 {
-    let loads = (0..model.balls.len()).map(|j| model.contact(y, j, race).load);
-    let contacts = 0.75 * model.scene.contact.damping * loads.sum::<f64>();
+    let damping = |row: &RowModel| {
+        let loads = row.balls().map(|j| model.contact(y, j, race).load);
+        0.75 * row.pairs[race].damping * loads.sum::<f64>()
+    };
+    let contacts = model.rows.iter().map(damping).sum::<f64>();
     let body = &model.bodies[race.ring()];
     let times = Dof::TRANSLATIONS.into_iter();
     let times = times.filter_map(|dof| match body.degrees[dof] {

@@ -8,7 +8,7 @@
 use nalgebra::{Const, LU, SMatrix, SVector};
 
 use crate::model::{DOFS, RING_DOFS};
-use crate::simd::{LANES, Lanes};
+use crate::simd::Lanes;
 
 type Rings = SVector<f64, RING_DOFS>;
 type Factors = LU<f64, Const<RING_DOFS>, Const<RING_DOFS>>;
@@ -48,7 +48,7 @@ struct Eight {
 pub(super) type Contacts<'a> = Option<(&'a Block<DOFS>, [Lanes; 2])>;
 
 impl Arrow {
-    pub fn new(balls: usize) -> Self {
+    pub fn new(eights: usize) -> Self {
         let eight = Eight {
             inverse: [[Lanes::ZERO; DOFS]; DOFS],
             wide: [[Lanes::ZERO; RING_DOFS]; DOFS],
@@ -61,7 +61,7 @@ impl Arrow {
             right: [Lanes::ZERO; RING_DOFS],
             factors: None,
             scale: Rings::zeros(),
-            eights: vec![eight; balls.div_ceil(LANES)],
+            eights: vec![eight; eights],
         }
     }
 
@@ -258,7 +258,7 @@ mod tests {
         let scale = [0.5, 0.25, 1.0, 0.0];
         let (ring_scale, diagonal) = (Rings::from_fn(|i, _| i as f64 / 4.0), Rings::repeat(9.0));
         let ring_right = Rings::from_fn(|i, _| i as f64);
-        let mut arrow = Arrow::new(16);
+        let mut arrow = Arrow::new(2);
         arrow.begin();
         arrow.begin_right();
         let has = |eight: usize, s: usize| eight == 0 || s == 1;

@@ -22,6 +22,8 @@ pub(super) enum Meeting {
 /// Up to eight balls that touch something; the last one fills the lanes that are left.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Grip {
+    /// The class of their rows.
+    class: usize,
     pub balls: [usize; LANES],
     pub count: usize,
     meetings: [[Meeting; LANES]; 2],
@@ -51,9 +53,9 @@ impl Side {
 }
 
 impl Grip {
-    /// Empties it.
-    pub fn clear(&mut self) {
-        self.count = 0;
+    /// Empties it, for balls of a class of rows.
+    pub fn clear(&mut self, class: usize) {
+        (self.class, self.count) = (class, 0);
         self.meetings = [[Meeting::Nothing; LANES]; 2];
     }
 
@@ -86,6 +88,7 @@ impl Grip {
             }
             let whole = |lane: usize| matches!(meetings[lane], Meeting::Whole(_));
             side.held = model.level.run(Hold {
+                class: self.class,
                 nodes: &mut side.nodes,
                 race,
                 contacts: &from_fn(|lane| Touching {
@@ -167,6 +170,7 @@ impl Side {
 
 /// Finds the nodes of whole contacts.
 struct Hold<'a> {
+    class: usize,
     nodes: &'a mut Vec<Still>,
     race: Race,
     contacts: &'a [Touching; LANES],
@@ -184,8 +188,8 @@ impl Task for Hold<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) -> Held {
-        let octet = self.constants[self.race].octet(self.contacts, self.state);
-        let pair = &self.model.rows[0].pairs[self.race];
+        let octet = self.constants[self.race].octet(self.class, self.contacts, self.state);
+        let pair = &self.model.rows[self.class].pairs[self.race];
         pair.hold::<FMA>(&octet, &self.rings[self.race], self.whole, self.nodes)
     }
 }
@@ -225,7 +229,7 @@ impl<const SLOPE: bool> Task for React<'_, SLOPE> {
                 continue;
             }
             let (n_e, apart) = (side.held.n_e, side.held.apart);
-            let pair = &model.rows[0].pairs[race];
+            let pair = &model.rows[grip.class].pairs[race];
             let ring = layout.of(v, race.ring());
             // w = v_b − v_r − θ̇_r ẑ × a.
             let twist = [

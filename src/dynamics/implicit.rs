@@ -205,7 +205,11 @@ mod tests {
             amplitude: 2e-6,
             phase: 0.3,
         }];
-        vec![wheel, hertz, traction, pulling, smooth, uneven]
+        // Rows of other laws, cuts and friction.
+        let mut unlike = wheel.clone();
+        unlike.rows[1].contact = Some(hertz.contact.clone());
+        unlike.rows[1].friction = Some(hertz.friction.clone());
+        vec![wheel, hertz, traction, pulling, smooth, uneven, unlike]
     }
 
     /// (1 − γh ∂a/∂v) x = r holds for the correction x of any residual r, with ∂a/∂v by central differences.

@@ -416,12 +416,15 @@ impl Model {
 }
 
 impl Model {
-    /// The radius that makes a length of a body's rotation \[m\]: a ball's own, half the pitch diameter of the
-    /// first row for a ring.
+    /// The radius that makes a length of a body's rotation \[m\]: a ball's own, half the mean pitch diameter of the rows for
+    /// a ring.
     pub(crate) fn radius(&self, body: BodyId) -> f64 {
         match body.kind() {
             BodyKind::Ball(ball) => self.balls[ball].side.radius,
-            BodyKind::Ring(_) => self.scene.rows[0].pitch_diameter / 2.0,
+            BodyKind::Ring(_) => {
+                let pitch = self.scene.rows.iter().map(|row| row.pitch_diameter);
+                pitch.sum::<f64>() / self.rows.len() as f64 / 2.0
+            }
         }
     }
 

@@ -40,13 +40,13 @@ pub(super) struct Stage {
 impl Stage {
     pub fn new(model: &Model) -> Self {
         let balls = model.balls.len();
-        let eights = balls.div_ceil(LANES);
+        let eights = model.classes().map(|class| model.eights(class)).sum();
         Self {
             search: Batch::new(model, Kind::whole(model)),
             meetings: vec![<[Meeting; 2]>::default(); balls],
             grips: vec![Grip::default(); eights],
             active: 0,
-            arrow: Arrow::new(balls),
+            arrow: Arrow::new(eights),
             residual: vec![[0.0; DOFS]; model.bodies.len()],
             radii: model.layout().bodies().map(|id| model.radius(id)).collect(),
             secant: false,
@@ -60,7 +60,7 @@ impl Stage {
         let (model, state) = (dynamics.model, &dynamics.state);
         let rings = state.rings();
         self.search.find(None, model, state, &rings);
-        self.gather();
+        self.gather(model);
         let constants = &self.search.constants;
         let hold = |grip: &mut Grip| grip.hold(model, constants, state, &rings);
         let grips = &mut self.grips[..self.active];
@@ -70,9 +70,9 @@ impl Stage {
         }
     }
 
-    /// The balls that meet something, by eights: first those between both rings, so that others may go
+    /// The balls that meet something, by eights of one class of rows: first those between both rings, so that others may go
     /// without one.
-    fn gather(&mut self) {
+    fn gather(&mut self, model: &Model) {
         self.meetings.fill(<[Meeting; 2]>::default());
         for race in Race::BOTH {
             for contact in self.search.touching(race) {
@@ -82,22 +82,26 @@ impl Stage {
         for (race, ball) in self.search.faulted() {
             self.meetings[ball][race] = Meeting::Faulted;
         }
-        let mut taken = 0;
-        for wanted in [2, 1] {
-            for (ball, meetings) in self.meetings.iter().enumerate() {
-                let meets = |meeting: &&Meeting| **meeting != Meeting::Nothing;
-                if meetings.iter().filter(meets).count() != wanted {
-                    continue;
+        self.active = 0;
+        for class in model.classes() {
+            let mut taken = 0;
+            for wanted in [2, 1] {
+                for (ball, meetings) in self.meetings.iter().enumerate() {
+                    let meets = |meeting: &&Meeting| **meeting != Meeting::Nothing;
+                    let is_wanted = meetings.iter().filter(meets).count() == wanted;
+                    if !is_wanted || model.rows[model.balls[ball].row].class != class {
+                        continue;
+                    }
+                    let grip = &mut self.grips[self.active + taken / LANES];
+                    if taken.is_multiple_of(LANES) {
+                        grip.clear(class);
+                    }
+                    grip.push(ball, *meetings);
+                    taken += 1;
                 }
-                let grip = &mut self.grips[taken / LANES];
-                if taken.is_multiple_of(LANES) {
-                    grip.clear();
-                }
-                grip.push(ball, *meetings);
-                taken += 1;
             }
+            self.active += taken.div_ceil(LANES);
         }
-        self.active = taken.div_ceil(LANES);
     }
 
     /// Finds what the contacts do at the velocities of `y`, with slopes or without.

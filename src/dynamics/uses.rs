@@ -1,8 +1,8 @@
 //! Which code an evaluation runs, in words.
 
 use super::Dynamics;
-use crate::contact::{Law, Slices};
-use crate::model::{Model, Race};
+use crate::contact::{Law, Pair, Slices};
+use crate::model::Race;
 use crate::scene::{Drive, TimeFunction};
 
 /// What becomes of a force in a run.
@@ -26,7 +26,7 @@ impl Dynamics<'_> {
             (true, true) => Use::Constant,
             (true, false) => Use::Evaluated,
         };
-        let pair = &model.rows[0].pairs[0];
+        let any = |of: fn(&Pair) -> bool| model.rows.iter().flat_map(|row| &row.pairs).any(of);
         let steady = |value: &TimeFunction| matches!(value, TimeFunction::Constant(_));
         let loads = model.loads.iter().filter(|load| load.force.peak() > 0.0);
         let torque = match &model.scene.drive {
@@ -35,10 +35,10 @@ impl Dynamics<'_> {
         };
         vec![
             ("contact", Use::Evaluated),
-            ("damping", when(pair.damping > 0.0)),
-            ("friction", when(pair.friction.is_some())),
+            ("damping", when(any(|pair| pair.damping > 0.0))),
+            ("friction", when(any(|pair| pair.friction.is_some()))),
             ("defects", when(!model.scene.defects.is_empty())),
-            ("waviness", when(is_wavy(model))),
+            ("waviness", when(any(|pair| !pair.waves.is_round()))),
             ("cage", when(model.scene.cage.is_some())),
             ("support", when(!model.springs.is_empty())),
             ("gravity", fixed(true, model.scene.gravity != [0.0; 3])),
@@ -89,9 +89,4 @@ impl Dynamics<'_> {
             format!("{count} {slices}, {law}")
         }
     }
-}
-
-fn is_wavy(model: &Model) -> bool {
-    let mut pairs = model.rows.iter().flat_map(|row| &row.pairs);
-    pairs.any(|pair| !pair.waves.is_round())
 }

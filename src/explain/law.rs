@@ -36,7 +36,10 @@ pub(super) fn of(model: &Model, at_start: &Equilibrium) -> Option<LawExplanation
     let (ball, race, contact) = contacts.max_by(|a, b| a.2.load.total_cmp(&b.2.load))?;
     let ring = race.name();
     (contact.load > 0.0).then(|| LawExplanation {
-        law: model.scene().contact.law.clone(),
+        law: {
+            let scene = model.scene();
+            scene.contact_of(&scene.rows[ball.row]).law.clone()
+        },
         contact: format!("row{}.ball{}.{ring}", ball.row, ball.ball),
         load: contact.load,
         approach: contact.deflection,

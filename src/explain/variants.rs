@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::cost::{self, Cost};
 use crate::model::{Model, Reduction};
-use crate::scene::{Friction, Load, Scene, Slices, Surface};
+use crate::scene::{Load, Scene, Slices, Surface};
 
 /// The same scene with one change.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -55,10 +55,9 @@ const CHANGES: [(&str, &str, Change); 11] = [
         },
     ),
     ("without friction", "another answer", |scene| {
-        (scene.friction != Friction::None).then(|| Scene {
-            friction: Friction::None,
-            ..scene.clone()
-        })
+        let mut changed = scene.clone();
+        changed.remove_friction();
+        (changed != *scene).then_some(changed)
     }),
     ("without the cage", "another answer", |scene| {
         scene.cage.as_ref().map(|_| Scene {
@@ -68,8 +67,8 @@ const CHANGES: [(&str, &str, Change); 11] = [
     }),
     ("without damping in contacts", "another answer", |scene| {
         let mut changed = scene.clone();
-        changed.contact.damping = 0.0;
-        (scene.contact.damping > 0.0).then_some(changed)
+        changed.contacts_mut().for_each(|of| of.damping = 0.0);
+        (changed != *scene).then_some(changed)
     }),
     ("without defects", "another answer", |scene| {
         let mut changed = scene.clone();
@@ -94,8 +93,9 @@ const CHANGES: [(&str, &str, Change); 11] = [
         "normal force to 4e-4, friction to some 10 %",
         |scene| {
             let mut changed = scene.clone();
-            changed.contact.slices = Slices::Fitted(4);
-            (scene.contact.slices != changed.contact.slices).then_some(changed)
+            let slices = Slices::Fitted(4);
+            changed.contacts_mut().for_each(|of| of.slices = slices);
+            (changed != *scene).then_some(changed)
         },
     ),
     (
@@ -103,8 +103,12 @@ const CHANGES: [(&str, &str, Change); 11] = [
         "closer to the converged force",
         |scene| {
             let mut changed = scene.clone();
-            changed.contact.slices = Slices::Fitted(6);
-            matches!(scene.contact.slices, Slices::Fixed(_)).then_some(changed)
+            for contact in changed.contacts_mut() {
+                if matches!(contact.slices, Slices::Fixed(_)) {
+                    contact.slices = Slices::Fitted(6);
+                }
+            }
+            (changed != *scene).then_some(changed)
         },
     ),
 ];

@@ -83,7 +83,7 @@ impl From<Mount> for Degree {
 pub(super) fn ball_mass(scene: &Scene, row: &Row, diameter: f64) -> (f64, f64) {
     let mass = row
         .ball_mass
-        .unwrap_or_else(|| scene.materials.balls.density * PI * diameter.powi(3) / 6.0);
+        .unwrap_or_else(|| scene.ball_material_of(row).density * PI * diameter.powi(3) / 6.0);
     (
         mass,
         row.ball_inertia.unwrap_or(0.1 * mass * diameter * diameter),
@@ -93,13 +93,12 @@ pub(super) fn ball_mass(scene: &Scene, row: &Row, diameter: f64) -> (f64, f64) {
 /// Mass and moment of inertia of a ring; given values first.
 ///
 /// From geometry: a hollow cylinder between boundary and land, less the grooves' circular segments. The
-/// land is at the shoulder angle, or 0.3 D beyond the pitch radius.
+/// land is at the shoulder angle, or 0.3 D beyond the pitch radius; in the mean of unlike rows.
 pub(super) fn ring_mass(scene: &Scene, ring: &Ring, sigma: f64) -> (f64, f64) {
     let geometry = || {
         let (boundary, width) = (ring.diameter? / 2.0, ring.width?);
         let density = scene.materials.rings.density;
-        let first = &scene.rows[0];
-        let land = land_radius(first, sigma);
+        let land = mean(scene, |row| land_radius(row, sigma));
         let (inside, outside) = if sigma > 0.0 {
             (land, boundary)
         } else {
@@ -125,9 +124,14 @@ pub(super) fn ring_mass(scene: &Scene, ring: &Ring, sigma: f64) -> (f64, f64) {
     let mass = ring.mass.or(computed.map(|(mass, _)| mass)).unwrap_or(1.0);
     let inertia = ring.inertia.unwrap_or_else(|| match computed {
         Some((computed_mass, inertia)) => inertia * mass / computed_mass,
-        None => mass * (scene.rows[0].pitch_diameter / 2.0).powi(2),
+        None => mass * mean(scene, |row| row.pitch_diameter / 2.0).powi(2),
     });
     (mass, inertia)
+}
+
+/// Mean of all rows.
+pub(super) fn mean(scene: &Scene, of: impl Fn(&Row) -> f64) -> f64 {
+    scene.rows.iter().map(of).sum::<f64>() / scene.rows.len() as f64
 }
 
 /// Groove radius \[m\] of the outer (σ = +1) or inner race.

@@ -36,6 +36,7 @@ pub(crate) fn compile(scene: &Scene) -> Result<Model> {
             hertz,
             cage_distance: row.pitch_diameter * (PI / row.ball_count as f64).sin(),
             side: f64::from(row.side),
+            class: i,
         });
         for index in 0..row.ball_count {
             let error = row.diameter_errors.get(index).copied().unwrap_or(0.0);
@@ -61,6 +62,7 @@ pub(crate) fn compile(scene: &Scene) -> Result<Model> {
             });
         }
     }
+    classify(&mut rows);
     let unbalances = unbalances(scene, &bodies)?;
     let mut model = Model {
         scene: scene.clone(),
@@ -78,20 +80,39 @@ pub(crate) fn compile(scene: &Scene) -> Result<Model> {
         })?,
     };
     model.scales = Scales::of(&model);
-    if let scene::Slices::Accuracy(accuracy) = scene.contact.slices {
-        fit_nodes(&mut model, accuracy);
-    }
+    fit_nodes(&mut model);
     Ok(model)
 }
 
-/// Gives each race the fewest nodes that reach an accuracy.
-fn fit_nodes(model: &mut Model, accuracy: f64) {
-    let exponent = model.rows[0].pairs[0].law.exponent();
-    let fewest = Race::BOTH.map(|race| nodes::fewest(model, race, exponent, accuracy));
-    for row in &mut model.rows {
-        for (pair, count) in row.pairs.iter_mut().zip(fewest) {
-            pair.slices = Slices::Fitted(Rules::new(count, exponent));
+/// Gives each race the fewest nodes that reach the accuracy it asks for: rows that are alike in all else the same number, so
+/// that they stay alike.
+fn fit_nodes(model: &mut Model) {
+    let fewest: Vec<Option<[Slices; 2]>> = (0..model.rows.len())
+        .map(|row| {
+            let scene::Slices::Accuracy(accuracy) =
+                model.scene.contact_of(&model.scene.rows[row]).slices
+            else {
+                return None;
+            };
+            let alike = |other: &usize| model.rows[*other].class == model.rows[row].class;
+            let alike: Vec<usize> = (0..model.rows.len()).filter(alike).collect();
+            Some(Race::BOTH.map(|race| nodes::fewest(model, &alike, race, accuracy)))
+        })
+        .collect();
+    for (row, fewest) in model.rows.iter_mut().zip(fewest) {
+        for (pair, slices) in row.pairs.iter_mut().zip(fewest.into_iter().flatten()) {
+            pair.slices = slices;
         }
+    }
+    classify(&mut model.rows);
+}
+
+/// Sorts rows into classes: contacts of one class differ in numbers that every contact has of its own, and may be evaluated
+/// side by side.
+fn classify(rows: &mut [RowModel]) {
+    for row in 0..rows.len() {
+        let like = |other: &usize| rows[*other].is_like(&rows[row]);
+        rows[row].class = (0..row).find(like).unwrap_or(row);
     }
 }
 
@@ -121,7 +142,6 @@ fn ring(scene: &Scene, ring: &scene::Ring, race: Race) -> Result<Body> {
 
 /// Hertz's contact of a ball and one race, σ = +1 for the outer.
 fn hertz(scene: &Scene, row: &Row, sigma: f64) -> Hertz {
-    let materials = &scene.materials;
     let conformity = if sigma > 0.0 {
         row.outer_conformity
     } else {
@@ -133,8 +153,8 @@ fn hertz(scene: &Scene, row: &Row, sigma: f64) -> Hertz {
         row.pitch_diameter,
         conformity,
         row.contact_angle,
-        &materials.balls,
-        &materials.rings,
+        scene.ball_material_of(row),
+        &scene.materials.rings,
     )
 }
 
@@ -169,7 +189,7 @@ fn pair(scene: &Scene, index: usize, row: &Row, sigma: f64, hertz: Hertz) -> Pai
         .filter(|defect| defect.on == surface && defect.row == index)
         .map(|defect| race_fault(defect, row, &race))
         .collect();
-    let contact = &scene.contact;
+    let contact = scene.contact_of(row);
     let law = match contact.law {
         NormalLaw::Iso16281 {
             constant,
@@ -191,7 +211,7 @@ fn pair(scene: &Scene, index: usize, row: &Row, sigma: f64, hertz: Hertz) -> Pai
         slices,
         damping: contact.damping,
         clamp_pull: contact.clamp_pull,
-        friction: Friction::new(&scene.friction),
+        friction: Friction::new(scene.friction_of(row)),
         faults,
     }
 }

@@ -11,11 +11,12 @@ mod reduction;
 mod scales;
 
 use crate::contact::hertz::Hertz;
+use std::mem::discriminant;
 use std::ops::Range;
 
 use crate::contact::{BallSide, Pair, cross};
 use crate::scene::{Component, Method, Scene, TimeFunction};
-use crate::simd::Level;
+use crate::simd::{LANES, Level};
 
 pub use body::{Body, Degree};
 pub(crate) use compile::{ball_fault, compile, race_fault};
@@ -61,6 +62,8 @@ pub(crate) struct RowModel {
     /// Distance of neighbouring balls ℓ₀.
     pub cage_distance: f64,
     pub side: f64,
+    /// The first row like it ([`RowModel::is_like`]), which may be itself.
+    pub class: usize,
 }
 
 impl RowModel {
@@ -72,6 +75,22 @@ impl RowModel {
     /// The body of its first ball; the others follow.
     pub fn first_body(&self) -> BodyId {
         BodyId::ball(self.first)
+    }
+
+    /// Whether its contacts follow the same equations as another row's, cut at as many places: kind of law, slices, damping
+    /// and friction are the same. Geometry, waves and strength of the law may differ.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let alike = |(a, b): (&Pair, &Pair)| {
+            discriminant(&a.law) == discriminant(&b.law)
+                && (&a.slices, a.damping, a.clamp_pull) == (&b.slices, b.damping, b.clamp_pull)
+                && a.friction == b.friction
+        };
+        self.pairs.iter().zip(&other.pairs).all(alike)
+    }
+
+    /// Whether its balls rub on either race.
+    pub fn has_friction(&self) -> bool {
+        self.pairs.iter().any(|pair| pair.friction.is_some())
     }
 
     /// Neighbours that the cage links, as indices among all balls: none for one ball, one link for two.
@@ -160,12 +179,23 @@ impl Model {
         [of(positions), of(&velocities[..DOFS])].concat()
     }
 
-    /// Slices or nodes of a contact with the outer and with the inner race.
+    /// Slices or nodes of a contact with the outer and with the inner race, of the row that has most.
     pub fn slices(&self) -> [usize; 2] {
-        self.rows[0]
-            .pairs
-            .each_ref()
-            .map(|pair| pair.slices.count() as usize)
+        Race::BOTH.map(|race| {
+            let of = |row: &RowModel| row.pairs[race].slices.count() as usize;
+            self.rows.iter().map(of).max().unwrap_or(0)
+        })
+    }
+
+    /// Classes of rows whose contacts may be evaluated side by side, each by its first row ([`RowModel::is_like`]).
+    pub(crate) fn classes(&self) -> impl Iterator<Item = usize> {
+        (0..self.rows.len()).filter(|row| self.rows[*row].class == *row)
+    }
+
+    /// Groups of eight that the balls of a class make, at most.
+    pub(crate) fn eights(&self, class: usize) -> usize {
+        let rows = self.rows.iter().filter(|row| row.class == class);
+        rows.map(|row| row.count).sum::<usize>().div_ceil(LANES)
     }
 
     /// Level of vector instructions that evaluations use.

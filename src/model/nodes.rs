@@ -13,25 +13,25 @@ const MOST: usize = 48;
 const APPROACHES: [f64; 2] = [0.3, 1.0];
 const TURNS: [f64; 2] = [0.0, 0.2];
 
-/// The fewest nodes that give normal and friction force of every row's rolling balls on one race to an accuracy,
-/// relative to the normal force.
-pub(super) fn fewest(model: &Model, race: Race, exponent: f64, accuracy: f64) -> usize {
+/// The fewest nodes that give normal and friction force of the rolling balls of some rows, all of one law, on one race to an
+/// accuracy, relative to the normal force.
+pub(super) fn fewest(model: &Model, rows: &[usize], race: Race, accuracy: f64) -> Slices {
+    let exponent = model.rows[rows[0]].pairs[race].law.exponent();
+    let rules = |m: usize| Slices::Fitted(Rules::new(m, exponent));
     let error = |m: usize| {
-        let rules = Slices::Fitted(Rules::new(m, exponent));
-        (0..model.rows.len())
-            .map(|row| worst(model, row, race, &rules))
-            .fold(0.0, f64::max)
+        let errors = rows.iter().map(|row| worst(model, *row, race, &rules(m)));
+        errors.fold(0.0, f64::max)
     };
     let mut before = error(FEWEST);
     for m in FEWEST..MOST {
         // The error swings from one number to the next: both must do.
         let next = error(m + 1);
         if before.max(next) <= accuracy {
-            return m;
+            return rules(m);
         }
         before = next;
     }
-    MOST
+    rules(MOST)
 }
 
 /// Largest error over approaches and angles.

@@ -26,7 +26,7 @@ pub(crate) struct Demand {
 impl Demand {
     /// Of a valid scene.
     pub fn of(scene: &Scene) -> Self {
-        let nodes = match scene.contact.slices {
+        let nodes = |row: usize| match scene.contact_of(&scene.rows[row]).slices {
             Slices::Fixed(count) => count,
             Slices::Fitted(count) => PIECES * count,
             Slices::Accuracy(_) => PIECES * 64,
@@ -72,7 +72,7 @@ impl Demand {
                     times,
                 } => {
                     demand.slices += times.len()
-                        * nodes
+                        * nodes(*row)
                         * contacts(
                             *row,
                             balls.as_ref().map(Vec::len),

@@ -87,6 +87,7 @@ impl Task for Find<'_> {
                 q,
             };
             let mut lost = Mask::default();
+            let class = model.rows[stretch.row].class;
             for race in Race::BOTH {
                 let (pair, ring) = (&model.rows[stretch.row].pairs[race], &rings[race]);
                 let near = pair.near::<FMA>(&places, ring);
@@ -136,7 +137,7 @@ impl Task for Find<'_> {
                             height: near.raise.height[lane],
                             slope: near.raise.slope[lane],
                         };
-                        batch.touching[race].push(Touching { ball, raise });
+                        batch.touching[class][race].push(Touching { ball, raise });
                     }
                 }
             }

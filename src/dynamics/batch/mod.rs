@@ -79,8 +79,8 @@ pub(super) struct Batch {
     stiffness: Vec<[Option<f64>; 2]>,
     /// Constants of the contacts with the outer and with the inner race.
     pub constants: [SideConstants; 2],
-    /// Contacts of whole surfaces with the outer and with the inner ring, in the order of the balls.
-    touching: [Vec<Touching>; 2],
+    /// Contacts of whole surfaces with the outer and with the inner ring in the order of the balls, by the class of their row.
+    touching: Vec<[Vec<Touching>; 2]>,
     /// The same by eights: the first `active` of these.
     groups: Vec<Group>,
     active: usize,
@@ -119,7 +119,9 @@ impl Batch {
             }
         }
         let balls = model.balls.len();
+        let eights = model.classes().map(|class| model.eights(class));
         Self {
+            groups: vec![Group::default(); 2 * eights.sum::<usize>()],
             stiffness: model
                 .rows
                 .iter()
@@ -134,8 +136,9 @@ impl Batch {
             kind,
             stretches,
             constants,
-            touching: from_fn(|_| Vec::with_capacity(balls)),
-            groups: vec![Group::default(); 2 * balls.div_ceil(LANES)],
+            touching: (0..model.rows.len())
+                .map(|_| from_fn(|_| Vec::with_capacity(balls)))
+                .collect(),
             active: 0,
             singles: Vec::with_capacity(2 * balls),
             lost: None,
@@ -247,7 +250,8 @@ impl Batch {
         state: &State,
         rings: &[Motion; 2],
     ) {
-        self.touching.iter_mut().for_each(Vec::clear);
+        let touching = self.touching.as_flattened_mut().iter_mut();
+        touching.for_each(Vec::clear);
         self.singles.clear();
         (self.lost, self.pulls) = (None, 0);
         self.rings = [[0.0; DOFS]; 2];
@@ -264,8 +268,8 @@ impl Batch {
     }
 
     /// Contacts of whole surfaces with a ring, as last found.
-    pub fn touching(&self, race: Race) -> &[Touching] {
-        &self.touching[race]
+    pub fn touching(&self, race: Race) -> impl Iterator<Item = &Touching> {
+        self.touching.iter().flat_map(move |of| &of[race])
     }
 
     /// Race and ball of the contacts that may see a defect, as last found.
@@ -276,13 +280,15 @@ impl Batch {
     /// What touches, by eights.
     fn gather(&mut self) {
         self.active = 0;
-        for race in Race::BOTH {
-            for contacts in self.touching[race].chunks(LANES) {
-                let group = &mut self.groups[self.active];
-                self.active += 1;
-                (group.race, group.count) = (race, contacts.len());
-                group.contacts[..contacts.len()].copy_from_slice(contacts);
-                group.contacts[contacts.len()..].fill(contacts[contacts.len() - 1]);
+        for (class, touching) in self.touching.iter().enumerate() {
+            for race in Race::BOTH {
+                for contacts in touching[race].chunks(LANES) {
+                    let group = &mut self.groups[self.active];
+                    self.active += 1;
+                    (group.class, group.race, group.count) = (class, race, contacts.len());
+                    group.contacts[..contacts.len()].copy_from_slice(contacts);
+                    group.contacts[contacts.len()..].fill(contacts[contacts.len() - 1]);
+                }
             }
         }
     }

@@ -85,7 +85,7 @@ impl Grounds {
                     Some(Reason::Rolling)
                 }
                 (Dof::Theta, Some(ball)) if self.exact => {
-                    let smooth = model.rows[ball.row].pairs[0].friction.is_none();
+                    let smooth = !model.rows[ball.row].has_friction();
                     let whole = ball.side.faults.is_empty();
                     let loose = stiffness == 0.0 && damping == 0.0;
                     (smooth && whole && loose).then_some(Reason::NoMoment)

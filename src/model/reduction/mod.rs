@@ -147,8 +147,14 @@ impl Reduction {
                     .map_err(|reason| obstacle("one row for two", reason))
                     .is_ok()
             });
-            if model.rows[0].pairs[0].friction.is_some() {
+            let rub: Vec<usize> = (0..model.rows.len())
+                .filter(|row| model.rows[*row].has_friction())
+                .collect();
+            if rub.len() == model.rows.len() {
                 obstacle("balls without spin", "friction turns them".to_owned());
+            } else if let Some(row) = rub.first() {
+                let reason = format!("friction turns those of row {row}");
+                obstacle("balls without spin", reason);
             }
         }
         if wanted.plane {

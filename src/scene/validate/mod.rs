@@ -29,6 +29,7 @@ impl Scene {
         }
         for (i, row) in self.rows.iter().enumerate() {
             bearing::row(&format!("rows[{i}]"), row)?;
+            contact::of_row(&format!("rows[{i}]"), row)?;
         }
         bearing::ring(self, RingName::Outer)?;
         bearing::ring(self, RingName::Inner)?;
@@ -40,8 +41,8 @@ impl Scene {
             ));
         }
         contact::materials(&self.materials)?;
-        contact::contact(&self.contact)?;
-        contact::friction(&self.friction)?;
+        contact::contact("contact", &self.contact)?;
+        contact::friction("friction", &self.friction)?;
         if let Some(cage) = &self.cage {
             within("cage.stiffness", cage.stiffness, 0.0..=1e15)?;
             within("cage.damping", cage.damping, 0.0..=1e12)?;
