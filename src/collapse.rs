@@ -1,5 +1,6 @@
 //! When the step collapses: how it is seen, and which contacts did it.
 
+use crate::forces;
 use crate::model::{BodyId, Dof, Model, Race};
 
 /// Steps in a row below the limit that make a collapse.
@@ -99,7 +100,7 @@ fn contact(model: &Model, y: &[f64], j: usize, race: Race) -> Option<Culprit> {
 
 /// The links of the cage that damp a ball.
 fn cage(model: &Model, row: usize) -> Option<Culprit> {
-    let rate = model.cage_rate(row);
+    let rate = forces::cage::rate(model, row);
     (rate > 0.0).then(|| Culprit {
         name: format!("row{row}.cage"),
         body: model.rows[row].first_body(),
@@ -110,7 +111,7 @@ fn cage(model: &Model, row: usize) -> Option<Culprit> {
 
 /// The fastest direction of a body's dampers.
 fn support(model: &Model, body: BodyId) -> Option<Culprit> {
-    let rate = model.support_rate(body);
+    let rate = forces::support::rate(model, body);
     (rate > 0.0).then(|| Culprit {
         name: format!("{}.support", model.bodies[body].name),
         body,

@@ -49,7 +49,7 @@ fn finer(model: &Model, step: f64) -> String {
     if !method::is_fixed(method) {
         return "use a smaller rtol".to_owned();
     }
-    let limit = step_limit::largest(method, &model.scales);
+    let limit = step_limit::largest(method, model);
     let bears = if step > limit {
         format!(", stability asks for at most {limit:.1e} s")
     } else {

@@ -240,7 +240,7 @@ pub(crate) fn options(model: &Model) -> Result<Options> {
     let scene = &model.scene;
     let solver = &scene.solver;
     let cap = if solver.frequency_cap {
-        step_limit::largest(solver.method, &model.scales)
+        step_limit::largest(solver.method, model)
     } else {
         f64::INFINITY
     };

@@ -88,6 +88,7 @@ mod escape;
 mod explain;
 mod features;
 mod follow;
+mod forces;
 pub mod integrate;
 mod interrupt;
 mod memory;

@@ -130,7 +130,7 @@ fn unlimited(
             oversampling: sampling.oversampling,
             settled: before,
             defects: recorder.watch.told(&model, &placed),
-            step_limit: step_limit::largest(scene.solver.method, model.scales()),
+            step_limit: step_limit::largest(scene.solver.method, &model),
         },
         scene,
     })

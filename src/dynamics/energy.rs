@@ -1,8 +1,8 @@
 //! Energies and dissipated powers of a state.
 
-use super::others;
 use crate::contact::{Sink, Touch};
-use crate::model::{BodyId, Degree, Dof, Model, Race};
+use crate::forces;
+use crate::model::{BodyId, Dof, Model, Race};
 
 /// Energies \[J\] and dissipated powers \[W\]. Loads and drive do work on top of these.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -72,26 +72,17 @@ impl Model {
         for id in layout.bodies() {
             let body = &self.bodies[id];
             for dof in Dof::ALL {
-                let position = y[layout.at(id, dof)] - body.nominal[dof];
                 let speed = y[layout.speed_at(id, dof)];
                 energy.kinetic += 0.5 * body.mass[dof] * speed * speed;
-                if let Degree::Free { stiffness, damping } = body.degrees[dof] {
-                    energy.support += 0.5 * stiffness * position * position;
-                    energy.support_power += damping * speed * speed;
-                }
-            }
-            for (dof, g) in Dof::TRANSLATIONS.into_iter().zip(self.scene.gravity) {
-                energy.gravity -= body.mass[dof] * g * y[layout.at(id, dof)];
             }
         }
-        for unbalance in &self.unbalances {
-            let ring = layout.motion(y, unbalance.ring.ring());
-            let (sin, cos) = (ring.theta + unbalance.angle).sin_cos();
-            let [gx, gy, _] = self.scene.gravity;
-            let along = ring.velocity.y * cos - ring.velocity.x * sin;
-            energy.kinetic += unbalance.moment * ring.omega * along;
-            energy.gravity -= unbalance.moment * (gx * cos + gy * sin);
-        }
+        let [cage, support] =
+            [forces::cage::account, forces::support::account].map(|of| of(self, y));
+        let [kinetic, gravity] = forces::unbalance::energies(self, y);
+        energy.kinetic += kinetic;
+        energy.gravity = forces::gravity::energy(self, y) + gravity;
+        (energy.cage, energy.support) = (cage.energy, support.energy);
+        energy.support_power = cage.power + support.power;
         let mut contacts = Contacts::default();
         for (j, ball) in self.balls.iter().enumerate() {
             let at = layout.motion(y, BodyId::ball(j));
@@ -104,29 +95,12 @@ impl Model {
         energy.contact = contacts.energy;
         energy.damping_power = contacts.damping;
         energy.friction_power = contacts.friction;
-        if let Some(cage) = &self.scene.cage {
-            for row in &self.rows {
-                for (i, j) in row.links() {
-                    let [first, second] = [i, j].map(|ball| layout.motion(y, BodyId::ball(ball)));
-                    let link = others::link(cage, row.cage_distance, &first, &second);
-                    energy.cage += link.energy;
-                    energy.support_power += link.power;
-                }
-            }
-        }
         energy
     }
 
     /// Forces of the cage links of a row, positive in tension \[N\]; empty without a cage.
     pub fn cage_forces(&self, y: &[f64], row: usize) -> Vec<f64> {
-        let (row, cage) = (&self.rows[row], self.scene.cage.as_ref());
-        cage.map_or_else(Vec::new, |cage| {
-            row.links()
-                .map(|(i, j)| {
-                    let ball = |ball| self.layout().motion(y, BodyId::ball(ball));
-                    others::link(cage, row.cage_distance, &ball(i), &ball(j)).force
-                })
-                .collect()
-        })
+        let links = forces::cage::of_row(self, y, &self.rows[row]);
+        links.map(|link| link.force).collect()
     }
 }

@@ -3,8 +3,8 @@
 use std::array::from_fn;
 
 use super::batch::{SideConstants, Touching};
-use super::state::State;
 use crate::contact::{Held, Law, Motion, Pack, Packing, Plane, Raise, Reaction, Still, in_contact};
+use crate::forces::State;
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
 

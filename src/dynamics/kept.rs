@@ -2,7 +2,7 @@
 
 use super::plane::{Plane, Rates};
 use super::rolling::Rolling;
-use super::state::{State, Table};
+use crate::forces::{State, Table};
 use crate::model::{Model, Reduction};
 use crate::simd::Level;
 

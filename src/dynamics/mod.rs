@@ -9,11 +9,9 @@ mod implicit;
 mod kept;
 #[cfg(test)]
 mod lost;
-mod others;
 mod plane;
 mod rolling;
 mod stage;
-mod state;
 mod sums;
 mod uses;
 
@@ -22,23 +20,20 @@ use std::sync::Arc;
 use rayon::ThreadPool;
 
 use crate::contact::{Pair, Slices};
+use crate::forces::{self, Force, State, Table, cage, drive, gravity, load, support, unbalance};
 use crate::integrate::System;
 use crate::model::{
     BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Race, Reduction, RowModel, Spring,
 };
-use crate::scene::Drive;
 
 pub use contacts::{ContactSummary, SliceForce};
 pub use energy::Energy;
-pub(crate) use others::link;
-pub(crate) use uses::Use;
 
 use batch::{Batch, Kind};
 use kept::Kept;
 use plane::{Ground, Plane};
 use rolling::Rolling;
 use stage::Stage;
-use state::{State, Table};
 use sums::Named;
 
 /// A model with the memory that evaluating it needs. One a thread of control.
@@ -72,7 +67,14 @@ enum Order {
 
 /// Names of the contributions of [`Model::forces`], in their order.
 pub const CONTRIBUTIONS: [&str; 8] = [
-    "contact", "damping", "friction", "cage", "support", "gravity", "load", "drive",
+    "contact",
+    "damping",
+    "friction",
+    cage::FORCE.contribution,
+    support::FORCE.contribution,
+    gravity::FORCE.contribution,
+    load::FORCE.contribution,
+    drive::FORCE.contribution,
 ];
 
 impl<'m> Dynamics<'m> {
@@ -141,8 +143,8 @@ impl<'m> Dynamics<'m> {
     fn with(model: &'m Model, order: Order, kind: Kind) -> Self {
         let bodies = model.bodies.len();
         let (mut constant, mut mobility) = (Table::zeros(bodies), Table::zeros(bodies));
-        others::gravity(model, &mut constant);
-        others::loads(model, true, 0.0, &mut constant);
+        gravity::add(model, &mut constant);
+        load::add(model, true, 0.0, &mut constant);
         for body in model.layout().bodies() {
             mobility.add(body, &model.mobility[body]);
         }
@@ -289,17 +291,17 @@ impl<'m> Dynamics<'m> {
     /// Adds the forces of the cage at the state last read.
     pub(crate) fn evaluate_cage(&mut self) {
         let rows = self.contacts.rows();
-        others::cage(self.model, rows, &self.state, &mut self.forces);
+        cage::add(self.model, rows, &self.state, &mut self.forces);
     }
 
     /// Adds the forces that are neither contacts nor constant.
     fn others(&mut self, t: f64) {
         self.evaluate_cage();
         let (state, forces) = (&self.state, &mut self.forces);
-        others::supports(&self.springs, state, forces);
-        others::loads(self.model, false, t, forces);
-        others::drive(self.model, t, forces);
-        others::unbalances(self.model, t, state, forces);
+        support::add(&self.springs, state, forces);
+        load::add(self.model, false, t, forces);
+        drive::add(self.model, t, forces);
+        unbalance::add(self.model, t, state, forces);
     }
 
     /// M⁻¹ F of a body. Directions that are fixed do not accelerate; the driven ring's rotation accelerates as
@@ -307,8 +309,10 @@ impl<'m> Dynamics<'m> {
     fn acceleration(&self, t: f64, body: BodyId) -> [f64; DOFS] {
         let (force, mobility) = (self.forces.of(body), &self.model.mobility[body]);
         let mut acceleration = std::array::from_fn(|i| force[i] * mobility[i]);
-        if let (BodyId::INNER, Drive::Speed(speed)) = (body, &self.model.scene.drive) {
-            acceleration[Dof::Theta] = speed.rate(t);
+        if body == BodyId::INNER
+            && let Some(prescribed) = drive::acceleration(self.model, t)
+        {
+            acceleration[Dof::Theta] = prescribed;
         }
         acceleration
     }
@@ -333,17 +337,19 @@ impl<'m> Dynamics<'m> {
                 }
             }
         }
-        others::cage(model, 0..model.rows.len(), &state, &mut parts[3]);
-        others::supports(&model.springs, &state, &mut parts[4]);
-        others::gravity(model, &mut parts[5]);
-        for constant in [true, false] {
-            others::loads(model, constant, t, &mut parts[6]);
+        let part = |force: &Force| {
+            let named = |name: &&str| *name == force.contribution;
+            CONTRIBUTIONS.iter().position(named).unwrap_or_default()
+        };
+        let depends = |force: &&Force| force.name == unbalance::FORCE.name;
+        for force in forces::ALL.iter().filter(|force| !depends(force)) {
+            (force.add)(model, t, &state, &mut parts[part(force)]);
         }
-        others::drive(model, t, &mut parts[7]);
         for race in Race::BOTH {
             let ring = race.ring();
             let all = Dof::ALL.map(|dof| parts.iter().map(|part| part.get(ring, dof)).sum());
-            parts[6].add(ring, &others::unbalance(model, t, &state, race, &all));
+            let unbalance = unbalance::on(model, t, &state, race, &all);
+            parts[part(&unbalance::FORCE)].add(ring, &unbalance);
         }
         let bodies = model.layout().bodies();
         let listed = |part: Table| bodies.clone().flat_map(|body| part.of(body)).collect();
@@ -381,8 +387,10 @@ impl System for Dynamics<'_> {
             }
             Order::Kept(kept) => {
                 kept.accelerate((&self.forces, &self.mobility), accelerations);
-                if let (Some(i), Drive::Speed(speed)) = (kept.driven, &self.model.scene.drive) {
-                    accelerations[i] = speed.rate(t);
+                if let (Some(i), Some(prescribed)) =
+                    (kept.driven, drive::acceleration(self.model, t))
+                {
+                    accelerations[i] = prescribed;
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! Rows that turn as one: from radii to places, and from forces to what accelerates the radii.
 
-use super::state::{State, Table};
+use crate::forces::{State, Table};
 use crate::model::{Dof, Reduction};
 
 /// Directions of the balls of all rows that turn as one, at the last state.

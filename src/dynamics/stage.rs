@@ -7,7 +7,7 @@ use super::Dynamics;
 use super::arrow::Arrow;
 use super::batch::{Batch, Kind};
 use super::grip::{Grip, Meeting};
-use super::state::Table;
+use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Race};
 use crate::simd::{LANES, Lanes, Task};
 

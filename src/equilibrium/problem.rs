@@ -6,6 +6,7 @@ use super::cage::CageSpring;
 use super::guess::RowSpring;
 use super::unknowns::{self, OF_RINGS, Rings};
 use crate::contact::{Tangent, V2};
+use crate::forces::{gravity, support, unbalance};
 use crate::model::{AxialPlaces, BodyId, Dof, Model, Race};
 
 pub(super) struct Problem<'m> {
@@ -32,7 +33,6 @@ pub(super) struct Problem<'m> {
 
 impl<'m> Problem<'m> {
     pub(super) fn new(model: &'m Model) -> Self {
-        let gravity = model.scene.gravity;
         let mut centrifugal = Vec::new();
         let mut directions = Vec::new();
         let mut magnitude = 0.0;
@@ -41,31 +41,22 @@ impl<'m> Problem<'m> {
             let place = V2::new(body.nominal[Dof::X], body.nominal[Dof::Y]);
             let direction = place.normalize();
             let orbit = model.rolling_speeds(ball.row).0;
-            let weight = body.mass[Dof::X] * (gravity[0] * direction.x + gravity[1] * direction.y);
+            let weight = gravity::along(model, BodyId::ball(j), direction.into());
             centrifugal.push(body.mass[Dof::X] * orbit * orbit);
             directions.push(direction);
             magnitude += centrifugal[j] * place.norm() + weight.abs();
         }
         let mut loads = Rings::zeros();
         for load in &model.loads {
-            let force = Vector3::from(load.direction) * load.force.at(0.0);
-            unknowns::add(&mut loads, load.ring, &force);
+            unknowns::add(&mut loads, load.ring, &load.at(0.0));
         }
-        for (at, race, dof) in unknowns::all() {
-            loads[at] += model.bodies[race.ring()].mass[dof] * gravity[dof.index()];
+        for race in Race::BOTH {
+            let weight = gravity::on(model, race.ring());
+            unknowns::add(&mut loads, race, &weight.into());
         }
         for unbalance in &model.unbalances {
-            let speed = match unbalance.ring {
-                Race::Inner => model.scene.drive.initial_speed(),
-                Race::Outer => 0.0,
-            };
-            let force = unbalance.moment * speed * speed;
-            let (sin, cos) = unbalance.angle.sin_cos();
-            unknowns::add(
-                &mut loads,
-                unbalance.ring,
-                &(Vector3::new(cos, sin, 0.0) * force),
-            );
+            let [x, y] = unbalance::at_start(model, unbalance);
+            unknowns::add(&mut loads, unbalance.ring, &Vector3::new(x, y, 0.0));
         }
         let free = unknowns::all()
             .filter(|(_, race, dof)| model.bodies[race.ring()].degrees[*dof].is_free())
@@ -123,10 +114,10 @@ impl<'m> Problem<'m> {
 
     /// The same at a radius, at the angle where the cage holds it.
     pub(super) fn own_load_at(&self, j: usize, radius: f64) -> Vector2<f64> {
-        let mass = self.model.bodies[BodyId::ball(j)].mass[Dof::X];
-        let (g, direction) = (self.model.scene.gravity, self.directions[j]);
-        let weight = mass * (g[0] * direction.x + g[1] * direction.y);
-        Vector2::new(self.centrifugal[j] * radius + weight, mass * g[2])
+        let ball = BodyId::ball(j);
+        let weight = gravity::along(self.model, ball, self.directions[j].into());
+        let [_, _, axial] = gravity::on(self.model, ball);
+        Vector2::new(self.centrifugal[j] * radius + weight, axial)
     }
 
     /// A ball at a radius and an axial place between the rings: what acts on it there.
@@ -147,13 +138,10 @@ impl<'m> Problem<'m> {
             pressed.z + own.y,
         );
         let body = &self.model.bodies[BodyId::ball(j)];
-        let pull =
-            Vector3::from(Dof::TRANSLATIONS.map(|dof| {
-                body.degrees[dof].stiffness() * (body.nominal[dof] - centre[dof.index()])
-            }));
-        force.x += pull.x * direction.x;
-        force.x += pull.y * direction.y;
-        force.y += pull.z;
+        let pull = Dof::TRANSLATIONS.map(|dof| support::at_rest(body, dof, centre[dof.index()]));
+        force.x += pull[0] * direction.x;
+        force.x += pull[1] * direction.y;
+        force.y += pull[2];
         if level.is_some() {
             // What keeps the ball in its plane.
             force.y = 0.0;

@@ -5,8 +5,8 @@ use nalgebra::Vector2;
 use super::problem::Problem;
 use super::unknowns::{self, Rings};
 use crate::contact::Motion;
-use crate::dynamics::link;
 use crate::error::{Error, Result};
+use crate::forces::cage;
 use crate::interrupt;
 use crate::model::{BodyId, DOFS, Race};
 
@@ -98,7 +98,7 @@ impl Problem<'_> {
         for row in &self.model.rows {
             for (j, k) in row.links() {
                 let (first, second) = (at(j), at(k));
-                let tension = link(cage, row.cage_distance, &first, &second).force;
+                let tension = cage::link(cage, row.cage_distance, &first, &second).force;
                 let along = (second.centre - first.centre).normalize() * tension;
                 pulls[j] += along.dot(&self.directions[j]);
                 pulls[k] -= along.dot(&self.directions[k]);

@@ -93,7 +93,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
     let reduction = model.reduction(&y0);
     let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);
     let forces = dynamics.uses();
-    let of = |wanted: crate::dynamics::Use| {
+    let of = |wanted: crate::forces::Use| {
         let named = forces.iter().filter(|(_, kind)| *kind == wanted);
         named.map(|(name, _)| *name).collect()
     };
@@ -110,9 +110,9 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         omissions: listed(reduction.as_ref(), Reduction::omissions),
         obstacles: listed(reduction.as_ref(), Reduction::obstacles),
         contacts: contacts(&model, &dynamics),
-        evaluated: of(crate::dynamics::Use::Evaluated),
-        constant: of(crate::dynamics::Use::Constant),
-        absent: of(crate::dynamics::Use::Absent),
+        evaluated: of(crate::forces::Use::Evaluated),
+        constant: of(crate::forces::Use::Constant),
+        absent: of(crate::forces::Use::Absent),
         variants,
         cost,
         law: law::of(&model, &at_start),

@@ -1,6 +1,6 @@
 //! The scene's own scales: a typical approach, the highest contact frequency, and what follows from them.
 
-use super::{BodyId, Degree, Dof, Model, Race};
+use super::{Degree, Dof, Model, Race};
 use crate::contact::{BallSide, Motion, Pair, Sink, Touch, V2};
 use crate::scene::Drive;
 
@@ -13,10 +13,6 @@ pub struct Scales {
     pub approach: f64,
     /// Highest angular frequency: a ball between its races, a ring on its balls, supports, cage \[rad/s\].
     pub frequency: f64,
-    /// Rate at which contact damping ends the motion of a ball between its races under that load \[1/s\].
-    pub damping: f64,
-    /// Highest rate at which friction or damping changes a motion under that load \[1/s\].
-    pub rate: f64,
 }
 
 impl Scales {
@@ -90,47 +86,7 @@ impl Scales {
                 }
             }
         }
-        scales.find_rates(model);
         scales
-    }
-
-    /// The rates of friction and damping under the estimated load.
-    fn find_rates(&mut self, model: &Model) {
-        for (i, row) in model.rows.iter().enumerate() {
-            let body = &model.bodies[row.first_body()];
-            let radius = model.balls[row.first].side.radius;
-            // Both races rub on a ball, and turn it more easily than they shift it.
-            let mobility = (radius * radius / body.mass[Dof::Theta]).max(1.0 / body.mass[Dof::X]);
-            let rubbing = |pair: &Pair| pair.friction.map_or(0.0, |law| law.factor(0.0));
-            let friction: f64 = row.pairs.iter().map(rubbing).sum();
-            // Hunt and Crossley's 3/2 α_d N on either side.
-            let damping: f64 = row.pairs.iter().map(|pair| 1.5 * pair.damping).sum();
-            self.damping = self.damping.max(self.load * damping / body.mass[Dof::X]);
-            self.rate = self.rate.max(self.load * friction * mobility);
-            self.rate = self.rate.max(model.cage_rate(i));
-        }
-        let supports = model.layout().bodies().map(|body| model.support_rate(body));
-        self.rate = supports.fold(self.rate.max(self.damping), f64::max);
-    }
-}
-
-impl Model {
-    /// Rate at which the cage damps a ball of a row \[1/s\]: by two links, at most 4 c_c/m.
-    pub(crate) fn cage_rate(&self, row: usize) -> f64 {
-        let ball = &self.bodies[self.rows[row].first_body()];
-        let cage = self.scene.cage.as_ref();
-        cage.map_or(0.0, |cage| 4.0 * cage.damping / ball.mass[Dof::X])
-    }
-
-    /// Rate of the fastest of a body's own dampers \[1/s\].
-    pub(crate) fn support_rate(&self, body: BodyId) -> f64 {
-        let body = &self.bodies[body];
-        let rates = body.degrees.iter().zip(body.mass);
-        let rates = rates.map(|(degree, mass)| match degree {
-            Degree::Free { damping, .. } => damping / mass,
-            _ => 0.0,
-        });
-        rates.fold(0.0, f64::max)
     }
 }
 

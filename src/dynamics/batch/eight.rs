@@ -2,7 +2,7 @@
 
 use super::Single;
 use crate::contact::{Constants, Motion, Octet, Press, Raise};
-use crate::dynamics::state::State;
+use crate::forces::State;
 use crate::model::{Ball, BodyId, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
 

@@ -2,7 +2,7 @@
 
 use super::{Batch, SideConstants, Single, Touching};
 use crate::contact::{Constants, Motion, Octet, Places, Raise};
-use crate::dynamics::state::{State, Table};
+use crate::forces::{State, Table};
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
 

@@ -2,7 +2,7 @@
 
 use super::{Kind, Single};
 use crate::contact::{InPlane, LevelBalls, LevelRace, Motion, Pair, Sight};
-use crate::dynamics::state::{State, Table};
+use crate::forces::{State, Table};
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Simd, Vector, Wide};
 

@@ -16,9 +16,9 @@ use std::ops::Range;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use super::state::{State, Table};
 use super::sums::Sum;
 use crate::contact::{self, InPlane, Motion, Press};
+use crate::forces::{State, Table};
 use crate::model::{AxialPlaces, BodyId, DOFS, Degree, Dof, Model, Race};
 use crate::simd::{LANES, Lanes};
 

@@ -6,8 +6,8 @@
 
 mod rates;
 
-use super::state::{State, Table};
 use crate::contact::InPlane;
+use crate::forces::{State, Table};
 use crate::model::{BodyId, BodyKind, Dof, Model, Race, Reduction, Spring};
 use crate::scene::{Drive, TimeFunction};
 use crate::simd::Level;

@@ -5,7 +5,7 @@
 
 use super::{Balls, Direction, Plane};
 use crate::contact::{InPlane, LevelBalls, LevelRace, Motion, Pair, V2};
-use crate::dynamics::others::pull;
+use crate::forces::cage::pull;
 use crate::model::{Model, Race};
 use crate::scene::Cage;
 use crate::simd::{Simd, Vector, Wide};
@@ -85,9 +85,9 @@ impl Direction {
     #[inline(always)]
     fn accelerate(&self, force: f64, (q, v, to): (&[f64], &[f64], &mut [f64])) {
         let Some(at) = self.at else { return };
-        let spring = self.spring.map_or(0.0, |spring| {
-            spring.stiffness * (q[at] - spring.nominal) + spring.damping * v[at]
-        });
+        let spring = self
+            .spring
+            .map_or(0.0, |spring| spring.resistance(q[at], v[at]));
         to[at] = (force + self.steady - spring) * self.mobility;
     }
 }

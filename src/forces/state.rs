@@ -10,7 +10,7 @@ use crate::simd::{LANES, Lanes};
 /// A number a body along x, y, z and about z, each direction padded so that eight neighbours can be read from any
 /// body.
 #[derive(Debug, Clone)]
-pub(super) struct Table {
+pub(crate) struct Table {
     values: Vec<f64>,
     stride: usize,
 }
@@ -100,7 +100,7 @@ impl Table {
 
 /// Where all bodies are and how they move.
 #[derive(Debug, Clone)]
-pub(super) struct State {
+pub(crate) struct State {
     pub q: Table,
     pub v: Table,
 }
