@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use ballrace::dynamics::Dynamics;
+use ballrace::inspect;
 use ballrace::integrate::{DORMAND_PRINCE, Options, System, Tolerance, integrate};
 use ballrace::scene::{NormalLaw, Scene, Slices, TimeFunction, presets};
 use ballrace::simd::Level;
@@ -48,7 +49,7 @@ fn contact(c: &mut Criterion) {
         let (model, y) = loaded(&wheel(NormalLaw::iso16281(), slices));
         // Ball 1 of row 0 carries most.
         group.bench_function(format!("{slices:?}"), |b| {
-            b.iter(|| model.contact(black_box(&y), 1, Race::Outer));
+            b.iter(|| inspect::contact(&model, black_box(&y), 1, Race::Outer));
         });
     }
     group.finish();

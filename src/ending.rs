@@ -1,8 +1,8 @@
 //! Why a run ended before its time, in the words of its error.
 
-use crate::collapse::culprits;
 use crate::error::Error;
 use crate::escape;
+use crate::inspect::{Element, stiffest};
 use crate::integrate::{Failure, FailureKind};
 use crate::method;
 use crate::model::{BodyId, Model};
@@ -86,7 +86,7 @@ fn stopped(
     body: Option<BodyId>,
     reason: &str,
 ) -> Error {
-    let found = culprits(model, last, body);
+    let found = stiffest(model, last, body);
     let listed: Vec<String> = found.iter().map(ToString::to_string).collect();
     let body = body.or(found.first().map(|first| first.body));
     Error::Integration {
@@ -98,6 +98,9 @@ fn stopped(
         } else {
             format!("{reason}. Fastest: {}", listed.join(", "))
         },
-        contacts: found.into_iter().map(|culprit| culprit.name).collect(),
+        contacts: found
+            .into_iter()
+            .map(|element: Element| element.name)
+            .collect(),
     }
 }

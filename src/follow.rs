@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use crate::budget::StepBudget;
-use crate::collapse::Crawl;
 use crate::dynamics::Dynamics;
 use crate::ending::{Halt, broken};
 use crate::error::{Error, Result};
+use crate::inspect;
 use crate::integrate::{self, DenseStep, Options, Tolerance};
 use crate::method::{self, Choice, Task};
 use crate::model::{BodyId, DOFS, Model};
@@ -15,6 +15,7 @@ use crate::orbit;
 use crate::runaway;
 use crate::scene::Drive;
 use crate::signals::{Recorder, Statistics};
+use crate::step_collapse::StepCollapse;
 use crate::step_limit;
 
 /// How often progress is told, and after how many steps the clock is asked: of a small model's step that would take a
@@ -83,7 +84,7 @@ pub(crate) fn follow(
     let begun = Instant::now();
     let mut told = begun;
     let (mut pulls, mut truncated, mut halt) = (0, 0, None);
-    let mut crawl = Crawl::new(model, options.max_step);
+    let mut collapse = StepCollapse::new(model, options.max_step);
     let (mut steps, mut spent) = (StepBudget::new(max_steps), false);
     let bounds = runaway::Bounds::new(&dynamics, y0);
     let tolerance = tolerance(&dynamics)?;
@@ -99,7 +100,7 @@ pub(crate) fn follow(
             watch.step(dynamics, step);
             last.copy_from_slice(step.y1());
             last_time = step.t1();
-            let crawls = crawl.after(step.h());
+            let crawls = collapse.after(step.h());
             let why = if let Some(ball) = lost {
                 Some(Halt::Escaped(ball))
             } else if let Some((body, does)) = bounds.left(step.y1()) {
@@ -165,9 +166,8 @@ pub(crate) fn follow(
         acceleration_residual: None,
         wall_time: begun.elapsed().as_secs_f64(),
         nfev_past_end,
-        largest_pressure: model
-            .largest_pressure(y0)
-            .max(model.largest_pressure(&full)),
+        largest_pressure: inspect::largest_pressure(model, y0)
+            .max(inspect::largest_pressure(model, &full)),
         settling_accepted: 0,
         settling_nfev: 0,
         orbit_slowed: orbit::slowed(model, y0, &full),
@@ -188,11 +188,11 @@ fn go_on(
     if until <= end {
         return Ok(0);
     }
-    let mut crawl = Crawl::new(dynamics.model(), options.max_step);
+    let mut collapse = StepCollapse::new(dynamics.model(), options.max_step);
     let (mut told, mut stopped) = (Instant::now(), false);
     let mut observe =
         |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &integrate::Statistics| {
-            if dynamics.lost().is_some() || crawl.after(step.h()) {
+            if dynamics.lost().is_some() || collapse.after(step.h()) {
                 return ControlFlow::Break(());
             }
             watch.step(dynamics, step);

@@ -4,8 +4,10 @@
 use std::sync::OnceLock;
 
 use crate::dynamics::Dynamics;
+use crate::dynamics::contributions;
 use crate::integrate::System;
 use crate::model::{BodyId, Dof, Model};
+use crate::reduction::Reduction;
 use crate::scene::{Friction, Scene, presets};
 use crate::simd::{Distrust, Level};
 use crate::start::{Start, start};
@@ -75,7 +77,7 @@ fn difference(scene: &Scene, level: Level) -> crate::Result<f64> {
             y[layout.at(BodyId::ball(ball), dof)] *= SPREAD;
         }
     }
-    let reduction = model.reduction(&y);
+    let reduction = Reduction::of(&model, &y);
     let mut dynamics = Dynamics::begin(&model, reduction.as_ref(), &y);
     let own = dynamics.compress(&y);
     let (mut rates, mut found) = (own.clone(), y.clone());
@@ -96,7 +98,7 @@ fn difference(scene: &Scene, level: Level) -> crate::Result<f64> {
 /// Accelerations of all bodies by the contacts one by one.
 fn one_by_one(model: &Model, y: &[f64]) -> Vec<f64> {
     let mut accelerations = vec![0.0; y.len() / 2];
-    for (_, part) in model.forces(0.0, y) {
+    for (_, part) in contributions(model, 0.0, y) {
         for ((sum, force), mobility) in accelerations
             .iter_mut()
             .zip(part)

@@ -13,9 +13,11 @@ use crate::contact::Pair;
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
 use crate::follow::{Stretch, Watch, follow, options, threads};
+use crate::inspect;
 use crate::integrate::{DenseStep, Options};
 use crate::model::{BodyId, Degree, Dof, Model, Race, RowModel};
 use crate::pool::on;
+use crate::reduction::Reduction;
 use crate::run::Run;
 use crate::scene::{Drive, RingName, Scene, Surface, TimeFunction};
 use crate::selftest;
@@ -75,7 +77,7 @@ pub(crate) fn settle(
         breakpoints: Vec::new(),
         ..options(&model)?
     };
-    let dynamics = Dynamics::begin(&model, model.reduction(&before).as_ref(), &before);
+    let dynamics = Dynamics::begin(&model, Reduction::of(&model, &before).as_ref(), &before);
     let stretch = Stretch {
         begins: -seconds,
         length: seconds,
@@ -134,7 +136,7 @@ fn needed(model: &Model, y0: &[f64]) -> f64 {
 }
 
 fn has_loose_balls(model: &Model, y: &[f64], row: usize) -> bool {
-    let is_loose = |j| model.contact(y, j, Race::Inner).load == 0.0;
+    let is_loose = |j| inspect::contact(model, y, j, Race::Inner).load == 0.0;
     model.rows[row].balls().any(is_loose)
 }
 
@@ -142,7 +144,9 @@ fn has_loose_balls(model: &Model, y: &[f64], row: usize) -> bool {
 /// by (3/2) α_d F and takes half the approach speed of the rings. Infinite where nothing damps it, 0 for one that is held.
 fn decay(model: &Model, y: &[f64], race: Race) -> f64 {
     let damping = |row: &RowModel| {
-        let loads = row.balls().map(|j| model.contact(y, j, race).load);
+        let loads = row
+            .balls()
+            .map(|j| inspect::contact(model, y, j, race).load);
         0.75 * row.pairs[race].damping * loads.sum::<f64>()
     };
     let contacts = model.rows.iter().map(damping).sum::<f64>();

@@ -9,8 +9,9 @@ use crate::equilibrium::place;
 use crate::error::{Error, Result};
 use crate::follow::{Stretch, follow, options, threads};
 use crate::memory;
-use crate::model::{Model, Reduction};
+use crate::model::Model;
 use crate::pool::on;
+use crate::reduction::Reduction;
 use crate::run::Run;
 use crate::scene::{SCHEMA, Scene};
 use crate::selftest;
@@ -84,7 +85,7 @@ fn unlimited(
     let threads = threads(&model, run.threads)?;
     let options = options(&model)?;
     let y0 = start(&model, &settled.from)?;
-    let reduction = model.reduction(&y0);
+    let reduction = Reduction::of(&model, &y0);
     let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);
     recorder.prepare(&dynamics, &y0)?;
     let mut progress =

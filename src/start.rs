@@ -2,6 +2,7 @@
 
 use crate::equilibrium;
 use crate::error::{Error, Result};
+use crate::inspect;
 use crate::model::{BodyId, Dof, Layout, Model, Race};
 
 /// How a run begins.
@@ -89,7 +90,7 @@ fn settle_speeds(model: &Model, y: &mut [f64]) {
         let mut rolling = Vec::new();
         let (mut weighted, mut weight) = (0.0, 0.0);
         for j in model.rows[row].balls() {
-            let contacts = Race::BOTH.map(|race| model.contact(y, j, race));
+            let contacts = Race::BOTH.map(|race| inspect::contact(model, y, j, race));
             let load = contacts[0].load.min(contacts[1].load);
             let [x, y_, _] = layout.centre(y, BodyId::ball(j));
             let r = x.hypot(y_);

@@ -3,6 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::ControlFlow;
 
+use ballrace::dynamics::contributions;
+use ballrace::inspect;
 use ballrace::scene::{
     Defect, Friction, Load, NormalLaw, Probe, RingName, Scene, Slices, Support, Surface, presets,
 };
@@ -41,7 +43,7 @@ fn rms(x: &[f64]) -> f64 {
 fn internal_sums(model: &Model, y: &[f64]) -> ([f64; 4], f64) {
     let mut sums = [0.0; 4];
     let mut size = 0.0;
-    for (name, forces) in model.forces(0.0, y) {
+    for (name, forces) in contributions(&model, 0.0, y) {
         if !["contact", "damping", "friction", "cage"].contains(&name) {
             continue;
         }
@@ -105,11 +107,11 @@ fn rigid_rotation_slips_nowhere() {
         let (x, z) = (y[4 * b], y[4 * b + 1]);
         y[half + 4 * b..half + 4 * b + 4].copy_from_slice(&[-100.0 * z, 100.0 * x, 0.0, 100.0]);
     }
-    let energy = model.energy(&y);
+    let energy = inspect::energy(&model, &y);
     assert!(energy.friction_power < 1e-20, "{energy:?}");
     assert!(energy.damping_power.abs() < 1e-9, "{energy:?}");
     // And not because nothing can: the true motion slips.
-    let rolling = model.energy(&start(&model, &Start::Equilibrium).unwrap());
+    let rolling = inspect::energy(&model, &start(&model, &Start::Equilibrium).unwrap());
     assert!(rolling.friction_power > 1e-3, "{rolling:?}");
 }
 
@@ -235,8 +237,8 @@ fn force_at(model: &Model, y: &[f64], angle: f64, spin: f64) -> ([f64; 4], [f64;
     y[11] = spin;
     let half = y.len() / 2;
     y[half..].fill(0.0);
-    let forces = &model.forces(0.0, &y)[0].1;
-    let loads = Race::BOTH.map(|race| model.contact(&y, 0, race).load);
+    let forces = &contributions(&model, 0.0, &y)[0].1;
+    let loads = Race::BOTH.map(|race| inspect::contact(&model, &y, 0, race).load);
     ([forces[0], forces[1], forces[4], forces[5]], loads)
 }
 
@@ -389,7 +391,7 @@ fn unbalance_turns_with_the_ring() {
     let model = Model::new(&scene).unwrap();
     let mut y = start(&model, &Start::Rolling).unwrap();
     y[7] = 0.25;
-    let forces = model.forces(0.0, &y);
+    let forces = contributions(&model, 0.0, &y);
     let load = &forces.iter().find(|(name, _)| *name == "load").unwrap().1[4..8];
     let force = 1e-3 * (TAU * 30.0_f64).powi(2);
     assert!((load[0] - force * 0.75_f64.cos()).abs() < 1e-9 * force);

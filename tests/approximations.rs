@@ -6,7 +6,10 @@ mod common;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use ballrace::Reduction;
 use ballrace::dynamics::Dynamics;
+use ballrace::dynamics::rhs;
+use ballrace::inspect;
 use ballrace::integrate::System;
 use ballrace::scene::{
     Approximations, Defect, Drive, Method, Mount, NormalLaw, Profile, Scene, Surface, TimeFunction,
@@ -64,7 +67,7 @@ struct Shaken<'m> {
 impl<'m> Shaken<'m> {
     fn new(model: &'m Model, seed: u64) -> Self {
         let y0 = start(model, &Start::Equilibrium).unwrap();
-        let mut dynamics = Dynamics::reduced(model, model.reduction(&y0).unwrap(), &y0);
+        let mut dynamics = Dynamics::reduced(model, Reduction::of(&model, &y0).unwrap(), &y0);
         let mut noise = Noise(seed);
         let mut shaken = y0.clone();
         let half = shaken.len() / 2;
@@ -91,7 +94,7 @@ impl<'m> Shaken<'m> {
     /// Rates of the free bodies there, without what the scene gives up.
     fn free(&self) -> Vec<f64> {
         let mut rates = self.full.clone();
-        self.model.rhs(self.t, &self.full, &mut rates);
+        rhs(&self.model, self.t, &self.full, &mut rates);
         rates
     }
 }
@@ -164,9 +167,7 @@ fn places_speeds_and_rates_belong_together() {
     let mut dy = shaken.y.clone();
     let mut dynamics = Dynamics::reduced(
         &model,
-        model
-            .reduction(&start(&model, &Start::Equilibrium).unwrap())
-            .unwrap(),
+        Reduction::of(&model, &start(&model, &Start::Equilibrium).unwrap()).unwrap(),
         &start(&model, &Start::Equilibrium).unwrap(),
     );
     dynamics.rhs(t, &shaken.y, &mut dy);
@@ -256,7 +257,7 @@ fn alone(shaken: &Shaken, row: usize) -> Vec<f64> {
         .flat_map(|half| [&half[..8], &half[4 * (2 + 13 * row)..][..4 * 13]].concat())
         .collect::<Vec<_>>();
     let mut rates = y.clone();
-    Model::new(&scene).unwrap().rhs(shaken.t, &y, &mut rates);
+    rhs(&Model::new(&scene).unwrap(), shaken.t, &y, &mut rates);
     rates
 }
 
@@ -265,7 +266,7 @@ fn alone(shaken: &Shaken, row: usize) -> Vec<f64> {
 fn an_unloaded_row_goes() {
     let model = Model::new(&thrust(ONE_ROW)).unwrap();
     let shaken = Shaken::new(&model, 3);
-    let reduction = model.reduction(&shaken.full).unwrap();
+    let reduction = Reduction::of(&model, &shaken.full).unwrap();
     let told: Vec<&str> = reduction
         .omissions()
         .iter()
@@ -276,7 +277,7 @@ fn an_unloaded_row_goes() {
     let free = shaken.free();
     let loads = |row: usize| -> f64 {
         (13 * row..13 * (row + 1))
-            .map(|j| model.contact(&shaken.full, j, Race::Inner).load)
+            .map(|j| inspect::contact(&model, &shaken.full, j, Race::Inner).load)
             .sum()
     };
     let idle = usize::from(loads(1) < loads(0));
@@ -347,7 +348,7 @@ fn what_does_not_hold_is_told() {
         }
         let model = Model::new(&scene).unwrap();
         let y0 = start(&model, &Start::Equilibrium).unwrap();
-        let reduction = model.reduction(&y0).unwrap();
+        let reduction = Reduction::of(&model, &y0).unwrap();
         assert!(
             reduction.obstacles().iter().any(|o| o.what == what),
             "{:?}",

@@ -4,6 +4,7 @@ mod common;
 
 use std::f64::consts::PI;
 
+use ballrace::dynamics::contributions;
 use ballrace::scene::{Cage, Material, Mount, NormalLaw, Scene, presets};
 use ballrace::{Equilibrium, Model, Start, equilibrium, start};
 use common::Noise;
@@ -85,7 +86,7 @@ fn left(scene: &Scene, found: &Equilibrium) -> (f64, f64) {
     let half = y.len() / 2;
     y[half..].fill(0.0);
     let mut sum = vec![0.0; half];
-    for (name, part) in model.forces(0.0, &y) {
+    for (name, part) in contributions(&model, 0.0, &y) {
         if !["damping", "friction", "drive"].contains(&name) {
             sum.iter_mut()
                 .zip(part)

@@ -4,6 +4,7 @@ use ballrace::contact::hertz::Hertz;
 use ballrace::contact::{
     BallSide, Law, Motion, Pair, Rules, Sink, Slices, Torus, Touch, V2, Waves,
 };
+use ballrace::inspect;
 use ballrace::scene::{Component, Friction, NormalLaw, Probe, presets};
 use ballrace::{Model, Race, Start, start};
 
@@ -114,7 +115,7 @@ fn rolling_start_does_not_slip() {
     let model = Model::new(&scene).unwrap();
     let y = start(&model, &Start::Rolling).unwrap();
     for race in Race::BOTH {
-        let contact = model.contact(&y, 3, race);
+        let contact = inspect::contact(&model, &y, 3, race);
         assert!(contact.load > 1.0);
         assert!(
             (contact.angle.to_degrees() - 13.0).abs() < 0.2,
@@ -125,7 +126,7 @@ fn rolling_start_does_not_slip() {
         let mut skidding = y.clone();
         skidding[y.len() / 2 + 4 * 5 + 3] *= 0.9;
         assert!(
-            model.contact(&skidding, 3, race).slip > 0.15,
+            inspect::contact(&model, &skidding, 3, race).slip > 0.15,
             "a wrong spin must slip"
         );
     }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use ballrace::dynamics::contributions;
 use ballrace::scene::{Defect, Material, Surface, presets};
 use ballrace::{Error, Model, Start, equilibrium, start};
 
@@ -109,7 +110,7 @@ fn balls_that_hang_on_the_cage_are_balanced_soon() {
         let mut y = start(&model, &Start::Equilibrium).unwrap();
         let half = y.len() / 2;
         y[half..].fill(0.0);
-        let forces = model.forces(0.0, &y);
+        let forces = contributions(&model, 0.0, &y);
         let at_rest = forces
             .iter()
             .filter(|(name, _)| !["damping", "friction"].contains(name));

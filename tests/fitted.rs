@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use ballrace::dynamics::contributions;
 use ballrace::scene::{Defect, NormalLaw, Scene, Slices, Surface, presets};
 use ballrace::{Model, Start, start};
 
@@ -31,7 +32,7 @@ fn forces(scene: &Scene, slices: Slices, approach: f64, arc: f64, shift: f64) ->
     (y[8], y[9]) = (radius * place.cos(), radius * place.sin());
     y[10] += approach * angle.sin() + shift;
     // Normal forces on the ball in question.
-    let parts = model.forces(0.0, &y);
+    let parts = contributions(&model, 0.0, &y);
     let contact = parts.iter().find(|(name, _)| *name == "contact").unwrap();
     contact.1[8..11].to_vec()
 }

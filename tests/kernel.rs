@@ -6,6 +6,9 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::dynamics::Dynamics;
+use ballrace::dynamics::contributions;
+use ballrace::dynamics::rhs;
+use ballrace::inspect;
 use ballrace::scene::{Defect, Friction, NormalLaw, Scene, Slices, Surface, Waviness, presets};
 use ballrace::simd::Level;
 use ballrace::{Model, Race, Start, start};
@@ -28,8 +31,8 @@ fn difference(scene: &Scene, level: Level) -> f64 {
             y[half + i] += speed * noise.next();
         }
         let found = dynamics.forces(0.0, &y);
-        let parts = model.forces(0.0, &y);
-        let loads = |j: usize| Race::BOTH.map(|race| model.contact(&y, j, race).load);
+        let parts = contributions(&model, 0.0, &y);
+        let loads = |j: usize| Race::BOTH.map(|race| inspect::contact(&model, &y, j, race).load);
         let balls: Vec<[f64; 2]> = (0..model.body_count() - 2).map(loads).collect();
         for (b, force) in found.iter().enumerate() {
             let size: f64 = if b < 2 {
@@ -143,7 +146,7 @@ fn what_is_no_number_does_not_hide() {
     for state in [0, 1, 8, 9, 10, 8 * 4 + 2] {
         let mut y = calm.clone();
         y[state] = f64::NAN;
-        model.rhs(0.0, &y, &mut dy);
+        rhs(&model, 0.0, &y, &mut dy);
         assert!(dy.iter().any(|x| x.is_nan()), "{}", model.names()[state]);
     }
 }

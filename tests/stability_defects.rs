@@ -6,6 +6,7 @@ mod common;
 
 use std::f64::consts::FRAC_PI_2;
 
+use ballrace::inspect;
 use ballrace::scene::{
     ContactQuantity, Defect, Drive, Friction, Probe, RingName, Scene, Slices, Surface, presets,
 };
@@ -140,7 +141,7 @@ fn a_defect_at_the_end_of_the_zone_does_not_jump_on_fitted_nodes() {
                 // The zone of the loaded ball lies between +0.3 and +3.1 mm; the defect comes in from above.
                 scene.defects.get_mut("spall").unwrap().axial_offset =
                     (4.1e-3 - 0.05e-3 * f64::from(i)).into();
-                Model::new(&scene).unwrap().contact(&y, 0, Race::Outer).load
+                inspect::contact(&Model::new(&scene).unwrap(), &y, 0, Race::Outer).load
             })
             .collect();
         let bends = forces.windows(3).map(|f| (f[0] - 2.0 * f[1] + f[2]).abs());

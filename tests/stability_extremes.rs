@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use ballrace::inspect;
 use ballrace::scene::{Drive, Friction, Mount, Profile, Scene, TimeFunction, presets};
 use ballrace::{Error, Model, Race, Run, Signals, Start, simulate, start};
 use common::{rms, run, short, soon_over_the_spall};
@@ -46,7 +47,7 @@ fn from_no_speed_to_30_000_rpm() {
         let model = Model::new(&scene).unwrap();
         let y = start(&model, &Start::Equilibrium).unwrap();
         let upper = (0..9)
-            .map(|j| model.contact(&y, j, Race::Outer).load)
+            .map(|j| inspect::contact(&model, &y, j, Race::Outer).load)
             .fold(f64::INFINITY, f64::min);
         let orbit = model.rolling_speeds(0).0;
         let mass = 7850.0 * PI * 7.94e-3_f64.powi(3) / 6.0;

@@ -4,6 +4,7 @@
 
 mod common;
 
+use ballrace::inspect;
 use ballrace::scene::{Drive, Friction, NormalLaw, Probe, Profile, Scene, TimeFunction, presets};
 use ballrace::{Bandwidth, Model, Race, Run, Start, start};
 use common::{ball_mass, one_ball, run, short, soon_over_the_spall};
@@ -30,7 +31,7 @@ fn sticking_is_a_creep_that_falls_with_the_slip_speed() {
         let y0 = start(&model, &Start::Rolling).unwrap();
         let loads: f64 = Race::BOTH
             .into_iter()
-            .map(|race| model.contact(&y0, 0, race).load)
+            .map(|race| inspect::contact(&model, &y0, 0, race).load)
             .sum();
         let expected = ball_mass() * 9.81 * slip_speed / (0.05 * loads);
         let out = run(
@@ -160,7 +161,7 @@ fn no_friction_law_gives_energy() {
                 for (i, state) in y.iter_mut().enumerate().skip(half) {
                     *state += scale * (((i * 7919) % 997) as f64 / 997.0 - 0.5);
                 }
-                let power = model.energy(&y).friction_power;
+                let power = inspect::energy(&model, &y).friction_power;
                 assert!(power >= 0.0, "{law:?} {scale}: {power}");
             }
         }

@@ -3,7 +3,8 @@
 use super::plane::{Plane, Rates};
 use super::rolling::Rolling;
 use crate::forces::{State, Table};
-use crate::model::{Model, Reduction};
+use crate::model::Model;
+use crate::reduction::Reduction;
 use crate::simd::Level;
 
 /// What a reduction keeps, and how it is evaluated.

@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use super::{Dynamics, Order};
 use crate::integrate::System;
 use crate::model::{BodyId, Dof};
+use crate::reduction::Reduction;
 use crate::scene::{
     Defect, Friction, Method, Profile, Scene, Slices, Surface, TimeFunction, Waviness, presets,
 };
@@ -175,7 +176,7 @@ fn an_evaluation_notices_lost_balls_on_every_path() {
         for level in Level::available() {
             let model = Model::new(&path.scene).unwrap().with_level(level);
             let fine = start(&model, &Start::Equilibrium).unwrap();
-            let dynamics = Dynamics::begin(&model, model.reduction(&fine).as_ref(), &fine);
+            let dynamics = Dynamics::begin(&model, Reduction::of(&model, &fine).as_ref(), &fine);
             let by_loop = match &dynamics.order {
                 Order::Bodies => false,
                 Order::Kept(kept) => kept.plane.is_some(),
@@ -196,7 +197,7 @@ fn an_evaluation_notices_lost_balls_on_every_path() {
 }
 
 fn first_lost(model: &Model, y: &[f64]) -> Option<BodyId> {
-    let mut dynamics = Dynamics::begin(model, model.reduction(y).as_ref(), y);
+    let mut dynamics = Dynamics::begin(model, Reduction::of(model, y).as_ref(), y);
     let own = dynamics.compress(y);
     dynamics.rhs(0.0, &own, &mut vec![0.0; own.len()]);
     dynamics.lost()

@@ -2,8 +2,7 @@
 
 mod arrow;
 mod batch;
-mod contacts;
-mod energy;
+mod contributions;
 mod grip;
 mod implicit;
 mod kept;
@@ -19,22 +18,18 @@ use std::sync::Arc;
 
 use rayon::ThreadPool;
 
-use crate::contact::{Pair, Slices};
-use crate::forces::{self, Force, State, Table, cage, drive, gravity, load, support, unbalance};
+use crate::forces::{State, Table, cage, drive, gravity, load, support, unbalance};
 use crate::integrate::System;
-use crate::model::{
-    BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Race, Reduction, RowModel, Spring,
-};
+use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Spring};
+use crate::reduction::Reduction;
 
-pub use contacts::{ContactSummary, SliceForce};
-pub use energy::Energy;
+pub use contributions::{CONTRIBUTIONS, contributions};
 
 use batch::{Batch, Kind};
 use kept::Kept;
 use plane::{Ground, Plane};
 use rolling::Rolling;
 use stage::Stage;
-use sums::Named;
 
 /// A model with the memory that evaluating it needs. One a thread of control.
 #[derive(Debug)]
@@ -64,18 +59,6 @@ enum Order {
     /// What a reduction keeps, direction by direction.
     Kept(Box<Kept>),
 }
-
-/// Names of the contributions of [`Model::forces`], in their order.
-pub const CONTRIBUTIONS: [&str; 8] = [
-    "contact",
-    "damping",
-    "friction",
-    cage::FORCE.contribution,
-    support::FORCE.contribution,
-    gravity::FORCE.contribution,
-    load::FORCE.contribution,
-    drive::FORCE.contribution,
-];
 
 impl<'m> Dynamics<'m> {
     /// For evaluations on one thread, of states as [`Model::names`] orders them.
@@ -316,48 +299,6 @@ impl<'m> Dynamics<'m> {
         }
         acceleration
     }
-
-    /// The same forces apart by origin, as in [`CONTRIBUTIONS`]: for each, four numbers a body. `y` holds the states
-    /// of all bodies.
-    pub(crate) fn contributions(model: &Model, t: f64, y: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
-        let bodies = model.bodies.len();
-        let mut state = State::new(bodies);
-        state.read(y);
-        let mut parts = vec![Table::zeros(bodies); CONTRIBUTIONS.len()];
-        let rings = state.rings();
-        for (j, ball) in model.balls.iter().enumerate() {
-            let body = BodyId::ball(j);
-            for race in Race::BOTH {
-                let mut named = Named::default();
-                let pair = &model.rows[ball.row].pairs[race];
-                pair.evaluate(&ball.side, &state.motion(body), &rings[race], &mut named);
-                for (part, (on_ball, on_ring)) in parts.iter_mut().zip(named.wrenches()) {
-                    part.add(body, &on_ball);
-                    part.add(race.ring(), &on_ring);
-                }
-            }
-        }
-        let part = |force: &Force| {
-            let named = |name: &&str| *name == force.contribution;
-            CONTRIBUTIONS.iter().position(named).unwrap_or_default()
-        };
-        let depends = |force: &&Force| force.name == unbalance::FORCE.name;
-        for force in forces::ALL.iter().filter(|force| !depends(force)) {
-            (force.add)(model, t, &state, &mut parts[part(force)]);
-        }
-        for race in Race::BOTH {
-            let ring = race.ring();
-            let all = Dof::ALL.map(|dof| parts.iter().map(|part| part.get(ring, dof)).sum());
-            let unbalance = unbalance::on(model, t, &state, race, &all);
-            parts[part(&unbalance::FORCE)].add(ring, &unbalance);
-        }
-        let bodies = model.layout().bodies();
-        let listed = |part: Table| bodies.clone().flat_map(|body| part.of(body)).collect();
-        CONTRIBUTIONS
-            .into_iter()
-            .zip(parts.into_iter().map(listed))
-            .collect()
-    }
 }
 
 impl System for Dynamics<'_> {
@@ -397,60 +338,17 @@ impl System for Dynamics<'_> {
     }
 }
 
-impl Model {
-    /// Time derivative of a state vector, both of length [`Model::dim`]. Allocates its own memory; a run
-    /// uses [`Dynamics`].
-    ///
-    /// # Panics
-    /// If a length is wrong.
-    pub fn rhs(&self, t: f64, y: &[f64], dy: &mut [f64]) {
-        assert!(
-            y.len() == self.dim() && dy.len() == self.dim(),
-            "a state has {} numbers",
-            self.dim()
-        );
-        Dynamics::new(self).rhs(t, y, dy);
-    }
-
-    /// The forces on every body by origin (see [`CONTRIBUTIONS`]): x, y, z \[N\] and about z \[N m\] for each
-    /// body in turn.
-    ///
-    /// # Panics
-    /// If the length of `y` is wrong.
-    pub fn forces(&self, t: f64, y: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
-        assert_eq!(y.len(), self.dim(), "length of the state");
-        Dynamics::contributions(self, t, y)
-    }
-}
-
-impl Model {
-    /// The radius that makes a length of a body's rotation \[m\]: a ball's own, half the mean pitch diameter of the rows for
-    /// a ring.
-    pub(crate) fn radius(&self, body: BodyId) -> f64 {
-        match body.kind() {
-            BodyKind::Ball(ball) => self.balls[ball].side.radius,
-            BodyKind::Ring(_) => {
-                let pitch = self.scene.rows.iter().map(|row| row.pitch_diameter);
-                pitch.sum::<f64>() / self.rows.len() as f64 / 2.0
-            }
-        }
-    }
-
-    /// Whether sharing one evaluation among threads pays: below some 7 µs the wait for the last thread costs more
-    /// (`cargo bench --bench layers -- threads`).
-    pub(crate) fn is_large(&self) -> bool {
-        /// Nodes of all contacts from which two threads were faster.
-        const BREAK_EVEN: usize = 1500;
-        let nodes = |row: &RowModel| -> usize {
-            let of = |pair: &Pair| match &pair.slices {
-                // About a third of the ball touches.
-                Slices::Fixed(count) => count / 3,
-                Slices::Fitted(rules) => rules.count(),
-            };
-            row.count * row.pairs.iter().map(of).sum::<usize>()
-        };
-        self.rows.iter().map(nodes).sum::<usize>() > BREAK_EVEN
-    }
+/// Time derivative of a state vector, both of length [`Model::dim`]. Allocates its own memory; a run uses [`Dynamics`].
+///
+/// # Panics
+/// If a length is wrong.
+pub fn rhs(model: &Model, t: f64, y: &[f64], dy: &mut [f64]) {
+    let dim = model.dim();
+    assert!(
+        y.len() == dim && dy.len() == dim,
+        "a state has {dim} numbers"
+    );
+    Dynamics::new(model).rhs(t, y, dy);
 }
 
 fn add(sum: &mut [f64; DOFS], part: &[f64; DOFS]) {

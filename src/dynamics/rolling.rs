@@ -1,7 +1,8 @@
 //! Rows that turn as one: from radii to places, and from forces to what accelerates the radii.
 
 use crate::forces::{State, Table};
-use crate::model::{Dof, Reduction};
+use crate::model::Dof;
+use crate::reduction::Reduction;
 
 /// Directions of the balls of all rows that turn as one, at the last state.
 #[derive(Debug, Clone, Default)]

@@ -28,8 +28,10 @@ mod unknowns;
 use serde::Serialize;
 
 use crate::error::Result;
+use crate::inspect;
 use crate::interrupt;
 use crate::model::{BodyId, Dof, Model, Race};
+use crate::reduction::levels;
 use crate::scene::{Doubt, Scene};
 pub use distribution::{EquivalentLoads, LoadDistribution, load_distribution};
 pub use place::Placed;
@@ -139,7 +141,7 @@ pub fn equilibrium(scene: &Scene) -> Result<Equilibrium> {
 /// share one place would else be pressed more or less than they bear.
 pub(crate) fn positions(model: &Model) -> Result<Vec<f64>> {
     let solved = solve(model)?;
-    let Some(levels) = model.levels(&solved.y) else {
+    let Some(levels) = levels(model, &solved.y) else {
         return Ok(solved.y);
     };
     let layout = model.layout();
@@ -178,7 +180,7 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
     let layout = model.layout();
     let place = |body: BodyId| layout.centre(y, body);
     let contact = |j: usize, race: Race| {
-        let summary = model.contact(y, j, race);
+        let summary = inspect::contact(model, y, j, race);
         let ball = &model.balls[j];
         let pair = &model.rows[ball.row].pairs[race];
         let (b, r) = (place(BodyId::ball(j)), place(race.ring()));
@@ -193,7 +195,7 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
             angle: loaded.then_some(summary.angle),
             deflection: meridian.approach(ball.side.radius),
             zone_centre: loaded.then_some(summary.zone_centre),
-            pressure: model.pressure(j, race, summary.load),
+            pressure: inspect::pressure(model, j, race, summary.load),
         }
     };
     let balls = model.balls.iter().enumerate().map(|(j, ball)| {

@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use super::positions;
 use crate::error::{Error, Result};
+use crate::inspect;
 use crate::model::{BodyId, Dof, Model, Race, compile};
 use crate::scene::{AxialOffset, Defect, Row, Scene, Surface, TimeFunction};
 
@@ -120,7 +121,7 @@ impl Meeting {
     /// Where the most loaded of these contacts runs, from the row's plane or the ball's centre \[m\]; none without load.
     fn place(&self, defect: &Defect) -> Option<f64> {
         let told = self.contacts.iter().map(|&(j, race)| {
-            let contact = self.model.contact(&self.y, j, race);
+            let contact = inspect::contact(&self.model, &self.y, j, race);
             let z = |body: BodyId| self.y[self.model.layout().at(body, Dof::Z)];
             let from = match defect.on {
                 Surface::Ball => z(BodyId::ball(j)) - z(race.ring()),

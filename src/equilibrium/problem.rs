@@ -6,8 +6,9 @@ use super::cage::CageSpring;
 use super::guess::RowSpring;
 use super::unknowns::{self, OF_RINGS, Rings};
 use crate::contact::{Tangent, V2};
-use crate::forces::{gravity, support, unbalance};
-use crate::model::{AxialPlaces, BodyId, Dof, Model, Race};
+use crate::forces::{gravity, load, support, unbalance};
+use crate::model::{BodyId, Dof, Model, Race};
+use crate::reduction::AxialPlaces;
 
 pub(super) struct Problem<'m> {
     pub(super) model: &'m Model,
@@ -48,7 +49,7 @@ impl<'m> Problem<'m> {
         }
         let mut loads = Rings::zeros();
         for load in &model.loads {
-            unknowns::add(&mut loads, load.ring, &load.at(0.0));
+            unknowns::add(&mut loads, load.ring, &load::at(load, 0.0));
         }
         for race in Race::BOTH {
             let weight = gravity::on(model, race.ring());

@@ -13,6 +13,7 @@ use crate::integrate::{DenseStep, Statistics, System};
 use crate::interrupt;
 use crate::method::{self, Task};
 use crate::model::{BodyId, Dof, Model};
+use crate::reduction::Reduction;
 
 /// Places of the cage over a ball's pitch.
 const PLACES: usize = 8;
@@ -87,7 +88,7 @@ pub(super) fn of(model: &Model, y0: &[f64]) -> Result<Cost> {
 /// Time for an evaluation in some steps, and evaluations for a simulated second.
 fn steps(model: &Model, start: &[f64], count: usize) -> Result<(f64, f64)> {
     let options = options(model)?;
-    let reduction = model.reduction(start);
+    let reduction = Reduction::of(model, start);
     let mut best = f64::INFINITY;
     let mut reached = [(0.0, 0); 2];
     for _ in 0..TIMES {
@@ -139,7 +140,7 @@ fn time_at_places(
     work: impl Fn(&mut Dynamics<'_>, &[f64], &mut [f64]),
 ) -> f64 {
     let at = |start: &Vec<f64>| {
-        let reduction = model.reduction(start);
+        let reduction = Reduction::of(model, start);
         let mut dynamics = Dynamics::begin(model, reduction.as_ref(), start);
         let own = dynamics.compress(start);
         let mut dy = vec![0.0; own.len()];

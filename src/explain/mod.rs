@@ -14,8 +14,9 @@ use crate::dynamics::Dynamics;
 use crate::equilibrium::{Meeting, Placed, describe, place};
 use crate::error::Result;
 use crate::interrupt;
-use crate::model::{BodyId, Model, Obstacle, Omission, Race, Reduction};
+use crate::model::{BodyId, Model, Race};
 use crate::orbit;
+use crate::reduction::{Obstacle, Omission, Reduction};
 use crate::scene::{Defect, Doubt, Scene, Surface};
 use crate::start::{Start, start};
 use crate::touched::{Touched, compiled, is_there};
@@ -90,7 +91,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
     let (scene, placed) = place(scene)?;
     let model = Model::new(&scene)?;
     let y0 = start(&model, &Start::Equilibrium)?;
-    let reduction = model.reduction(&y0);
+    let reduction = Reduction::of(&model, &y0);
     let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);
     let forces = dynamics.uses();
     let of = |wanted: crate::forces::Use| {

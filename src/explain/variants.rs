@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use super::cost::{self, Cost};
-use crate::model::{Model, Reduction};
+use crate::model::Model;
+use crate::reduction::Reduction;
 use crate::scene::{Load, Scene, Slices, Surface};
 
 /// The same scene with one change.
@@ -115,11 +116,11 @@ const CHANGES: [(&str, &str, Change); 11] = [
 
 /// All that help, the cheapest first. They are timed at the scene's own start, and take its steps.
 pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Vec<Variant> {
-    let own = model.reduction(y0).map_or(model.dim(), |r| r.dim());
+    let own = Reduction::of(model, y0).map_or(model.dim(), |r| r.dim());
     let mut variants: Vec<Variant> = offers(model, y0)
         .into_iter()
         .map(|(change, note, changed)| {
-            let kept = changed.reduction(y0).map_or(changed.dim(), |r| r.dim());
+            let kept = Reduction::of(&changed, y0).map_or(changed.dim(), |r| r.dim());
             // The integrator's share goes with the states.
             let share =
                 (cost.evaluation - cost.right_hand_side).max(0.0) * kept as f64 / own as f64;
@@ -146,12 +147,12 @@ pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Vec<Variant> {
 /// Changes that apply to a scene and hold at its start, with their notes and models. What the scene does not allow, or
 /// what meets an obstacle that was not there, is no offer.
 fn offers(model: &Model, y0: &[f64]) -> Vec<(&'static str, &'static str, Model)> {
-    let now = obstacles(model.reduction(y0).as_ref());
+    let now = obstacles(Reduction::of(model, y0).as_ref());
     CHANGES
         .into_iter()
         .filter_map(|(change, note, apply)| {
             let changed = Model::new(&apply(model.scene())?).ok()?;
-            let holds = obstacles(changed.reduction(y0).as_ref()) <= now;
+            let holds = obstacles(Reduction::of(&changed, y0).as_ref()) <= now;
             holds.then_some((change, note, changed))
         })
         .collect()

@@ -157,13 +157,13 @@ pub(crate) fn account(model: &Model, y: &[f64]) -> Account {
 }
 
 /// The links of a row in a state; none without a cage.
-pub(crate) fn of_row(model: &Model, y: &[f64], row: &RowModel) -> impl Iterator<Item = Link> {
+pub(crate) fn of_row(model: &Model, y: &[f64], row: &RowModel) -> Vec<Link> {
     let motion = |ball| model.layout().motion(y, BodyId::ball(ball));
     let links = model.scene.cage.iter().flat_map(|cage| {
         let of = move |(i, j)| link(cage, row.cage_distance, &motion(i), &motion(j));
         row.links().map(of)
     });
-    links.collect::<Vec<_>>().into_iter()
+    links.collect()
 }
 
 /// Rate at which the cage damps a ball of a row \[1/s\]: by two links, at most 4 c_c/m.

@@ -18,21 +18,19 @@ pub(crate) const FORCE: Force = Force {
     },
 };
 
-impl LoadModel {
-    /// Whether it stays the same.
-    pub fn is_steady(&self) -> bool {
-        matches!(self.force, TimeFunction::Constant(_))
-    }
+/// Whether one stays the same.
+pub(crate) fn is_steady(load: &LoadModel) -> bool {
+    matches!(load.force, TimeFunction::Constant(_))
+}
 
-    /// At a time \[s\], along x, y and z \[N\].
-    pub fn at(&self, t: f64) -> Vector3<f64> {
-        Vector3::from(self.direction) * self.force.at(t)
-    }
+/// One at a time \[s\], along x, y and z \[N\].
+pub(crate) fn at(load: &LoadModel, t: f64) -> Vector3<f64> {
+    Vector3::from(load.direction) * load.force.at(t)
 }
 
 fn used(model: &Model) -> Use {
     let mut loads = model.loads.iter().filter(|load| load.force.peak() > 0.0);
-    if loads.clone().all(LoadModel::is_steady) {
+    if loads.clone().all(is_steady) {
         Use::constant(loads.next().is_some())
     } else {
         Use::Evaluated
@@ -41,8 +39,8 @@ fn used(model: &Model) -> Use {
 
 /// Loads that stay the same, or those that change.
 pub(crate) fn add(model: &Model, steady: bool, t: f64, forces: &mut Table) {
-    for load in model.loads.iter().filter(|load| load.is_steady() == steady) {
-        let force = load.at(t);
+    for load in model.loads.iter().filter(|load| is_steady(load) == steady) {
+        let force = at(load, t);
         forces.add(load.ring.ring(), &[force.x, force.y, force.z, 0.0]);
     }
 }

@@ -17,19 +17,17 @@ pub(crate) const FORCE: Force = Force {
     add: |model, _, state, forces| add(&model.springs, state, forces),
 };
 
-impl Spring {
-    /// Force against the direction \[N\], about z \[N m\].
-    #[inline(always)]
-    pub fn resistance(&self, place: f64, speed: f64) -> f64 {
-        self.stiffness * (place - self.nominal) + self.damping * speed
-    }
+/// Force of a spring and its damper against their direction \[N\], about z \[N m\].
+#[inline(always)]
+pub(crate) fn resistance(spring: &Spring, place: f64, speed: f64) -> f64 {
+    spring.stiffness * (place - spring.nominal) + spring.damping * speed
 }
 
 /// Those of some springs.
 pub(crate) fn add(springs: &[Spring], state: &State, forces: &mut Table) {
     for spring in springs {
         let (body, dof) = (spring.body, spring.dof);
-        let resistance = spring.resistance(state.q.get(body, dof), state.v.get(body, dof));
+        let resistance = resistance(spring, state.q.get(body, dof), state.v.get(body, dof));
         *forces.get_mut(body, dof) -= resistance;
     }
 }

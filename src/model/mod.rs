@@ -7,23 +7,20 @@ mod body;
 mod compile;
 mod layout;
 mod nodes;
-mod reduction;
 mod scales;
 
-use crate::contact::hertz::Hertz;
 use std::mem::discriminant;
 use std::ops::Range;
 
-use crate::contact::{BallSide, Pair, cross};
-use crate::scene::{Component, Method, Scene, TimeFunction};
+use crate::contact::hertz::Hertz;
+use crate::contact::{BallSide, Pair, Slices, cross};
+use crate::scene::{Component, Scene, TimeFunction};
 use crate::simd::{LANES, Level};
 
 pub use body::{Body, Degree};
 pub(crate) use compile::{ball_fault, compile, race_fault};
 pub use layout::{BodyId, BodyKind, DOFS, Dof, Layout, Race};
 pub(crate) use layout::{RING_DOFS, RINGS};
-pub(crate) use reduction::AxialPlaces;
-pub use reduction::{Obstacle, Omission, Reduction};
 pub use scales::Scales;
 
 /// A compiled scene. Immutable and shared by threads.
@@ -215,18 +212,32 @@ impl Model {
         &self.scales
     }
 
-    /// What a run from a state of all bodies leaves out; absent where it integrates all states in the order of
-    /// [`Model::names`], since implicit steps solve for a block a body.
-    ///
-    /// # Panics
-    /// If the length of `start` is wrong.
-    pub fn reduction(&self, start: &[f64]) -> Option<Reduction> {
-        assert_eq!(start.len(), self.dim(), "length of the state");
-        let solver = &self.scene.solver;
-        match solver.method {
-            Method::ImplicitFriction | Method::Auto => None,
-            _ => Some(Reduction::of(self, start, solver.reduce)),
+    /// The radius that makes a length of a body's rotation \[m\]: a ball's own, half the mean pitch diameter of the rows for
+    /// a ring.
+    pub(crate) fn radius(&self, body: BodyId) -> f64 {
+        match body.kind() {
+            BodyKind::Ball(ball) => self.balls[ball].side.radius,
+            BodyKind::Ring(_) => {
+                let pitch = self.scene.rows.iter().map(|row| row.pitch_diameter);
+                pitch.sum::<f64>() / self.rows.len() as f64 / 2.0
+            }
         }
+    }
+
+    /// Whether sharing one evaluation among threads pays: below some 7 µs the wait for the last thread costs more
+    /// (`cargo bench --bench layers -- threads`).
+    pub(crate) fn is_large(&self) -> bool {
+        /// Nodes of all contacts from which two threads were faster.
+        const BREAK_EVEN: usize = 1500;
+        let nodes = |row: &RowModel| -> usize {
+            let of = |pair: &Pair| match &pair.slices {
+                // About a third of the ball touches.
+                Slices::Fixed(count) => count / 3,
+                Slices::Fitted(rules) => rules.count(),
+            };
+            row.count * row.pairs.iter().map(of).sum::<usize>()
+        };
+        self.rows.iter().map(nodes).sum::<usize>() > BREAK_EVEN
     }
 
     /// Orbit rate of a row's balls and their rotation about z \[rad/s\] for pure rolling at the nominal contact
@@ -256,7 +267,7 @@ impl Model {
     }
 
     /// [`Self::rolling_speeds`] over the speed of the inner ring.
-    fn rolling_shares(&self, row: usize) -> (f64, f64) {
+    pub(crate) fn rolling_shares(&self, row: usize) -> (f64, f64) {
         let row = &self.scene.rows[row];
         let gamma = row.ball_diameter * row.contact_angle.cos() / row.pitch_diameter;
         let orbit = (1.0 - gamma) / 2.0;

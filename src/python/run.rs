@@ -14,6 +14,7 @@ use serde::de::value::Error as ValueError;
 
 use super::answer::{Progress, answering};
 use super::errors::{OrRaise, to_json};
+use crate::dynamics;
 use crate::scene::{Method, RingName};
 use crate::{Bandwidth, Error, Run, Scene, Signals, SliceRow, Start};
 
@@ -65,7 +66,7 @@ impl Model {
         let y = self.state(py, &y)?;
         let rates = py.detach(|| {
             let mut rates = vec![0.0; y.len()];
-            self.0.rhs(t, &y, &mut rates);
+            dynamics::rhs(&self.0, t, &y, &mut rates);
             rates
         });
         Ok(rates.into_pyarray(py))
@@ -80,7 +81,7 @@ impl Model {
     ) -> PyResult<Bound<'py, PyDict>> {
         let y = self.state(py, &y)?;
         let forces = PyDict::new(py);
-        for (origin, values) in py.detach(|| self.0.forces(t, &y)) {
+        for (origin, values) in py.detach(|| dynamics::contributions(&self.0, t, &y)) {
             let rows = values.len() / 4;
             forces.set_item(origin, values.into_pyarray(py).reshape([rows, 4])?)?;
         }

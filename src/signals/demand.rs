@@ -2,7 +2,8 @@
 
 use super::SliceRow;
 use super::filter::HALF;
-use crate::dynamics::{CONTRIBUTIONS, Energy};
+use crate::dynamics::CONTRIBUTIONS;
+use crate::inspect::Energy;
 use crate::model::{DOFS, RINGS};
 use crate::scene::{Component, ContactQuantity, Probe, Scene, Slices};
 

@@ -17,7 +17,7 @@ mod sampling;
 use serde::Serialize;
 
 use crate::accuracy::Accuracy;
-use crate::model::Omission;
+use crate::reduction::Omission;
 use crate::scene::{RingName, Scene};
 use crate::simd::Distrust;
 use crate::touched::Touched;

@@ -2,8 +2,9 @@
 
 use super::Column;
 use super::filter::Kind;
-use crate::dynamics::{CONTRIBUTIONS, Dynamics, Energy};
+use crate::dynamics::{CONTRIBUTIONS, Dynamics, contributions};
 use crate::error::Result;
+use crate::inspect::{self, Energy};
 use crate::model::{BodyId, Dof, Model, Race};
 use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene};
 
@@ -216,7 +217,7 @@ impl Reader {
                 quantities,
             } => {
                 for (j, race) in contacts {
-                    let contact = model.contact(y, *j, *race);
+                    let contact = inspect::contact(model, y, *j, *race);
                     values.extend(quantities.iter().map(|quantity| match quantity {
                         ContactQuantity::Load => contact.load,
                         ContactQuantity::Angle => contact.angle,
@@ -226,11 +227,15 @@ impl Reader {
                     }));
                 }
             }
-            Self::Cage { row } => values.extend(model.cage_forces(y, *row)),
-            Self::Energy => values.extend(model.energy(y).entries().map(|(_, _, value)| value)),
+            Self::Cage { row } => values.extend(inspect::cage_forces(model, y, *row)),
+            Self::Energy => values.extend(
+                inspect::energy(model, y)
+                    .entries()
+                    .map(|(_, _, value)| value),
+            ),
             Self::Torque => values.extend(dynamics.ring_torques()),
             Self::Forces { body } => {
-                for (_, forces) in Dynamics::contributions(model, t, y) {
+                for (_, forces) in contributions(model, t, y) {
                     values.extend(layout.of(&forces, *body));
                 }
             }

@@ -6,6 +6,7 @@ use super::probes::{Probes, Reader};
 use super::{Column, Sampling, SliceRow};
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
+use crate::inspect;
 use crate::integrate::{DenseStep, System};
 use crate::memory;
 use crate::model::Model;
@@ -233,7 +234,7 @@ impl Recorder {
             dynamics.expand(listing.time, &self.own.0, &mut self.y);
             for (j, race) in listing.contacts {
                 let ball = &model.balls[j];
-                for slice in model.slice_forces(&self.y, j, race) {
+                for slice in inspect::slice_forces(model, &self.y, j, race) {
                     self.slices.push(SliceRow {
                         probe: listing.probe.clone(),
                         time: listing.time,

@@ -19,7 +19,8 @@ use rayon::prelude::*;
 use super::sums::Sum;
 use crate::contact::{self, InPlane, Motion, Press};
 use crate::forces::{State, Table};
-use crate::model::{AxialPlaces, BodyId, DOFS, Degree, Dof, Model, Race};
+use crate::model::{BodyId, DOFS, Degree, Dof, Model, Race};
+use crate::reduction::AxialPlaces;
 use crate::simd::{LANES, Lanes};
 
 use eight::{Eight, Group, leave};

@@ -7,9 +7,10 @@
 mod rates;
 
 use crate::contact::InPlane;
-use crate::forces::{State, Table};
-use crate::model::{BodyId, BodyKind, Dof, Model, Race, Reduction, Spring};
-use crate::scene::{Drive, TimeFunction};
+use crate::forces::{State, Table, load};
+use crate::model::{BodyId, BodyKind, Dof, Model, Race, Spring};
+use crate::reduction::Reduction;
+use crate::scene::Drive;
 use crate::simd::Level;
 
 pub(super) use rates::Rates;
@@ -70,8 +71,7 @@ impl Plane {
         let Ground {
             model, reduction, ..
         } = ground;
-        let varies = |force: &TimeFunction| !matches!(force, TimeFunction::Constant(_));
-        let is_timed = model.loads.iter().any(|load| varies(&load.force))
+        let is_timed = !model.loads.iter().all(load::is_steady)
             || !model.unbalances.is_empty()
             || matches!(model.scene.drive, Drive::Torque { .. })
             || !reduction.felt().is_empty();
@@ -150,7 +150,7 @@ mod tests {
     use super::*;
     use crate::dynamics::Dynamics;
     use crate::integrate::System;
-    use crate::scene::{Friction, NormalLaw, Profile, Scene, presets};
+    use crate::scene::{Friction, NormalLaw, Profile, Scene, TimeFunction, presets};
     use crate::{Start, start};
 
     fn smooth() -> Scene {
@@ -232,7 +232,7 @@ mod tests {
             for level in Level::available() {
                 let model = Model::new(&scene).unwrap().with_level(level);
                 let y0 = start(&model, &Start::Equilibrium).unwrap();
-                let reduction = model.reduction(&y0).unwrap();
+                let reduction = Reduction::of(&model, &y0).unwrap();
                 let mut dynamics = Dynamics::reduced(&model, reduction.clone(), &y0);
                 let mut tables = Dynamics::reduced(&model, reduction, &y0);
                 let super::super::Order::Kept(kept) = &mut tables.order else {
@@ -273,7 +273,7 @@ mod tests {
         let scene = smooth();
         let model = Model::new(&scene).unwrap();
         let y0 = start(&model, &Start::Equilibrium).unwrap();
-        let reduction = model.reduction(&y0).unwrap();
+        let reduction = Reduction::of(&model, &y0).unwrap();
         let mut dynamics = Dynamics::reduced(&model, reduction, &y0);
         let y = dynamics.compress(&y0);
         let mut dy = y.clone();

@@ -6,6 +6,7 @@
 use super::{Balls, Direction, Plane};
 use crate::contact::{InPlane, LevelBalls, LevelRace, Motion, Pair, V2};
 use crate::forces::cage::pull;
+use crate::forces::support::resistance;
 use crate::model::{Model, Race};
 use crate::scene::Cage;
 use crate::simd::{Simd, Vector, Wide};
@@ -87,7 +88,8 @@ impl Direction {
         let Some(at) = self.at else { return };
         let spring = self
             .spring
-            .map_or(0.0, |spring| spring.resistance(q[at], v[at]));
+            .as_ref()
+            .map_or(0.0, |spring| resistance(spring, q[at], v[at]));
         to[at] = (force + self.steady - spring) * self.mobility;
     }
 }

@@ -1,6 +1,7 @@
 //! Approximations by request: what they need of scene and start.
 
 use super::AxialPlaces;
+use crate::inspect;
 use crate::model::{BodyId, Dof, Model, Race};
 use crate::scene::TimeFunction;
 
@@ -14,7 +15,8 @@ pub(super) fn levels(model: &Model, start: &[f64]) -> Result<AxialPlaces, String
     let rows = model.rows.iter().map(|row| {
         let (mut sum, mut all, mut mean) = (0.0, 0.0, 0.0);
         for j in row.balls() {
-            let [outer, inner] = Race::BOTH.map(|race| model.contact(start, j, race).load);
+            let [outer, inner] =
+                Race::BOTH.map(|race| inspect::contact(model, start, j, race).load);
             let load = outer.min(inner);
             let z = z(BodyId::ball(j));
             sum += load * z;
@@ -36,7 +38,7 @@ pub(super) fn idle_row(model: &Model, start: &[f64]) -> Result<usize, String> {
         .rows
         .iter()
         .map(|row| {
-            let load = |j| model.contact(start, j, Race::Inner).load;
+            let load = |j| inspect::contact(model, start, j, Race::Inner).load;
             row.balls().map(load).sum()
         })
         .collect();

@@ -64,43 +64,40 @@ impl Sink for Contacts {
     }
 }
 
-impl Model {
-    /// Energies and dissipated powers of a state.
-    pub fn energy(&self, y: &[f64]) -> Energy {
-        let mut energy = Energy::default();
-        let layout = self.layout();
-        for id in layout.bodies() {
-            let body = &self.bodies[id];
-            for dof in Dof::ALL {
-                let speed = y[layout.speed_at(id, dof)];
-                energy.kinetic += 0.5 * body.mass[dof] * speed * speed;
-            }
+/// Energies and dissipated powers of a state.
+pub fn energy(model: &Model, y: &[f64]) -> Energy {
+    let mut energy = Energy::default();
+    let layout = model.layout();
+    for id in layout.bodies() {
+        let body = &model.bodies[id];
+        for dof in Dof::ALL {
+            let speed = y[layout.speed_at(id, dof)];
+            energy.kinetic += 0.5 * body.mass[dof] * speed * speed;
         }
-        let [cage, support] =
-            [forces::cage::account, forces::support::account].map(|of| of(self, y));
-        let [kinetic, gravity] = forces::unbalance::energies(self, y);
-        energy.kinetic += kinetic;
-        energy.gravity = forces::gravity::energy(self, y) + gravity;
-        (energy.cage, energy.support) = (cage.energy, support.energy);
-        energy.support_power = cage.power + support.power;
-        let mut contacts = Contacts::default();
-        for (j, ball) in self.balls.iter().enumerate() {
-            let at = layout.motion(y, BodyId::ball(j));
-            for race in Race::BOTH {
-                let ring = layout.motion(y, race.ring());
-                let pair = &self.rows[ball.row].pairs[race];
-                pair.evaluate(&ball.side, &at, &ring, &mut contacts);
-            }
-        }
-        energy.contact = contacts.energy;
-        energy.damping_power = contacts.damping;
-        energy.friction_power = contacts.friction;
-        energy
     }
+    let [cage, support] = [forces::cage::account, forces::support::account].map(|of| of(model, y));
+    let [kinetic, gravity] = forces::unbalance::energies(model, y);
+    energy.kinetic += kinetic;
+    energy.gravity = forces::gravity::energy(model, y) + gravity;
+    (energy.cage, energy.support) = (cage.energy, support.energy);
+    energy.support_power = cage.power + support.power;
+    let mut contacts = Contacts::default();
+    for (j, ball) in model.balls.iter().enumerate() {
+        let at = layout.motion(y, BodyId::ball(j));
+        for race in Race::BOTH {
+            let ring = layout.motion(y, race.ring());
+            let pair = &model.rows[ball.row].pairs[race];
+            pair.evaluate(&ball.side, &at, &ring, &mut contacts);
+        }
+    }
+    energy.contact = contacts.energy;
+    energy.damping_power = contacts.damping;
+    energy.friction_power = contacts.friction;
+    energy
+}
 
-    /// Forces of the cage links of a row, positive in tension \[N\]; empty without a cage.
-    pub fn cage_forces(&self, y: &[f64], row: usize) -> Vec<f64> {
-        let links = forces::cage::of_row(self, y, &self.rows[row]);
-        links.map(|link| link.force).collect()
-    }
+/// Forces of the cage links of a row, positive in tension \[N\]; empty without a cage.
+pub fn cage_forces(model: &Model, y: &[f64], row: usize) -> Vec<f64> {
+    let links = forces::cage::of_row(model, y, &model.rows[row]);
+    links.iter().map(|link| link.force).collect()
 }

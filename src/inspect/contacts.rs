@@ -1,4 +1,4 @@
-//! What a probe wants to know of a contact.
+//! A contact in a state: load, angle, zone, slip, and the forces of its slices.
 
 use crate::contact::{Sink, Touch, V2};
 use crate::model::{BodyId, Model, Race};
@@ -74,56 +74,54 @@ impl Sink for List {
     }
 }
 
-impl Model {
-    /// A contact in a few numbers: ball `j` among all balls on a race.
-    pub fn contact(&self, y: &[f64], j: usize, race: Race) -> ContactSummary {
-        let mut sum = Summary::default();
-        let side = self.visit(y, j, race, &mut sum);
-        if sum.weight == 0.0 {
-            return ContactSummary {
-                load: 0.0,
-                angle: f64::NAN,
-                zone_centre: f64::NAN,
-                zone_width: sum.high - sum.low,
-                slip: f64::NAN,
-            };
-        }
-        let radial = sum.plane.norm();
-        ContactSummary {
-            load: radial.hypot(sum.axial),
-            angle: (sum.axial * race.sigma() * side).atan2(radial),
-            zone_centre: sum.moment / sum.weight,
+/// A contact in a few numbers: ball `j` among all balls on a race.
+pub fn contact(model: &Model, y: &[f64], j: usize, race: Race) -> ContactSummary {
+    let mut sum = Summary::default();
+    let side = visit(model, y, j, race, &mut sum);
+    if sum.weight == 0.0 {
+        return ContactSummary {
+            load: 0.0,
+            angle: f64::NAN,
+            zone_centre: f64::NAN,
             zone_width: sum.high - sum.low,
-            slip: sum.slip / sum.weight,
-        }
+            slip: f64::NAN,
+        };
     }
+    let radial = sum.plane.norm();
+    ContactSummary {
+        load: radial.hypot(sum.axial),
+        angle: (sum.axial * race.sigma() * side).atan2(radial),
+        zone_centre: sum.moment / sum.weight,
+        zone_width: sum.high - sum.low,
+        slip: sum.slip / sum.weight,
+    }
+}
 
-    /// Largest Hertz pressure of any contact \[Pa\], at the zone's centre; of the smooth race where there is a defect.
-    pub(crate) fn largest_pressure(&self, y: &[f64]) -> f64 {
-        let balls = 0..self.balls.len();
-        let contacts = balls.flat_map(|j| Race::BOTH.map(|race| (j, race)));
-        contacts
-            .map(|(j, race)| self.pressure(j, race, self.contact(y, j, race).load))
-            .fold(0.0, f64::max)
-    }
+/// Largest Hertz pressure of any contact \[Pa\], at the zone's centre; of the smooth race where there is a defect.
+pub(crate) fn largest_pressure(model: &Model, y: &[f64]) -> f64 {
+    let balls = 0..model.balls.len();
+    let contacts = balls.flat_map(|j| Race::BOTH.map(|race| (j, race)));
+    contacts
+        .map(|(j, race)| pressure(model, j, race, contact(model, y, j, race).load))
+        .fold(0.0, f64::max)
+}
 
-    /// Hertz pressure \[Pa\] of a ball on a race under a load \[N\].
-    pub(crate) fn pressure(&self, j: usize, race: Race, load: f64) -> f64 {
-        self.rows[self.balls[j].row].hertz[race].pressure(load)
-    }
+/// Hertz pressure \[Pa\] of a ball on a race under a load \[N\].
+pub(crate) fn pressure(model: &Model, j: usize, race: Race, load: f64) -> f64 {
+    model.rows[model.balls[j].row].hertz[race].pressure(load)
+}
 
-    /// The forces of the slices of one contact, in order of ζ; on a fault a slice may appear more than once.
-    pub fn slice_forces(&self, y: &[f64], j: usize, race: Race) -> Vec<SliceForce> {
-        let mut list = List(Vec::new());
-        self.visit(y, j, race, &mut list);
-        list.0
-    }
+/// The forces of the slices of one contact, in order of ζ; on a fault a slice may appear more than once.
+pub fn slice_forces(model: &Model, y: &[f64], j: usize, race: Race) -> Vec<SliceForce> {
+    let mut list = List(Vec::new());
+    visit(model, y, j, race, &mut list);
+    list.0
+}
 
-    fn visit<S: Sink>(&self, y: &[f64], j: usize, race: Race, sink: &mut S) -> f64 {
-        let ball = &self.balls[j];
-        let row = &self.rows[ball.row];
-        let [at, ring] = [BodyId::ball(j), race.ring()].map(|body| self.layout().motion(y, body));
-        row.pairs[race].evaluate(&ball.side, &at, &ring, sink);
-        row.side
-    }
+fn visit<S: Sink>(model: &Model, y: &[f64], j: usize, race: Race, sink: &mut S) -> f64 {
+    let ball = &model.balls[j];
+    let row = &model.rows[ball.row];
+    let [at, ring] = [BodyId::ball(j), race.ring()].map(|body| model.layout().motion(y, body));
+    row.pairs[race].evaluate(&ball.side, &at, &ring, sink);
+    row.side
 }

@@ -11,7 +11,8 @@ mod symmetry;
 
 use std::ops::Range;
 
-use super::{BodyId, BodyKind, DOFS, Dof, Layout, Model};
+use crate::model::{BodyId, BodyKind, DOFS, Dof, Layout, Model};
+use crate::scene::Method;
 
 use course::{Orbit, Prescribed};
 use grounds::{Grounds, Reason, is_felt};
@@ -125,9 +126,23 @@ impl Reduction {
         whole
     }
 
+    /// What a run from a state of all bodies leaves out; absent where it integrates all states in the order of
+    /// [`Model::names`], since implicit steps solve for a block a body.
+    ///
+    /// # Panics
+    /// If the length of `start` is wrong.
+    pub fn of(model: &Model, start: &[f64]) -> Option<Self> {
+        assert_eq!(start.len(), model.dim(), "length of the state");
+        let solver = &model.scene.solver;
+        match solver.method {
+            Method::ImplicitFriction | Method::Auto => None,
+            _ => Some(Self::leaving_out(model, start, solver.reduce)),
+        }
+    }
+
     /// Leaves out what is given up by request and, if `exact` reductions are wanted, what does not change the motion
     /// from a start, a state of all bodies.
-    pub(super) fn of(model: &Model, start: &[f64], exact: bool) -> Self {
+    fn leaving_out(model: &Model, start: &[f64], exact: bool) -> Self {
         let mut reduction = Self::none(model);
         let mut obstacle = |what: &str, reason: String| {
             let what = what.to_owned();
@@ -359,13 +374,11 @@ impl Reduction {
     }
 }
 
-impl Model {
-    /// Axial places that outer ring, inner ring and the rows of balls keep by request, from a state of all bodies in
-    /// equilibrium; none where that is not asked for or cannot be.
-    pub(crate) fn levels(&self, start: &[f64]) -> Option<AxialPlaces> {
-        let levels = request::levels(self, start);
-        levels.ok().filter(|_| self.scene.approximations.plane)
-    }
+/// Axial places that rings and rows keep by request, from a state of all bodies in equilibrium; none where that is not asked
+/// for or cannot be.
+pub(crate) fn levels(model: &Model, start: &[f64]) -> Option<AxialPlaces> {
+    let levels = request::levels(model, start);
+    levels.ok().filter(|_| model.scene.approximations.plane)
 }
 
 /// Makes the second row the image of the first, whose axial places z become `sum` − z.
