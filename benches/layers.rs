@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
 
+use ballrace::compile;
 use ballrace::dynamics::Dynamics;
 use ballrace::inspect;
 use ballrace::integrate::{DORMAND_PRINCE, Options, System, Tolerance, integrate};
@@ -38,7 +39,7 @@ fn ring_of(balls: usize, slices: Slices) -> Scene {
 
 /// Model and state of a bearing in equilibrium.
 fn loaded(scene: &Scene) -> (Model, Vec<f64>) {
-    let model = Model::new(scene).unwrap();
+    let model = compile(scene).unwrap();
     let y = start(&model, &Start::Equilibrium).unwrap();
     (model, y)
 }
@@ -192,7 +193,7 @@ fn statics(c: &mut Criterion) {
         ("wheel bearing", presets::wheel_bearing(3000.0)),
     ] {
         group.bench_function(format!("model, {name}"), |b| {
-            b.iter(|| Model::new(black_box(&scene)).unwrap());
+            b.iter(|| compile(black_box(&scene)).unwrap());
         });
         group.bench_function(format!("equilibrium, {name}"), |b| {
             b.iter(|| equilibrium(black_box(&scene)).unwrap());

@@ -7,6 +7,7 @@
 
 use serde::Serialize;
 
+use crate::equilibrium::compile;
 use crate::error::{Error, Result};
 use crate::model::{Body, Dof, Model};
 use crate::scene::{Component, Contact, Method, Probe, Scene, Slices};
@@ -59,7 +60,7 @@ pub(crate) fn choose(
     let fitted = scene.contacts_mut().any(|contact| is_fitted(contact));
     let mut finest = scene.clone();
     set_nodes(&mut finest, NODES[NODES.len() - 1]);
-    let model = Model::new(&finest)?;
+    let model = compile(&finest)?;
     cap(scene, &model);
     let mut pilots = Pilots::new(scene, &model, from, pilot)?;
     let share = SHARE * requested;
@@ -77,7 +78,7 @@ pub(crate) fn choose(
     Ok(Accuracy {
         requested,
         rtol,
-        nodes: Model::new(scene)?.slices(),
+        nodes: compile(scene)?.slices(),
         integration_error,
         node_error,
         pilot_evaluations: pilots.evaluations,

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::memory::GIB;
+pub(crate) const GIB: f64 = (1u64 << 30) as f64;
 
 /// What `ballrace` refuses or fails at.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -7,13 +7,12 @@
 use std::fs;
 use std::path::Path;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, GIB, Result};
 
 /// What a run may take where the system does not tell \[bytes\].
 const UNTOLD: f64 = 8.0 * GIB;
 /// Share of what there is that a run may set aside: the rest is for stacks, the solver and whoever asked.
 const SHARE: f64 = 0.9;
-pub(crate) const GIB: f64 = (1u64 << 30) as f64;
 
 /// Refuses to set aside more than there is; `what` says for what, and how to need less.
 ///

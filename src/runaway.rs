@@ -93,15 +93,16 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::equilibrium::compile;
     use crate::model::Dof::{Theta, X, Y, Z};
     use crate::scene::presets;
-    use crate::{Model, Start, start};
+    use crate::{Start, start};
 
     const INNER: BodyId = BodyId::INNER;
 
     /// What is said of the start with some of its states changed: (is it a speed, body, direction, what is added).
     fn said(changes: &[(bool, BodyId, Dof, f64)]) -> Option<(BodyId, String)> {
-        let model = Model::new(&presets::deep_groove_6205(500.0, 0.0, 1800.0)).unwrap();
+        let model = compile(&presets::deep_groove_6205(500.0, 0.0, 1800.0)).unwrap();
         let mut y = start(&model, &Start::Equilibrium).unwrap();
         let dynamics = Dynamics::new(&model);
         let bounds = Bounds::new(&dynamics, &y);

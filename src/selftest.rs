@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 
 use crate::dynamics::Dynamics;
 use crate::dynamics::contributions;
+use crate::equilibrium::compile;
 use crate::integrate::System;
 use crate::model::{BodyId, Dof, Model};
 use crate::reduction::Reduction;
@@ -68,7 +69,7 @@ fn difference(scene: &Scene, level: Level) -> crate::Result<f64> {
     const PRESSED: f64 = 20e-6;
     /// Of the way to the pitch circle; the outer race is a quarter of the clearance away.
     const SPREAD: f64 = 1.0 + 5e-4;
-    let model = Model::new(scene)?.with_level(level);
+    let model = compile(scene)?.with_level(level);
     let mut y = start(&model, &Start::Rolling)?;
     let layout = model.layout();
     y[layout.at(BodyId::INNER, Dof::Y)] -= PRESSED;
@@ -124,7 +125,7 @@ mod tests {
                 assert!(apart < 1e-11, "{}, {level}: {apart:.1e}", scene.name);
             }
         }
-        let model = Model::new(&scenes()[0]).unwrap();
+        let model = compile(&scenes()[0]).unwrap();
         let level = model.level();
         let (model, distrust) = trusted(model);
         assert_eq!((model.level(), distrust), (level, None));

@@ -11,6 +11,7 @@ use std::ops::ControlFlow;
 
 use crate::contact::Pair;
 use crate::dynamics::Dynamics;
+use crate::equilibrium::compile;
 use crate::error::{Error, Result};
 use crate::follow::{Stretch, Watch, follow, options, threads};
 use crate::inspect;
@@ -66,7 +67,7 @@ pub(crate) fn settle(
     if !chosen && run.settle.is_none_or(|asked| asked == 0.0) {
         return Ok(unsettled);
     }
-    let (model, _) = selftest::trusted(Model::new(&frozen(scene))?);
+    let (model, _) = selftest::trusted(compile(&frozen(scene))?);
     let y0 = start(&model, &run.start)?;
     let seconds = run.settle.unwrap_or_else(|| needed(&model, &y0));
     if seconds == 0.0 {
@@ -176,7 +177,7 @@ fn before(model: &Model, from: &Start, y0: Vec<f64>, seconds: f64) -> Result<Vec
         return Ok(y0);
     }
     let turned = Turned::since(model, &y0, seconds);
-    let mut y = start(&Model::new(&turned.back(&model.scene))?, from)?;
+    let mut y = start(&compile(&turned.back(&model.scene))?, from)?;
     let angle = |body| model.layout().at(body, Dof::Theta);
     y[angle(BodyId::INNER)] = -turned.inner;
     for (j, ball) in model.balls.iter().enumerate() {

@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 use crate::accuracy;
 use crate::budget;
 use crate::dynamics::Dynamics;
+use crate::equilibrium::compile;
 use crate::equilibrium::place;
 use crate::error::{Error, Result};
 use crate::follow::{Stretch, follow, options, threads};
 use crate::memory;
-use crate::model::Model;
 use crate::pool::on;
 use crate::reduction::Reduction;
 use crate::run::Run;
@@ -78,7 +78,7 @@ fn unlimited(
         accuracy::choose(requested, &mut scene, &settled.from, pilot)
     });
     let accuracy = accuracy.transpose()?;
-    let (model, distrust) = selftest::trusted(Model::new(&scene)?);
+    let (model, distrust) = selftest::trusted(compile(&scene)?);
     let sampling = Sampling::new(run.bandwidth, run.fs, model.scales.frequency)?;
     check_memory(&scene, run, (count, sampling.oversampling))?;
     let mut recorder = Recorder::new(&model, sampling, count);

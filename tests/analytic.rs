@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::ControlFlow;
 
+use ballrace::compile;
 use ballrace::dynamics::contributions;
 use ballrace::inspect;
 use ballrace::scene::{
@@ -43,7 +44,7 @@ fn rms(x: &[f64]) -> f64 {
 fn internal_sums(model: &Model, y: &[f64]) -> ([f64; 4], f64) {
     let mut sums = [0.0; 4];
     let mut size = 0.0;
-    for (name, forces) in contributions(&model, 0.0, y) {
+    for (name, forces) in contributions(model, 0.0, y) {
         if !["contact", "damping", "friction", "cage"].contains(&name) {
             continue;
         }
@@ -84,7 +85,7 @@ fn force_and_moment_are_conserved() {
         amplitude: 1e-6,
         phase: 0.3,
     }];
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let mut y = start(&model, &Start::Equilibrium).unwrap();
     for (i, state) in y.iter_mut().enumerate() {
         let noise = ((i * 7919) % 997) as f64 / 997.0 - 0.5;
@@ -100,7 +101,7 @@ fn force_and_moment_are_conserved() {
 #[test]
 fn rigid_rotation_slips_nowhere() {
     let scene = presets::wheel_bearing(3000.0);
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let mut y = start(&model, &Start::Equilibrium).unwrap();
     let half = y.len() / 2;
     for b in 0..model.body_count() {
@@ -237,8 +238,8 @@ fn force_at(model: &Model, y: &[f64], angle: f64, spin: f64) -> ([f64; 4], [f64;
     y[11] = spin;
     let half = y.len() / 2;
     y[half..].fill(0.0);
-    let forces = &contributions(&model, 0.0, &y)[0].1;
-    let loads = Race::BOTH.map(|race| inspect::contact(&model, &y, 0, race).load);
+    let forces = &contributions(model, 0.0, &y)[0].1;
+    let loads = Race::BOTH.map(|race| inspect::contact(model, &y, 0, race).load);
     ([forces[0], forces[1], forces[4], forces[5]], loads)
 }
 
@@ -256,7 +257,7 @@ fn edges_do_not_jump_and_narrow_defects_vanish() {
                 scene.rows[0].contact_angle = 0.0;
                 scene.rows[1].contact_angle = 0.0;
                 scene.loads.get_mut("axial").unwrap().force = 0.0.into();
-                let whole = Model::new(&scene).unwrap();
+                let whole = compile(&scene).unwrap();
                 let y = start(&whole, &Start::Equilibrium).unwrap();
                 let mut defect = Defect {
                     axial_offset: 0.0.into(),
@@ -264,7 +265,7 @@ fn edges_do_not_jump_and_narrow_defects_vanish() {
                 };
                 defect.ball = defect.ball.map(|_| 0);
                 scene.defects.insert("d".into(), defect);
-                let faulted = Model::new(&scene).unwrap();
+                let faulted = compile(&scene).unwrap();
                 let pitch = 30e-3;
                 // Ball defect: the ball turns at rest; ring defect: the ball travels.
                 let at = |model: &Model, arc: f64| match on {
@@ -388,7 +389,7 @@ fn unbalance_turns_with_the_ring() {
         },
     )]
     .into();
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let mut y = start(&model, &Start::Rolling).unwrap();
     y[7] = 0.25;
     let forces = contributions(&model, 0.0, &y);

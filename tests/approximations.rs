@@ -7,6 +7,7 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use ballrace::Reduction;
+use ballrace::compile;
 use ballrace::dynamics::Dynamics;
 use ballrace::dynamics::rhs;
 use ballrace::inspect;
@@ -67,7 +68,7 @@ struct Shaken<'m> {
 impl<'m> Shaken<'m> {
     fn new(model: &'m Model, seed: u64) -> Self {
         let y0 = start(model, &Start::Equilibrium).unwrap();
-        let mut dynamics = Dynamics::reduced(model, Reduction::of(&model, &y0).unwrap(), &y0);
+        let mut dynamics = Dynamics::reduced(model, Reduction::of(model, &y0).unwrap(), &y0);
         let mut noise = Noise(seed);
         let mut shaken = y0.clone();
         let half = shaken.len() / 2;
@@ -94,7 +95,7 @@ impl<'m> Shaken<'m> {
     /// Rates of the free bodies there, without what the scene gives up.
     fn free(&self) -> Vec<f64> {
         let mut rates = self.full.clone();
-        rhs(&self.model, self.t, &self.full, &mut rates);
+        rhs(self.model, self.t, &self.full, &mut rates);
         rates
     }
 }
@@ -109,7 +110,7 @@ fn acceleration(rates: &[f64], body: usize) -> &[f64] {
 #[test]
 fn rolling_balls_feel_their_radial_forces() {
     for seed in 0..10 {
-        let model = Model::new(&wheel(NormalLaw::iso16281(), ROLLING)).unwrap();
+        let model = compile(&wheel(NormalLaw::iso16281(), ROLLING)).unwrap();
         let shaken = Shaken::new(&model, seed);
         let free = shaken.free();
         for ring in 0..2 {
@@ -161,7 +162,7 @@ fn places_speeds_and_rates_belong_together() {
             floor: None,
         },
     );
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let shaken = Shaken::new(&model, 5);
     let (t, h, half) = (shaken.t, 1e-7, shaken.full.len() / 2);
     let mut dy = shaken.y.clone();
@@ -203,7 +204,7 @@ fn contacts_in_the_plane_have_a_closed_form() {
         let scene = wheel(law, FLAT);
         let mut nodes = scene.clone();
         nodes.solver.reduce = false;
-        let models = [&scene, &nodes].map(|scene| Model::new(scene).unwrap());
+        let models = [&scene, &nodes].map(|scene| compile(scene).unwrap());
         for seed in 0..10 {
             let [closed, each] = models.each_ref().map(|model| Shaken::new(model, seed));
             let bodies = closed.model.body_count();
@@ -224,7 +225,7 @@ fn contacts_in_the_plane_have_a_closed_form() {
 #[test]
 fn axial_places_are_kept_and_nothing_else() {
     for approximations in [PLANE, FLAT] {
-        let model = Model::new(&wheel(NormalLaw::Hertz, approximations)).unwrap();
+        let model = compile(&wheel(NormalLaw::Hertz, approximations)).unwrap();
         let shaken = Shaken::new(&model, 3);
         let free = shaken.free();
         for ring in 0..2 {
@@ -257,14 +258,14 @@ fn alone(shaken: &Shaken, row: usize) -> Vec<f64> {
         .flat_map(|half| [&half[..8], &half[4 * (2 + 13 * row)..][..4 * 13]].concat())
         .collect::<Vec<_>>();
     let mut rates = y.clone();
-    rhs(&Model::new(&scene).unwrap(), shaken.t, &y, &mut rates);
+    rhs(&compile(&scene).unwrap(), shaken.t, &y, &mut rates);
     rates
 }
 
 /// Analytic: without a row the rings feel the other one alone.
 #[test]
 fn an_unloaded_row_goes() {
-    let model = Model::new(&thrust(ONE_ROW)).unwrap();
+    let model = compile(&thrust(ONE_ROW)).unwrap();
     let shaken = Shaken::new(&model, 3);
     let reduction = Reduction::of(&model, &shaken.full).unwrap();
     let told: Vec<&str> = reduction
@@ -346,7 +347,7 @@ fn what_does_not_hold_is_told() {
         if approximations.plane {
             scene.loads.get_mut("axial").unwrap().force = varying();
         }
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let y0 = start(&model, &Start::Equilibrium).unwrap();
         let reduction = Reduction::of(&model, &y0).unwrap();
         assert!(

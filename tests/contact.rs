@@ -1,12 +1,13 @@
 //! The laws of one contact against closed forms.
 
+use ballrace::compile;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::{
     BallSide, Law, Motion, Pair, Rules, Sink, Slices, Torus, Touch, V2, Waves,
 };
 use ballrace::inspect;
 use ballrace::scene::{Component, Friction, NormalLaw, Probe, presets};
-use ballrace::{Model, Race, Start, start};
+use ballrace::{Race, Start, start};
 
 #[derive(Default)]
 struct Total {
@@ -112,7 +113,7 @@ fn rolling_start_does_not_slip() {
         },
     )]
     .into();
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let y = start(&model, &Start::Rolling).unwrap();
     for race in Race::BOTH {
         let contact = inspect::contact(&model, &y, 3, race);

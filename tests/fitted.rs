@@ -2,9 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use ballrace::compile;
 use ballrace::dynamics::contributions;
 use ballrace::scene::{Defect, NormalLaw, Scene, Slices, Surface, presets};
-use ballrace::{Model, Start, start};
+use ballrace::{Start, start};
 
 /// A single row at a contact angle, loaded by interference, with or without a defect at −90°.
 fn scene(law: &NormalLaw, conformity: f64, degrees: f64, defect: Option<Defect>) -> Scene {
@@ -23,7 +24,7 @@ fn scene(law: &NormalLaw, conformity: f64, degrees: f64, defect: Option<Defect>)
 fn forces(scene: &Scene, slices: Slices, approach: f64, arc: f64, shift: f64) -> Vec<f64> {
     let mut scene = scene.clone();
     scene.contact.slices = slices;
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let mut y = start(&model, &Start::Rolling).unwrap();
     // The ball goes outwards along the contact angle, by arc along the race, by shift along the axis.
     let angle = scene.rows[0].contact_angle;

@@ -5,6 +5,7 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
 
+use ballrace::compile;
 use ballrace::dynamics::Dynamics;
 use ballrace::dynamics::contributions;
 use ballrace::dynamics::rhs;
@@ -59,7 +60,7 @@ fn begin(model: &Model) -> Vec<f64> {
 }
 
 fn reduction(scene: &Scene) -> Reduction {
-    let model = Model::new(scene).unwrap();
+    let model = compile(scene).unwrap();
     let y0 = begin(&model);
     Reduction::of(&model, &y0).unwrap()
 }
@@ -67,7 +68,7 @@ fn reduction(scene: &Scene) -> Reduction {
 /// Largest difference between the accelerations of the reduced and of the full model at random states that have the
 /// symmetries of the scene, as force over the load of the contacts and 1 kN.
 fn difference(scene: &Scene) -> f64 {
-    let model = Model::new(scene).unwrap();
+    let model = compile(scene).unwrap();
     let y0 = begin(&model);
     let mut dynamics = Dynamics::reduced(&model, Reduction::of(&model, &y0).unwrap(), &y0);
     let mut own = vec![0.0; dynamics.dim()];
@@ -309,7 +310,7 @@ fn apart(a: &[Vec<f64>; 2], b: &[Vec<f64>; 2], samples: usize) -> f64 {
 #[test]
 fn signals_agree() {
     for (name, scene, _) in scenes() {
-        let y0 = begin(&Model::new(&scene).unwrap());
+        let y0 = begin(&compile(&scene).unwrap());
         let mut beside = y0.clone();
         beside[1] += 1e-16;
         let full = signal(&scene, false, &y0);
@@ -396,7 +397,7 @@ fn a_hair_is_enough() {
 /// Analytic: a start that lacks the symmetry keeps what the scene alone would let go.
 #[test]
 fn the_start_must_be_symmetric_too() {
-    let model = Model::new(&plane(NormalLaw::Hertz, false)).unwrap();
+    let model = compile(&plane(NormalLaw::Hertz, false)).unwrap();
     let y0 = start(&model, &Start::Rolling).unwrap();
     let has = |y: &[f64]| whats(&Reduction::of(&model, y).unwrap()).contains(&"z");
     assert!(has(&y0));

@@ -6,6 +6,7 @@ mod common;
 
 use std::ops::ControlFlow;
 
+use ballrace::compile;
 use ballrace::contact::iso16281::Iso16281;
 use ballrace::dynamics::Dynamics;
 use ballrace::dynamics::rhs;
@@ -106,7 +107,7 @@ fn a_slice_begins_at_order_two() {
 fn flying(damping: f64, speed: f64, lead: f64) -> (Scene, Vec<f64>) {
     let mut scene = one_ball(-1e-3);
     scene.contact.damping = damping;
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let mut y = start(&model, &Start::Rolling).unwrap();
     let half = y.len() / 2;
     y[half..].fill(0.0);
@@ -133,7 +134,7 @@ fn a_ball_begins_at_order_two_and_a_half() {
                         let lead = h * (3.0 + f64::from(i) / 12.0);
                         let (mut scene, y0) = flying(0.0, speed, lead);
                         scene.contact.law = law.clone();
-                        let model = Model::new(&scene).unwrap();
+                        let model = compile(&scene).unwrap();
                         let mut dynamics = Dynamics::new(&model);
                         let v = y0.len() / 2 + 8;
                         let end = lead + inside;
@@ -157,17 +158,17 @@ fn energies(model: &Model, h: f64, steps: usize, verlet: bool, y0: &[f64]) -> Ve
     if verlet {
         let (mut y, mut dy) = (y0.to_vec(), y0.to_vec());
         let half = y.len() / 2;
-        rhs(&model, 0.0, &y, &mut dy);
+        rhs(model, 0.0, &y, &mut dy);
         for _ in 0..steps {
             for i in 0..half {
                 y[half + i] += 0.5 * h * dy[half + i];
                 y[i] += h * y[half + i];
             }
-            rhs(&model, 0.0, &y, &mut dy);
+            rhs(model, 0.0, &y, &mut dy);
             for i in 0..half {
                 y[half + i] += 0.5 * h * dy[half + i];
             }
-            energies.push(inspect::energy(&model, &y).total());
+            energies.push(inspect::energy(model, &y).total());
         }
     } else {
         let options = Options {
@@ -176,7 +177,7 @@ fn energies(model: &Model, h: f64, steps: usize, verlet: bool, y0: &[f64]) -> Ve
         };
         let tolerance = Tolerance::uniform(y0.len(), 0.0, 1.0).unwrap();
         let mut watch = |_: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &_| {
-            energies.push(inspect::energy(&model, step.y1()).total());
+            energies.push(inspect::energy(model, step.y1()).total());
             ControlFlow::Continue(())
         };
         let span = (0.0, steps as f64 * h);
@@ -202,10 +203,10 @@ fn energies(model: &Model, h: f64, steps: usize, verlet: bool, y0: &[f64]) -> Ve
 fn energy_drifts_less_than_damping_takes() {
     // A ball squeezed between both races, which swings by a tenth of the approach.
     let scene = one_ball(10e-6);
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let frequency = model.scales().frequency;
     let swing = |scene: &Scene| {
-        let model = Model::new(scene).unwrap();
+        let model = compile(scene).unwrap();
         let mut y = start(&model, &Start::Rolling).unwrap();
         let v = y.len() / 2 + 8;
         y[v] = 0.05;
@@ -291,7 +292,7 @@ fn a_torn_contact_does_not_pull_and_is_counted() {
         scene.contact.clamp_pull = clamp;
         // Pulls are counted at the ends of steps, and this contact opens within a few µs.
         scene.solver.max_step = Some(0.2e-6);
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let y0 = start(&model, &Start::Rolling).unwrap();
         let v = y0.len() / 2 + 8;
         // 2/(3 · 0.2) = 3.33 m/s.

@@ -4,9 +4,10 @@
 
 mod common;
 
+use ballrace::compile;
 use ballrace::inspect;
 use ballrace::scene::{Drive, Friction, NormalLaw, Probe, Profile, Scene, TimeFunction, presets};
-use ballrace::{Bandwidth, Model, Race, Run, Start, start};
+use ballrace::{Bandwidth, Race, Run, Start, start};
 use common::{ball_mass, one_ball, run, short, soon_over_the_spall};
 
 fn with_friction(mut scene: Scene, slip_speed: f64) -> Scene {
@@ -27,7 +28,7 @@ fn sticking_is_a_creep_that_falls_with_the_slip_speed() {
         scene.gravity = [0.0, -9.81, 0.0];
         scene.contact.damping = 0.2;
         scene.probes.insert("energy".to_owned(), Probe::Energy {});
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let y0 = start(&model, &Start::Rolling).unwrap();
         let loads: f64 = Race::BOTH
             .into_iter()
@@ -153,7 +154,7 @@ fn no_friction_law_gives_energy() {
         for normal in [NormalLaw::iso16281(), NormalLaw::Hertz] {
             let mut scene = presets::wheel_bearing(3000.0);
             (scene.friction, scene.contact.law) = (law.clone(), normal);
-            let model = Model::new(&scene).unwrap();
+            let model = compile(&scene).unwrap();
             let y0 = start(&model, &Start::Equilibrium).unwrap();
             let half = y0.len() / 2;
             for scale in [0.0, 1e-9, 1e-3, 1.0, 100.0] {

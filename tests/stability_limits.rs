@@ -4,6 +4,7 @@
 
 mod common;
 
+use ballrace::compile;
 use ballrace::dynamics::Dynamics;
 use ballrace::dynamics::rhs;
 use ballrace::inspect;
@@ -198,7 +199,7 @@ fn squeezed_in_balance(model: &Model) -> Vec<f64> {
     let (mut low, mut high) = (y[x] - 5e-6, y[x] + 5e-6);
     for _ in 0..60 {
         y[x] = f64::midpoint(low, high);
-        rhs(&model, 0.0, &y, &mut dy);
+        rhs(model, 0.0, &y, &mut dy);
         if dy[ax] > 0.0 {
             low = y[x];
         } else {
@@ -216,7 +217,7 @@ fn friction_holds_the_step_at_the_stability_limit() {
     for slip_speed in [0.01, 0.001] {
         let mut scene = one_ball(10e-6);
         scene.friction = coulomb(0.05, slip_speed);
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let y0 = squeezed_in_balance(&model);
         let loads = Race::BOTH.map(|race| inspect::contact(&model, &y0, 0, race).load);
         let mass = 7850.0 * std::f64::consts::PI * 7.94e-3_f64.powi(3) / 6.0;

@@ -6,6 +6,7 @@
 use std::ops::ControlFlow;
 
 use ballrace::Reduction;
+use ballrace::compile;
 use ballrace::dynamics::Dynamics;
 use ballrace::dynamics::contributions;
 use ballrace::integrate::System;
@@ -104,7 +105,7 @@ fn forces_are_those_of_the_rows_alone() {
     for rows in [2, 3] {
         let scene = unlike(rows);
         for level in Level::available() {
-            let model = Model::new(&scene).unwrap().with_level(level);
+            let model = compile(&scene).unwrap().with_level(level);
             let y = pressed(&model);
             let forces = Dynamics::new(&model).forces(0.0, &y);
             let mut on_rings = [[0.0; 4]; 2];
@@ -115,7 +116,7 @@ fn forces_are_those_of_the_rows_alone() {
             let mut first = 0;
             for row in 0..rows {
                 // One by one, by no vector instructions.
-                let model_alone = Model::new(&alone(&scene, row)).unwrap();
+                let model_alone = compile(&alone(&scene, row)).unwrap();
                 let layout = model_alone.layout();
                 let y = own(model.layout(), &y, layout, first);
                 let mut sums = vec![[0.0; 4]; model_alone.body_count()];
@@ -167,7 +168,7 @@ fn reduced_runs_accelerate_as_the_whole_does() {
     smooth.friction = Friction::None;
     for scene in [unlike(2), level, smooth] {
         for simd in Level::available() {
-            let model = Model::new(&scene).unwrap().with_level(simd);
+            let model = compile(&scene).unwrap().with_level(simd);
             let y = start(&model, &Start::Rolling).unwrap();
             let mut y = y;
             let layout = model.layout();
@@ -236,7 +237,7 @@ fn a_bad_row_is_refused_by_its_path() {
     let told = |change: fn(&mut Scene)| {
         let mut scene = unlike(2);
         change(&mut scene);
-        Model::new(&scene).unwrap_err().to_string()
+        compile(&scene).unwrap_err().to_string()
     };
     let damping = told(|scene| scene.rows[1].contact.as_mut().unwrap().damping = -1.0);
     assert!(damping.contains("rows[1].contact.damping"), "{damping}");

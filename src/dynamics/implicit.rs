@@ -149,6 +149,7 @@ impl ImplicitVelocity for Dynamics<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::equilibrium::compile;
     use crate::integrate::System;
     use crate::scene::{Friction, NormalLaw, Slices, Waviness, presets};
     use crate::{Model, Scene, Start, start};
@@ -216,7 +217,7 @@ mod tests {
     #[test]
     fn the_matrix_is_the_derivative_of_the_accelerations() {
         for scene in scenes() {
-            let model = Model::new(&scene).unwrap();
+            let model = compile(&scene).unwrap();
             let y = state(&model);
             let half = y.len() / 2;
             let mut dynamics = Dynamics::new(&model);
@@ -256,7 +257,7 @@ mod tests {
     #[test]
     fn a_stage_solves_its_equation() {
         for scene in scenes() {
-            let model = Model::new(&scene).unwrap();
+            let model = compile(&scene).unwrap();
             let mut y = state(&model);
             let half = y.len() / 2;
             let mut dynamics = Dynamics::new(&model);

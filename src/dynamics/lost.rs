@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
 
 use super::{Dynamics, Order};
+use crate::equilibrium::compile;
 use crate::integrate::System;
 use crate::model::{BodyId, Dof};
 use crate::reduction::Reduction;
@@ -174,7 +175,7 @@ fn lose(model: &Model, way: Way) -> Vec<f64> {
 fn an_evaluation_notices_lost_balls_on_every_path() {
     for path in paths() {
         for level in Level::available() {
-            let model = Model::new(&path.scene).unwrap().with_level(level);
+            let model = compile(&path.scene).unwrap().with_level(level);
             let fine = start(&model, &Start::Equilibrium).unwrap();
             let dynamics = Dynamics::begin(&model, Reduction::of(&model, &fine).as_ref(), &fine);
             let by_loop = match &dynamics.order {
@@ -236,7 +237,7 @@ fn a_run_ends_when_a_ball_is_lost() {
         all.push(other);
     }
     for path in all {
-        let model = Model::new(&path.scene).unwrap();
+        let model = compile(&path.scene).unwrap();
         for way in path.ways {
             let told = match way {
                 Way::Pressed => "m into the outer race",

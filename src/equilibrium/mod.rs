@@ -34,8 +34,8 @@ use crate::model::{BodyId, Dof, Model, Race};
 use crate::reduction::levels;
 use crate::scene::{Doubt, Scene};
 pub use distribution::{EquivalentLoads, LoadDistribution, load_distribution};
-pub use place::Placed;
 pub(crate) use place::{Meeting, place};
+pub use place::{Placed, compile};
 use problem::Problem;
 use residual::Residual;
 pub use stiffness::{Stiffness, stiffness};
@@ -132,7 +132,7 @@ pub struct ContactEquilibrium {
 /// where more than 1e-4 of the largest load is left unbalanced on a body; [`crate::Error::Interrupted`] under a
 /// [`crate::Interrupt`].
 pub fn equilibrium(scene: &Scene) -> Result<Equilibrium> {
-    let model = Model::new(scene)?;
+    let model = compile(scene)?;
     Ok(solve(&model)?.describe(&model))
 }
 

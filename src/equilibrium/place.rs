@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::positions;
 use crate::error::{Error, Result};
 use crate::inspect;
-use crate::model::{BodyId, Dof, Model, Race, compile};
+use crate::model::{BodyId, Dof, Model, Race, compile_placed};
 use crate::scene::{AxialOffset, Defect, Row, Scene, Surface, TimeFunction};
 
 /// Where the number of a defect's axial place comes from.
@@ -31,15 +31,13 @@ const FINEST: f64 = 1e9;
 /// Share of the contacts' scale from which a load counts: what lies below is left over from the solution.
 const LOADED: f64 = 1e-9;
 
-impl Model {
-    /// Checks a scene, places the defects that are to lie where contacts run, and compiles it.
-    ///
-    /// # Errors
-    /// [`crate::Error::Scene`] names the first field that is not usable, or the environment variable
-    /// `BALLRACE_SIMD` where it names no level of this processor.
-    pub fn new(scene: &Scene) -> Result<Self> {
-        compile(&place(scene)?.0)
-    }
+/// Checks a scene, places the defects that are to lie where contacts run, and compiles it.
+///
+/// # Errors
+/// [`crate::Error::Scene`] names the first field that is not usable, or the environment variable `BALLRACE_SIMD` where it
+/// names no level of this processor.
+pub fn compile(scene: &Scene) -> Result<Model> {
+    compile_placed(&place(scene)?.0)
 }
 
 /// The scene with a number for the axial place of every defect, and where the numbers come from, by the defects' names.
@@ -101,7 +99,7 @@ impl Meeting {
                 row.start_angle += turn;
             }
         }
-        let model = compile(&healthy)?;
+        let model = compile_placed(&healthy)?;
         let row = &model.rows[defect.row];
         let contacts = match defect.on {
             Surface::OuterRace => vec![(row.first, Race::Outer)],

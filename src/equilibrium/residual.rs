@@ -128,9 +128,9 @@ impl Problem<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::equilibrium::compile;
     use crate::equilibrium::solve;
     use crate::model::Dof;
-    use crate::model::Model;
     use crate::scene::presets;
 
     /// Truth: the tangent stiffness. What a ring leaves that is not where it should be is told by name, and refused.
@@ -138,7 +138,7 @@ mod tests {
     fn a_ring_out_of_place_is_told_and_refused() {
         let mut scene = presets::deep_groove_6205(500.0, 200.0, 1800.0);
         scene.cage = None;
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let problem = Problem::new(&model);
         let solved = solve(&model).unwrap();
         assert!(solved.residual.share() < 1e-8);

@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::unknowns::{OF_RINGS, at};
-use super::{Equilibrium, solve};
+use super::{Equilibrium, compile, solve};
 use crate::error::Result;
-use crate::model::{Dof, Model, Race};
+use crate::model::{Dof, Race};
 use crate::scene::Scene;
 
 /// Tangent stiffness of a bearing at its static equilibrium, in the frame of the scene (z along the axis).
@@ -39,7 +39,7 @@ pub struct Stiffness {
 /// # Errors
 /// As [`super::equilibrium()`].
 pub fn stiffness(scene: &Scene) -> Result<Stiffness> {
-    let model = Model::new(scene)?;
+    let model = compile(scene)?;
     let solved = solve(&model)?;
     let bearing = &solved.bearing;
     Ok(Stiffness {

@@ -184,6 +184,7 @@ fn places(model: &Model, y0: &[f64]) -> Vec<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::equilibrium::compile;
     use crate::scene::{Friction, presets};
     use crate::start::{Start, start};
 
@@ -192,7 +193,7 @@ mod tests {
     fn parts_add_up() {
         let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
         scene.friction = Friction::None;
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let y0 = start(&model, &Start::Equilibrium).unwrap();
         let cost = of(&model, &y0).unwrap();
         let parts = cost.contacts + cost.cage;

@@ -11,6 +11,7 @@ use serde::Serialize;
 
 use crate::contact::Sighted;
 use crate::dynamics::Dynamics;
+use crate::equilibrium::compile;
 use crate::equilibrium::{Meeting, Placed, describe, place};
 use crate::error::Result;
 use crate::interrupt;
@@ -89,7 +90,7 @@ pub struct ContactKind {
 /// As [`crate::simulate()`].
 pub fn explain(scene: &Scene) -> Result<Explanation> {
     let (scene, placed) = place(scene)?;
-    let model = Model::new(&scene)?;
+    let model = compile(&scene)?;
     let y0 = start(&model, &Start::Equilibrium)?;
     let reduction = Reduction::of(&model, &y0);
     let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::cost::{self, Cost};
+use crate::equilibrium::compile;
 use crate::model::Model;
 use crate::reduction::Reduction;
 use crate::scene::{Load, Scene, Slices, Surface};
@@ -151,7 +152,7 @@ fn offers(model: &Model, y0: &[f64]) -> Vec<(&'static str, &'static str, Model)>
     CHANGES
         .into_iter()
         .filter_map(|(change, note, apply)| {
-            let changed = Model::new(&apply(model.scene())?).ok()?;
+            let changed = compile(&apply(model.scene())?).ok()?;
             let holds = obstacles(Reduction::of(&changed, y0).as_ref()) <= now;
             holds.then_some((change, note, changed))
         })
@@ -184,7 +185,7 @@ mod tests {
     use crate::start::{Start, start};
 
     fn offered(scene: &Scene) -> Vec<&'static str> {
-        let model = Model::new(scene).unwrap();
+        let model = compile(scene).unwrap();
         let y0 = start(&model, &Start::Equilibrium).unwrap();
         let offers = offers(&model, &y0);
         offers.into_iter().map(|(change, _, _)| change).collect()

@@ -14,8 +14,8 @@ use crate::error::{Error, Result};
 use crate::scene::{self, Approximations, Defect, Drive, Mount, NormalLaw, Row, Scene, Surface};
 use crate::simd::Level;
 
-/// Checks and compiles a scene whose defects all have numbers for their places; [`Model::new`] gives them those.
-pub(crate) fn compile(scene: &Scene) -> Result<Model> {
+/// Checks and compiles a scene whose defects all have numbers for their places; [`crate::compile()`] gives them those.
+pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     scene.validate()?;
     let scene = &Approximations::simplified(scene);
     let mut bodies = vec![

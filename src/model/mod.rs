@@ -18,7 +18,7 @@ use crate::scene::{Component, Scene, TimeFunction};
 use crate::simd::{LANES, Level};
 
 pub use body::{Body, Degree};
-pub(crate) use compile::{ball_fault, compile, race_fault};
+pub(crate) use compile::{ball_fault, compile_placed, race_fault};
 pub use layout::{BodyId, BodyKind, DOFS, Dof, Layout, Race};
 pub(crate) use layout::{RING_DOFS, RINGS};
 pub use scales::Scales;
@@ -26,8 +26,8 @@ pub use scales::Scales;
 /// A compiled scene. Immutable and shared by threads.
 ///
 /// ```
-/// use ballrace::{Model, scene::presets};
-/// let model = Model::new(&presets::wheel_bearing(3000.0)).unwrap();
+/// use ballrace::{compile, scene::presets};
+/// let model = compile(&presets::wheel_bearing(3000.0)).unwrap();
 /// assert_eq!(model.dim(), 8 * 28);
 /// assert_eq!(model.names()[4 * 28 + 1], "outer.vy");
 /// ```

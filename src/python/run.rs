@@ -15,6 +15,7 @@ use serde::de::value::Error as ValueError;
 use super::answer::{Progress, answering};
 use super::errors::{OrRaise, to_json};
 use crate::dynamics;
+use crate::equilibrium::compile;
 use crate::scene::{Method, RingName};
 use crate::{Bandwidth, Error, Run, Scene, Signals, SliceRow, Start};
 
@@ -27,7 +28,7 @@ impl Model {
     #[new]
     fn new(py: Python<'_>, scene: &str) -> PyResult<Self> {
         let scene = Scene::from_json(scene).or_raise(py)?;
-        let model = answering(py, None, move |_| crate::Model::new(&scene))?;
+        let model = answering(py, None, move |_| compile(&scene))?;
         Ok(Self(Arc::new(model)))
     }
 

@@ -155,7 +155,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Reads a scene from JSON for [`crate::Model::new`], which checks it.
+    /// Reads a scene from JSON for [`crate::compile()`], which checks it.
     pub(crate) fn from_json_unchecked(text: &str) -> Result<Self> {
         // The document takes three times as long; it knows the path and the value of what is wrong.
         serde_json::from_str(text).or_else(|_| {

@@ -100,7 +100,7 @@ impl Demand {
 mod tests {
     use super::super::probes::Probes;
     use super::*;
-    use crate::model::Model;
+    use crate::equilibrium::compile;
     use crate::scene::{RingName, presets};
 
     /// Truth: the columns that are made.
@@ -142,7 +142,7 @@ mod tests {
         ];
         for (k, probe) in probes.into_iter().enumerate() {
             scene.probes.insert(format!("p{k}"), probe);
-            let model = Model::new(&scene).unwrap();
+            let model = compile(&scene).unwrap();
             let demand = Demand::of(&scene);
             assert_eq!(demand.columns, Probes::new(&model).columns.len(), "p{k}");
         }

@@ -13,6 +13,7 @@ mod filter;
 mod probes;
 mod recorder;
 mod sampling;
+mod warning;
 
 use serde::Serialize;
 
@@ -27,6 +28,7 @@ pub(crate) use probes::columns;
 pub(crate) use recorder::Recorder;
 pub use sampling::Bandwidth;
 pub(crate) use sampling::Sampling;
+pub use warning::Warning;
 
 /// What a run gives.
 #[derive(Debug, Clone)]

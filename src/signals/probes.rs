@@ -3,6 +3,7 @@
 use super::Column;
 use super::filter::Kind;
 use crate::dynamics::{CONTRIBUTIONS, Dynamics, contributions};
+use crate::equilibrium::compile;
 use crate::error::Result;
 use crate::inspect::{self, Energy};
 use crate::model::{BodyId, Dof, Model, Race};
@@ -17,7 +18,7 @@ pub(crate) fn columns(scene: &Scene) -> Result<Vec<Column>> {
     // What is recorded does not depend on defects, nor on where they are placed.
     let mut healthy = scene.clone();
     healthy.defects.clear();
-    Ok(Probes::new(&Model::new(&healthy)?).columns)
+    Ok(Probes::new(&compile(&healthy)?).columns)
 }
 
 /// A probe with its indices looked up.

@@ -268,6 +268,7 @@ mod tests {
     use std::ops::ControlFlow;
 
     use super::*;
+    use crate::equilibrium::compile;
     use crate::integrate::{self, DORMAND_PRINCE, Options, Tolerance, integrate};
     use crate::scene::presets;
     use crate::signals::Bandwidth;
@@ -277,7 +278,7 @@ mod tests {
 
     /// Vertical acceleration of the outer ring in 40 samples of a run that begins at some time \[s\].
     fn recorded(from: f64) -> Vec<f64> {
-        let model = Model::new(&presets::wheel_bearing(0.0)).unwrap();
+        let model = compile(&presets::wheel_bearing(0.0)).unwrap();
         let y0 = start(&model, &Start::Rolling).unwrap();
         let sampling = Sampling::new(Bandwidth::Auto, FS, model.scales().frequency).unwrap();
         let mut dynamics = Dynamics::new(&model);

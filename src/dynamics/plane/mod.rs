@@ -149,6 +149,7 @@ impl Direction {
 mod tests {
     use super::*;
     use crate::dynamics::Dynamics;
+    use crate::equilibrium::compile;
     use crate::integrate::System;
     use crate::scene::{Friction, NormalLaw, Profile, Scene, TimeFunction, presets};
     use crate::{Start, start};
@@ -230,7 +231,7 @@ mod tests {
     fn the_loop_and_the_tables_agree() {
         for (name, scene, most) in scenes() {
             for level in Level::available() {
-                let model = Model::new(&scene).unwrap().with_level(level);
+                let model = compile(&scene).unwrap().with_level(level);
                 let y0 = start(&model, &Start::Equilibrium).unwrap();
                 let reduction = Reduction::of(&model, &y0).unwrap();
                 let mut dynamics = Dynamics::reduced(&model, reduction.clone(), &y0);
@@ -271,7 +272,7 @@ mod tests {
     #[test]
     fn what_is_not_plain_is_left_to_the_tables() {
         let scene = smooth();
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let y0 = start(&model, &Start::Equilibrium).unwrap();
         let reduction = Reduction::of(&model, &y0).unwrap();
         let mut dynamics = Dynamics::reduced(&model, reduction, &y0);

@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use check::{entry_name, positive, within};
 
 impl Scene {
-    /// Checks every field; [`crate::Model::new`] does it for you.
+    /// Checks every field; [`crate::compile()`] does it for you.
     ///
     /// # Errors
     /// [`Error::Scene`] with the path, the value and what is allowed, for the first field that is not usable.
