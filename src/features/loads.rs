@@ -1,10 +1,11 @@
 //! Extremes of the contact loads, read by probes of their own that leave no columns behind.
 
 use super::Feature;
+use crate::model::Race;
 use crate::scene::{ContactQuantity, Probe, Scene};
 use crate::signals::Signals;
 
-const RACES: [&str; 2] = ["outer", "inner"];
+const RACES: [&str; 2] = [Race::Outer.name(), Race::Inner.name()];
 
 /// Name of the probe of a row. One of a user's would have to be named so on purpose.
 fn probe_name(row: usize) -> String {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{DOFS, Dof};
+use super::{DOFS, Dof, Race};
 use crate::scene::{Mount, Ring, Row, Scene};
 
 /// A body compiled.
@@ -94,21 +94,21 @@ pub(super) fn ball_mass(scene: &Scene, row: &Row, diameter: f64) -> (f64, f64) {
 ///
 /// From geometry: a hollow cylinder between boundary and land, less the grooves' circular segments. The
 /// land is at the shoulder angle, or 0.3 D beyond the pitch radius; in the mean of unlike rows.
-pub(super) fn ring_mass(scene: &Scene, ring: &Ring, sigma: f64) -> (f64, f64) {
+pub(super) fn ring_mass(scene: &Scene, ring: &Ring, race: Race) -> (f64, f64) {
+    let sigma = race.sigma();
     let geometry = || {
         let (boundary, width) = (ring.diameter? / 2.0, ring.width?);
         let density = scene.materials.rings.density;
-        let land = mean(scene, |row| land_radius(row, sigma));
-        let (inside, outside) = if sigma > 0.0 {
-            (land, boundary)
-        } else {
-            (boundary, land)
+        let land = mean(scene, |row| land_radius(row, race));
+        let (inside, outside) = match race {
+            Race::Outer => (land, boundary),
+            Race::Inner => (boundary, land),
         };
         let cylinder = density * PI * width * (outside.powi(2) - inside.powi(2));
         let mut mass = cylinder;
         let mut inertia = cylinder * (outside.powi(2) + inside.powi(2)) / 2.0;
         for row in &scene.rows {
-            let r = groove_radius(row, sigma);
+            let r = groove_radius(row, race);
             let bottom = f64::midpoint(row.pitch_diameter, sigma * row.ball_diameter);
             let depth = (sigma * (bottom - land)).clamp(0.0, r);
             let area = r * r * (1.0 - depth / r).acos()
@@ -134,26 +134,28 @@ pub(super) fn mean(scene: &Scene, of: impl Fn(&Row) -> f64) -> f64 {
     scene.rows.iter().map(of).sum::<f64>() / scene.rows.len() as f64
 }
 
-/// Groove radius \[m\] of the outer (σ = +1) or inner race.
-pub(super) fn groove_radius(row: &Row, sigma: f64) -> f64 {
-    row.ball_diameter
-        * if sigma > 0.0 {
-            row.outer_conformity
-        } else {
-            row.inner_conformity
-        }
+/// Groove radius of a race over the ball diameter.
+pub(super) fn conformity(row: &Row, race: Race) -> f64 {
+    match race {
+        Race::Outer => row.outer_conformity,
+        Race::Inner => row.inner_conformity,
+    }
 }
 
-fn land_radius(row: &Row, sigma: f64) -> f64 {
-    let shoulders = if sigma > 0.0 {
-        row.outer_shoulders
-    } else {
-        row.inner_shoulders
+/// Groove radius of a race \[m\].
+pub(super) fn groove_radius(row: &Row, race: Race) -> f64 {
+    row.ball_diameter * conformity(row, race)
+}
+
+fn land_radius(row: &Row, race: Race) -> f64 {
+    let shoulders = match race {
+        Race::Outer => row.outer_shoulders,
+        Race::Inner => row.inner_shoulders,
     };
-    let r = groove_radius(row, sigma);
+    let r = groove_radius(row, race);
     let height = match shoulders {
         Some([low, high]) => row.ball_diameter / 2.0 - r * (1.0 - low.max(high).cos()),
         None => 0.3 * row.ball_diameter,
     };
-    row.pitch_diameter / 2.0 + sigma * height
+    row.pitch_diameter / 2.0 + race.sigma() * height
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::body::{Body, Degree, ball_mass, groove_radius, ring_mass};
+use super::body::{Body, Degree, ball_mass, conformity, groove_radius, ring_mass};
 use super::{
     Ball, BodyId, DOFS, Dof, LoadModel, Model, Race, RowModel, Scales, Spring, UnbalanceModel,
     nodes,
@@ -28,11 +28,11 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     let mut rows = Vec::new();
     let mut balls = Vec::new();
     for (i, row) in scene.rows.iter().enumerate() {
-        let hertz = Race::BOTH.map(|race| hertz(scene, row, race.sigma()));
+        let hertz = Race::BOTH.map(|race| hertz(scene, row, race));
         rows.push(RowModel {
             first: balls.len(),
             count: row.ball_count,
-            pairs: Race::BOTH.map(|race| pair(scene, i, row, race.sigma(), hertz[race])),
+            pairs: Race::BOTH.map(|race| pair(scene, (i, row), race, hertz[race])),
             hertz,
             cage_distance: row.pitch_diameter * (PI / row.ball_count as f64).sin(),
             side: f64::from(row.side),
@@ -122,7 +122,7 @@ fn ring(scene: &Scene, ring: &scene::Ring, race: Race) -> Result<Body> {
         Race::Outer => Mount::Fixed,
         Race::Inner => Mount::Free,
     };
-    let (mass, inertia) = ring_mass(scene, ring, race.sigma());
+    let (mass, inertia) = ring_mass(scene, ring, race);
     for (field, value) in [("mass", mass), ("inertia", inertia)] {
         if value <= 0.0 {
             return Err(Error::scene(
@@ -140,39 +140,32 @@ fn ring(scene: &Scene, ring: &scene::Ring, race: Race) -> Result<Body> {
     })
 }
 
-/// Hertz's contact of a ball and one race, σ = +1 for the outer.
-fn hertz(scene: &Scene, row: &Row, sigma: f64) -> Hertz {
-    let conformity = if sigma > 0.0 {
-        row.outer_conformity
-    } else {
-        row.inner_conformity
-    };
+/// Hertz's contact of a ball and one race.
+fn hertz(scene: &Scene, row: &Row, race: Race) -> Hertz {
     Hertz::new(
-        sigma,
+        race.sigma(),
         row.ball_diameter,
         row.pitch_diameter,
-        conformity,
+        conformity(row, race),
         row.contact_angle,
         scene.ball_material_of(row),
         &scene.materials.rings,
     )
 }
 
-/// Geometry and laws of one race (model section 2), σ = +1 for the outer.
-fn pair(scene: &Scene, index: usize, row: &Row, sigma: f64, hertz: Hertz) -> Pair {
-    let radius = row.ball_diameter / 2.0;
-    let r = groove_radius(row, sigma);
+/// Geometry and laws of one race (model section 2).
+fn pair(scene: &Scene, (index, row): (usize, &Row), race: Race, hertz: Hertz) -> Pair {
+    let (radius, sigma) = (row.ball_diameter / 2.0, race.sigma());
+    let r = groove_radius(row, race);
     let (sin, cos) = row.contact_angle.sin_cos();
     let side = f64::from(row.side);
-    let preload = if sigma > 0.0 {
-        0.0
-    } else {
-        side * row.axial_preload
+    let preload = match race {
+        Race::Outer => 0.0,
+        Race::Inner => side * row.axial_preload,
     };
-    let (shoulders, waviness, surface) = if sigma > 0.0 {
-        (row.outer_shoulders, &row.outer_waviness, Surface::OuterRace)
-    } else {
-        (row.inner_shoulders, &row.inner_waviness, Surface::InnerRace)
+    let (shoulders, waviness, surface) = match race {
+        Race::Outer => (row.outer_shoulders, &row.outer_waviness, Surface::OuterRace),
+        Race::Inner => (row.inner_shoulders, &row.inner_waviness, Surface::InnerRace),
     };
     let [low, high] = shoulders.map_or([r, r], |angles| angles.map(|angle| r * angle.sin()));
     let race = Torus {

@@ -16,6 +16,7 @@ use super::answer::{Progress, answering};
 use super::errors::{OrRaise, to_json};
 use crate::dynamics;
 use crate::equilibrium::compile;
+use crate::model::DOFS;
 use crate::scene::{Method, RingName};
 use crate::{Bandwidth, Error, Run, Scene, Signals, SliceRow, Start};
 
@@ -83,8 +84,8 @@ impl Model {
         let y = self.state(py, &y)?;
         let forces = PyDict::new(py);
         for (origin, values) in py.detach(|| dynamics::contributions(&self.0, t, &y)) {
-            let rows = values.len() / 4;
-            forces.set_item(origin, values.into_pyarray(py).reshape([rows, 4])?)?;
+            let rows = values.len() / DOFS;
+            forces.set_item(origin, values.into_pyarray(py).reshape([rows, DOFS])?)?;
         }
         Ok(forces)
     }

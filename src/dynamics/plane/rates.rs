@@ -33,7 +33,10 @@ impl Wide for Rates<'_> {
         let (q, v) = y.split_at(y.len() / 2);
         let (rates, accelerations) = dy.split_at_mut(q.len());
         rates.copy_from_slice(v);
-        let rings = Race::BOTH.map(|race| plane.motion(race, q, v));
+        let rings = [
+            plane.motion(Race::Outer, q, v),
+            plane.motion(Race::Inner, q, v),
+        ];
         let mut on_rings = [[0.0; 2]; 2];
         for row in &mut plane.rows {
             let compiled = &model.rows[row.row];
@@ -63,7 +66,8 @@ impl Wide for Rates<'_> {
 impl Plane {
     #[inline(always)]
     fn motion(&self, race: Race, q: &[f64], v: &[f64]) -> Motion {
-        let [(x, vx), (y, vy)] = self.rings[race].each_ref().map(|along| along.of(q, v));
+        let [x, y] = &self.rings[race];
+        let ((x, vx), (y, vy)) = (x.of(q, v), y.of(q, v));
         Motion {
             centre: V2::new(x, y),
             velocity: V2::new(vx, vy),
