@@ -6,11 +6,13 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
 
+use ballrace::compile;
 use ballrace::dynamics::Dynamics;
+use ballrace::inspect;
 use ballrace::integrate::{DORMAND_PRINCE, Options, System, Tolerance, integrate};
 use ballrace::scene::{NormalLaw, Scene, Slices, TimeFunction, presets};
 use ballrace::simd::Level;
-use ballrace::{Model, Run, Start, equilibrium, load_distribution, simulate, start};
+use ballrace::{Model, Race, Run, Start, equilibrium, load_distribution, simulate, start};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use rayon::ThreadPoolBuilder;
 
@@ -37,7 +39,7 @@ fn ring_of(balls: usize, slices: Slices) -> Scene {
 
 /// Model and state of a bearing in equilibrium.
 fn loaded(scene: &Scene) -> (Model, Vec<f64>) {
-    let model = Model::new(scene).unwrap();
+    let model = compile(scene).unwrap();
     let y = start(&model, &Start::Equilibrium).unwrap();
     (model, y)
 }
@@ -48,7 +50,7 @@ fn contact(c: &mut Criterion) {
         let (model, y) = loaded(&wheel(NormalLaw::iso16281(), slices));
         // Ball 1 of row 0 carries most.
         group.bench_function(format!("{slices:?}"), |b| {
-            b.iter(|| model.contact(black_box(&y), 1, 0));
+            b.iter(|| inspect::contact(&model, black_box(&y), 1, Race::Outer));
         });
     }
     group.finish();
@@ -191,7 +193,7 @@ fn statics(c: &mut Criterion) {
         ("wheel bearing", presets::wheel_bearing(3000.0)),
     ] {
         group.bench_function(format!("model, {name}"), |b| {
-            b.iter(|| Model::new(black_box(&scene)).unwrap());
+            b.iter(|| compile(black_box(&scene)).unwrap());
         });
         group.bench_function(format!("equilibrium, {name}"), |b| {
             b.iter(|| equilibrium(black_box(&scene)).unwrap());

@@ -3,13 +3,14 @@
 
 use std::hint::black_box;
 
+use ballrace::compile;
 use ballrace::dynamics::Dynamics;
 use ballrace::integrate::System;
 use ballrace::scene::presets;
-use ballrace::{Model, Start, start};
+use ballrace::{Start, start};
 
 fn main() {
-    let model = Model::new(&presets::wheel_bearing(3000.0)).unwrap();
+    let model = compile(&presets::wheel_bearing(3000.0)).unwrap();
     // Nothing but the evaluations should be counted: this start costs little.
     let y = start(&model, &Start::Equilibrium).unwrap();
     let mut dynamics = Dynamics::new(&model);

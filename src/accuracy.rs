@@ -7,9 +7,10 @@
 
 use serde::Serialize;
 
+use crate::equilibrium::compile;
 use crate::error::{Error, Result};
-use crate::model::{Degree, Model};
-use crate::scene::{Component, Method, Probe, Scene, Slices};
+use crate::model::{Body, Dof, Model};
+use crate::scene::{Component, Contact, Method, Probe, Scene, Slices};
 use crate::start::{Start, start};
 
 /// What a run with a requested accuracy chose, and what it expects of that.
@@ -56,38 +57,43 @@ pub(crate) fn choose(
     from: &Start,
     pilot: &mut Pilot<'_>,
 ) -> Result<Accuracy> {
-    let own = scene.contact.slices;
-    let fitted = !matches!(own, Slices::Fixed(_));
-    let nodes = |count: usize| {
-        if fitted { Slices::Fitted(count) } else { own }
-    };
+    let fitted = scene.contacts_mut().any(|contact| is_fitted(contact));
     let mut finest = scene.clone();
-    finest.contact.slices = nodes(NODES[NODES.len() - 1]);
-    let model = Model::new(&finest)?;
+    set_nodes(&mut finest, NODES[NODES.len() - 1]);
+    let model = compile(&finest)?;
     cap(scene, &model);
     let mut pilots = Pilots::new(scene, &model, from, pilot)?;
     let share = SHARE * requested;
     let tolerances = tolerances(requested);
-    let first = pilots.run(tolerances[0], nodes(NODES[0]))?;
-    let (rtol, integration_error, first) = climb(&tolerances, first, share, |rtol| {
-        pilots.run(rtol, nodes(NODES[0]))
-    })?;
-    let (mut slices, mut node_error) = (nodes(NODES[0]), None);
+    let first = pilots.run(tolerances[0], NODES[0])?;
+    let (rtol, integration_error, first) =
+        climb(&tolerances, first, share, |rtol| pilots.run(rtol, NODES[0]))?;
+    let (mut nodes, mut node_error) = (NODES[0], None);
     if fitted {
-        let (count, error, _) =
-            climb(&NODES, first, share, |count| pilots.run(rtol, nodes(count)))?;
-        (slices, node_error) = (nodes(count), Some(error));
+        let (count, error, _) = climb(&NODES, first, share, |count| pilots.run(rtol, count))?;
+        (nodes, node_error) = (count, Some(error));
     }
     scene.solver.rtol = rtol;
-    scene.contact.slices = slices;
+    set_nodes(scene, nodes);
     Ok(Accuracy {
         requested,
         rtol,
-        nodes: Model::new(scene)?.slices(),
+        nodes: compile(scene)?.slices(),
         integration_error,
         node_error,
         pilot_evaluations: pilots.evaluations,
     })
+}
+
+fn is_fitted(contact: &Contact) -> bool {
+    !matches!(contact.slices, Slices::Fixed(_))
+}
+
+/// Gives all contacts that are cut at nodes so many of them.
+fn set_nodes(scene: &mut Scene, count: usize) {
+    for contact in scene.contacts_mut().filter(|contact| is_fitted(contact)) {
+        contact.slices = Slices::Fitted(count);
+    }
 }
 
 /// Refuses what cannot be asked for, of this scene.
@@ -167,8 +173,8 @@ impl<'a, 'b> Pilots<'a, 'b> {
     /// `model` gives the state from which they start, where none is given.
     fn new(scene: &Scene, model: &Model, from: &Start, pilot: &'a mut Pilot<'b>) -> Result<Self> {
         let mut scene = scene.clone();
-        let moves = |degree: &Degree| matches!(degree, Degree::Free { .. });
-        let body = model.bodies.iter().find(|body| moves(&body.degrees[1]));
+        let moves = |body: &&Body| body.degrees[Dof::Y].is_free();
+        let body = model.bodies.iter().find(moves);
         let probe = Probe::Motion {
             body: body.unwrap_or(&model.bodies[0]).name.clone(),
             components: Some(vec![Component::Ay]),
@@ -183,9 +189,9 @@ impl<'a, 'b> Pilots<'a, 'b> {
     }
 
     /// The acceleration with a tolerance and nodes.
-    fn run(&mut self, rtol: f64, slices: Slices) -> Result<Vec<f64>> {
+    fn run(&mut self, rtol: f64, nodes: usize) -> Result<Vec<f64>> {
         self.scene.solver.rtol = rtol;
-        self.scene.contact.slices = slices;
+        set_nodes(&mut self.scene, nodes);
         let (values, evaluations) = (self.pilot)(&self.scene, &self.from)?;
         self.evaluations += evaluations;
         Ok(values)

@@ -1,11 +1,11 @@
 //! Why a run ended before its time, in the words of its error.
 
-use crate::collapse::culprits;
 use crate::error::Error;
 use crate::escape;
+use crate::inspect::{Element, stiffest};
 use crate::integrate::{Failure, FailureKind};
 use crate::method;
-use crate::model::Model;
+use crate::model::{BodyId, Model};
 use crate::step_limit;
 use crate::told::duration;
 
@@ -14,10 +14,10 @@ const CRAWLING: &str = "the step has collapsed to less than 1e-5 of the contacts
 
 /// Why a run ends though the integrator could go on.
 pub(crate) enum Halt {
-    /// A body, a ball, is where its groove does not hold it.
+    /// A ball, by its number among all balls, is where its groove does not hold it.
     Escaped(usize),
     /// A body does what no bearing does.
-    RanAway(usize, String),
+    RanAway(BodyId, String),
     /// The step is too small to wait for.
     Crawls,
 }
@@ -27,7 +27,10 @@ impl Halt {
     pub fn error(&self, model: &Model, last: &[f64], (time, step): (f64, f64)) -> Error {
         let finer = finer(model, step);
         let (body, reason) = match self {
-            Self::Escaped(ball) => (Some(*ball), escape::reason(model, last, *ball, &finer)),
+            Self::Escaped(ball) => (
+                Some(BodyId::ball(*ball)),
+                escape::reason(model, last, *ball, &finer),
+            ),
             Self::RanAway(body, does) => {
                 let advice = format!("check loads, drive and supports, or {finer}");
                 (
@@ -47,7 +50,7 @@ fn finer(model: &Model, step: f64) -> String {
     if !method::is_fixed(method) {
         return "use a smaller rtol".to_owned();
     }
-    let limit = step_limit::largest(method, &model.scales);
+    let limit = step_limit::largest(method, model);
     let bears = if step > limit {
         format!(", stability asks for at most {}", duration(limit))
     } else {
@@ -76,7 +79,7 @@ pub(crate) fn broken(model: &Model, last: &[f64], begins: f64, failure: &Failure
         FailureKind::Invalid(invalid) => invalid.0.to_owned(),
     };
     let when = (begins + failure.time, failure.step);
-    stopped(model, last, when, Some(failure.group), &reason)
+    stopped(model, last, when, Some(BodyId::new(failure.group)), &reason)
 }
 
 /// The error with what held up the run in its last state: a body's contacts, or the fastest of all.
@@ -84,21 +87,24 @@ fn stopped(
     model: &Model,
     last: &[f64],
     (time, step): (f64, f64),
-    body: Option<usize>,
+    body: Option<BodyId>,
     reason: &str,
 ) -> Error {
-    let found = culprits(model, last, body);
+    let found = stiffest(model, last, body);
     let listed: Vec<String> = found.iter().map(ToString::to_string).collect();
-    let body = body.or(found.first().map(|first| first.body)).unwrap_or(0);
+    let body = body.or(found.first().map(|first| first.body));
     Error::Integration {
         time,
         step,
-        body: model.bodies[body].name.clone(),
+        body: model.bodies[body.unwrap_or_default()].name.clone(),
         reason: if listed.is_empty() {
             format!("{reason} (no contact touches)")
         } else {
             format!("{reason}. Fastest: {}", listed.join(", "))
         },
-        contacts: found.into_iter().map(|culprit| culprit.name).collect(),
+        contacts: found
+            .into_iter()
+            .map(|element: Element| element.name)
+            .collect(),
     }
 }

@@ -2,8 +2,9 @@
 
 use thiserror::Error;
 
-use crate::memory::GIB;
 use crate::told;
+
+pub(crate) const GIB: f64 = (1u64 << 30) as f64;
 
 /// What `ballrace` refuses or fails at.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -1,32 +1,35 @@
 //! How a ball left its groove, in words.
 
 use crate::contact::{Section, Torus};
-use crate::dynamics::motion;
-use crate::model::Model;
+use crate::model::{BodyId, Model, Race};
 use crate::orbit;
 use crate::told::length;
 
 /// Which race a ball has left in a state of all bodies, which way and how far, and what may be to blame; `finer` says how the
 /// run is made more accurate.
-pub(crate) fn reason(model: &Model, y: &[f64], body: usize, finer: &str) -> String {
-    let ball = &model.balls[body - 2];
+pub(crate) fn reason(model: &Model, y: &[f64], j: usize, finer: &str) -> String {
+    let ball = &model.balls[j];
     let radius = ball.side.radius;
-    let at = motion(y, body);
+    let at = model.layout().motion(y, BodyId::ball(j));
     let races = model.rows[ball.row].pairs.each_ref().map(|pair| pair.race);
-    let ways = [0, 1].map(|ring| {
-        let ring_at = motion(y, ring);
-        let distance = (at.centre - ring_at.centre).norm();
-        races[ring].section(radius, distance, at.z - ring_at.z, 0.0)
+    let ways = Race::BOTH.map(|race| {
+        let ring = model.layout().motion(y, race.ring());
+        let distance = (at.centre - ring.centre).norm();
+        races[race].section(radius, distance, at.z - ring.z, 0.0)
     });
-    let beyond = |ring: usize| ways[ring].l - races[ring].farthest(radius);
-    let ring = usize::from(beyond(1) > beyond(0));
-    let how = way(&races[ring], &ways[ring]);
+    let beyond = |race: Race| ways[race].l - races[race].farthest(radius);
+    let race = if beyond(Race::Inner) > beyond(Race::Outer) {
+        Race::Inner
+    } else {
+        Race::Outer
+    };
+    let how = way(&races[race], &ways[race]);
     let advice = if orbit::note(model).is_some() && model.scene().cage.is_none() {
         "nothing keeps the balls apart: give the scene a cage".to_owned()
     } else {
         format!("check loads, clearance and shoulders, or {finer}")
     };
-    let race = ["outer", "inner"][ring];
+    let race = race.name();
     format!("the ball has left its groove: it is {how} the {race} race; {advice}")
 }
 

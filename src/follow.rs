@@ -4,17 +4,18 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use crate::budget::StepBudget;
-use crate::collapse::Crawl;
 use crate::dynamics::Dynamics;
 use crate::ending::{Halt, broken};
 use crate::error::{Error, Result};
+use crate::inspect;
 use crate::integrate::{self, DenseStep, Options, Tolerance};
 use crate::method::{self, Choice, Task};
-use crate::model::Model;
+use crate::model::{BodyId, DOFS, Model};
 use crate::orbit;
 use crate::runaway;
 use crate::scene::Drive;
 use crate::signals::{Recorder, Statistics};
+use crate::step_collapse::StepCollapse;
 use crate::step_limit;
 
 /// How often progress is told, and after how many steps the clock is asked: of a small model's step that would take a
@@ -87,7 +88,7 @@ pub(crate) fn follow(
     let begun = Instant::now();
     let mut told = begun;
     let (mut pulls, mut truncated, mut halt) = (0, 0, None);
-    let mut crawl = Crawl::new(model, options.max_step);
+    let mut collapse = StepCollapse::new(model, options.max_step);
     let (mut steps, mut spent) = (StepBudget::new(max_steps), false);
     let ask_every = if model.is_large() { 1 } else { ASK_EVERY };
     let bounds = runaway::Bounds::new(&dynamics, y0);
@@ -100,11 +101,11 @@ pub(crate) fn follow(
             // The last evaluation was at the accepted state.
             pulls += dynamics.pulls();
             truncated += dynamics.truncated();
-            let lost = dynamics.lost();
+            let lost = dynamics.lost().and_then(BodyId::as_ball);
             let watched = watch.step(dynamics, step);
             last.copy_from_slice(step.y1());
             last_time = step.t1();
-            let crawls = crawl.after(step.h());
+            let crawls = collapse.after(step.h());
             let why = if let Some(ball) = lost {
                 Some(Halt::Escaped(ball))
             } else if let Some((body, does)) = bounds.left(step.y1()) {
@@ -170,9 +171,8 @@ pub(crate) fn follow(
         acceleration_residual: None,
         wall_time: begun.elapsed().as_secs_f64(),
         nfev_past_end,
-        largest_pressure: model
-            .largest_pressure(y0)
-            .max(model.largest_pressure(&full)),
+        largest_pressure: inspect::largest_pressure(model, y0)
+            .max(inspect::largest_pressure(model, &full)),
         settling_accepted: 0,
         settling_nfev: 0,
         orbit_slowed: orbit::slowed(model, y0, &full),
@@ -193,11 +193,11 @@ fn go_on(
     if until <= end {
         return Ok(0);
     }
-    let mut crawl = Crawl::new(dynamics.model(), options.max_step);
+    let mut collapse = StepCollapse::new(dynamics.model(), options.max_step);
     let (mut told, mut stopped) = (Instant::now(), false);
     let mut observe =
         |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &integrate::Statistics| {
-            if dynamics.lost().is_some() || crawl.after(step.h()) {
+            if dynamics.lost().is_some() || collapse.after(step.h()) {
                 return ControlFlow::Break(());
             }
             stopped = watch.step(dynamics, step).is_break();
@@ -253,7 +253,7 @@ pub(crate) fn options(model: &Model) -> Result<Options> {
     let scene = &model.scene;
     let solver = &scene.solver;
     let cap = if solver.frequency_cap {
-        step_limit::largest(solver.method, &model.scales)
+        step_limit::largest(solver.method, model)
     } else {
         f64::INFINITY
     };
@@ -295,15 +295,15 @@ pub(crate) fn tolerance(dynamics: &Dynamics<'_>) -> Result<Tolerance> {
     let model = dynamics.model();
     let (scales, rtol) = (&model.scales, model.scene.solver.rtol);
     let degrees = dynamics.degrees();
-    let mut kept = vec![0; model.body_count()];
+    let mut kept = vec![0_u32; model.body_count()];
     for (body, _) in &degrees {
         kept[*body] += 1;
     }
     let half = |length: f64| {
-        degrees.iter().map(move |&(body, direction)| {
+        degrees.iter().map(move |&(body, dof)| {
             (
                 body,
-                if direction == 3 {
+                if dof.is_rotation() {
                     length / model.radius(body)
                 } else {
                     length
@@ -315,9 +315,9 @@ pub(crate) fn tolerance(dynamics: &Dynamics<'_>) -> Result<Tolerance> {
     let atol = half(length)
         .chain(half(length * scales.frequency))
         // What is left out has no error: it counts in a body's mean as if it were there.
-        .map(|(body, atol)| atol * (4.0 / f64::from(kept[body])).sqrt())
+        .map(|(body, atol)| atol * (DOFS as f64 / f64::from(kept[body])).sqrt())
         .collect();
-    let bodies = degrees.iter().map(|(body, _)| *body);
+    let bodies = degrees.iter().map(|(body, _)| body.index());
     let group = bodies.clone().chain(bodies).collect();
     Tolerance::new(0.0, atol, &vec![false; 2 * degrees.len()], group)
         .map_err(|invalid| Error::scene("solver.rtol", rtol, invalid.to_string()))

@@ -11,7 +11,7 @@ use std::time::Instant;
 use crate::error::{Error, Result};
 
 /// Stops from another thread what works under it: `equilibrium`, `stiffness`, `load_distribution`, `explain`, `start`,
-/// `Model::new` and the static parts of `simulate`, whose integration asks its `progress`.
+/// `compile` and the static parts of `simulate`, whose integration asks its `progress`.
 ///
 /// ```
 /// use ballrace::{Error, Interrupt, equilibrium, scene::presets};

@@ -27,18 +27,22 @@
 //! * [`scene`] — what a user says: names, numbers, defaults; a serde document that is only validated.
 //! * [`contact`] — laws of one ball on one race: races, slices, ISO and Hertz laws, damping, friction, fault
 //!   circles. Numbers in, numbers out; no indices, no state.
-//! * `model` ([`Model`]) — the scene compiled: bodies, arrays, scales; and what a run leaves out ([`Reduction`]).
-//!   Never changed by a run.
-//! * [`dynamics`] — the right-hand side: touching contacts by eights, or whole rows where each is one formula, summed
-//!   in one order; smooth plane rows in one loop, without tables between; forces by name, energies.
+//! * `model` ([`Model`]) — the scene compiled: bodies, races and directions ([`BodyId`], [`Race`], [`Dof`]) with the one
+//!   place that turns them into offsets ([`Layout`]), arrays, scales. Never changed by a run.
+//! * `forces` — cage, supports, gravity, loads, unbalance, drive: one file each, with force, energy or power, rate for step
+//!   control, and what becomes of it in a run.
+//! * [`inspect`] — questions about a state: what its contacts carry, its energies, its stiffest elements.
+//! * `reduction` ([`Reduction`]) — what a run leaves out, and why.
+//! * [`dynamics`] — the right-hand side: touching contacts by eights of one class of rows, or whole rows where each is one
+//!   formula, summed in one order; smooth plane rows in one loop, without tables between; forces by origin.
 //! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
 //! * `equilibrium` ([`equilibrium()`], [`stiffness()`], [`load_distribution()`]) — the static solve and what follows
 //!   from it, the places of defects among it; `start` ([`start()`]) — how a run begins; `settle` — what is left of that
 //!   dies down before t = 0.
 //! * `touched` ([`Touched`]) — which defects balls met in a run, and what their contacts carried there.
 //! * `signals` ([`Signals`]) — probes read from the dense output on a uniform grid, through a low-pass ([`Bandwidth`]);
-//!   kept whole, or handed over in blocks ([`Block`]).
-//! * `residual`, `collapse`, `escape`, `orbit`, `runaway`, `ending`, `warning` ([`Warning`]) — whether a run can be
+//!   kept whole, or handed over in blocks ([`Block`]); reasons to look twice at them ([`Warning`]).
+//! * `residual`, `step_collapse`, `escape`, `orbit`, `runaway`, `ending` — whether a run can be
 //!   believed, who held it up, and what its error says.
 //! * `selftest` — whether this processor's vector instructions compute what they should, once a process.
 //! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
@@ -59,8 +63,10 @@
 //! |---|---|---|
 //! | a normal law | a file in `contact/`, a variant in `scene/contact.rs` and in `contact/law.rs`, a node in `contact/press.rs`, its slope in `contact/tangent.rs` | doctest values, limits |
 //! | a friction law | `contact/friction.rs`, a variant in `scene/contact.rs` | dissipation ≥ 0 |
-//! | what acts along z, or differs by row | `model/reduction/symmetry.rs` | a hair of it in `tests/reduction.rs` |
-//! | an approximation | `scene/approximations.rs`, grounds and a reason in `model/reduction/`, an offer in `explain/variants.rs` | `tests/approximations.rs`, a row in `benches/approximations.py` |
+//! | a force | a file in `forces/`, its entry in `forces/mod.rs`, a line in `Dynamics::others` | `tests/energy.rs`, power balance |
+//! | a direction of a body | `Dof` and `Layout` in `model/layout.rs`, mass and mount in `model/body.rs`, its force where it acts | `model/layout.rs`, momentum |
+//! | what acts along z, or differs by row | `reduction/symmetry.rs`; what contacts share, `RowModel::is_like` | a hair of it in `tests/reduction.rs`, `tests/unlike_rows.rs` |
+//! | an approximation | `scene/approximations.rs`, grounds and a reason in `reduction/`, an offer in `explain/variants.rs` | `tests/approximations.rs`, a row in `benches/approximations.py` |
 //! | a race profile | `contact/race.rs`, `contact/press.rs` | gap against a closed form |
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
 //! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` and in `step_limit.rs` | row sums, order of convergence |
@@ -80,7 +86,6 @@ mod python;
 mod accuracy;
 mod budget;
 mod campaign;
-mod collapse;
 pub mod contact;
 pub mod dynamics;
 mod ending;
@@ -90,6 +95,8 @@ mod escape;
 mod explain;
 mod features;
 mod follow;
+mod forces;
+pub mod inspect;
 pub mod integrate;
 mod interrupt;
 mod memory;
@@ -97,6 +104,7 @@ mod method;
 mod model;
 mod orbit;
 mod pool;
+mod reduction;
 mod residual;
 mod run;
 mod runaway;
@@ -107,26 +115,26 @@ mod signals;
 pub mod simd;
 mod simulate;
 mod start;
+mod step_collapse;
 mod step_limit;
 mod told;
 mod touched;
-mod warning;
 
 pub use accuracy::Accuracy;
 pub use campaign::{Case, Finished, Outcome, campaign, stream};
 pub use equilibrium::{
     BallEquilibrium, ContactEquilibrium, Equilibrium, EquivalentLoads, LoadDistribution, Placed,
-    Stiffness, equilibrium, load_distribution, stiffness,
+    Stiffness, compile, equilibrium, load_distribution, stiffness,
 };
 pub use error::{Error, Result};
 pub use explain::{ContactKind, Cost, Explanation, LawExplanation, Variant, explain};
 pub use features::{Feature, FeatureOptions, feature_columns, features, signal_features};
 pub use interrupt::Interrupt;
-pub use model::{Body, Degree, Model, Obstacle, Omission, Reduction, Scales};
+pub use model::{Body, BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Race, Scales};
+pub use reduction::{Obstacle, Omission, Reduction};
 pub use run::Run;
 pub use scene::Scene;
-pub use signals::{Bandwidth, Block, Column, Provenance, Signals, SliceRow, Statistics};
+pub use signals::{Bandwidth, Block, Column, Provenance, Signals, SliceRow, Statistics, Warning};
 pub use simulate::{simulate, simulate_into};
 pub use start::{Start, start};
 pub use touched::Touched;
-pub use warning::Warning;

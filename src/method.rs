@@ -173,7 +173,7 @@ fn choose<'m, O: Observer<Dynamics<'m>>>(
 fn implicit_options(options: &Options, model: &Model) -> Options {
     let mut options = options.clone();
     if model.scene().solver.frequency_cap {
-        let most = step_limit::largest(Method::ImplicitFriction, model.scales());
+        let most = step_limit::largest(Method::ImplicitFriction, model);
         options.max_step = options.max_step.min(most);
     }
     options

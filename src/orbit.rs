@@ -4,13 +4,12 @@
 //! damping, which slows a ball a little whenever it enters or leaves the load zone: of a 6205 under 500 N about a hundredth a
 //! second.
 
-use crate::dynamics::motion;
-use crate::model::Model;
+use crate::model::{BodyId, Model, RowModel};
 
 /// What is told of a scene whose balls nothing drives; nothing where friction does, or where the orbit is given.
 pub(crate) fn note(model: &Model) -> Option<&'static str> {
     let scene = model.scene();
-    let is_driven = model.rows[0].pairs[0].law.traction.is_some();
+    let is_driven = loose_balls(model).next().is_none();
     let is_given = scene.approximations.rolling;
     if is_driven || is_given {
         return None;
@@ -27,7 +26,7 @@ pub(crate) fn note(model: &Model) -> Option<&'static str> {
 /// the speed of the inner ring; none where something drives them, or where they do not orbit.
 pub(crate) fn slowed(model: &Model, from: &[f64], to: &[f64]) -> Option<f64> {
     note(model)?;
-    let speed = |y: &[f64]| motion(y, 1).omega;
+    let speed = |y: &[f64]| model.layout().motion(y, BodyId::INNER).omega;
     let reference = if speed(from) == 0.0 {
         model.rolling_share() * speed(to)
     } else {
@@ -36,12 +35,18 @@ pub(crate) fn slowed(model: &Model, from: &[f64], to: &[f64]) -> Option<f64> {
     (reference != 0.0).then(|| 1.0 - rate(model, to) / reference)
 }
 
-/// Mean rate of the balls about the axis \[rad/s\].
+/// The balls that no friction drives, among those of all rows.
+fn loose_balls(model: &Model) -> impl Iterator<Item = usize> + Clone {
+    let rows = model.rows.iter().filter(|row| !row.has_friction());
+    rows.flat_map(RowModel::balls)
+}
+
+/// Mean rate about the axis of the balls that no friction drives \[rad/s\].
 fn rate(model: &Model, y: &[f64]) -> f64 {
     let of = |j: usize| {
-        let ball = motion(y, 2 + j);
+        let ball = model.layout().motion(y, BodyId::ball(j));
         crate::contact::cross(ball.centre, ball.velocity) / ball.centre.norm_squared()
     };
-    let count = model.balls.len();
-    (0..count).map(of).sum::<f64>() / count as f64
+    let balls = loose_balls(model);
+    balls.clone().map(of).sum::<f64>() / balls.count() as f64
 }

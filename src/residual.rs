@@ -16,7 +16,7 @@
 
 use crate::dynamics::Dynamics;
 use crate::integrate::DenseStep;
-use crate::model::Degree;
+use crate::model::{Dof, Race};
 
 /// a₀ \[m/s²\].
 const QUIET: f64 = 0.5;
@@ -37,12 +37,14 @@ pub(crate) struct Residual {
 impl Residual {
     pub fn new(dynamics: &Dynamics<'_>) -> Self {
         let model = dynamics.model();
-        let free = |degree: &Degree| matches!(degree, Degree::Free { .. });
-        let moves = |ring: &usize| model.bodies[*ring].degrees[..3].iter().any(free);
-        let ring = [0, 1].into_iter().find(moves);
+        let mut rings = Race::BOTH.into_iter().map(Race::ring);
+        let ring = rings.find(|ring| model.bodies[*ring].moves_along_axes());
         let degrees = dynamics.degrees();
         let velocities: Vec<usize> = (0..degrees.len())
-            .filter(|i| Some(degrees[*i].0) == ring && degrees[*i].1 < 3)
+            .filter(|i| {
+                let (body, dof) = degrees[*i];
+                Some(body) == ring && Dof::TRANSLATIONS.contains(&dof)
+            })
             .map(|i| degrees.len() + i)
             .collect();
         let length = velocities.last().map_or(0, |last| last + 1);

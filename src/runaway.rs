@@ -3,6 +3,7 @@
 //! A step that is too long for the contacts lets a motion grow without bound, and numbers stay finite for a long while.
 
 use crate::dynamics::Dynamics;
+use crate::model::{BodyId, BodyKind, Dof};
 use crate::scene::{Drive, Row};
 use crate::told::{length, number};
 
@@ -16,7 +17,7 @@ pub(crate) struct Bounds {
     /// How far it may be from there.
     reach: Vec<f64>,
     /// Body and direction of each of the first half of them.
-    degrees: Vec<(usize, usize)>,
+    degrees: Vec<(BodyId, Dof)>,
 }
 
 impl Bounds {
@@ -33,14 +34,18 @@ impl Bounds {
         let pitch = |row: &Row| row.pitch_diameter;
         let pitch = scene.rows.iter().map(pitch).fold(0.0, f64::max);
         let fastest = FASTEST.max(driven * pitch);
-        let place = |&(body, i): &(usize, usize)| match (body, i) {
-            (_, 3) => (0.0, f64::MAX),
-            (2.., 0 | 1) => (0.0, 1.5 * pitch),
-            _ => (y0[4 * body + i], pitch),
+        let place = |&(body, dof): &(BodyId, Dof)| match (body.kind(), dof) {
+            (_, Dof::Theta) => (0.0, f64::MAX),
+            (BodyKind::Ball(_), Dof::X | Dof::Y) => (0.0, 1.5 * pitch),
+            _ => (y0[model.layout().at(body, dof)], pitch),
         };
-        let speed = |&(body, i): &(usize, usize)| match i {
-            3 => (0.0, fastest / model.radius(body)),
-            _ => (0.0, fastest),
+        let speed = |&(body, dof): &(BodyId, Dof)| {
+            let lever = if dof.is_rotation() {
+                model.radius(body)
+            } else {
+                1.0
+            };
+            (0.0, fastest / lever)
         };
         let places = degrees.iter().map(place);
         let (centre, reach) = places.chain(degrees.iter().map(speed)).unzip();
@@ -52,7 +57,7 @@ impl Bounds {
     }
 
     /// The body that has left them in a state of the run, if any, and what it does.
-    pub fn left(&self, y: &[f64]) -> Option<(usize, String)> {
+    pub fn left(&self, y: &[f64]) -> Option<(BodyId, String)> {
         let within = |i: usize| (y[i] - self.centre[i]).abs() <= self.reach[i];
         // Numbers that are none are not within.
         if (0..y.len()).all(within) {
@@ -64,7 +69,7 @@ impl Bounds {
             let ring = self
                 .degrees
                 .iter()
-                .position(|d| *d == (0, self.degrees[i].1));
+                .position(|d| *d == (BodyId::OUTER, self.degrees[i].1));
             ring.map_or(0.0, |ring| y[ring] - self.centre[ring])
         };
         let stays = |i: usize| {
@@ -75,15 +80,15 @@ impl Bounds {
             }
         };
         let i = (0..y.len()).find(|&i| !stays(i))?;
-        let (body, direction) = self.degrees[i % half];
-        let does = match (i < half, direction) {
-            (true, 3) => format!("has turned by {} rad", number(y[i])),
-            (true, _) => format!(
+        let (body, dof) = self.degrees[i % half];
+        let does = match (i < half, dof.is_rotation()) {
+            (true, true) => format!("has turned by {} rad", number(y[i])),
+            (true, false) => format!(
                 "is {} from its place",
                 length((y[i] - self.centre[i]).abs())
             ),
-            (false, 3) => format!("spins at {} rad/s", number(y[i])),
-            (false, _) => format!("moves at {} m/s", number(y[i].abs())),
+            (false, true) => format!("spins at {} rad/s", number(y[i])),
+            (false, false) => format!("moves at {} m/s", number(y[i].abs())),
         };
         Some((body, does))
     }
@@ -92,18 +97,27 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::equilibrium::compile;
+    use crate::model::Dof::{Theta, X, Y, Z};
     use crate::scene::presets;
-    use crate::{Model, Start, start};
+    use crate::{Start, start};
+
+    const INNER: BodyId = BodyId::INNER;
 
     /// What is said of the start with some of its states changed: (is it a speed, body, direction, what is added).
-    fn said(changes: &[(bool, usize, usize, f64)]) -> Option<(usize, String)> {
-        let model = Model::new(&presets::deep_groove_6205(500.0, 0.0, 1800.0)).unwrap();
+    fn said(changes: &[(bool, BodyId, Dof, f64)]) -> Option<(BodyId, String)> {
+        let model = compile(&presets::deep_groove_6205(500.0, 0.0, 1800.0)).unwrap();
         let mut y = start(&model, &Start::Equilibrium).unwrap();
         let dynamics = Dynamics::new(&model);
         let bounds = Bounds::new(&dynamics, &y);
-        let half = y.len() / 2;
-        for (speed, body, direction, added) in changes {
-            y[4 * body + direction + if *speed { half } else { 0 }] += added;
+        let layout = model.layout();
+        for &(is_speed, body, dof, added) in changes {
+            let at = if is_speed {
+                layout.speed_at(body, dof)
+            } else {
+                layout.at(body, dof)
+            };
+            y[at] += added;
         }
         bounds.left(&y)
     }
@@ -111,25 +125,35 @@ mod tests {
     #[test]
     fn a_bearing_in_its_place_is_fine() {
         assert_eq!(said(&[]), None);
-        assert_eq!(said(&[(false, 1, 3, 1e6), (true, 1, 3, 1e4)]), None);
+        assert_eq!(
+            said(&[(false, INNER, Theta, 1e6), (true, INNER, Theta, 1e4)]),
+            None
+        );
     }
 
     #[test]
     fn what_leaves_is_named() {
-        let far = said(&[(false, 4, 1, -0.1)]).unwrap();
-        assert!(far.0 == 4 && far.1.contains(" from its place"), "{far:?}");
-        let fast = said(&[(true, 1, 0, -6e3)]).unwrap();
-        assert_eq!(fast, (1, "moves at 6000 m/s".to_owned()));
-        let turned = said(&[(true, 3, 3, 1e271)]).unwrap();
-        assert_eq!(turned, (3, "spins at 1e271 rad/s".to_owned()));
-        assert_eq!(said(&[(false, 0, 3, f64::NAN)]).unwrap().0, 0);
-        assert_eq!(said(&[(false, 2, 3, f64::INFINITY)]).unwrap().0, 2);
+        let [first, second, third] = [0, 1, 2].map(BodyId::ball);
+        let far = said(&[(false, third, Y, -0.1)]).unwrap();
+        assert!(
+            far.0 == third && far.1.contains(" from its place"),
+            "{far:?}"
+        );
+        let fast = said(&[(true, INNER, X, -6e3)]).unwrap();
+        assert_eq!(fast, (INNER, "moves at 6000 m/s".to_owned()));
+        let turned = said(&[(true, second, Theta, 1e271)]).unwrap();
+        assert_eq!(turned, (second, "spins at 1e271 rad/s".to_owned()));
+        let of = |body, value| said(&[(false, body, Theta, value)]).unwrap().0;
+        assert_eq!(of(BodyId::OUTER, f64::NAN), BodyId::OUTER);
+        assert_eq!(of(first, f64::INFINITY), first);
     }
 
     #[test]
     fn a_bearing_may_travel_as_a_whole() {
-        let together: Vec<_> = (0..11).map(|body| (false, body, 2, 5.0)).collect();
+        let together: Vec<_> = (0..11)
+            .map(|body| (false, BodyId::new(body), Z, 5.0))
+            .collect();
         assert_eq!(said(&together), None);
-        assert_eq!(said(&together[..10]).unwrap().0, 10);
+        assert_eq!(said(&together[..10]).unwrap().0, BodyId::new(10));
     }
 }

@@ -4,8 +4,11 @@
 use std::sync::OnceLock;
 
 use crate::dynamics::Dynamics;
+use crate::dynamics::contributions;
+use crate::equilibrium::compile;
 use crate::integrate::System;
-use crate::model::Model;
+use crate::model::{BodyId, Dof, Model};
+use crate::reduction::Reduction;
 use crate::scene::{Friction, Scene, presets};
 use crate::simd::{Distrust, Level};
 use crate::start::{Start, start};
@@ -66,14 +69,16 @@ fn difference(scene: &Scene, level: Level) -> crate::Result<f64> {
     const PRESSED: f64 = 20e-6;
     /// Of the way to the pitch circle; the outer race is a quarter of the clearance away.
     const SPREAD: f64 = 1.0 + 5e-4;
-    let model = Model::new(scene)?.with_level(level);
+    let model = compile(scene)?.with_level(level);
     let mut y = start(&model, &Start::Rolling)?;
-    y[5] -= PRESSED;
-    for body in 2..model.body_count() {
-        y[4 * body] *= SPREAD;
-        y[4 * body + 1] *= SPREAD;
+    let layout = model.layout();
+    y[layout.at(BodyId::INNER, Dof::Y)] -= PRESSED;
+    for ball in 0..model.balls.len() {
+        for dof in Dof::PLANE {
+            y[layout.at(BodyId::ball(ball), dof)] *= SPREAD;
+        }
     }
-    let reduction = model.reduction(&y);
+    let reduction = Reduction::of(&model, &y);
     let mut dynamics = Dynamics::begin(&model, reduction.as_ref(), &y);
     let own = dynamics.compress(&y);
     let (mut rates, mut found) = (own.clone(), y.clone());
@@ -94,7 +99,7 @@ fn difference(scene: &Scene, level: Level) -> crate::Result<f64> {
 /// Accelerations of all bodies by the contacts one by one.
 fn one_by_one(model: &Model, y: &[f64]) -> Vec<f64> {
     let mut accelerations = vec![0.0; y.len() / 2];
-    for (_, part) in model.forces(0.0, y) {
+    for (_, part) in contributions(model, 0.0, y) {
         for ((sum, force), mobility) in accelerations
             .iter_mut()
             .zip(part)
@@ -120,7 +125,7 @@ mod tests {
                 assert!(apart < 1e-11, "{}, {level}: {apart:.1e}", scene.name);
             }
         }
-        let model = Model::new(&scenes()[0]).unwrap();
+        let model = compile(&scenes()[0]).unwrap();
         let level = model.level();
         let (model, distrust) = trusted(model);
         assert_eq!((model.level(), distrust), (level, None));

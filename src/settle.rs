@@ -9,12 +9,16 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
+use crate::contact::Pair;
 use crate::dynamics::Dynamics;
+use crate::equilibrium::compile;
 use crate::error::Result;
 use crate::follow::{Stretch, Watch, follow, options, threads};
+use crate::inspect;
 use crate::integrate::{DenseStep, Options};
-use crate::model::{Degree, Model};
+use crate::model::{BodyId, Degree, Dof, Model, Race, RowModel};
 use crate::pool::on;
+use crate::reduction::Reduction;
 use crate::run::Run;
 use crate::scene::{Drive, RingName, Scene, Surface, TimeFunction};
 use crate::selftest;
@@ -56,7 +60,7 @@ pub(crate) fn settle(
     if !chosen && run.settle.is_none_or(|asked| asked == 0.0) {
         return Ok(unsettled);
     }
-    let (model, _) = selftest::trusted(Model::new(&frozen(scene))?);
+    let (model, _) = selftest::trusted(compile(&frozen(scene))?);
     let y0 = start(&model, &run.start)?;
     let seconds = run.settle.unwrap_or_else(|| needed(&model, &y0));
     if seconds == 0.0 {
@@ -67,7 +71,7 @@ pub(crate) fn settle(
         breakpoints: Vec::new(),
         ..options(&model)?
     };
-    let dynamics = Dynamics::begin(&model, model.reduction(&before).as_ref(), &before);
+    let dynamics = Dynamics::begin(&model, Reduction::of(&model, &before).as_ref(), &before);
     let stretch = Stretch {
         begins: -seconds,
         length: seconds,
@@ -101,10 +105,11 @@ impl Watch for Unseen {
 /// cage has play and balls are loose most of a turn of it, until gravity has let all of them fall from one end of the
 /// play to the other. Not at all where nothing takes energy.
 fn needed(model: &Model, y0: &[f64]) -> f64 {
-    let rings = (0..2).map(|ring| decay(model, y0, ring));
-    let slowest = rings.fold(0.0, f64::max);
-    let rubs = model.rows[0].pairs[0].law.traction.is_some();
-    if slowest.is_infinite() && !rubs && model.scene.contact.damping == 0.0 {
+    let rings = Race::BOTH.map(|race| decay(model, y0, race));
+    let slowest = rings.into_iter().fold(0.0, f64::max);
+    let takes_energy = |pair: &Pair| pair.law.traction.is_some() || pair.law.damping.rate() > 0.0;
+    let mut pairs = model.rows.iter().flat_map(|row| &row.pairs);
+    if slowest.is_infinite() && !pairs.any(takes_energy) {
         return 0.0;
     }
     let has_play = model
@@ -127,18 +132,24 @@ fn needed(model: &Model, y0: &[f64]) -> f64 {
 }
 
 fn has_loose_balls(model: &Model, y: &[f64], row: usize) -> bool {
-    let row = &model.rows[row];
-    (row.first..row.first + row.count).any(|j| model.contact(y, j, 1).load == 0.0)
+    let is_loose = |j| inspect::contact(model, y, j, Race::Inner).load == 0.0;
+    model.rows[row].balls().any(is_loose)
 }
 
 /// Decay time 2 m/c of a ring's slowest direction \[s\]: damped by its support and by the contacts, each of which damps
 /// by (3/2) α_d F and takes half the approach speed of the rings. Infinite where nothing damps it, 0 for one that is held.
-fn decay(model: &Model, y: &[f64], ring: usize) -> f64 {
-    let loads = (0..model.balls.len()).map(|j| model.contact(y, j, ring).load);
-    let contacts = 0.75 * model.scene.contact.damping * loads.sum::<f64>();
-    let body = &model.bodies[ring];
-    let times = (0..3).filter_map(|i| match body.degrees[i] {
-        Degree::Free { damping, .. } => Some(2.0 * body.mass[i] / (damping + contacts)),
+fn decay(model: &Model, y: &[f64], race: Race) -> f64 {
+    let damping = |row: &RowModel| {
+        let loads = row
+            .balls()
+            .map(|j| inspect::contact(model, y, j, race).load);
+        0.5 * row.pairs[race].law.damping.rate() * loads.sum::<f64>()
+    };
+    let contacts = model.rows.iter().map(damping).sum::<f64>();
+    let body = &model.bodies[race.ring()];
+    let times = Dof::TRANSLATIONS.into_iter();
+    let times = times.filter_map(|dof| match body.degrees[dof] {
+        Degree::Free { damping, .. } => Some(2.0 * body.mass[dof] / (damping + contacts)),
         Degree::Fixed | Degree::Driven => None,
     });
     times.fold(0.0, f64::max)
@@ -161,10 +172,11 @@ fn before(model: &Model, from: &Start, y0: Vec<f64>, seconds: f64) -> Result<Vec
         return Ok(y0);
     }
     let turned = Turned::since(model, &y0, seconds);
-    let mut y = start(&Model::new(&turned.back(&model.scene))?, from)?;
-    y[7] = -turned.inner;
+    let mut y = start(&compile(&turned.back(&model.scene))?, from)?;
+    let angle = |body| model.layout().at(body, Dof::Theta);
+    y[angle(BodyId::INNER)] = -turned.inner;
     for (j, ball) in model.balls.iter().enumerate() {
-        y[4 * (2 + j) + 3] = -turned.balls[ball.row];
+        y[angle(BodyId::ball(j))] = -turned.balls[ball.row];
     }
     Ok(y)
 }
@@ -180,23 +192,25 @@ struct Turned {
 
 impl Turned {
     fn since(model: &Model, y0: &[f64], seconds: f64) -> Self {
-        let half = y0.len() / 2;
+        let speed = |body| y0[model.layout().speed_at(body, Dof::Theta)];
         let spin = |row: usize| {
             let row = &model.rows[row];
-            let balls = row.first..row.first + row.count;
-            balls.map(|j| y0[half + 4 * (2 + j) + 3]).sum::<f64>() / row.count as f64
+            let spins = row.balls().map(|j| speed(BodyId::ball(j)));
+            spins.sum::<f64>() / row.count as f64
         };
         let rows = 0..model.rows.len();
         // Balls on supports of their own stay where they are.
-        let orbit = |row: usize| match model.bodies[2 + model.rows[row].first].degrees[..2] {
-            [
-                Degree::Free { stiffness: 0.0, .. },
-                Degree::Free { stiffness: 0.0, .. },
-            ] => model.orbit_speed(row, y0),
-            _ => 0.0,
+        let orbit = |row: usize| {
+            let ball = &model.bodies[model.rows[row].first_body()];
+            let loose = |dof: &Dof| matches!(ball.degrees[*dof], Degree::Free { stiffness, .. } if stiffness == 0.0);
+            if Dof::PLANE.iter().all(loose) {
+                model.orbit_speed(row, y0)
+            } else {
+                0.0
+            }
         };
         Self {
-            inner: seconds * y0[half + 7],
+            inner: seconds * speed(BodyId::INNER),
             rows: rows.clone().map(|row| seconds * orbit(row)).collect(),
             balls: rows.map(|row| seconds * spin(row)).collect(),
         }

@@ -5,12 +5,13 @@ use std::ops::ControlFlow;
 use crate::accuracy;
 use crate::budget;
 use crate::dynamics::Dynamics;
+use crate::equilibrium::compile;
 use crate::equilibrium::place;
 use crate::error::{Error, Result};
 use crate::follow::{Stretch, follow, options, threads};
 use crate::memory;
-use crate::model::{Model, Reduction};
 use crate::pool::on;
+use crate::reduction::Reduction;
 use crate::run::Run;
 use crate::scene::{SCHEMA, Scene};
 use crate::selftest;
@@ -125,14 +126,14 @@ fn unlimited(
         accuracy::choose(requested, &mut scene, &settled.from, pilot)
     });
     let accuracy = accuracy.transpose()?;
-    let (model, distrust) = selftest::trusted(Model::new(&scene)?);
+    let (model, distrust) = selftest::trusted(compile(&scene)?);
     let sampling = Sampling::new(run.bandwidth, run.fs, model.scales.frequency)?;
     check_memory(&scene, run, (count, sampling.oversampling), in_blocks)?;
     let mut recorder = Recorder::new(&model, sampling, count, sink);
     let threads = threads(&model, run.threads)?;
     let options = options(&model)?;
     let y0 = start(&model, &settled.from)?;
-    let reduction = model.reduction(&y0);
+    let reduction = Reduction::of(&model, &y0);
     let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);
     recorder.prepare(&dynamics, &y0)?;
     let mut progress =
@@ -178,7 +179,7 @@ fn unlimited(
             oversampling: sampling.oversampling,
             settled: before,
             defects: recorder.watch.told(&model, &placed),
-            step_limit: step_limit::largest(scene.solver.method, model.scales()),
+            step_limit: step_limit::largest(scene.solver.method, &model),
         },
         scene,
     })

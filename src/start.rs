@@ -2,7 +2,8 @@
 
 use crate::equilibrium;
 use crate::error::{Error, Result};
-use crate::model::Model;
+use crate::inspect;
+use crate::model::{BodyId, Dof, Layout, Model, Race};
 
 /// How a run begins.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -26,8 +27,8 @@ pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
     match start {
         Start::Rolling => {
             let mut y = vec![0.0; model.dim()];
-            for (place, body) in y.chunks_exact_mut(4).zip(&model.bodies) {
-                place.copy_from_slice(&body.nominal);
+            for (place, body) in Layout::each_mut(&mut y).iter_mut().zip(&model.bodies) {
+                *place = body.nominal;
             }
             roll(model, &mut y);
             Ok(y)
@@ -66,15 +67,20 @@ pub(crate) fn check_length(length: usize, dim: usize) -> Result<()> {
 
 /// Sets pure-rolling speeds at the places of a state.
 fn roll(model: &Model, y: &mut [f64]) {
-    let half = y.len() / 2;
-    y[half + 7] = model.scene.drive.initial_speed();
+    let layout = model.layout();
+    y[layout.speed_at(BodyId::INNER, Dof::Theta)] = model.scene.drive.initial_speed();
     for (j, ball) in model.balls.iter().enumerate() {
         let (orbit, spin) = model.rolling_speeds(ball.row);
-        let q = 4 * (2 + j);
-        y[half + q] = -orbit * y[q + 1];
-        y[half + q + 1] = orbit * y[q];
-        y[half + q + 3] = spin;
+        set_orbit(layout, y, BodyId::ball(j), orbit);
+        y[layout.speed_at(BodyId::ball(j), Dof::Theta)] = spin;
     }
+}
+
+/// Lets a ball turn about the axis.
+fn set_orbit(layout: Layout, y: &mut [f64], ball: BodyId, orbit: f64) {
+    let [x, y_, _] = layout.centre(y, ball);
+    y[layout.speed_at(ball, Dof::X)] = -orbit * y_;
+    y[layout.speed_at(ball, Dof::Y)] = orbit * x;
 }
 
 /// Corrects the speeds of loaded balls for their operating contact angles: a row orbits at the load-weighted
@@ -84,16 +90,16 @@ fn roll(model: &Model, y: &mut [f64]) {
 /// θ̇ = −ω_c r/ρ_o, on the inner θ̇ = (ω_c r − Ω(r − ρ_i))/ρ_i; both hold for ω_c r (1 + ρ_i/ρ_o) = Ω(r − ρ_i).
 /// The nominal angle would leave a thrust-loaded bearing to find its speeds by friction.
 fn settle_speeds(model: &Model, y: &mut [f64]) {
-    let half = y.len() / 2;
+    let layout = model.layout();
     let speed = model.scene.drive.initial_speed();
     for row in 0..model.rows.len() {
-        let balls = model.rows[row].first..model.rows[row].first + model.rows[row].count;
         let mut rolling = Vec::new();
         let (mut weighted, mut weight) = (0.0, 0.0);
-        for j in balls {
-            let contacts = [0, 1].map(|race| model.contact(y, j, race));
+        for j in model.rows[row].balls() {
+            let contacts = Race::BOTH.map(|race| inspect::contact(model, y, j, race));
             let load = contacts[0].load.min(contacts[1].load);
-            let r = y[4 * (2 + j)].hypot(y[4 * (2 + j) + 1]);
+            let [x, y_, _] = layout.centre(y, BodyId::ball(j));
+            let r = x.hypot(y_);
             let levers = contacts
                 .map(|c| (c.load > 0.0).then(|| model.balls[j].side.radius * c.angle.cos()));
             if let [Some(outer), Some(inner)] = levers {
@@ -108,9 +114,7 @@ fn settle_speeds(model: &Model, y: &mut [f64]) {
             model.rolling_speeds(row).0
         };
         for (j, r, [outer, inner], [on_outer, on_inner]) in rolling {
-            let q = 4 * (2 + j);
-            y[half + q] = -orbit * y[q + 1];
-            y[half + q + 1] = orbit * y[q];
+            set_orbit(layout, y, BodyId::ball(j), orbit);
             let spins = [
                 outer.map(|lever| (-orbit * r / lever, on_outer)),
                 inner.map(|lever| ((orbit * r - speed * (r - lever)) / lever, on_inner)),
@@ -122,7 +126,7 @@ fn settle_speeds(model: &Model, y: &mut [f64]) {
                     (sum + spin * load, all + load)
                 });
             if load > 0.0 {
-                y[half + q + 3] = sum / load;
+                y[layout.speed_at(BodyId::ball(j), Dof::Theta)] = sum / load;
             }
         }
     }

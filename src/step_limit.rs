@@ -5,9 +5,10 @@
 //! can be foretold, or until damping has ended it. So undamped scenes want smaller steps.
 //!
 //! *Decay.* Friction and damping let motions die away at a rate λ. An error estimate keeps adaptive methods within what
-//! they bear of λh; fixed steps have none, and are kept there by λ under the scene's own loads ([`Scales::rate`]).
+//! they bear of λh; fixed steps have none, and are kept there by λ under the scene's own loads ([`Rates::fastest`]).
 
-use crate::model::Scales;
+use crate::forces::Rates;
+use crate::model::Model;
 use crate::scene::Method;
 
 /// What a method bears.
@@ -67,34 +68,33 @@ fn bounds(method: Method) -> Bounds {
 }
 
 /// The largest step \[s\] by which a method is stable and accurate to a few percent.
-pub(crate) fn largest(method: Method, scales: &Scales) -> f64 {
+pub(crate) fn largest(method: Method, model: &Model) -> f64 {
+    at_rates(method, model.scales.frequency, &Rates::of(model))
+}
+
+fn at_rates(method: Method, frequency: f64, rates: &Rates) -> f64 {
     let Bounds {
         oscillation,
         lag: (factor, power),
         decay,
     } = bounds(method);
-    let rings = HORIZON.min(LIGHTEST / scales.damping) * scales.frequency;
+    let rings = HORIZON.min(LIGHTEST / rates.damping) * frequency;
     let accurate = (LAG / (factor * rings)).powf(1.0 / power);
-    (oscillation.min(accurate) / scales.frequency).min(decay / scales.rate)
+    (oscillation.min(accurate) / frequency).min(decay / rates.fastest)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn scales(damping: f64, rate: f64) -> Scales {
-        Scales {
-            frequency: 3e5,
-            damping,
-            rate,
-            ..Scales::default()
-        }
+    fn largest(method: Method, damping: f64, fastest: f64) -> f64 {
+        at_rates(method, 3e5, &Rates { damping, fastest })
     }
 
     #[test]
     fn pairs_of_high_order_follow_the_frequency_alone() {
         for method in [Method::DormandPrince, Method::Tsitouras, Method::Verner] {
-            assert_eq!(largest(method, &scales(0.0, 1e9)), 1.0 / 3e5);
+            assert_eq!(largest(method, 0.0, 1e9), 1.0 / 3e5);
         }
     }
 
@@ -106,7 +106,7 @@ mod tests {
             (Method::RungeKutta4, 0.4821, 0.3310),
             (Method::VelocityVerlet, 0.1039, 0.0490),
         ] {
-            let share = |damping| 3e5 * largest(method, &scales(damping, 0.0));
+            let share = |damping| 3e5 * largest(method, damping, 0.0);
             assert!((share(0.3 * 3e5) - damped).abs() < 1e-3, "{method:?}");
             assert!((share(0.0) - undamped).abs() < 1e-3, "{method:?}");
         }
@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn fixed_steps_follow_friction() {
-        let most = |method, rate| largest(method, &scales(1e5, rate));
+        let most = |method, rate| largest(method, 1e5, rate);
         assert_eq!(most(Method::RungeKutta4, 1e7), 2e-7);
         assert_eq!(most(Method::VelocityVerlet, 1e7), 0.8e-7);
         let adaptive = Method::BogackiShampine;

@@ -9,11 +9,11 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::contact::{Fault, Pair, Sighted, Slices, wrapped};
-use crate::dynamics::{Dynamics, motion};
+use crate::contact::{Fault, Motion, Pair, Sighted, Slices, wrapped};
+use crate::dynamics::Dynamics;
 use crate::equilibrium::Placed;
 use crate::integrate::DenseStep;
-use crate::model::{Model, ball_fault, race_fault};
+use crate::model::{BodyId, Layout, Model, Race, ball_fault, race_fault};
 use crate::scene::{Defect, Surface};
 
 /// What became of a defect.
@@ -111,8 +111,7 @@ type Pairs = BTreeMap<(usize, usize), Arc<[Pair; 2]>>;
 struct Eye {
     /// Ball among all balls.
     ball: usize,
-    /// Race: 0 (outer) or 1 (inner).
-    race: usize,
+    race: Race,
     /// How far its direction was from the defect's when last looked at \[rad\]; NaN before.
     aside: f64,
     pass: Pass,
@@ -186,8 +185,14 @@ pub(crate) fn compiled(model: &Model, defect: &Defect) -> (Fault, f64) {
         &model.rows[defect.row].pairs,
     );
     match defect.on {
-        Surface::OuterRace => (race_fault(defect, row, &pairs[0].race), row.axial_position),
-        Surface::InnerRace => (race_fault(defect, row, &pairs[1].race), row.axial_position),
+        Surface::OuterRace => (
+            race_fault(defect, row, &pairs[Race::Outer].race),
+            row.axial_position,
+        ),
+        Surface::InnerRace => (
+            race_fault(defect, row, &pairs[Race::Inner].race),
+            row.axial_position,
+        ),
         Surface::Ball => {
             let ball = model.rows[defect.row].first + defect.ball.unwrap_or(0);
             (ball_fault(defect, model.balls[ball].side.radius), 0.0)
@@ -206,13 +211,13 @@ fn slices(length: f64, diameter: f64) -> usize {
 impl Watched {
     fn new(model: &Model, name: &str, defect: &Defect, pairs: &mut Pairs) -> Self {
         let row = &model.rows[defect.row];
-        let balls = row.first..row.first + row.count;
-        let contacts: Vec<(usize, usize)> = match defect.on {
-            Surface::OuterRace => balls.map(|ball| (ball, 0)).collect(),
-            Surface::InnerRace => balls.map(|ball| (ball, 1)).collect(),
+        let with = |race: Race| row.balls().map(|ball| (ball, race)).collect();
+        let contacts: Vec<(usize, Race)> = match defect.on {
+            Surface::OuterRace => with(Race::Outer),
+            Surface::InnerRace => with(Race::Inner),
             Surface::Ball => {
                 let ball = row.first + defect.ball.unwrap_or(0);
-                vec![(ball, 0), (ball, 1)]
+                Race::BOTH.map(|race| (ball, race)).to_vec()
             }
         };
         let eye = |(ball, race)| Eye {
@@ -251,7 +256,7 @@ impl Watched {
         let mut wait = f64::INFINITY;
         for i in 0..self.eyes.len() {
             let eye = &mut self.eyes[i];
-            let (aside, rate) = eye.look(y, &self.fault, self.on);
+            let (aside, rate) = eye.look(model.layout(), y, &self.fault, self.on);
             let before = std::mem::replace(&mut eye.aside, aside);
             // A narrow one may lie between two steps.
             let across = before.signum() != aside.signum() && (before - aside).abs() < PI;
@@ -278,7 +283,7 @@ impl Watched {
         if !self.felt {
             return;
         }
-        let (ball, ring) = (motion(y, 2 + eye.ball), motion(y, eye.race));
+        let (ball, ring) = eye.motions(model.layout(), y);
         let sighted = Sighted {
             fault: &self.fault,
             on_ball: self.on == Surface::Ball,
@@ -298,9 +303,15 @@ impl Watched {
 }
 
 impl Eye {
+    /// Of ball and ring.
+    fn motions(&self, layout: Layout, y: &[f64]) -> (Motion, Motion) {
+        let ball = layout.motion(y, BodyId::ball(self.ball));
+        (ball, layout.motion(y, self.race.ring()))
+    }
+
     /// How far the direction of the contact is from the defect's \[rad\], and how fast that changes \[rad/s\].
-    fn look(&self, y: &[f64], fault: &Fault, on: Surface) -> (f64, f64) {
-        let (ball, ring) = (motion(y, 2 + self.ball), motion(y, self.race));
+    fn look(&self, layout: Layout, y: &[f64], fault: &Fault, on: Surface) -> (f64, f64) {
+        let (ball, ring) = self.motions(layout, y);
         let (apart, speed) = (ball.centre - ring.centre, ball.velocity - ring.velocity);
         let direction = apart.y.atan2(apart.x);
         let orbit = (apart.x * speed.y - apart.y * speed.x) / apart.norm_squared();
@@ -309,7 +320,7 @@ impl Eye {
             _ => (ring.theta, ring.omega),
         };
         // The inner race is met on the ball's inner side.
-        let opposite = if on == Surface::Ball && self.race == 1 {
+        let opposite = if on == Surface::Ball && self.race == Race::Inner {
             PI
         } else {
             0.0

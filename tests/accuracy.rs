@@ -4,8 +4,9 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use ballrace::compile;
 use ballrace::scene::{Defect, Friction, Method, Scene, Slices, Surface, presets};
-use ballrace::{Bandwidth, Error, Model, Run, Start, simulate, start};
+use ballrace::{Bandwidth, Error, Run, Start, simulate, start};
 use common::{Noise, run};
 
 /// A bearing with a spall on a race that its most loaded ball is about to meet.
@@ -61,7 +62,7 @@ fn error_and_horizon(scene: &Scene, accuracy: f64) -> (f64, f64) {
     let mut fine = scene.clone();
     fine.contact.slices = Slices::Fitted(64);
     fine.solver.rtol = 1e-7 * accuracy;
-    let model = Model::new(&fine).unwrap();
+    let model = compile(&fine).unwrap();
     fine.solver.max_step = Some(0.2 / model.scales().frequency);
     let y0 = start(&model, &Start::Equilibrium).unwrap();
     let mut beside = y0.clone();

@@ -1,9 +1,10 @@
 //! An evaluation allocates nothing, nor does an implicit stage.
 
+use ballrace::compile;
 use ballrace::dynamics::Dynamics;
 use ballrace::integrate::{ImplicitVelocity, System};
 use ballrace::scene::{Slices, presets};
-use ballrace::{Model, Start, start};
+use ballrace::{Start, start};
 
 /// Analytic: counted by the allocator, on a state with a ball in the spall.
 #[test]
@@ -11,7 +12,7 @@ fn a_right_hand_side_allocates_nothing() {
     for slices in [Slices::Fitted(6), Slices::Fixed(50)] {
         let mut scene = presets::wheel_bearing(3000.0);
         scene.contact.slices = slices;
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let y = start(&model, &Start::Equilibrium).unwrap();
         let mut dynamics = Dynamics::new(&model);
         let mut dy = vec![0.0; model.dim()];
@@ -24,7 +25,7 @@ fn a_right_hand_side_allocates_nothing() {
 /// Analytic: counted by the allocator, once the memory of implicit stages is there.
 #[test]
 fn an_implicit_stage_allocates_nothing() {
-    let model = Model::new(&presets::wheel_bearing(3000.0)).unwrap();
+    let model = compile(&presets::wheel_bearing(3000.0)).unwrap();
     let y = start(&model, &Start::Equilibrium).unwrap();
     let base = &y[model.dim() / 2..];
     let mut dynamics = Dynamics::new(&model);

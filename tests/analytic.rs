@@ -3,10 +3,13 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::ControlFlow;
 
+use ballrace::compile;
+use ballrace::dynamics::contributions;
+use ballrace::inspect;
 use ballrace::scene::{
     Defect, Friction, Load, NormalLaw, Probe, RingName, Scene, Slices, Support, Surface, presets,
 };
-use ballrace::{Bandwidth, Model, Run, Signals, Start, simulate, start};
+use ballrace::{Bandwidth, Model, Race, Run, Signals, Start, simulate, start};
 
 /// The wheel bearing at +3 kN without its defect.
 fn healthy() -> Scene {
@@ -41,7 +44,7 @@ fn rms(x: &[f64]) -> f64 {
 fn internal_sums(model: &Model, y: &[f64]) -> ([f64; 4], f64) {
     let mut sums = [0.0; 4];
     let mut size = 0.0;
-    for (name, forces) in model.forces(0.0, y) {
+    for (name, forces) in contributions(model, 0.0, y) {
         if !["contact", "damping", "friction", "cage"].contains(&name) {
             continue;
         }
@@ -82,7 +85,7 @@ fn force_and_moment_are_conserved() {
         amplitude: 1e-6,
         phase: 0.3,
     }];
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let mut y = start(&model, &Start::Equilibrium).unwrap();
     for (i, state) in y.iter_mut().enumerate() {
         let noise = ((i * 7919) % 997) as f64 / 997.0 - 0.5;
@@ -98,18 +101,18 @@ fn force_and_moment_are_conserved() {
 #[test]
 fn rigid_rotation_slips_nowhere() {
     let scene = presets::wheel_bearing(3000.0);
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let mut y = start(&model, &Start::Equilibrium).unwrap();
     let half = y.len() / 2;
     for b in 0..model.body_count() {
         let (x, z) = (y[4 * b], y[4 * b + 1]);
         y[half + 4 * b..half + 4 * b + 4].copy_from_slice(&[-100.0 * z, 100.0 * x, 0.0, 100.0]);
     }
-    let energy = model.energy(&y);
+    let energy = inspect::energy(&model, &y);
     assert!(energy.friction_power < 1e-20, "{energy:?}");
     assert!(energy.damping_power.abs() < 1e-9, "{energy:?}");
     // And not because nothing can: the true motion slips.
-    let rolling = model.energy(&start(&model, &Start::Equilibrium).unwrap());
+    let rolling = inspect::energy(&model, &start(&model, &Start::Equilibrium).unwrap());
     assert!(rolling.friction_power > 1e-3, "{rolling:?}");
 }
 
@@ -235,8 +238,8 @@ fn force_at(model: &Model, y: &[f64], angle: f64, spin: f64) -> ([f64; 4], [f64;
     y[11] = spin;
     let half = y.len() / 2;
     y[half..].fill(0.0);
-    let forces = &model.forces(0.0, &y)[0].1;
-    let loads = [0, 1].map(|race| model.contact(&y, 0, race).load);
+    let forces = &contributions(model, 0.0, &y)[0].1;
+    let loads = Race::BOTH.map(|race| inspect::contact(model, &y, 0, race).load);
     ([forces[0], forces[1], forces[4], forces[5]], loads)
 }
 
@@ -254,7 +257,7 @@ fn edges_do_not_jump_and_narrow_defects_vanish() {
                 scene.rows[0].contact_angle = 0.0;
                 scene.rows[1].contact_angle = 0.0;
                 scene.loads.get_mut("axial").unwrap().force = 0.0.into();
-                let whole = Model::new(&scene).unwrap();
+                let whole = compile(&scene).unwrap();
                 let y = start(&whole, &Start::Equilibrium).unwrap();
                 let mut defect = Defect {
                     axial_offset: 0.0.into(),
@@ -262,7 +265,7 @@ fn edges_do_not_jump_and_narrow_defects_vanish() {
                 };
                 defect.ball = defect.ball.map(|_| 0);
                 scene.defects.insert("d".into(), defect);
-                let faulted = Model::new(&scene).unwrap();
+                let faulted = compile(&scene).unwrap();
                 let pitch = 30e-3;
                 // Ball defect: the ball turns at rest; ring defect: the ball travels.
                 let at = |model: &Model, arc: f64| match on {
@@ -386,10 +389,10 @@ fn unbalance_turns_with_the_ring() {
         },
     )]
     .into();
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let mut y = start(&model, &Start::Rolling).unwrap();
     y[7] = 0.25;
-    let forces = model.forces(0.0, &y);
+    let forces = contributions(&model, 0.0, &y);
     let load = &forces.iter().find(|(name, _)| *name == "load").unwrap().1[4..8];
     let force = 1e-3 * (TAU * 30.0_f64).powi(2);
     assert!((load[0] - force * 0.75_f64.cos()).abs() < 1e-9 * force);

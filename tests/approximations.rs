@@ -6,13 +6,17 @@ mod common;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use ballrace::Reduction;
+use ballrace::compile;
 use ballrace::dynamics::Dynamics;
+use ballrace::dynamics::rhs;
+use ballrace::inspect;
 use ballrace::integrate::System;
 use ballrace::scene::{
     Approximations, Defect, Drive, Method, Mount, NormalLaw, Profile, Scene, Surface, TimeFunction,
     presets,
 };
-use ballrace::{Model, Run, Start, simulate, start};
+use ballrace::{Model, Race, Run, Start, simulate, start};
 use common::Noise;
 
 const ROLLING: Approximations = Approximations {
@@ -64,7 +68,7 @@ struct Shaken<'m> {
 impl<'m> Shaken<'m> {
     fn new(model: &'m Model, seed: u64) -> Self {
         let y0 = start(model, &Start::Equilibrium).unwrap();
-        let mut dynamics = Dynamics::reduced(model, model.reduction(&y0).unwrap(), &y0);
+        let mut dynamics = Dynamics::reduced(model, Reduction::of(model, &y0).unwrap(), &y0);
         let mut noise = Noise(seed);
         let mut shaken = y0.clone();
         let half = shaken.len() / 2;
@@ -91,7 +95,7 @@ impl<'m> Shaken<'m> {
     /// Rates of the free bodies there, without what the scene gives up.
     fn free(&self) -> Vec<f64> {
         let mut rates = self.full.clone();
-        self.model.rhs(self.t, &self.full, &mut rates);
+        rhs(self.model, self.t, &self.full, &mut rates);
         rates
     }
 }
@@ -106,7 +110,7 @@ fn acceleration(rates: &[f64], body: usize) -> &[f64] {
 #[test]
 fn rolling_balls_feel_their_radial_forces() {
     for seed in 0..10 {
-        let model = Model::new(&wheel(NormalLaw::iso16281(), ROLLING)).unwrap();
+        let model = compile(&wheel(NormalLaw::iso16281(), ROLLING)).unwrap();
         let shaken = Shaken::new(&model, seed);
         let free = shaken.free();
         for ring in 0..2 {
@@ -158,15 +162,13 @@ fn places_speeds_and_rates_belong_together() {
             floor: None,
         },
     );
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let shaken = Shaken::new(&model, 5);
     let (t, h, half) = (shaken.t, 1e-7, shaken.full.len() / 2);
     let mut dy = shaken.y.clone();
     let mut dynamics = Dynamics::reduced(
         &model,
-        model
-            .reduction(&start(&model, &Start::Equilibrium).unwrap())
-            .unwrap(),
+        Reduction::of(&model, &start(&model, &Start::Equilibrium).unwrap()).unwrap(),
         &start(&model, &Start::Equilibrium).unwrap(),
     );
     dynamics.rhs(t, &shaken.y, &mut dy);
@@ -202,7 +204,7 @@ fn contacts_in_the_plane_have_a_closed_form() {
         let scene = wheel(law, FLAT);
         let mut nodes = scene.clone();
         nodes.solver.reduce = false;
-        let models = [&scene, &nodes].map(|scene| Model::new(scene).unwrap());
+        let models = [&scene, &nodes].map(|scene| compile(scene).unwrap());
         for seed in 0..10 {
             let [closed, each] = models.each_ref().map(|model| Shaken::new(model, seed));
             let bodies = closed.model.body_count();
@@ -223,7 +225,7 @@ fn contacts_in_the_plane_have_a_closed_form() {
 #[test]
 fn axial_places_are_kept_and_nothing_else() {
     for approximations in [PLANE, FLAT] {
-        let model = Model::new(&wheel(NormalLaw::Hertz, approximations)).unwrap();
+        let model = compile(&wheel(NormalLaw::Hertz, approximations)).unwrap();
         let shaken = Shaken::new(&model, 3);
         let free = shaken.free();
         for ring in 0..2 {
@@ -256,16 +258,16 @@ fn alone(shaken: &Shaken, row: usize) -> Vec<f64> {
         .flat_map(|half| [&half[..8], &half[4 * (2 + 13 * row)..][..4 * 13]].concat())
         .collect::<Vec<_>>();
     let mut rates = y.clone();
-    Model::new(&scene).unwrap().rhs(shaken.t, &y, &mut rates);
+    rhs(&compile(&scene).unwrap(), shaken.t, &y, &mut rates);
     rates
 }
 
 /// Analytic: without a row the rings feel the other one alone.
 #[test]
 fn an_unloaded_row_goes() {
-    let model = Model::new(&thrust(ONE_ROW)).unwrap();
+    let model = compile(&thrust(ONE_ROW)).unwrap();
     let shaken = Shaken::new(&model, 3);
-    let reduction = model.reduction(&shaken.full).unwrap();
+    let reduction = Reduction::of(&model, &shaken.full).unwrap();
     let told: Vec<&str> = reduction
         .omissions()
         .iter()
@@ -276,7 +278,7 @@ fn an_unloaded_row_goes() {
     let free = shaken.free();
     let loads = |row: usize| -> f64 {
         (13 * row..13 * (row + 1))
-            .map(|j| model.contact(&shaken.full, j, 1).load)
+            .map(|j| inspect::contact(&model, &shaken.full, j, Race::Inner).load)
             .sum()
     };
     let idle = usize::from(loads(1) < loads(0));
@@ -345,9 +347,9 @@ fn what_does_not_hold_is_told() {
         if approximations.plane {
             scene.loads.get_mut("axial").unwrap().force = varying();
         }
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let y0 = start(&model, &Start::Equilibrium).unwrap();
-        let reduction = model.reduction(&y0).unwrap();
+        let reduction = Reduction::of(&model, &y0).unwrap();
         assert!(
             reduction.obstacles().iter().any(|o| o.what == what),
             "{:?}",

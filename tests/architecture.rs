@@ -1,35 +1,41 @@
-//! The rooms keep their order: who may import whom, and `pyo3` only under `src/python`.
+//! The rooms keep their order: who may use whom, by path, by group, by re-export or by an inherent impl; and `pyo3` only under
+//! `src/python`.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 32] = [
+const ORDER: [&str; 36] = [
     "error",
     "simd",
+    "integrate",
+    "interrupt",
+    "memory",
+    "budget",
     "scene",
     "contact",
-    "integrate",
     "model",
+    "forces",
+    "inspect",
+    "reduction",
     "dynamics",
-    "pool",
     "equilibrium",
     "start",
-    "accuracy",
-    "selftest",
-    "residual",
-    "touched",
-    "step_limit",
-    "method",
-    "signals",
-    "run",
-    "warning",
-    "collapse",
-    "budget",
-    "runaway",
     "orbit",
     "escape",
+    "step_collapse",
+    "step_limit",
+    "method",
+    "pool",
+    "residual",
+    "runaway",
+    "touched",
+    "accuracy",
     "ending",
+    "selftest",
+    "signals",
+    "run",
     "follow",
     "settle",
     "simulate",
@@ -38,7 +44,11 @@ const ORDER: [&str; 32] = [
     "campaign",
     "python",
 ];
-fn sources(folder: &Path, found: &mut Vec<(String, String)>) {
+
+/// Path below `src` and text.
+type Source = (String, String);
+
+fn sources(folder: &Path, found: &mut Vec<Source>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
@@ -52,7 +62,7 @@ fn sources(folder: &Path, found: &mut Vec<(String, String)>) {
     }
 }
 
-fn all() -> Vec<(String, String)> {
+fn all() -> Vec<Source> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut found = Vec::new();
     sources(&root, &mut found);
@@ -63,26 +73,234 @@ fn all() -> Vec<(String, String)> {
         .collect()
 }
 
-#[test]
-fn rooms_import_downwards() {
-    let place = |room: &str| ORDER.iter().position(|r| *r == room);
-    let mut seen = 0;
-    for (path, text) in all() {
-        let room = path.split(['/', '.']).next().unwrap();
-        let Some(own) = place(room) else { continue };
-        for line in text.lines().filter(|l| !l.trim_start().starts_with("//")) {
-            for part in line.split("crate::").skip(1) {
-                let used: String = part
-                    .chars()
-                    .take_while(|c| c.is_alphanumeric() || *c == '_')
-                    .collect();
-                let Some(other) = place(&used) else { continue };
-                seen += 1;
-                assert!(other <= own, "{path} uses {used}: {line}");
+/// The code of a file: without comments, and without its tests, which may use all.
+fn code(text: &str) -> String {
+    let before = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
+    let lines = before.lines();
+    lines
+        .map(|line| line.split("//").next().unwrap_or("").to_owned() + "\n")
+        .collect()
+}
+
+/// Files that are declared as tests, such as `#[cfg(test)] mod lost;`.
+fn test_files(sources: &[Source]) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for (path, text) in sources {
+        let folder = path.strip_suffix("mod.rs").unwrap_or("");
+        for part in text.split("#[cfg(test)]\nmod ").skip(1) {
+            if let Some((name, _)) = part.split_once(';') {
+                found.insert(format!("{folder}{name}.rs"));
             }
         }
     }
-    assert!(seen > 30, "the test looked at {seen} imports only");
+    found
+}
+
+fn room(path: &str) -> &str {
+    path.split(['/', '.']).next().unwrap()
+}
+
+fn word(text: &str) -> &str {
+    let end = text.find(|c: char| !c.is_alphanumeric() && c != '_');
+    &text[..end.unwrap_or(text.len())]
+}
+
+/// The entries of a group `{a::{b, c}, d}` that a text begins with.
+fn entries(text: &str) -> Vec<&str> {
+    let (mut depth, mut found, mut from) = (0, Vec::new(), 1);
+    for (at, c) in text.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' if depth == 1 => {
+                found.push(text[from..at].trim());
+                break;
+            }
+            '}' => depth -= 1,
+            ',' if depth == 1 => {
+                found.push(text[from..at].trim());
+                from = at + 1;
+            }
+            _ => {}
+        }
+    }
+    found.retain(|entry| !entry.is_empty());
+    found
+}
+
+/// What code names of the crate: the first part of every path, of groups too; in a file at the top `super` is the crate.
+fn named(path: &str, code: &str) -> Vec<String> {
+    let root = if path.contains('/') && !is_room_root(path) {
+        &["crate::"][..]
+    } else {
+        &["crate::", "super::"]
+    };
+    let mut found = Vec::new();
+    for part in root.iter().flat_map(|root| code.split(root).skip(1)) {
+        if part.starts_with('{') {
+            found.extend(
+                entries(part)
+                    .into_iter()
+                    .map(|entry| word(entry).to_owned()),
+            );
+        } else {
+            found.push(word(part).to_owned());
+        }
+    }
+    found
+}
+
+/// Whether a file is the `mod.rs` of a room.
+fn is_room_root(path: &str) -> bool {
+    path.matches('/').count() == 1 && path.ends_with("/mod.rs")
+}
+
+/// The room of every name that `lib.rs` re-exports.
+fn reexports(lib: &str) -> BTreeMap<String, String> {
+    let mut found = BTreeMap::new();
+    for part in code(lib).split("pub use ").skip(1) {
+        let (from, rest) = part.split_once("::").unwrap_or((part, ""));
+        let names = if rest.starts_with('{') {
+            entries(rest)
+        } else {
+            vec![word(rest)]
+        };
+        for name in names {
+            let name = name.rsplit(" as ").next().unwrap_or(name);
+            found.insert(word(name).to_owned(), from.to_owned());
+        }
+    }
+    found
+}
+
+/// Types that code declares.
+fn declared(code: &str) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for keyword in ["struct ", "enum ", "trait ", "type "] {
+        for part in code.split(keyword).skip(1) {
+            found.insert(word(part).to_owned());
+        }
+    }
+    found
+}
+
+/// Types that code has inherent impls for.
+fn inherent(code: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for part in format!("\n{code}").split("\nimpl").skip(1) {
+        let head = part.split('{').next().unwrap();
+        if head.contains(" for ") {
+            continue;
+        }
+        let mut depth = 0;
+        let generics = head.starts_with('<');
+        let end = head.find(|c| {
+            depth += i32::from(c == '<') - i32::from(c == '>');
+            generics && depth == 0
+        });
+        let rest = head[end.map_or(0, |end| end + 1)..].trim();
+        found.push(word(rest.rsplit("::").next().unwrap()).to_owned());
+    }
+    found
+}
+
+/// What stands against an order of rooms, and how many uses were looked at.
+fn violations(sources: &[Source], order: &[&str]) -> (Vec<String>, usize) {
+    let tests = test_files(sources);
+    let lib = sources.iter().find(|(path, _)| path == "lib.rs");
+    let reexports = lib.map(|(_, text)| reexports(text)).unwrap_or_default();
+    let rooms: Vec<(&str, String)> = sources
+        .iter()
+        .filter(|(path, _)| path != "lib.rs" && !tests.contains(path))
+        .map(|(path, text)| (path.as_str(), code(text)))
+        .collect();
+    let mut own: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
+    for (path, code) in &rooms {
+        own.entry(room(path)).or_default().extend(declared(code));
+    }
+    let (mut found, mut seen) = (Vec::new(), 0);
+    for (path, code) in &rooms {
+        let place = |room: &str| order.iter().position(|other| *other == room);
+        let Some(here) = place(room(path)) else {
+            found.push(format!("{path} belongs to no room of the order"));
+            continue;
+        };
+        for name in named(path, code) {
+            let other = reexports.get(&name).unwrap_or(&name);
+            seen += 1;
+            if place(other).is_some_and(|other| other > here) {
+                found.push(format!("{path} uses {name} of {other}"));
+            }
+        }
+        for name in inherent(code) {
+            if !own[room(path)].contains(&name) {
+                found.push(format!(
+                    "{path} has an inherent impl of {name}, which is not its own"
+                ));
+            }
+        }
+    }
+    (found, seen)
+}
+
+#[test]
+fn rooms_import_downwards() {
+    let (found, seen) = violations(&all(), &ORDER);
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    assert!(seen > 300, "the test looked at {seen} uses only");
+}
+
+/// A planted violation of each kind is found, and nothing else.
+#[test]
+fn violations_are_seen() {
+    let look = |low: &str| {
+        let sources = [
+            (
+                "lib.rs",
+                "pub use high::{Thing, other as Alias};\npub use low::Small;\n",
+            ),
+            ("low/mod.rs", low),
+            ("low/deep.rs", "pub struct Small;\nimpl<'a> Small<'a> {}\n"),
+            (
+                "high.rs",
+                "use crate::low::Small;\npub struct Thing;\nimpl Thing {}\n",
+            ),
+        ];
+        let sources = sources.map(|(path, text)| (path.to_owned(), text.to_owned()));
+        violations(&sources, &["low", "high"]).0
+    };
+    for (planted, told) in [
+        ("use crate::high::Thing;", "low/mod.rs uses high of high"),
+        (
+            "use crate::{low::deep, high};",
+            "low/mod.rs uses high of high",
+        ),
+        (
+            "use crate::{\n    low::{a, b},\n    Thing,\n};",
+            "low/mod.rs uses Thing of high",
+        ),
+        ("fn f() { crate::Alias() }", "low/mod.rs uses Alias of high"),
+        ("use super::high;", "low/mod.rs uses high of high"),
+        (
+            "impl<T: Into<f64>> Thing<T> {\n}",
+            "low/mod.rs has an inherent impl of Thing, which is not its own",
+        ),
+    ] {
+        assert_eq!(look(planted), [told], "{planted}");
+    }
+    for allowed in [
+        "// crate::high",
+        "use crate::Small;",
+        "impl Small {}",
+        "impl Clone for Thing {}",
+        "#[cfg(test)]\nmod tests {\n    use crate::Thing;\n}",
+    ] {
+        assert!(look(allowed).is_empty(), "{allowed}: {:?}", look(allowed));
+    }
+    let stray = [("stray.rs".to_owned(), String::new())];
+    assert_eq!(
+        violations(&stray, &["low"]).0,
+        ["stray.rs belongs to no room of the order"]
+    );
 }
 
 #[test]

@@ -4,8 +4,10 @@ mod common;
 
 use std::f64::consts::PI;
 
+use ballrace::compile;
+use ballrace::dynamics::contributions;
 use ballrace::scene::{Cage, Material, Mount, NormalLaw, Scene, presets};
-use ballrace::{Equilibrium, Model, Start, equilibrium, start};
+use ballrace::{Equilibrium, Start, equilibrium, start};
 use common::Noise;
 
 const HARD: [u64; 14] = [
@@ -80,12 +82,12 @@ fn ordinary(seed: u64) -> Scene {
 
 /// The largest force left on a body \[N\], by the model's own forces, and the largest load.
 fn left(scene: &Scene, found: &Equilibrium) -> (f64, f64) {
-    let model = Model::new(scene).unwrap();
+    let model = compile(scene).unwrap();
     let mut y = start(&model, &Start::Equilibrium).unwrap();
     let half = y.len() / 2;
     y[half..].fill(0.0);
     let mut sum = vec![0.0; half];
-    for (name, part) in model.forces(0.0, &y) {
+    for (name, part) in contributions(&model, 0.0, &y) {
         if !["damping", "friction", "drive"].contains(&name) {
             sum.iter_mut()
                 .zip(part)

@@ -1,11 +1,13 @@
 //! The laws of one contact against closed forms.
 
+use ballrace::compile;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::{
     BallSide, Elastic, Law, Motion, Pair, Rules, Sink, Slices, Torus, Touch, V2, Waves,
 };
+use ballrace::inspect;
 use ballrace::scene::{Component, Friction, NormalLaw, Probe, presets};
-use ballrace::{Model, Start, start};
+use ballrace::{Race, Start, start};
 
 #[derive(Default)]
 struct Total {
@@ -108,10 +110,10 @@ fn rolling_start_does_not_slip() {
         },
     )]
     .into();
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let y = start(&model, &Start::Rolling).unwrap();
-    for race in [0, 1] {
-        let contact = model.contact(&y, 3, race);
+    for race in Race::BOTH {
+        let contact = inspect::contact(&model, &y, 3, race);
         assert!(contact.load > 1.0);
         assert!(
             (contact.angle.to_degrees() - 13.0).abs() < 0.2,
@@ -122,7 +124,7 @@ fn rolling_start_does_not_slip() {
         let mut skidding = y.clone();
         skidding[y.len() / 2 + 4 * 5 + 3] *= 0.9;
         assert!(
-            model.contact(&skidding, 3, race).slip > 0.15,
+            inspect::contact(&model, &skidding, 3, race).slip > 0.15,
             "a wrong spin must slip"
         );
     }

@@ -6,11 +6,13 @@ mod common;
 
 use std::f64::consts::FRAC_PI_2;
 
+use ballrace::compile;
+use ballrace::dynamics::rhs;
 use ballrace::scene::{
     Defect, Drive, Floor, Friction, Mount, NormalLaw, Probe, RingName, Scene, Slices, Surface,
     Unbalance, Waviness, Width, WidthProfile, presets,
 };
-use ballrace::{Error, Model, Run, Start, equilibrium, start};
+use ballrace::{Error, Run, Start, equilibrium, start};
 use common::{run, short};
 
 const LAWS: [NormalLaw; 2] = [
@@ -231,12 +233,12 @@ fn a_free_unbalanced_ring_turns_about_its_centre_of_mass() {
         value: torque.into(),
         initial_speed: 300.0,
     };
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let mut y = start(&model, &Start::Rolling).unwrap();
     let (half, inner) = (y.len() / 2, 4);
     y[inner + 3] = 1.1;
     let mut dy = vec![0.0; y.len()];
-    model.rhs(0.0, &y, &mut dy);
+    rhs(&model, 0.0, &y, &mut dy);
     let [ax, ay, spin] = [0, 1, 3].map(|i| dy[half + inner + i]);
     let omega = y[half + inner + 3];
     assert_eq!(omega, 300.0);
@@ -249,6 +251,6 @@ fn a_free_unbalanced_ring_turns_about_its_centre_of_mass() {
     assert!(x.abs() < 1e-9 && (y + 9.81).abs() < 1e-9, "{x} {y}");
     // More than the whole mass at the radius of gyration there cannot be.
     let too_much = unbalanced(scene, 0.02, 0.0);
-    let refused = Model::new(&too_much).unwrap_err();
+    let refused = compile(&too_much).unwrap_err();
     assert!(matches!(refused, Error::Scene { path, .. } if path == "unbalances.u.moment"));
 }

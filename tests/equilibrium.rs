@@ -2,8 +2,10 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use ballrace::compile;
+use ballrace::dynamics::contributions;
 use ballrace::scene::{Defect, Material, Surface, presets};
-use ballrace::{Error, Model, Start, equilibrium, start};
+use ballrace::{Error, Start, equilibrium, start};
 
 /// Analytic: whatever the load and clearance, the balls carry it: forces on the free inner ring sum to the load.
 #[test]
@@ -105,11 +107,11 @@ fn balls_that_hang_on_the_cage_are_balanced_soon() {
         let scene = presets::wheel_bearing(axial);
         let iterations = equilibrium(&scene).unwrap().iterations;
         assert!(iterations <= 12, "{axial}: {iterations}");
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let mut y = start(&model, &Start::Equilibrium).unwrap();
         let half = y.len() / 2;
         y[half..].fill(0.0);
-        let forces = model.forces(0.0, &y);
+        let forces = contributions(&model, 0.0, &y);
         let at_rest = forces
             .iter()
             .filter(|(name, _)| !["damping", "friction"].contains(name));

@@ -2,8 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use ballrace::compile;
+use ballrace::dynamics::contributions;
 use ballrace::scene::{Defect, NormalLaw, Scene, Slices, Surface, presets};
-use ballrace::{Model, Start, start};
+use ballrace::{Start, start};
 
 /// A single row at a contact angle, loaded by interference, with or without a defect at −90°.
 fn scene(law: &NormalLaw, conformity: f64, degrees: f64, defect: Option<Defect>) -> Scene {
@@ -22,7 +24,7 @@ fn scene(law: &NormalLaw, conformity: f64, degrees: f64, defect: Option<Defect>)
 fn forces(scene: &Scene, slices: Slices, approach: f64, arc: f64, shift: f64) -> Vec<f64> {
     let mut scene = scene.clone();
     scene.contact.slices = slices;
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let mut y = start(&model, &Start::Rolling).unwrap();
     // The ball goes outwards along the contact angle, by arc along the race, by shift along the axis.
     let angle = scene.rows[0].contact_angle;
@@ -31,7 +33,7 @@ fn forces(scene: &Scene, slices: Slices, approach: f64, arc: f64, shift: f64) ->
     (y[8], y[9]) = (radius * place.cos(), radius * place.sin());
     y[10] += approach * angle.sin() + shift;
     // Normal forces on the ball in question.
-    let parts = model.forces(0.0, &y);
+    let parts = contributions(&model, 0.0, &y);
     let contact = parts.iter().find(|(name, _)| *name == "contact").unwrap();
     contact.1[8..11].to_vec()
 }

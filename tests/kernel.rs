@@ -5,17 +5,21 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use ballrace::compile;
 use ballrace::dynamics::Dynamics;
+use ballrace::dynamics::contributions;
+use ballrace::dynamics::rhs;
+use ballrace::inspect;
 use ballrace::scene::{Defect, Friction, NormalLaw, Scene, Slices, Surface, Waviness, presets};
 use ballrace::simd::Level;
-use ballrace::{Model, Start, start};
+use ballrace::{Race, Start, start};
 use common::Noise;
 
 /// Largest difference of the two evaluations at random states around an equilibrium, over the sum of the contact
 /// loads on a body and 1 kN: the distance of two axes is known to 4e-18 m, which a contact of some 1e8 N/m turns
 /// into 4e-10 N whatever its load (model section 10).
 fn difference(scene: &Scene, level: Level) -> f64 {
-    let model = Model::new(scene).unwrap().with_level(level);
+    let model = compile(scene).unwrap().with_level(level);
     let calm = start(&model, &Start::Equilibrium).unwrap();
     let mut dynamics = Dynamics::new(&model);
     let (mut noise, mut worst) = (Noise(1), 0.0_f64);
@@ -28,8 +32,8 @@ fn difference(scene: &Scene, level: Level) -> f64 {
             y[half + i] += speed * noise.next();
         }
         let found = dynamics.forces(0.0, &y);
-        let parts = model.forces(0.0, &y);
-        let loads = |j: usize| [0, 1].map(|race| model.contact(&y, j, race).load);
+        let parts = contributions(&model, 0.0, &y);
+        let loads = |j: usize| Race::BOTH.map(|race| inspect::contact(&model, &y, j, race).load);
         let balls: Vec<[f64; 2]> = (0..model.body_count() - 2).map(loads).collect();
         for (b, force) in found.iter().enumerate() {
             let size: f64 = if b < 2 {
@@ -137,13 +141,13 @@ fn eights_and_ones_agree_at_every_level() {
 /// Analytic: a state that is not a number shows in the derivative, whoever evaluates it.
 #[test]
 fn what_is_no_number_does_not_hide() {
-    let model = Model::new(&presets::wheel_bearing(0.0)).unwrap();
+    let model = compile(&presets::wheel_bearing(0.0)).unwrap();
     let calm = start(&model, &Start::Equilibrium).unwrap();
     let mut dy = vec![0.0; model.dim()];
     for state in [0, 1, 8, 9, 10, 8 * 4 + 2] {
         let mut y = calm.clone();
         y[state] = f64::NAN;
-        model.rhs(0.0, &y, &mut dy);
+        rhs(&model, 0.0, &y, &mut dy);
         assert!(dy.iter().any(|x| x.is_nan()), "{}", model.names()[state]);
     }
 }

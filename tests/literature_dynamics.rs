@@ -15,12 +15,13 @@ mod common;
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
+use ballrace::compile;
 use ballrace::contact::hertz::Hertz;
 use ballrace::scene::{
     Component, Contact, ContactQuantity, Friction, Material, Mount, NormalLaw, Probe, Row, Scene,
     Support, presets,
 };
-use ballrace::{Bandwidth, Model, Run, Signals, Start, simulate, start};
+use ballrace::{Bandwidth, Run, Signals, Start, simulate, start};
 use common::meets;
 
 fn run(scene: &Scene, run: &Run) -> Signals {
@@ -86,7 +87,7 @@ fn kinematic_orders() {
         for ring in [&mut scene.outer_ring, &mut scene.inner_ring] {
             (ring.diameter, ring.mass) = (None, Some(1.0));
         }
-        let y = start(&Model::new(&scene).unwrap(), &Start::Rolling).unwrap();
+        let y = start(&compile(&scene).unwrap(), &Start::Rolling).unwrap();
         let (place, speed) = y.split_at(y.len() / 2);
         let shaft = speed[7];
         assert!((shaft - TAU).abs() < 1e-12);
@@ -206,7 +207,7 @@ fn thrown(law: &NormalLaw, outer: bool, damping: f64, speed: f64, fs: f64) -> (V
         motion("row0.ball0", &[Component::X, Component::Vx]),
     )]
     .into();
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let mut y = start(&model, &Start::Rolling).unwrap();
     let sign = if outer { 1.0 } else { -1.0 };
     let half = y.len() / 2;

@@ -19,11 +19,12 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use ballrace::compile;
 use ballrace::contact::hertz::Hertz;
 use ballrace::scene::{
     Drive, Material, Mount, RingName, Row, Scene, Support, TimeFunction, presets,
 };
-use ballrace::{Equilibrium, Model, equilibrium};
+use ballrace::{Equilibrium, equilibrium};
 use common::meets;
 
 /// One row between a held outer and a free inner ring: Hertz, at rest, no gravity, no cage, no clearance, ball 0
@@ -173,7 +174,7 @@ fn harris_218_at_15_000_rpm() {
     let mut scene = single_row(16, 22.23, 125.26, 0.5232, 0.5232, 40.0);
     scene.drive = Drive::Speed((15_000.0 * PI / 30.0).into());
     let found = under(&scene, 0.0, 17_800.0);
-    let orbit = Model::new(&scene).unwrap().rolling_speeds(0).0;
+    let orbit = compile(&scene).unwrap().rolling_speeds(0).0;
     let mass = Material::default().density * PI / 6.0 * scene.rows[0].ball_diameter.powi(3);
     let [outer, inner] = jones(&scene.rows[0], 17_800.0, mass * orbit * orbit);
     let ball = &found.balls[0];

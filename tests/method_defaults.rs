@@ -10,8 +10,9 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::ControlFlow;
 
+use ballrace::compile;
 use ballrace::scene::{Defect, Drive, Friction, Method, Scene, Surface, presets};
-use ballrace::{Error, Model, Run, Signals, Start, Warning, simulate, start};
+use ballrace::{Error, Run, Signals, Start, Warning, simulate, start};
 use common::{Noise, short, soon_over_the_spall};
 
 const METHODS: [Method; 8] = [
@@ -176,7 +177,7 @@ fn run(
 ) -> Result<Signals, Error> {
     let mut scene = scene.clone();
     if let Some((rtol, share)) = finer {
-        let frequency = Model::new(&scene).unwrap().scales().frequency;
+        let frequency = compile(&scene).unwrap().scales().frequency;
         (scene.solver.rtol, scene.solver.max_step) = (rtol, Some(share / frequency));
     }
     let run = Run {
@@ -214,7 +215,7 @@ struct Truth {
 
 /// None where a random bearing does not carry its load, or nothing can be foretold.
 fn truth(case: &Case) -> Option<Truth> {
-    let model = Model::new(&case.scene).ok()?;
+    let model = compile(&case.scene).ok()?;
     let y0 = start(&model, &case.start).ok()?;
     let at = |rtol, share| run(&case.scene, &y0, Method::DormandPrince, Some((rtol, share)));
     let exact = accelerations(&at(1e-10, 0.1).ok()?);

@@ -5,13 +5,14 @@
 use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
 
+use ballrace::compile;
 use ballrace::integrate::{
     self, Additive, BOGACKI_SHAMPINE, Controller, DORMAND_PRINCE, DenseStep, ImplicitVelocity,
     KENNEDY_CARPENTER, Options, RUNGE_KUTTA_4, Statistics, Stuck, System, TSITOURAS, Tableau,
     Tolerance, VERNER, VelocityVerlet, integrate,
 };
 use ballrace::scene::{Friction, Method, presets};
-use ballrace::{Bandwidth, Model, Run, Scene, Signals, simulate};
+use ballrace::{Bandwidth, Run, Scene, Signals, simulate};
 
 /// An oscillator rubbed by regularised Coulomb friction against a belt that moves: q' = v,
 /// v' = −q − rate·s·(v − w)/√((v − w)² + s²), w = cos t. Its fastest rate is `rate`.
@@ -324,7 +325,7 @@ fn scene(slip_speed: f64) -> Scene {
         slip_speed,
     };
     // From equilibrium the first ball meets it at 5.3 ms.
-    let (orbit, _) = Model::new(&scene).unwrap().rolling_speeds(0);
+    let (orbit, _) = compile(&scene).unwrap().rolling_speeds(0);
     scene.defects.get_mut("spall").unwrap().angle = -FRAC_PI_2 - 4.7e-3 * orbit;
     scene
 }

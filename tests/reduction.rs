@@ -5,13 +5,17 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
 
+use ballrace::compile;
 use ballrace::dynamics::Dynamics;
+use ballrace::dynamics::contributions;
+use ballrace::dynamics::rhs;
+use ballrace::inspect;
 use ballrace::integrate::System;
 use ballrace::scene::{
     Defect, Drive, Friction, Mount, NormalLaw, Profile, Scene, Slices, Surface, TimeFunction,
     Waviness, Width, WidthProfile, presets,
 };
-use ballrace::{Bandwidth, Model, Reduction, Run, Start, simulate, start};
+use ballrace::{Bandwidth, Model, Race, Reduction, Run, Start, simulate, start};
 use common::Noise;
 
 /// A healthy deep-groove bearing under a radial load.
@@ -56,17 +60,17 @@ fn begin(model: &Model) -> Vec<f64> {
 }
 
 fn reduction(scene: &Scene) -> Reduction {
-    let model = Model::new(scene).unwrap();
+    let model = compile(scene).unwrap();
     let y0 = begin(&model);
-    model.reduction(&y0).unwrap()
+    Reduction::of(&model, &y0).unwrap()
 }
 
 /// Largest difference between the accelerations of the reduced and of the full model at random states that have the
 /// symmetries of the scene, as force over the load of the contacts and 1 kN.
 fn difference(scene: &Scene) -> f64 {
-    let model = Model::new(scene).unwrap();
+    let model = compile(scene).unwrap();
     let y0 = begin(&model);
-    let mut dynamics = Dynamics::reduced(&model, model.reduction(&y0).unwrap(), &y0);
+    let mut dynamics = Dynamics::reduced(&model, Reduction::of(&model, &y0).unwrap(), &y0);
     let mut own = vec![0.0; dynamics.dim()];
     let (mut full, mut rates, mut wanted) = (y0.clone(), y0.clone(), y0.clone());
     let (mut noise, mut worst) = (Noise(7), 0.0_f64);
@@ -85,11 +89,11 @@ fn difference(scene: &Scene) -> f64 {
         dynamics.rhs(t, &y, &mut own);
         rates.copy_from_slice(&full);
         dynamics.expand_rates(t, &y, &own, &mut rates);
-        model.rhs(t, &full, &mut wanted);
+        rhs(&model, t, &full, &mut wanted);
         let loads: f64 = (0..model.body_count() - 2)
-            .flat_map(|j| [0, 1].map(|race| model.contact(&full, j, race).load))
+            .flat_map(|j| Race::BOTH.map(|race| inspect::contact(&model, &full, j, race).load))
             .sum();
-        let forces = model.forces(t, &full);
+        let forces = contributions(&model, t, &full);
         for i in 0..half {
             assert_eq!(rates[i], wanted[i], "speed {i}");
             let total: f64 = forces.iter().map(|(_, part)| part[i]).sum();
@@ -306,7 +310,7 @@ fn apart(a: &[Vec<f64>; 2], b: &[Vec<f64>; 2], samples: usize) -> f64 {
 #[test]
 fn signals_agree() {
     for (name, scene, _) in scenes() {
-        let y0 = begin(&Model::new(&scene).unwrap());
+        let y0 = begin(&compile(&scene).unwrap());
         let mut beside = y0.clone();
         beside[1] += 1e-16;
         let full = signal(&scene, false, &y0);
@@ -393,9 +397,9 @@ fn a_hair_is_enough() {
 /// Analytic: a start that lacks the symmetry keeps what the scene alone would let go.
 #[test]
 fn the_start_must_be_symmetric_too() {
-    let model = Model::new(&plane(NormalLaw::Hertz, false)).unwrap();
+    let model = compile(&plane(NormalLaw::Hertz, false)).unwrap();
     let y0 = start(&model, &Start::Rolling).unwrap();
-    let has = |y: &[f64]| whats(&model.reduction(y).unwrap()).contains(&"z");
+    let has = |y: &[f64]| whats(&Reduction::of(&model, y).unwrap()).contains(&"z");
     assert!(has(&y0));
     for (state, change) in [(2, 1e-9), (4 * 3 + 2, 1e-9), (y0.len() / 2 + 2, 1e-4)] {
         let mut y = y0.clone();

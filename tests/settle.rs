@@ -5,15 +5,16 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use ballrace::compile;
 use ballrace::scene::{
     Approximations, Component, Drive, Friction, Mount, Probe, Profile, Scene, TimeFunction, presets,
 };
-use ballrace::{Bandwidth, Model, Run, Signals, Start, start};
+use ballrace::{Bandwidth, Run, Signals, Start, start};
 use common::{rms, run};
 
 /// The time in which a ball of row 0 takes the place of the next one \[s\].
 fn ball_pass(scene: &Scene) -> f64 {
-    let model = Model::new(scene).unwrap();
+    let model = compile(scene).unwrap();
     let (orbit, _) = model.rolling_speeds(0);
     TAU / (scene.rows[0].ball_count as f64 * orbit)
 }
@@ -176,7 +177,7 @@ fn switched_off_it_changes_nothing() {
         settle,
         ..Run::default()
     };
-    let y0 = start(&Model::new(&scene).unwrap(), &Start::Equilibrium).unwrap();
+    let y0 = start(&compile(&scene).unwrap(), &Start::Equilibrium).unwrap();
     let off = run(&scene, &from(Start::Equilibrium, Some(0.0)));
     let given = run(&scene, &from(Start::State(y0), None));
     assert_eq!(off.columns, given.columns);

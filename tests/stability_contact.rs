@@ -6,12 +6,15 @@ mod common;
 
 use std::ops::ControlFlow;
 
+use ballrace::compile;
 use ballrace::contact::Elastic;
 use ballrace::contact::iso16281::Iso16281;
 use ballrace::dynamics::Dynamics;
+use ballrace::dynamics::rhs;
+use ballrace::inspect;
 use ballrace::integrate::{DORMAND_PRINCE, DenseStep, Options, System, Tolerance, integrate};
 use ballrace::scene::{NormalLaw, Scene};
-use ballrace::{Bandwidth, Model, Run, Start, start};
+use ballrace::{Bandwidth, Model, Race, Run, Start, start};
 use common::{ball_mass, one_ball, rms, run, slope};
 
 /// A mass that flies against one slice of the ISO law: ẍ = −F(x)/m.
@@ -105,7 +108,7 @@ fn a_slice_begins_at_order_two() {
 fn flying(damping: f64, speed: f64, lead: f64) -> (Scene, Vec<f64>) {
     let mut scene = one_ball(-1e-3);
     scene.contact.damping = damping;
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let mut y = start(&model, &Start::Rolling).unwrap();
     let half = y.len() / 2;
     y[half..].fill(0.0);
@@ -132,7 +135,7 @@ fn a_ball_begins_at_order_two_and_a_half() {
                         let lead = h * (3.0 + f64::from(i) / 12.0);
                         let (mut scene, y0) = flying(0.0, speed, lead);
                         scene.contact.law = law.clone();
-                        let model = Model::new(&scene).unwrap();
+                        let model = compile(&scene).unwrap();
                         let mut dynamics = Dynamics::new(&model);
                         let v = y0.len() / 2 + 8;
                         let end = lead + inside;
@@ -156,17 +159,17 @@ fn energies(model: &Model, h: f64, steps: usize, verlet: bool, y0: &[f64]) -> Ve
     if verlet {
         let (mut y, mut dy) = (y0.to_vec(), y0.to_vec());
         let half = y.len() / 2;
-        model.rhs(0.0, &y, &mut dy);
+        rhs(model, 0.0, &y, &mut dy);
         for _ in 0..steps {
             for i in 0..half {
                 y[half + i] += 0.5 * h * dy[half + i];
                 y[i] += h * y[half + i];
             }
-            model.rhs(0.0, &y, &mut dy);
+            rhs(model, 0.0, &y, &mut dy);
             for i in 0..half {
                 y[half + i] += 0.5 * h * dy[half + i];
             }
-            energies.push(model.energy(&y).total());
+            energies.push(inspect::energy(model, &y).total());
         }
     } else {
         let options = Options {
@@ -175,7 +178,7 @@ fn energies(model: &Model, h: f64, steps: usize, verlet: bool, y0: &[f64]) -> Ve
         };
         let tolerance = Tolerance::uniform(y0.len(), 0.0, 1.0).unwrap();
         let mut watch = |_: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &_| {
-            energies.push(model.energy(step.y1()).total());
+            energies.push(inspect::energy(model, step.y1()).total());
             ControlFlow::Continue(())
         };
         let span = (0.0, steps as f64 * h);
@@ -201,10 +204,10 @@ fn energies(model: &Model, h: f64, steps: usize, verlet: bool, y0: &[f64]) -> Ve
 fn energy_drifts_less_than_damping_takes() {
     // A ball squeezed between both races, which swings by a tenth of the approach.
     let scene = one_ball(10e-6);
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let frequency = model.scales().frequency;
     let swing = |scene: &Scene| {
-        let model = Model::new(scene).unwrap();
+        let model = compile(scene).unwrap();
         let mut y = start(&model, &Start::Rolling).unwrap();
         let v = y.len() / 2 + 8;
         y[v] = 0.05;
@@ -212,7 +215,7 @@ fn energy_drifts_less_than_damping_takes() {
     };
     let (model, y0) = swing(&scene);
     // Kinetic energy at the start measures what there is to lose.
-    let whole = model.energy(&y0).kinetic;
+    let whole = inspect::energy(&model, &y0).kinetic;
     // Steps of 1/(n ω): n steps to a radian, 6.28 n to a period.
     let drift = |n: u32, verlet: bool| {
         let h = 1.0 / (f64::from(n) * frequency);
@@ -290,7 +293,7 @@ fn a_torn_contact_does_not_pull_and_is_counted() {
         scene.contact.clamp_pull = clamp;
         // Pulls are counted at the ends of steps, and this contact opens within a few µs.
         scene.solver.max_step = Some(0.2e-6);
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let y0 = start(&model, &Start::Rolling).unwrap();
         let v = y0.len() / 2 + 8;
         // 2/(3 · 0.2) = 3.33 m/s.
@@ -300,8 +303,7 @@ fn a_torn_contact_does_not_pull_and_is_counted() {
             let mut dynamics = Dynamics::new(&model);
             let mut dy = y.clone();
             dynamics.rhs(0.0, &y, &mut dy);
-            let outer: f64 = model
-                .slice_forces(&y, 0, 0)
+            let outer: f64 = inspect::slice_forces(&model, &y, 0, Race::Outer)
                 .iter()
                 .map(|slice| slice.force)
                 .sum();

@@ -6,10 +6,12 @@ mod common;
 
 use std::f64::consts::FRAC_PI_2;
 
+use ballrace::compile;
+use ballrace::inspect;
 use ballrace::scene::{
     ContactQuantity, Defect, Drive, Friction, Probe, RingName, Scene, Slices, Surface, presets,
 };
-use ballrace::{Model, Run, Signals, Start, start};
+use ballrace::{Race, Run, Signals, Start, start};
 use common::{apart, rms, run, short, soon_over_the_spall};
 
 fn ay(out: &Signals) -> &[f64] {
@@ -134,13 +136,13 @@ fn a_defect_at_the_end_of_the_zone_does_not_jump_on_fitted_nodes() {
         scene.rows[0].start_angle = -FRAC_PI_2;
         let mut healthy = scene.clone();
         healthy.defects.clear();
-        let y = start(&Model::new(&healthy).unwrap(), &Start::Equilibrium).unwrap();
+        let y = start(&compile(&healthy).unwrap(), &Start::Equilibrium).unwrap();
         let forces: Vec<f64> = (0..60)
             .map(|i| {
                 // The zone of the loaded ball lies between +0.3 and +3.1 mm; the defect comes in from above.
                 scene.defects.get_mut("spall").unwrap().axial_offset =
                     (4.1e-3 - 0.05e-3 * f64::from(i)).into();
-                Model::new(&scene).unwrap().contact(&y, 0, 0).load
+                inspect::contact(&compile(&scene).unwrap(), &y, 0, Race::Outer).load
             })
             .collect();
         let bends = forces.windows(3).map(|f| (f[0] - 2.0 * f[1] + f[2]).abs());

@@ -8,8 +8,10 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use ballrace::compile;
+use ballrace::inspect;
 use ballrace::scene::{Drive, Friction, Mount, Profile, Scene, TimeFunction, presets};
-use ballrace::{Error, Model, Run, Signals, Start, simulate, start};
+use ballrace::{Error, Race, Run, Signals, Start, simulate, start};
 use common::{rms, run, short, soon_over_the_spall};
 
 /// The error of a run that must not come to its end, nor go on for ever.
@@ -43,10 +45,10 @@ fn finite(out: &Signals) {
 fn from_no_speed_to_30_000_rpm() {
     for rpm in [0.0, 1e-3, 1800.0, 30_000.0, -30_000.0] {
         let scene = presets::deep_groove_6205(500.0, 0.0, rpm);
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let y = start(&model, &Start::Equilibrium).unwrap();
         let upper = (0..9)
-            .map(|j| model.contact(&y, j, 0).load)
+            .map(|j| inspect::contact(&model, &y, j, Race::Outer).load)
             .fold(f64::INFINITY, f64::min);
         let orbit = model.rolling_speeds(0).0;
         let mass = 7850.0 * PI * 7.94e-3_f64.powi(3) / 6.0;
@@ -174,7 +176,7 @@ fn nan_infinite_and_absurd_input_is_refused_by_name() {
             assert_eq!(path, name);
         }
     }
-    let mut state = start(&Model::new(&good).unwrap(), &Start::Equilibrium).unwrap();
+    let mut state = start(&compile(&good).unwrap(), &Start::Equilibrium).unwrap();
     state[17] = f64::NAN;
     let run = Run {
         start: Start::State(state),
@@ -260,7 +262,7 @@ fn a_collapsed_step_names_what_caused_it() {
             reason.contains(&contacts[0]) && reason.contains("rate"),
             "{reason}"
         );
-        assert!(Model::new(&scene).unwrap().bodies().contains(&body));
+        assert!(compile(&scene).unwrap().bodies().contains(&body));
         assert!(time >= 0.0 && step > 0.0 && time + step < 1e-3);
     }
 }
@@ -269,7 +271,7 @@ fn a_collapsed_step_names_what_caused_it() {
 #[test]
 fn forces_beyond_numbers_name_the_ball() {
     let scene = presets::wheel_bearing(3000.0);
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let mut y = start(&model, &Start::Equilibrium).unwrap();
     let spin = model
         .names()
@@ -290,7 +292,7 @@ fn forces_beyond_numbers_name_the_ball() {
 
 /// Two runs whose starts differ by 1e-12 m in one ball, and their relative difference of acceleration in time.
 fn growth(scene: &Scene, begin: &Start, duration: f64) -> Vec<(f64, f64)> {
-    let model = Model::new(scene).unwrap();
+    let model = compile(scene).unwrap();
     let y0 = start(&model, begin).unwrap();
     let mut y1 = y0.clone();
     y1[4 * 3] += 1e-12;

@@ -4,8 +4,10 @@
 
 mod common;
 
+use ballrace::compile;
+use ballrace::inspect;
 use ballrace::scene::{Drive, Friction, NormalLaw, Probe, Profile, Scene, TimeFunction, presets};
-use ballrace::{Bandwidth, Model, Run, Start, start};
+use ballrace::{Bandwidth, Race, Run, Start, start};
 use common::{ball_mass, one_ball, run, short, soon_over_the_spall};
 
 fn with_friction(mut scene: Scene, slip_speed: f64) -> Scene {
@@ -26,11 +28,11 @@ fn sticking_is_a_creep_that_falls_with_the_slip_speed() {
         scene.gravity = [0.0, -9.81, 0.0];
         scene.contact.damping = 0.2;
         scene.probes.insert("energy".to_owned(), Probe::Energy {});
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let y0 = start(&model, &Start::Rolling).unwrap();
-        let loads: f64 = [0, 1]
-            .iter()
-            .map(|&race| model.contact(&y0, 0, race).load)
+        let loads: f64 = Race::BOTH
+            .into_iter()
+            .map(|race| inspect::contact(&model, &y0, 0, race).load)
             .sum();
         let expected = ball_mass() * 9.81 * slip_speed / (0.05 * loads);
         let out = run(
@@ -152,7 +154,7 @@ fn no_friction_law_gives_energy() {
         for normal in [NormalLaw::iso16281(), NormalLaw::Hertz] {
             let mut scene = presets::wheel_bearing(3000.0);
             (scene.friction, scene.contact.law) = (law.clone(), normal);
-            let model = Model::new(&scene).unwrap();
+            let model = compile(&scene).unwrap();
             let y0 = start(&model, &Start::Equilibrium).unwrap();
             let half = y0.len() / 2;
             for scale in [0.0, 1e-9, 1e-3, 1.0, 100.0] {
@@ -160,7 +162,7 @@ fn no_friction_law_gives_energy() {
                 for (i, state) in y.iter_mut().enumerate().skip(half) {
                     *state += scale * (((i * 7919) % 997) as f64 / 997.0 - 0.5);
                 }
-                let power = model.energy(&y).friction_power;
+                let power = inspect::energy(&model, &y).friction_power;
                 assert!(power >= 0.0, "{law:?} {scale}: {power}");
             }
         }

@@ -6,10 +6,11 @@ mod common;
 
 use std::f64::consts::PI;
 
+use ballrace::compile;
 use ballrace::scene::{
     ContactQuantity, Friction, NormalLaw, Probe, RingName, Scene, Slices, presets,
 };
-use ballrace::{Error, Model, Run, Start, Warning, equilibrium, simulate, start};
+use ballrace::{Error, Run, Start, Warning, equilibrium, simulate, start};
 use common::{rms, run, short};
 
 /// Loads of all contacts with one race.
@@ -212,7 +213,7 @@ fn conformity_close_to_one_half() {
     let mut scene = bearing("conformity", 500.0, 0.0);
     scene.rows[0].outer_conformity = 0.5;
     assert!(
-        matches!(Model::new(&scene), Err(Error::Scene { path, .. }) if path == "rows[0].outer_conformity")
+        matches!(compile(&scene), Err(Error::Scene { path, .. }) if path == "rows[0].outer_conformity")
     );
 }
 
@@ -243,7 +244,7 @@ fn contact_angles_near_zero_and_45_degrees() {
 /// Truth: the highest frequency goes with 1/√m; the step cap follows it, and the residual stays small.
 #[test]
 fn light_and_small_balls() {
-    let steel = Model::new(&bearing("steel", 500.0, 0.0))
+    let steel = compile(&bearing("steel", 500.0, 0.0))
         .unwrap()
         .scales()
         .frequency;
@@ -251,7 +252,7 @@ fn light_and_small_balls() {
     for density in [7850.0, 3200.0, 100.0] {
         let mut scene = bearing(&format!("density {density}"), 500.0, 0.0);
         scene.materials.balls.density = density;
-        let frequency = Model::new(&scene).unwrap().scales().frequency;
+        let frequency = compile(&scene).unwrap().scales().frequency;
         assert!(
             (frequency / steel - (7850.0_f64 / density).sqrt()).abs() < 0.02 * frequency / steel
         );
@@ -335,7 +336,7 @@ fn a_ball_that_leaves_its_groove_ends_the_run() {
     let mut scene = bearing("escape", 500.0, 0.0);
     scene.rows[0].outer_shoulders = Some([0.5; 2]);
     scene.rows[0].inner_shoulders = Some([0.5; 2]);
-    let model = Model::new(&scene).unwrap();
+    let model = compile(&scene).unwrap();
     let mut y = start(&model, &Start::Equilibrium).unwrap();
     let vz = model
         .names()

@@ -4,12 +4,15 @@
 
 mod common;
 
+use ballrace::compile;
 use ballrace::dynamics::Dynamics;
+use ballrace::dynamics::rhs;
+use ballrace::inspect;
 use ballrace::integrate::{
     DORMAND_PRINCE, FailureKind, Options, Solution, System, Tableau, Tolerance, integrate,
 };
 use ballrace::scene::Friction;
-use ballrace::{Model, Run, Signals, Start, Warning, start};
+use ballrace::{Model, Race, Run, Signals, Start, Warning, start};
 use common::{apart, one_ball, run, short, soon_over_the_spall};
 
 /// A method, its stability polynomial's coefficients from z² on, and where it ends on the two axes.
@@ -196,7 +199,7 @@ fn squeezed_in_balance(model: &Model) -> Vec<f64> {
     let (mut low, mut high) = (y[x] - 5e-6, y[x] + 5e-6);
     for _ in 0..60 {
         y[x] = f64::midpoint(low, high);
-        model.rhs(0.0, &y, &mut dy);
+        rhs(model, 0.0, &y, &mut dy);
         if dy[ax] > 0.0 {
             low = y[x];
         } else {
@@ -214,9 +217,9 @@ fn friction_holds_the_step_at_the_stability_limit() {
     for slip_speed in [0.01, 0.001] {
         let mut scene = one_ball(10e-6);
         scene.friction = coulomb(0.05, slip_speed);
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let y0 = squeezed_in_balance(&model);
-        let loads = [0, 1].map(|race| model.contact(&y0, 0, race).load);
+        let loads = Race::BOTH.map(|race| inspect::contact(&model, &y0, 0, race).load);
         let mass = 7850.0 * std::f64::consts::PI * 7.94e-3_f64.powi(3) / 6.0;
         let rate = 5.0 * 0.05 * f64::midpoint(loads[0], loads[1]) / (mass * slip_speed);
         let spin = y0.len() - 1;
@@ -227,7 +230,7 @@ fn friction_holds_the_step_at_the_stability_limit() {
         };
         let slow = 1e-4 * slip_speed / 4e-3;
         let mut dy = y0.clone();
-        model.rhs(0.0, &spinning(slow), &mut dy);
+        rhs(&model, 0.0, &spinning(slow), &mut dy);
         let measured = -dy[spin] / slow;
         let end = |share: f64| {
             let h = share * DORMAND_PRINCE.stability_limit / measured;

@@ -7,13 +7,14 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use ballrace::compile;
 use ballrace::scene::{
     Approximations, AxialOffset, Defect, Drive, Friction, Profile, RingName, Scene, Surface,
     TimeFunction, Width, WidthProfile, presets,
 };
 use ballrace::{
-    BallEquilibrium, Error, Model, Placed, Run, Signals, Start, Touched, Warning, equilibrium,
-    explain, load_distribution, simulate,
+    BallEquilibrium, Error, Placed, Run, Signals, Start, Touched, Warning, equilibrium, explain,
+    load_distribution, simulate,
 };
 use common::{rms, run, short};
 
@@ -134,7 +135,7 @@ fn the_number_is_the_place_of_the_contact_at_equilibrium() {
         let inner = with(scene.clone(), spall(Surface::InnerRace));
         let found = equilibrium(&scene).unwrap();
         let ball = most(&found.balls, |ball| ball.inner.load);
-        let placed = number(Model::new(&inner).unwrap().scene());
+        let placed = number(compile(&inner).unwrap().scene());
         assert!((placed - ball.inner.zone_centre.unwrap()).abs() <= 1e-9);
 
         // A ball stands at the angle of the outer race's.
@@ -151,13 +152,13 @@ fn the_number_is_the_place_of_the_contact_at_equilibrium() {
             .iter()
             .min_by(|a, b| (a.angle - angle).abs().total_cmp(&(b.angle - angle).abs()))
             .unwrap();
-        let placed = number(Model::new(&outer).unwrap().scene());
+        let placed = number(compile(&outer).unwrap().scene());
         assert!((placed - ball.outer.zone_centre.unwrap()).abs() <= 2e-9);
 
         // A ball has two tracks, at ±R sin α; centrifugal force makes the outer race the more loaded one.
         let rolling = with(scene.clone(), spall(Surface::Ball));
         let ball = most(&found.balls, |ball| ball.outer.load);
-        let placed = number(Model::new(&rolling).unwrap().scene());
+        let placed = number(compile(&rolling).unwrap().scene());
         let zeta = ball.outer.zone_centre.unwrap() - (ball.z - found.outer[2]);
         let half = scene.rows[0].ball_diameter / 2.0;
         assert!((placed - zeta).abs() <= 1e-9);
@@ -169,7 +170,7 @@ fn the_number_is_the_place_of_the_contact_at_equilibrium() {
 #[test]
 fn all_that_compile_a_scene_place_alike() {
     let scene = with(angular_7208(), spall(Surface::InnerRace));
-    let number_here = number(Model::new(&scene).unwrap().scene());
+    let number_here = number(compile(&scene).unwrap().scene());
     let rolling = Run {
         start: Start::Rolling,
         ..short(1e-4)
@@ -450,8 +451,7 @@ fn loads_in_time_place_by_their_largest_value() {
         start: 0.0,
         end: 0.1,
     });
-    let [steady, growing] =
-        [steady, growing].map(|scene| number(Model::new(&scene).unwrap().scene()));
+    let [steady, growing] = [steady, growing].map(|scene| number(compile(&scene).unwrap().scene()));
     assert_eq!(steady, growing);
 }
 
@@ -497,7 +497,7 @@ fn what_does_not_fit_there_is_refused() {
     };
     let scene = with(angular_7208(), long);
     scene.validate().unwrap();
-    let error = Model::new(&scene).unwrap_err().to_string();
+    let error = compile(&scene).unwrap_err().to_string();
     println!("{error}");
     assert!(error.contains("defects.spall.length"), "{error}");
 }

@@ -5,7 +5,7 @@
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-use crate::simd::{Lanes, Number};
+use crate::simd::Number;
 
 /// A number and its derivatives by N variables: what a kernel that computes with it differentiates itself by.
 ///
@@ -33,12 +33,6 @@ impl<T: Number, const N: usize> Dual<T, N> {
         dual
     }
 
-    /// Times a constant.
-    #[inline(always)]
-    pub fn scaled(self, by: T) -> Self {
-        self.chain(self.value * by, by)
-    }
-
     /// A function of it, from the function's value and slope.
     #[inline(always)]
     fn chain(self, value: T, slope: T) -> Self {
@@ -47,30 +41,6 @@ impl<T: Number, const N: usize> Dual<T, N> {
             *own = *own * slope;
         }
         Self { value, slopes }
-    }
-}
-
-impl<const N: usize> Dual<f64, N> {
-    /// The same in all lanes.
-    #[inline(always)]
-    pub fn widened(self) -> Dual<Lanes, N> {
-        let mut wide = Dual::constant(Lanes::all(self.value));
-        for (lanes, slope) in wide.slopes.iter_mut().zip(self.slopes) {
-            *lanes = Lanes::all(slope);
-        }
-        wide
-    }
-}
-
-impl<const N: usize> Dual<Lanes, N> {
-    /// The sum of all lanes.
-    #[inline(always)]
-    pub fn total(self) -> Dual<f64, N> {
-        let mut total = Dual::constant(self.value.sum());
-        for (sum, lanes) in total.slopes.iter_mut().zip(self.slopes) {
-            *sum = lanes.sum();
-        }
-        total
     }
 }
 

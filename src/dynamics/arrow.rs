@@ -7,13 +7,14 @@
 
 use nalgebra::{Const, LU, SMatrix, SVector};
 
-use crate::simd::{LANES, Lanes};
+use crate::model::{DOFS, RING_DOFS};
+use crate::simd::Lanes;
 
-type Rings = SVector<f64, 8>;
-type Factors = LU<f64, Const<8>, Const<8>>;
+type Rings = SVector<f64, RING_DOFS>;
+type Factors = LU<f64, Const<RING_DOFS>, Const<RING_DOFS>>;
 
-/// A matrix of four rows for each of eight balls.
-pub(super) type Block<const COLUMNS: usize> = [[Lanes; COLUMNS]; 4];
+/// A matrix with a row a direction for each of eight balls.
+pub(super) type Block<const COLUMNS: usize> = [[Lanes; COLUMNS]; DOFS];
 
 /// Balls eliminated by eights, and the rings' own matrix factorised: good for any right-hand side.
 ///
@@ -22,8 +23,8 @@ pub(super) type Block<const COLUMNS: usize> = [[Lanes; COLUMNS]; 4];
 #[derive(Debug, Clone)]
 pub(super) struct Arrow {
     /// What the balls put into the rings' rows, before D_r, and into their right-hand side.
-    rings: [[Lanes; 8]; 8],
-    right: [Lanes; 8],
+    rings: [[Lanes; RING_DOFS]; RING_DOFS],
+    right: [Lanes; RING_DOFS],
     factors: Option<Factors>,
     scale: Rings,
     eights: Vec<Eight>,
@@ -33,40 +34,40 @@ pub(super) struct Arrow {
 #[derive(Debug, Clone)]
 struct Eight {
     /// A⁻¹.
-    inverse: Block<4>,
+    inverse: Block<DOFS>,
     /// A⁻¹ B.
-    wide: Block<8>,
+    wide: Block<RING_DOFS>,
     /// Tᵀ S, and whether there is any.
-    from: [Block<4>; 2],
+    from: [Block<DOFS>; 2],
     touches: [bool; 2],
     /// A⁻¹ r.
-    part: [Lanes; 4],
+    part: [Lanes; DOFS],
 }
 
 /// The slopes S of eight contacts, and where the balls are from the ring's centre.
-pub(super) type Contacts<'a> = Option<(&'a Block<4>, [Lanes; 2])>;
+pub(super) type Contacts<'a> = Option<(&'a Block<DOFS>, [Lanes; 2])>;
 
 impl Arrow {
-    pub fn new(balls: usize) -> Self {
+    pub fn new(eights: usize) -> Self {
         let eight = Eight {
-            inverse: [[Lanes::ZERO; 4]; 4],
-            wide: [[Lanes::ZERO; 8]; 4],
-            from: [[[Lanes::ZERO; 4]; 4]; 2],
+            inverse: [[Lanes::ZERO; DOFS]; DOFS],
+            wide: [[Lanes::ZERO; RING_DOFS]; DOFS],
+            from: [[[Lanes::ZERO; DOFS]; DOFS]; 2],
             touches: [false; 2],
-            part: [Lanes::ZERO; 4],
+            part: [Lanes::ZERO; DOFS],
         };
         Self {
-            rings: [[Lanes::ZERO; 8]; 8],
-            right: [Lanes::ZERO; 8],
+            rings: [[Lanes::ZERO; RING_DOFS]; RING_DOFS],
+            right: [Lanes::ZERO; RING_DOFS],
             factors: None,
             scale: Rings::zeros(),
-            eights: vec![eight; balls.div_ceil(LANES)],
+            eights: vec![eight; eights],
         }
     }
 
     /// Begins a new matrix.
     pub fn begin(&mut self) {
-        self.rings = [[Lanes::ZERO; 8]; 8];
+        self.rings = [[Lanes::ZERO; RING_DOFS]; RING_DOFS];
     }
 
     /// Eliminates eight balls with their contacts and their D.
@@ -75,41 +76,41 @@ impl Arrow {
         &mut self,
         eight: usize,
         contacts: &[Contacts<'_>; 2],
-        scale: &[Lanes; 4],
+        scale: &[Lanes; DOFS],
     ) {
         let eight = &mut self.eights[eight];
-        let mut own = [[Lanes::ZERO; 4]; 4];
-        let mut to = [[Lanes::ZERO; 8]; 4];
+        let mut own = [[Lanes::ZERO; DOFS]; DOFS];
+        let mut to = [[Lanes::ZERO; RING_DOFS]; DOFS];
         for (s, contact) in contacts.iter().enumerate() {
             eight.touches[s] = contact.is_some();
             let Some((slope, apart)) = *contact else {
                 continue;
             };
-            for i in 0..4 {
+            for i in 0..DOFS {
                 let carried = carried::<FMA>(&slope[i], apart);
-                for j in 0..4 {
+                for j in 0..DOFS {
                     own[i][j] = own[i][j] - slope[i][j];
-                    to[i][4 * s + j] = scale[i] * carried[j];
+                    to[i][DOFS * s + j] = scale[i] * carried[j];
                 }
             }
             let from = &mut eight.from[s];
             *from = *slope;
-            for j in 0..4 {
+            for j in 0..DOFS {
                 let turned = slope[1][j].mul_add::<FMA>(apart[0], slope[3][j]);
                 from[3][j] = (-slope[0][j]).mul_add::<FMA>(apart[1], turned);
             }
         }
-        for i in 0..4 {
-            for j in 0..4 {
+        for i in 0..DOFS {
+            for j in 0..DOFS {
                 own[i][j] = own[i][j] * scale[i];
             }
             own[i][i] = own[i][i] + 1.0;
         }
         invert::<FMA>(&mut own);
-        for i in 0..4 {
-            for j in 0..8 {
+        for i in 0..DOFS {
+            for j in 0..RING_DOFS {
                 let mut sum = own[i][0] * to[0][j];
-                for k in 1..4 {
+                for k in 1..DOFS {
                     sum = own[i][k].mul_add::<FMA>(to[k][j], sum);
                 }
                 eight.wide[i][j] = sum;
@@ -121,13 +122,13 @@ impl Arrow {
                 continue;
             };
             // Tᵀ S (T X − x), with x = A⁻¹ r − A⁻¹ B X.
-            for (row, sums) in eight.from[s].iter().zip(&mut self.rings[4 * s..]) {
+            for (row, sums) in eight.from[s].iter().zip(&mut self.rings[DOFS * s..]) {
                 let own = carried::<FMA>(row, apart);
-                for j in 0..4 {
-                    sums[4 * s + j] += own[j];
+                for j in 0..DOFS {
+                    sums[DOFS * s + j] += own[j];
                 }
-                for k in 0..4 {
-                    for j in 0..8 {
+                for k in 0..DOFS {
+                    for j in 0..RING_DOFS {
                         sums[j] = row[k].mul_add::<FMA>(eight.wide[k][j], sums[j]);
                     }
                 }
@@ -137,9 +138,9 @@ impl Arrow {
 
     /// Ends the matrix with the rings' 1 + d and D.
     pub fn factorise(&mut self, diagonal: &Rings, scale: &Rings) {
-        let mut matrix = SMatrix::<f64, 8, 8>::from_diagonal(diagonal);
-        for i in (0..8).filter(|&i| scale[i] != 0.0) {
-            for j in 0..8 {
+        let mut matrix = SMatrix::<f64, RING_DOFS, RING_DOFS>::from_diagonal(diagonal);
+        for i in (0..RING_DOFS).filter(|&i| scale[i] != 0.0) {
+            for j in 0..RING_DOFS {
                 matrix[(i, j)] -= scale[i] * self.rings[i][j].sum();
             }
         }
@@ -149,18 +150,18 @@ impl Arrow {
 
     /// Begins a new right-hand side.
     pub fn begin_right(&mut self) {
-        self.right = [Lanes::ZERO; 8];
+        self.right = [Lanes::ZERO; RING_DOFS];
     }
 
     /// Eliminates eight balls from the right-hand side.
     #[inline(always)]
-    pub fn eliminate_right<const FMA: bool>(&mut self, eight: usize, right: &[Lanes; 4]) {
+    pub fn eliminate_right<const FMA: bool>(&mut self, eight: usize, right: &[Lanes; DOFS]) {
         let eight = &mut self.eights[eight];
         eight.part = product::<FMA>(&eight.inverse, right);
         for s in (0..2).filter(|&s| eight.touches[s]) {
             let sums = product::<FMA>(&eight.from[s], &eight.part);
-            for i in 0..4 {
-                self.right[4 * s + i] += sums[i];
+            for i in 0..DOFS {
+                self.right[DOFS * s + i] += sums[i];
             }
         }
     }
@@ -174,11 +175,11 @@ impl Arrow {
 
     /// The unknowns of eight balls, once the rings' are known.
     #[inline(always)]
-    pub fn balls<const FMA: bool>(&self, eight: usize, rings: &Rings) -> [Lanes; 4] {
+    pub fn balls<const FMA: bool>(&self, eight: usize, rings: &Rings) -> [Lanes; DOFS] {
         let Eight { part, wide, .. } = &self.eights[eight];
         let mut x = *part;
-        for i in 0..4 {
-            for j in 0..8 {
+        for i in 0..DOFS {
+            for j in 0..RING_DOFS {
                 x[i] = x[i] - wide[i][j] * rings[j];
             }
         }
@@ -187,11 +188,11 @@ impl Arrow {
 }
 
 #[inline(always)]
-fn product<const FMA: bool>(a: &Block<4>, x: &[Lanes; 4]) -> [Lanes; 4] {
-    let mut product = [Lanes::ZERO; 4];
-    for i in 0..4 {
+fn product<const FMA: bool>(a: &Block<DOFS>, x: &[Lanes; DOFS]) -> [Lanes; DOFS] {
+    let mut product = [Lanes::ZERO; DOFS];
+    for i in 0..DOFS {
         product[i] = a[i][0] * x[0];
-        for k in 1..4 {
+        for k in 1..DOFS {
             product[i] = a[i][k].mul_add::<FMA>(x[k], product[i]);
         }
     }
@@ -200,7 +201,7 @@ fn product<const FMA: bool>(a: &Block<4>, x: &[Lanes; 4]) -> [Lanes; 4] {
 
 /// A row times T, whose last column is (−a_y, a_x, 0, 1).
 #[inline(always)]
-fn carried<const FMA: bool>(row: &[Lanes; 4], apart: [Lanes; 2]) -> [Lanes; 4] {
+fn carried<const FMA: bool>(row: &[Lanes; DOFS], apart: [Lanes; 2]) -> [Lanes; DOFS] {
     let turned = row[1].mul_add::<FMA>(apart[0], row[3]);
     let last = (-row[0]).mul_add::<FMA>(apart[1], turned);
     [row[0], row[1], row[2], last]
@@ -210,17 +211,17 @@ fn carried<const FMA: bool>(row: &[Lanes; 4], apart: [Lanes; 2]) -> [Lanes; 4] {
 ///
 /// There is no pivoting: 1 − D S is the unit matrix and what friction and damping add to its definite side.
 #[inline(always)]
-fn invert<const FMA: bool>(a: &mut Block<4>) {
-    for k in 0..4 {
+fn invert<const FMA: bool>(a: &mut Block<DOFS>) {
+    for k in 0..DOFS {
         let inverse = Lanes::all(1.0) / a[k][k];
         a[k][k] = Lanes::all(1.0);
-        for j in 0..4 {
+        for j in 0..DOFS {
             a[k][j] = a[k][j] * inverse;
         }
-        for i in (0..4).filter(|&i| i != k) {
+        for i in (0..DOFS).filter(|&i| i != k) {
             let factor = -a[i][k];
             a[i][k] = Lanes::ZERO;
-            for j in 0..4 {
+            for j in 0..DOFS {
                 a[i][j] = factor.mul_add::<FMA>(a[k][j], a[i][j]);
             }
         }
@@ -257,12 +258,12 @@ mod tests {
         let scale = [0.5, 0.25, 1.0, 0.0];
         let (ring_scale, diagonal) = (Rings::from_fn(|i, _| i as f64 / 4.0), Rings::repeat(9.0));
         let ring_right = Rings::from_fn(|i, _| i as f64);
-        let mut arrow = Arrow::new(16);
+        let mut arrow = Arrow::new(2);
         arrow.begin();
         arrow.begin_right();
         let has = |eight: usize, s: usize| eight == 0 || s == 1;
         for eight in 0..2 {
-            let blocks: [Block<4>; 2] = [0, 1].map(|s| {
+            let blocks: [Block<DOFS>; 2] = [0, 1].map(|s| {
                 std::array::from_fn(|i| {
                     std::array::from_fn(|j| Lanes::from_fn(|lane| slope(eight, s, lane)[(i, j)]))
                 })

@@ -3,9 +3,9 @@
 use std::array::from_fn;
 
 use super::batch::{SideConstants, Touching};
-use super::state::State;
 use crate::contact::{Held, Motion, Pack, Packing, Plane, Raise, Reaction, Still, in_contact};
-use crate::model::Model;
+use crate::forces::State;
+use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
 
 /// What a ball may meet at one ring.
@@ -22,6 +22,8 @@ pub(super) enum Meeting {
 /// Up to eight balls that touch something; the last one fills the lanes that are left.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Grip {
+    /// The class of their rows.
+    class: usize,
     pub balls: [usize; LANES],
     pub count: usize,
     meetings: [[Meeting; LANES]; 2],
@@ -36,7 +38,7 @@ pub(super) struct Side {
     /// Slices of contacts that are evaluated alone, and the lanes of these.
     packs: Vec<(usize, Pack)>,
     /// What does not depend on velocities beside the nodes, (x, y, z, about z) on the balls.
-    aside: [Lanes; 4],
+    aside: [Lanes; DOFS],
     /// Whether any touches.
     pub touches: bool,
     /// What they do, in (x, y, z, about z).
@@ -51,9 +53,9 @@ impl Side {
 }
 
 impl Grip {
-    /// Empties it.
-    pub fn clear(&mut self) {
-        self.count = 0;
+    /// Empties it, for balls of a class of rows.
+    pub fn clear(&mut self, class: usize) {
+        (self.class, self.count) = (class, 0);
         self.meetings = [[Meeting::Nothing; LANES]; 2];
     }
 
@@ -74,9 +76,9 @@ impl Grip {
         state: &State,
         rings: &[Motion; 2],
     ) {
-        for s in 0..2 {
-            let meetings = self.meetings[s];
-            let side = &mut self.sides[s];
+        for race in Race::BOTH {
+            let meetings = self.meetings[race];
+            let side = &mut self.sides[race];
             side.nodes.clear();
             side.packs.clear();
             side.touches = meetings.iter().any(|m| *m != Meeting::Nothing);
@@ -86,8 +88,9 @@ impl Grip {
             }
             let whole = |lane: usize| matches!(meetings[lane], Meeting::Whole(_));
             side.held = model.level.run(Hold {
+                class: self.class,
                 nodes: &mut side.nodes,
-                side: s,
+                race,
                 contacts: &from_fn(|lane| Touching {
                     ball: self.balls[lane],
                     raise: match meetings[lane] {
@@ -105,7 +108,7 @@ impl Grip {
             side.aside = [x, y, Lanes::ZERO, Lanes::ZERO];
             for (lane, ball) in self.balls[..self.count].iter().enumerate() {
                 if meetings[lane] != Meeting::Nothing && !side.held.simple.lane(lane) {
-                    side.single(lane, model, *ball, s, state, rings);
+                    side.single(lane, model, *ball, race, state, rings);
                 }
             }
         }
@@ -139,24 +142,24 @@ impl Side {
         lane: usize,
         model: &Model,
         ball: usize,
-        side: usize,
+        race: Race,
         state: &State,
         rings: &[Motion; 2],
     ) {
         let compiled = &model.balls[ball];
-        let pair = &model.rows[compiled.row].pairs[side];
+        let pair = &model.rows[compiled.row].pairs[race];
         let mut packing = Packing {
             lane,
             packs: &mut self.packs,
             radius: compiled.side.radius,
             flat: pair.law.cut().is_flat(),
-            aside: [0.0; 4],
+            aside: [0.0; DOFS],
             count: 0,
         };
         pair.evaluate(
             &compiled.side,
-            &state.motion(2 + ball),
-            &rings[side],
+            &state.motion(BodyId::ball(ball)),
+            &rings[race],
             &mut packing,
         );
         for (sum, part) in self.aside.iter_mut().zip(packing.aside) {
@@ -167,8 +170,9 @@ impl Side {
 
 /// Finds the nodes of whole contacts.
 struct Hold<'a> {
+    class: usize,
     nodes: &'a mut Vec<Still>,
-    side: usize,
+    race: Race,
     contacts: &'a [Touching; LANES],
     whole: Mask,
     constants: &'a [SideConstants; 2],
@@ -184,9 +188,9 @@ impl Task for Hold<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) -> Held {
-        let octet = self.constants[self.side].octet(self.contacts, self.state);
-        let pair = &self.model.rows[0].pairs[self.side];
-        pair.hold::<FMA>(&octet, &self.rings[self.side], self.whole, self.nodes)
+        let octet = self.constants[self.race].octet(self.class, self.contacts, self.state);
+        let pair = &self.model.rows[self.class].pairs[self.race];
+        pair.hold::<FMA>(&octet, &self.rings[self.race], self.whole, self.nodes)
     }
 }
 
@@ -212,20 +216,21 @@ impl<const SLOPE: bool> Task for React<'_, SLOPE> {
             secant,
         } = self;
         let v = &y[y.len() / 2..];
-        let mut of_balls = [Lanes::ZERO; 4];
+        let (layout, mut of_balls) = (model.layout(), [Lanes::ZERO; DOFS]);
         for (lane, ball) in grip.balls.iter().enumerate() {
-            let v = &v[4 * (2 + ball)..][..4];
-            for k in 0..4 {
-                of_balls[k][lane] = v[k];
+            let v = layout.of(v, BodyId::ball(*ball));
+            for dof in Dof::ALL {
+                of_balls[dof][lane] = v[dof];
             }
         }
-        for (s, side) in grip.sides.iter_mut().enumerate() {
+        for race in Race::BOTH {
+            let side = &mut grip.sides[race];
             if !side.touches {
                 continue;
             }
             let (n_e, apart) = (side.held.n_e, side.held.apart);
-            let pair = &model.rows[0].pairs[s];
-            let ring = &v[4 * s..4 * s + 4];
+            let pair = &model.rows[grip.class].pairs[race];
+            let ring = layout.of(v, race.ring());
             // w = v_b − v_r − θ̇_r ẑ × a.
             let twist = [
                 of_balls[0] - ring[0] + apart[1] * ring[3],
@@ -235,9 +240,9 @@ impl<const SLOPE: bool> Task for React<'_, SLOPE> {
             ];
             let local = in_contact(&twist, n_e);
             let sum = &mut side.reaction;
-            sum.wrench = [Lanes::ZERO; 4];
+            sum.wrench = [Lanes::ZERO; DOFS];
             if SLOPE {
-                sum.slope = [[Lanes::ZERO; 4]; 4];
+                sum.slope = [[Lanes::ZERO; DOFS]; DOFS];
             }
             for node in &side.nodes {
                 pair.react::<FMA, SLOPE>(node, &side.held.around, &local, secant, sum);

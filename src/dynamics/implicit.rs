@@ -12,6 +12,7 @@ use nalgebra::{Matrix4, Vector4};
 use super::Dynamics;
 use super::stage::{Largest, Stage};
 use crate::integrate::{ImplicitVelocity, Stuck};
+use crate::model::{BodyId, Dof, Layout, Race};
 
 /// Iterations before a stage is given up and the step tried again smaller.
 const MOST_ITERATIONS: usize = 20;
@@ -36,12 +37,12 @@ impl Dynamics<'_> {
         self.forces.copy_from(&self.constant);
         work.add_to(&mut self.forces);
         self.others(t);
-        let (bases, velocities) = (base.as_chunks::<4>().0, y[y.len() / 2..].as_chunks::<4>().0);
+        let (bases, velocities) = (Layout::each(base), Layout::each(&y[y.len() / 2..]));
         let bodies = bases.iter().zip(velocities).enumerate();
         for (residual, (b, (base, v))) in work.residual.iter_mut().zip(bodies) {
-            let acceleration = self.acceleration(t, b);
-            for i in 0..4 {
-                residual[i] = base[i] + acceleration[i] * gamma_h - v[i];
+            let acceleration = self.acceleration(t, BodyId::new(b));
+            for dof in Dof::ALL {
+                residual[dof] = base[dof] + acceleration[dof] * gamma_h - v[dof];
             }
         }
     }
@@ -127,11 +128,11 @@ impl ImplicitVelocity for Dynamics<'_> {
         let mut fastest: f64 = 0.0;
         for grip in work.grips() {
             for (lane, ball) in grip.balls[..grip.count].iter().enumerate() {
-                let mobility = Vector4::from(self.model.mobility[2 + ball]);
+                let mobility = Vector4::from(self.model.mobility[BodyId::ball(*ball)]);
                 let root = Matrix4::from_diagonal(&mobility.map(f64::sqrt));
                 let slope = |i: usize, j: usize| {
-                    let of = |s: usize| grip.sides[s].reaction.slope[i][j][lane];
-                    of(0) + of(1)
+                    let of = |race: Race| grip.sides[race].reaction.slope[i][j][lane];
+                    of(Race::Outer) + of(Race::Inner)
                 };
                 let block = root * Matrix4::from_fn(slope) * root;
                 // Friction's part is symmetric, damping's nearly: the spectral norm of the symmetric part.
@@ -148,6 +149,7 @@ impl ImplicitVelocity for Dynamics<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::equilibrium::compile;
     use crate::integrate::System;
     use crate::scene::{Friction, NormalLaw, Slices, Waviness, presets};
     use crate::{Model, Scene, Start, start};
@@ -162,8 +164,9 @@ mod tests {
     fn state(model: &Model) -> Vec<f64> {
         let mut y = start(model, &Start::Equilibrium).unwrap();
         let half = y.len() / 2;
-        for (i, v) in y[half..].iter_mut().enumerate() {
-            *v += 0.02 * (i as f64).sin() * if i % 4 == 3 { 100.0 } else { 1.0 };
+        for (i, (_, dof)) in model.layout().degrees().enumerate() {
+            let scale = if dof.is_rotation() { 100.0 } else { 1.0 };
+            y[half + i] += 0.02 * (i as f64).sin() * scale;
         }
         y
     }
@@ -203,14 +206,18 @@ mod tests {
             amplitude: 2e-6,
             phase: 0.3,
         }];
-        vec![wheel, hertz, traction, pulling, smooth, uneven]
+        // Rows of other laws, cuts and friction.
+        let mut unlike = wheel.clone();
+        unlike.rows[1].contact = Some(hertz.contact.clone());
+        unlike.rows[1].friction = Some(hertz.friction.clone());
+        vec![wheel, hertz, traction, pulling, smooth, uneven, unlike]
     }
 
     /// (1 − γh ∂a/∂v) x = r holds for the correction x of any residual r, with ∂a/∂v by central differences.
     #[test]
     fn the_matrix_is_the_derivative_of_the_accelerations() {
         for scene in scenes() {
-            let model = Model::new(&scene).unwrap();
+            let model = compile(&scene).unwrap();
             let y = state(&model);
             let half = y.len() / 2;
             let mut dynamics = Dynamics::new(&model);
@@ -219,17 +226,11 @@ mod tests {
             work.hold(&dynamics);
             work.react(&dynamics, &y, true);
             let residual: Vec<f64> = (0..half).map(|i| (1.0 + i as f64).sin()).collect();
-            for (b, r) in work.residual.iter_mut().enumerate() {
-                r.copy_from_slice(&residual[4 * b..4 * b + 4]);
-            }
+            work.residual.copy_from_slice(Layout::each(&residual));
             let gamma_h = 1e-6;
             work.factorise(&model, gamma_h);
             assert!(work.correct(&model));
-            let x: Vec<f64> = work
-                .residual
-                .iter()
-                .flat_map(|x| x.iter().copied())
-                .collect();
+            let x = work.residual.as_flattened().to_vec();
             let size = x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
             let at = |step: f64| {
                 let mut y = y.clone();
@@ -256,7 +257,7 @@ mod tests {
     #[test]
     fn a_stage_solves_its_equation() {
         for scene in scenes() {
-            let model = Model::new(&scene).unwrap();
+            let model = compile(&scene).unwrap();
             let mut y = state(&model);
             let half = y.len() / 2;
             let mut dynamics = Dynamics::new(&model);
@@ -268,7 +269,12 @@ mod tests {
                 solved.unwrap();
                 for (i, a) in accelerations(&model, &y).into_iter().enumerate() {
                     let off = y[half + i] - base[i] - gamma_h * a;
-                    let radius = if i % 4 == 3 { model.radius(i / 4) } else { 1.0 };
+                    let (body, dof) = model.layout().degree(i);
+                    let radius = if dof.is_rotation() {
+                        model.radius(body)
+                    } else {
+                        1.0
+                    };
                     assert!(
                         off.abs() * radius < limit,
                         "{}, γh {gamma_h}, velocity {i}: {off:e}",

@@ -2,8 +2,9 @@
 
 use super::plane::{Plane, Rates};
 use super::rolling::Rolling;
-use super::state::{State, Table};
-use crate::model::{Model, Reduction};
+use crate::forces::{State, Table};
+use crate::model::Model;
+use crate::reduction::Reduction;
 use crate::simd::Level;
 
 /// What a reduction keeps, and how it is evaluated.
@@ -22,14 +23,14 @@ impl Kept {
     pub fn read(&mut self, t: f64, y: &[f64], state: &mut State) {
         let (q, v) = y.split_at(y.len() / 2);
         for s in self.reduction.stretches() {
-            let (to, from) = (s.first..s.first + s.count, s.at..s.at + s.count);
-            state.q.along_mut(s.direction)[to.clone()].copy_from_slice(&q[from.clone()]);
-            state.v.along_mut(s.direction)[to].copy_from_slice(&v[from]);
+            let (to, from) = (s.bodies(), s.states());
+            state.q.along_mut(s.dof)[to.clone()].copy_from_slice(&q[from.clone()]);
+            state.v.along_mut(s.dof)[to].copy_from_slice(&v[from]);
         }
-        for coast in self.reduction.felt() {
-            let (place, speed) = coast.course.at(t);
-            *state.q.get_mut(coast.body, coast.direction) = place;
-            *state.v.get_mut(coast.body, coast.direction) = speed;
+        for motion in self.reduction.felt() {
+            let (place, speed) = motion.course.at(t);
+            *state.q.get_mut(motion.body, motion.dof) = place;
+            *state.v.get_mut(motion.body, motion.dof) = speed;
         }
         self.rolling.place(&self.reduction, t, state);
     }
@@ -50,10 +51,9 @@ impl Kept {
     /// M⁻¹ F, but for a driven rotation.
     pub fn accelerate(&self, (forces, mobility): (&Table, &Table), accelerations: &mut [f64]) {
         for s in self.reduction.stretches() {
-            let bodies = s.first..s.first + s.count;
-            let force = &forces.along(s.direction)[bodies.clone()];
-            let mobility = &mobility.along(s.direction)[bodies];
-            let to = &mut accelerations[s.at..s.at + s.count];
+            let force = &forces.along(s.dof)[s.bodies()];
+            let mobility = &mobility.along(s.dof)[s.bodies()];
+            let to = &mut accelerations[s.states()];
             for ((a, f), m) in to.iter_mut().zip(force).zip(mobility) {
                 *a = f * m;
             }

@@ -4,7 +4,10 @@ use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
 
 use super::{Dynamics, Order};
+use crate::equilibrium::compile;
 use crate::integrate::System;
+use crate::model::{BodyId, Dof};
+use crate::reduction::Reduction;
 use crate::scene::{
     Defect, Friction, Method, Profile, Scene, Slices, Surface, TimeFunction, Waviness, presets,
 };
@@ -142,25 +145,27 @@ fn paths() -> Vec<Path> {
 fn lose(model: &Model, way: Way) -> Vec<f64> {
     let mut y = start(model, &Start::Equilibrium).unwrap();
     for (j, ball) in model.balls.iter().enumerate() {
-        let (radius, q) = (ball.side.radius, 4 * (2 + j));
-        let distance = y[q].hypot(y[q + 1]);
+        let radius = ball.side.radius;
+        let at = |dof: Dof| model.layout().at(BodyId::ball(j), dof);
+        let [x, y_, z] = Dof::TRANSLATIONS.map(at);
+        let distance = y[x].hypot(y[y_]);
         match way {
             // One of each row, so that rows stay images.
             Way::Pressed if ball.index == 0 => {
                 let further = 1.0 + 0.6 * radius / distance;
-                (y[q], y[q + 1]) = (further * y[q], further * y[q + 1]);
+                (y[x], y[y_]) = (further * y[x], further * y[y_]);
             }
             // All of them, so that all keep the same place.
-            Way::Beside => y[q + 2] += 2.2 * radius,
+            Way::Beside => y[z] += 2.2 * radius,
             Way::Off => {
                 let angle = -FRAC_PI_2 + 5e-3 * ball.index as f64;
-                (y[q], y[q + 1]) = (distance * angle.cos(), distance * angle.sin());
+                (y[x], y[y_]) = (distance * angle.cos(), distance * angle.sin());
             }
             Way::Pressed => {}
         }
     }
     if way == Way::Off {
-        y[4 + 1] += 0.8 * model.balls[0].side.radius;
+        y[model.layout().at(BodyId::INNER, Dof::Y)] += 0.8 * model.balls[0].side.radius;
     }
     y
 }
@@ -170,9 +175,9 @@ fn lose(model: &Model, way: Way) -> Vec<f64> {
 fn an_evaluation_notices_lost_balls_on_every_path() {
     for path in paths() {
         for level in Level::available() {
-            let model = Model::new(&path.scene).unwrap().with_level(level);
+            let model = compile(&path.scene).unwrap().with_level(level);
             let fine = start(&model, &Start::Equilibrium).unwrap();
-            let dynamics = Dynamics::begin(&model, model.reduction(&fine).as_ref(), &fine);
+            let dynamics = Dynamics::begin(&model, Reduction::of(&model, &fine).as_ref(), &fine);
             let by_loop = match &dynamics.order {
                 Order::Bodies => false,
                 Order::Kept(kept) => kept.plane.is_some(),
@@ -181,14 +186,19 @@ fn an_evaluation_notices_lost_balls_on_every_path() {
             assert_eq!(first_lost(&model, &fine), None, "{}, {level}", path.name);
             for way in path.ways {
                 let lost = first_lost(&model, &lose(&model, *way));
-                assert_eq!(lost, Some(2), "{}, {level}, {way:?}", path.name);
+                assert_eq!(
+                    lost,
+                    Some(BodyId::ball(0)),
+                    "{}, {level}, {way:?}",
+                    path.name
+                );
             }
         }
     }
 }
 
-fn first_lost(model: &Model, y: &[f64]) -> Option<usize> {
-    let mut dynamics = Dynamics::begin(model, model.reduction(y).as_ref(), y);
+fn first_lost(model: &Model, y: &[f64]) -> Option<BodyId> {
+    let mut dynamics = Dynamics::begin(model, Reduction::of(model, y).as_ref(), y);
     let own = dynamics.compress(y);
     dynamics.rhs(0.0, &own, &mut vec![0.0; own.len()]);
     dynamics.lost()
@@ -227,7 +237,7 @@ fn a_run_ends_when_a_ball_is_lost() {
         all.push(other);
     }
     for path in all {
-        let model = Model::new(&path.scene).unwrap();
+        let model = compile(&path.scene).unwrap();
         for way in path.ways {
             let told = match way {
                 Way::Pressed => "m into the outer race",

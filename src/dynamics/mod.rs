@@ -2,18 +2,15 @@
 
 mod arrow;
 mod batch;
-mod contacts;
-mod energy;
+mod contributions;
 mod grip;
 mod implicit;
 mod kept;
 #[cfg(test)]
 mod lost;
-mod others;
 mod plane;
 mod rolling;
 mod stage;
-mod state;
 mod sums;
 mod uses;
 
@@ -21,23 +18,18 @@ use std::sync::Arc;
 
 use rayon::ThreadPool;
 
-use crate::contact::{Motion, Pair, Slices};
+use crate::forces::{State, Table, cage, drive, gravity, load, support, unbalance};
 use crate::integrate::System;
-use crate::model::{Degree, Model, Reduction, RowModel, Spring};
-use crate::scene::Drive;
+use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Spring};
+use crate::reduction::Reduction;
 
-pub use contacts::{ContactSummary, SliceForce};
-pub use energy::Energy;
-pub(crate) use others::link;
-pub(crate) use uses::Use;
+pub use contributions::{CONTRIBUTIONS, contributions};
 
 use batch::{Batch, Kind};
 use kept::Kept;
 use plane::{Ground, Plane};
 use rolling::Rolling;
 use stage::Stage;
-use state::{State, Table};
-use sums::Named;
 
 /// A model with the memory that evaluating it needs. One a thread of control.
 #[derive(Debug)]
@@ -68,14 +60,6 @@ enum Order {
     Kept(Box<Kept>),
 }
 
-/// Names of the contributions of [`Model::forces`], in their order.
-pub const CONTRIBUTIONS: [&str; 8] = [
-    "contact", "damping", "friction", "cage", "support", "gravity", "load", "drive",
-];
-
-/// The body whose rotation a speed drives.
-const INNER: usize = 1;
-
 impl<'m> Dynamics<'m> {
     /// For evaluations on one thread, of states as [`Model::names`] orders them.
     pub fn new(model: &'m Model) -> Self {
@@ -96,7 +80,7 @@ impl<'m> Dynamics<'m> {
         };
         let driven = reduction
             .degrees()
-            .position(|(body, i)| model.bodies[body].degrees[i] == Degree::Driven);
+            .position(|(body, dof)| model.bodies[body].degrees[dof] == Degree::Driven);
         let rolling = Rolling::new(&reduction);
         let order = Order::Kept(Box::new(Kept {
             reduction,
@@ -108,7 +92,7 @@ impl<'m> Dynamics<'m> {
         let kept = dynamics.degrees();
         dynamics
             .springs
-            .retain(|spring| kept.contains(&(spring.body, spring.direction)));
+            .retain(|spring| kept.contains(&(spring.body, spring.dof)));
         let mut places = start.to_vec();
         let kept = dynamics.compress(start);
         dynamics.expand(0.0, &kept, &mut places);
@@ -142,10 +126,10 @@ impl<'m> Dynamics<'m> {
     fn with(model: &'m Model, order: Order, kind: Kind) -> Self {
         let bodies = model.bodies.len();
         let (mut constant, mut mobility) = (Table::zeros(bodies), Table::zeros(bodies));
-        others::gravity(model, &mut constant);
-        others::loads(model, true, 0.0, &mut constant);
-        for (body, of) in model.mobility.iter().enumerate() {
-            mobility.add(body, of);
+        gravity::add(model, &mut constant);
+        load::add(model, true, 0.0, &mut constant);
+        for body in model.layout().bodies() {
+            mobility.add(body, &model.mobility[body]);
         }
         Self {
             model,
@@ -188,8 +172,8 @@ impl<'m> Dynamics<'m> {
 
     /// The first body among the balls that had left its groove in the last evaluation, if any: pressed deeper than
     /// half its radius, beside the groove, or off the race ([`crate::contact::Torus::farthest`]).
-    pub fn lost(&self) -> Option<usize> {
-        self.contacts.lost().map(|ball| 2 + ball)
+    pub fn lost(&self) -> Option<BodyId> {
+        self.contacts.lost().map(BodyId::ball)
     }
 
     /// The forces on every body at a state of the run: x, y, z \[N\] and about z \[N m\]. For a direction that is fixed
@@ -197,12 +181,11 @@ impl<'m> Dynamics<'m> {
     ///
     /// # Panics
     /// If the length of `y` is not [`System::dim`].
-    pub fn forces(&mut self, t: f64, y: &[f64]) -> Vec<[f64; 4]> {
+    pub fn forces(&mut self, t: f64, y: &[f64]) -> Vec<[f64; DOFS]> {
         self.read(t, y);
         self.sum(t);
-        (0..self.model.bodies.len())
-            .map(|body| self.forces.of(body))
-            .collect()
+        let bodies = self.model.layout().bodies();
+        bodies.map(|body| self.forces.of(body)).collect()
     }
 
     /// Moment about z that the balls put on outer and inner ring in the last evaluation \[N m\].
@@ -210,12 +193,10 @@ impl<'m> Dynamics<'m> {
         self.contact_torques
     }
 
-    /// What each state belongs to, as (body, direction): those of the first half of a state vector, in their order.
-    pub(crate) fn degrees(&self) -> Vec<(usize, usize)> {
+    /// What each state belongs to: those of the first half of a state vector, in their order.
+    pub(crate) fn degrees(&self) -> Vec<(BodyId, Dof)> {
         match &self.order {
-            Order::Bodies => (0..4 * self.model.bodies.len())
-                .map(|i| (i / 4, i % 4))
-                .collect(),
+            Order::Bodies => self.model.layout().degrees().collect(),
             Order::Kept(kept) => kept.reduction.degrees().collect(),
         }
     }
@@ -293,65 +274,30 @@ impl<'m> Dynamics<'m> {
     /// Adds the forces of the cage at the state last read.
     pub(crate) fn evaluate_cage(&mut self) {
         let rows = self.contacts.rows();
-        others::cage(self.model, rows, &self.state, &mut self.forces);
+        cage::add(self.model, rows, &self.state, &mut self.forces);
     }
 
     /// Adds the forces that are neither contacts nor constant.
     fn others(&mut self, t: f64) {
         self.evaluate_cage();
         let (state, forces) = (&self.state, &mut self.forces);
-        others::supports(&self.springs, state, forces);
-        others::loads(self.model, false, t, forces);
-        others::drive(self.model, t, forces);
-        others::unbalances(self.model, t, state, forces);
+        support::add(&self.springs, state, forces);
+        load::add(self.model, false, t, forces);
+        drive::add(self.model, t, forces);
+        unbalance::add(self.model, t, state, forces);
     }
 
     /// M⁻¹ F of a body. Directions that are fixed do not accelerate; the driven ring's rotation accelerates as
     /// prescribed.
-    fn acceleration(&self, t: f64, body: usize) -> [f64; 4] {
+    fn acceleration(&self, t: f64, body: BodyId) -> [f64; DOFS] {
         let (force, mobility) = (self.forces.of(body), &self.model.mobility[body]);
         let mut acceleration = std::array::from_fn(|i| force[i] * mobility[i]);
-        if let (INNER, Drive::Speed(speed)) = (body, &self.model.scene.drive) {
-            acceleration[3] = speed.rate(t);
+        if body == BodyId::INNER
+            && let Some(prescribed) = drive::acceleration(self.model, t)
+        {
+            acceleration[Dof::Theta] = prescribed;
         }
         acceleration
-    }
-
-    /// The same forces apart by origin, as in [`CONTRIBUTIONS`]: for each, four numbers a body. `y` holds the states
-    /// of all bodies.
-    pub(crate) fn contributions(model: &Model, t: f64, y: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
-        let bodies = model.bodies.len();
-        let mut state = State::new(bodies);
-        state.read(y);
-        let mut parts = vec![Table::zeros(bodies); CONTRIBUTIONS.len()];
-        let rings = [state.motion(0), state.motion(1)];
-        for (j, ball) in model.balls.iter().enumerate() {
-            for (side, pair) in model.rows[ball.row].pairs.iter().enumerate() {
-                let mut named = Named::default();
-                pair.evaluate(&ball.side, &state.motion(2 + j), &rings[side], &mut named);
-                for (part, (on_ball, on_ring)) in parts.iter_mut().zip(named.wrenches()) {
-                    part.add(2 + j, &on_ball);
-                    part.add(side, &on_ring);
-                }
-            }
-        }
-        others::cage(model, 0..model.rows.len(), &state, &mut parts[3]);
-        others::supports(&model.springs, &state, &mut parts[4]);
-        others::gravity(model, &mut parts[5]);
-        for constant in [true, false] {
-            others::loads(model, constant, t, &mut parts[6]);
-        }
-        others::drive(model, t, &mut parts[7]);
-        for ring in 0..2 {
-            let of = |i: usize| parts.iter().map(|part| part.get(ring, i)).sum();
-            let all = std::array::from_fn(of);
-            parts[6].add(ring, &others::unbalance(model, t, &state, ring, &all));
-        }
-        let listed = |part: Table| (0..bodies).flat_map(|body| part.of(body)).collect();
-        CONTRIBUTIONS
-            .into_iter()
-            .zip(parts.into_iter().map(listed))
-            .collect()
     }
 }
 
@@ -375,83 +321,37 @@ impl System for Dynamics<'_> {
         rates.copy_from_slice(&y[half..]);
         match &self.order {
             Order::Bodies => {
-                for (b, acceleration) in accelerations.as_chunks_mut().0.iter_mut().enumerate() {
-                    *acceleration = self.acceleration(t, b);
+                let bodies = Layout::each_mut(accelerations).iter_mut();
+                for (body, acceleration) in bodies.enumerate() {
+                    *acceleration = self.acceleration(t, BodyId::new(body));
                 }
             }
             Order::Kept(kept) => {
                 kept.accelerate((&self.forces, &self.mobility), accelerations);
-                if let (Some(i), Drive::Speed(speed)) = (kept.driven, &self.model.scene.drive) {
-                    accelerations[i] = speed.rate(t);
+                if let (Some(i), Some(prescribed)) =
+                    (kept.driven, drive::acceleration(self.model, t))
+                {
+                    accelerations[i] = prescribed;
                 }
             }
         }
     }
 }
 
-impl Model {
-    /// Time derivative of a state vector, both of length [`Model::dim`]. Allocates its own memory; a run
-    /// uses [`Dynamics`].
-    ///
-    /// # Panics
-    /// If a length is wrong.
-    pub fn rhs(&self, t: f64, y: &[f64], dy: &mut [f64]) {
-        assert!(
-            y.len() == self.dim() && dy.len() == self.dim(),
-            "a state has {} numbers",
-            self.dim()
-        );
-        Dynamics::new(self).rhs(t, y, dy);
-    }
-
-    /// The forces on every body by origin (see [`CONTRIBUTIONS`]): x, y, z \[N\] and about z \[N m\] for each
-    /// body in turn.
-    ///
-    /// # Panics
-    /// If the length of `y` is wrong.
-    pub fn forces(&self, t: f64, y: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
-        assert_eq!(y.len(), self.dim(), "length of the state");
-        Dynamics::contributions(self, t, y)
-    }
+/// Time derivative of a state vector, both of length [`Model::dim`]. Allocates its own memory; a run uses [`Dynamics`].
+///
+/// # Panics
+/// If a length is wrong.
+pub fn rhs(model: &Model, t: f64, y: &[f64], dy: &mut [f64]) {
+    let dim = model.dim();
+    assert!(
+        y.len() == dim && dy.len() == dim,
+        "a state has {dim} numbers"
+    );
+    Dynamics::new(model).rhs(t, y, dy);
 }
 
-impl Model {
-    /// The radius that makes a length of a body's rotation \[m\]: a ball's own, half the pitch diameter of the
-    /// first row for a ring.
-    pub(crate) fn radius(&self, body: usize) -> f64 {
-        match body.checked_sub(2) {
-            Some(ball) => self.balls[ball].side.radius,
-            None => self.scene.rows[0].pitch_diameter / 2.0,
-        }
-    }
-
-    /// Whether sharing one evaluation among threads pays: below some 7 µs the wait for the last thread costs more
-    /// (`cargo bench --bench layers -- threads`).
-    pub(crate) fn is_large(&self) -> bool {
-        /// Nodes of all contacts from which two threads were faster.
-        const BREAK_EVEN: usize = 1500;
-        let nodes = |row: &RowModel| -> usize {
-            let of = |pair: &Pair| match &pair.slices {
-                // About a third of the ball touches.
-                Slices::Fixed(count) => count / 3,
-                Slices::Fitted(rules) => rules.count(),
-            };
-            row.count * row.pairs.iter().map(of).sum::<usize>()
-        };
-        self.rows.iter().map(nodes).sum::<usize>() > BREAK_EVEN
-    }
-}
-
-/// Motion of a body in a state vector.
-pub(crate) fn motion(y: &[f64], body: usize) -> Motion {
-    let half = y.len() / 2;
-    Motion::new(
-        &y[4 * body..4 * body + 4],
-        &y[half + 4 * body..half + 4 * body + 4],
-    )
-}
-
-fn add(sum: &mut [f64; 4], part: &[f64; 4]) {
+fn add(sum: &mut [f64; DOFS], part: &[f64; DOFS]) {
     for (s, p) in sum.iter_mut().zip(part) {
         *s += p;
     }

@@ -1,7 +1,8 @@
 //! Rows that turn as one: from radii to places, and from forces to what accelerates the radii.
 
-use super::state::{State, Table};
-use crate::model::Reduction;
+use crate::forces::{State, Table};
+use crate::model::Dof;
+use crate::reduction::Reduction;
 
 /// Directions of the balls of all rows that turn as one, at the last state.
 #[derive(Debug, Clone, Default)]
@@ -33,7 +34,7 @@ impl Rolling {
         let mut balls = self.balls.iter_mut();
         for (orbit, _) in reduction.orbits() {
             let turn = orbit.turn(t);
-            let bodies = orbit.first..orbit.first + orbit.starts.len();
+            let bodies = orbit.first.range(orbit.starts.len());
             let [x, y, ..] = state.q.directions_mut().map(|of| &mut of[bodies.clone()]);
             let [vx, vy, ..] = state.v.directions_mut().map(|of| &mut of[bodies.clone()]);
             for (k, (start, ball)) in orbit.starts.iter().zip(balls.by_ref()).enumerate() {
@@ -60,9 +61,9 @@ impl Rolling {
         let mut balls = self.balls.iter();
         for (orbit, at) in reduction.orbits() {
             let count = orbit.starts.len();
-            let bodies = orbit.first..orbit.first + count;
-            let [x, y, m] = [forces.along(0), forces.along(1), mobility.along(0)]
-                .map(|along| &along[bodies.clone()]);
+            let bodies = orbit.first.range(count);
+            let [x, y] = Dof::PLANE.map(|dof| &forces.along(dof)[bodies.clone()]);
+            let m = &mobility.along(Dof::X)[bodies];
             for (k, ball) in balls.by_ref().take(count).enumerate() {
                 let [cos, sin] = ball.direction;
                 accelerations[at + k] = (x[k] * cos + y[k] * sin) * m[k] + ball.centrifugal;

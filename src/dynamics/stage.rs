@@ -7,8 +7,8 @@ use super::Dynamics;
 use super::arrow::Arrow;
 use super::batch::{Batch, Kind};
 use super::grip::{Grip, Meeting};
-use super::state::Table;
-use crate::model::{Degree, Model};
+use crate::forces::Table;
+use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Race};
 use crate::simd::{LANES, Lanes, Task};
 
 /// Relative change of γh up to which a matrix serves on.
@@ -26,7 +26,7 @@ pub(super) struct Stage {
     active: usize,
     arrow: Arrow,
     /// Residuals of all velocities, by body; after [`Stage::correct`] their corrections.
-    pub residual: Vec<[f64; 4]>,
+    pub residual: Vec<[f64; DOFS]>,
     /// Radii that make speeds of rotation comparable, by body.
     radii: Vec<f64>,
     /// Whether slopes are secants, since tangents led astray.
@@ -40,15 +40,15 @@ pub(super) struct Stage {
 impl Stage {
     pub fn new(model: &Model) -> Self {
         let balls = model.balls.len();
-        let eights = balls.div_ceil(LANES);
+        let eights = model.classes().map(|class| model.eights(class)).sum();
         Self {
             search: Batch::new(model, Kind::whole(model)),
             meetings: vec![<[Meeting; 2]>::default(); balls],
             grips: vec![Grip::default(); eights],
             active: 0,
-            arrow: Arrow::new(balls),
-            residual: vec![[0.0; 4]; balls + 2],
-            radii: (0..balls + 2).map(|body| model.radius(body)).collect(),
+            arrow: Arrow::new(eights),
+            residual: vec![[0.0; DOFS]; model.bodies.len()],
+            radii: model.layout().bodies().map(|id| model.radius(id)).collect(),
             secant: false,
             kept: None,
             kept_meetings: vec![[false; 2]; balls],
@@ -58,9 +58,9 @@ impl Stage {
     /// Finds the nodes of all contacts at the state that was read last.
     pub fn hold(&mut self, dynamics: &Dynamics<'_>) {
         let (model, state) = (dynamics.model, &dynamics.state);
-        let rings = [state.motion(0), state.motion(1)];
+        let rings = state.rings();
         self.search.find(None, model, state, &rings);
-        self.gather();
+        self.gather(model);
         let constants = &self.search.constants;
         let hold = |grip: &mut Grip| grip.hold(model, constants, state, &rings);
         let grips = &mut self.grips[..self.active];
@@ -70,34 +70,38 @@ impl Stage {
         }
     }
 
-    /// The balls that meet something, by eights: first those between both rings, so that others may go
+    /// The balls that meet something, by eights of one class of rows: first those between both rings, so that others may go
     /// without one.
-    fn gather(&mut self) {
+    fn gather(&mut self, model: &Model) {
         self.meetings.fill(<[Meeting; 2]>::default());
-        for side in 0..2 {
-            for contact in self.search.touching(side) {
-                self.meetings[contact.ball][side] = Meeting::Whole(contact.raise);
+        for race in Race::BOTH {
+            for contact in self.search.touching(race) {
+                self.meetings[contact.ball][race] = Meeting::Whole(contact.raise);
             }
         }
-        for (side, ball) in self.search.faulted() {
-            self.meetings[ball][side] = Meeting::Faulted;
+        for (race, ball) in self.search.faulted() {
+            self.meetings[ball][race] = Meeting::Faulted;
         }
-        let mut taken = 0;
-        for wanted in [2, 1] {
-            for (ball, meetings) in self.meetings.iter().enumerate() {
-                let meets = |meeting: &&Meeting| **meeting != Meeting::Nothing;
-                if meetings.iter().filter(meets).count() != wanted {
-                    continue;
+        self.active = 0;
+        for class in model.classes() {
+            let mut taken = 0;
+            for wanted in [2, 1] {
+                for (ball, meetings) in self.meetings.iter().enumerate() {
+                    let meets = |meeting: &&Meeting| **meeting != Meeting::Nothing;
+                    let is_wanted = meetings.iter().filter(meets).count() == wanted;
+                    if !is_wanted || model.rows[model.balls[ball].row].class != class {
+                        continue;
+                    }
+                    let grip = &mut self.grips[self.active + taken / LANES];
+                    if taken.is_multiple_of(LANES) {
+                        grip.clear(class);
+                    }
+                    grip.push(ball, *meetings);
+                    taken += 1;
                 }
-                let grip = &mut self.grips[taken / LANES];
-                if taken.is_multiple_of(LANES) {
-                    grip.clear();
-                }
-                grip.push(ball, *meetings);
-                taken += 1;
             }
+            self.active += taken.div_ceil(LANES);
         }
-        self.active = taken.div_ceil(LANES);
     }
 
     /// Finds what the contacts do at the velocities of `y`, with slopes or without.
@@ -120,19 +124,21 @@ impl Stage {
     /// Adds the contacts' forces to those on all bodies.
     pub fn add_to(&self, forces: &mut Table) {
         for grip in &self.grips[..self.active] {
-            for (s, side) in grip
-                .sides
-                .iter()
-                .enumerate()
-                .filter(|(_, side)| side.touches)
-            {
+            for race in Race::BOTH {
+                let side = &grip.sides[race];
+                if !side.touches {
+                    continue;
+                }
                 let ([x, y, z, turn], apart) = (side.reaction.wrench, side.apart());
                 for (lane, ball) in grip.balls[..grip.count].iter().enumerate() {
-                    forces.add(2 + ball, &[x[lane], y[lane], z[lane], turn[lane]]);
+                    forces.add(
+                        BodyId::ball(*ball),
+                        &side.reaction.wrench.map(|of| of[lane]),
+                    );
                 }
                 // −Tᵀ of the wrench on the ball.
                 let about = turn + y * apart[0] - x * apart[1];
-                forces.add(s, &[x, y, z, about].map(|part| -part.sum()));
+                forces.add(race.ring(), &[x, y, z, about].map(|part| -part.sum()));
             }
         }
     }
@@ -165,14 +171,15 @@ impl Stage {
     /// Adds the corrections to the velocities, and tells the largest.
     pub fn apply(&self, velocities: &mut [f64]) -> Largest {
         let mut largest = Largest::default();
-        let bodies = velocities.as_chunks_mut::<4>().0.iter_mut();
+        let bodies = Layout::each_mut(velocities).iter_mut();
         let corrections = self.residual.iter().zip(&self.radii);
         for (b, (v, (correction, radius))) in bodies.zip(corrections).enumerate() {
-            for (i, lever) in [1.0, 1.0, 1.0, *radius].into_iter().enumerate() {
-                v[i] += correction[i];
-                let size = correction[i].abs() * lever;
+            for dof in Dof::ALL {
+                v[dof] += correction[dof];
+                let lever = if dof.is_rotation() { *radius } else { 1.0 };
+                let size = correction[dof].abs() * lever;
                 if size > largest.size || size.is_nan() {
-                    let velocity = 4 * b + i;
+                    let velocity = DOFS * b + dof.index();
                     largest = Largest { size, velocity };
                 }
             }
@@ -221,22 +228,30 @@ impl Task for Factorise<'_> {
         } = self.work;
         arrow.begin();
         for (eight, grip) in grips[..*active].iter().enumerate() {
-            let mut scale = [Lanes::ZERO; 4];
+            let mut scale = [Lanes::ZERO; DOFS];
             for (lane, ball) in grip.balls.iter().enumerate() {
-                for (scale, mobility) in scale.iter_mut().zip(&model.mobility[2 + ball]) {
+                let mobility = &model.mobility[BodyId::ball(*ball)];
+                for (scale, mobility) in scale.iter_mut().zip(mobility) {
                     scale[lane] = gamma_h * mobility;
                 }
             }
-            let contact = |s: usize| {
-                let side = &grip.sides[s];
-                side.touches.then(|| (&side.reaction.slope, side.apart()))
-            };
-            arrow.eliminate::<FMA>(eight, &[contact(0), contact(1)], &scale);
+            let contacts = grip
+                .sides
+                .each_ref()
+                .map(|side| side.touches.then(|| (&side.reaction.slope, side.apart())));
+            arrow.eliminate::<FMA>(eight, &contacts, &scale);
         }
-        let scale = SVector::from_fn(|i, _| gamma_h * model.mobility[i / 4][i % 4]);
-        let diagonal = SVector::from_fn(|i, _| match model.bodies[i / 4].degrees[i % 4] {
-            Degree::Free { damping, .. } => 1.0 + scale[i] * damping,
-            Degree::Fixed | Degree::Driven => 1.0,
+        let layout = model.layout();
+        let scale = SVector::from_fn(|i, _| {
+            let (body, dof) = layout.degree(i);
+            gamma_h * model.mobility[body][dof]
+        });
+        let diagonal = SVector::from_fn(|i, _| {
+            let (body, dof) = layout.degree(i);
+            match model.bodies[body].degrees[dof] {
+                Degree::Free { damping, .. } => 1.0 + scale[i] * damping,
+                Degree::Fixed | Degree::Driven => 1.0,
+            }
         });
         arrow.factorise(&diagonal, &scale);
     }
@@ -264,29 +279,24 @@ impl Task for Correct<'_> {
         let grips = &grips[..*active];
         arrow.begin_right();
         for (eight, grip) in grips.iter().enumerate() {
-            let mut right = [Lanes::ZERO; 4];
+            let mut right = [Lanes::ZERO; DOFS];
             for (lane, ball) in grip.balls.iter().enumerate() {
-                for i in 0..4 {
-                    right[i][lane] = residual[2 + ball][i];
+                let residual = &residual[BodyId::ball(*ball)];
+                for dof in Dof::ALL {
+                    right[dof][lane] = residual[dof];
                 }
             }
             arrow.eliminate_right::<FMA>(eight, &right);
         }
-        let right = SVector::from_fn(|i, _| residual[i / 4][i % 4]);
+        let right = SVector::from_fn(|i, _| residual.as_flattened()[i]);
         let Some(rings) = arrow.rings(&right) else {
             return false;
         };
-        for s in 0..2 {
-            for i in 0..4 {
-                residual[s][i] = rings[4 * s + i];
-            }
-        }
+        residual.as_flattened_mut()[..rings.len()].copy_from_slice(rings.as_slice());
         for (eight, grip) in grips.iter().enumerate() {
             let balls = arrow.balls::<FMA>(eight, &rings);
             for (lane, ball) in grip.balls[..grip.count].iter().enumerate() {
-                for i in 0..4 {
-                    residual[2 + ball][i] = balls[i][lane];
-                }
+                residual[BodyId::ball(*ball)] = balls.map(|of| of[lane]);
             }
         }
         true

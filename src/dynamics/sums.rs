@@ -2,12 +2,13 @@
 
 use super::add;
 use crate::contact::{Aside, Sink, Touch};
+use crate::model::DOFS;
 
 /// Force and moment on ball and ring.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Sum {
-    pub ball: [f64; 4],
-    pub ring: [f64; 4],
+    pub ball: [f64; DOFS],
+    pub ring: [f64; DOFS],
     pub pulls: u32,
     pub truncated: bool,
 }
@@ -34,13 +35,13 @@ impl Sink for Sum {
 /// The same apart: elastic, damping, friction.
 #[derive(Default)]
 pub(super) struct Named {
-    ball: [[f64; 4]; 3],
-    ring: [[f64; 4]; 3],
+    ball: [[f64; DOFS]; 3],
+    ring: [[f64; DOFS]; 3],
 }
 
 impl Named {
     /// (on the ball, on the ring) for elastic force, damping and friction.
-    pub fn wrenches(self) -> impl Iterator<Item = ([f64; 4], [f64; 4])> {
+    pub fn wrenches(self) -> impl Iterator<Item = ([f64; DOFS], [f64; DOFS])> {
         self.ball.into_iter().zip(self.ring)
     }
 }

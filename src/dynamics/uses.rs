@@ -1,57 +1,27 @@
 //! Which code an evaluation runs, in words.
 
 use super::Dynamics;
-use crate::contact::Slices;
-use crate::model::Model;
-use crate::scene::{Drive, TimeFunction};
-
-/// What becomes of a force in a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Use {
-    /// It depends on the state or on time.
-    Evaluated,
-    /// It stays the same.
-    Constant,
-    /// The scene has none.
-    Absent,
-}
+use crate::contact::{Pair, Slices};
+use crate::forces::{self, Use};
+use crate::model::Race;
 
 impl Dynamics<'_> {
     /// The forces by name and what becomes of them.
     pub(crate) fn uses(&self) -> Vec<(&'static str, Use)> {
         let model = self.model;
-        let when = |there: bool| if there { Use::Evaluated } else { Use::Absent };
-        let fixed = |constant: bool, there: bool| match (there, constant) {
-            (false, _) => Use::Absent,
-            (true, true) => Use::Constant,
-            (true, false) => Use::Evaluated,
+        let any = |of: fn(&Pair) -> bool| {
+            let mut pairs = model.rows.iter().flat_map(|row| &row.pairs);
+            Use::evaluated(pairs.any(of))
         };
-        let pair = &model.rows[0].pairs[0];
-        let steady = |value: &TimeFunction| matches!(value, TimeFunction::Constant(_));
-        let loads = model.loads.iter().filter(|load| load.force.peak() > 0.0);
-        let torque = match &model.scene.drive {
-            Drive::Torque { value, .. } => value.peak() > 0.0,
-            Drive::Speed(_) => false,
-        };
-        vec![
+        let contacts = [
             ("contact", Use::Evaluated),
-            ("damping", when(pair.law.damping.rate() > 0.0)),
-            ("friction", when(pair.law.traction.is_some())),
-            ("defects", when(!model.scene.defects.is_empty())),
-            ("waviness", when(is_wavy(model))),
-            ("cage", when(model.scene.cage.is_some())),
-            ("support", when(!model.springs.is_empty())),
-            ("gravity", fixed(true, model.scene.gravity != [0.0; 3])),
-            (
-                "load",
-                fixed(
-                    loads.clone().all(|load| steady(&load.force)),
-                    loads.count() > 0,
-                ),
-            ),
-            ("unbalance", when(!model.unbalances.is_empty())),
-            ("drive", when(torque)),
-        ]
+            ("damping", any(|pair| pair.law.damping.rate() > 0.0)),
+            ("friction", any(|pair| pair.law.traction.is_some())),
+            ("defects", Use::evaluated(!model.scene.defects.is_empty())),
+            ("waviness", any(|pair| !pair.waves.is_round())),
+        ];
+        let forces = forces::ALL.map(|force| (force.name, (force.used)(model)));
+        contacts.into_iter().chain(forces).collect()
     }
 
     /// Whether the contacts of a row have a part in the motion.
@@ -59,8 +29,8 @@ impl Dynamics<'_> {
         self.contacts.rows().contains(&row) || self.contacts.is_mirrored()
     }
 
-    /// How the contacts of a row with outer (0) or inner race are evaluated where nothing is in their way.
-    pub(crate) fn evaluation(&self, row: usize, side: usize) -> String {
+    /// How the contacts of a row with a race are evaluated where nothing is in their way.
+    pub(crate) fn evaluation(&self, row: usize, race: Race) -> String {
         if !self.contacts.rows().contains(&row) {
             let instead = if self.contacts.is_mirrored() {
                 "image of row 0"
@@ -69,10 +39,10 @@ impl Dynamics<'_> {
             };
             return instead.to_owned();
         }
-        if self.contacts.is_closed(row, side) {
+        if self.contacts.is_closed(row, race) {
             return "closed form".to_owned();
         }
-        let pair = &self.model.rows[row].pairs[side];
+        let pair = &self.model.rows[row].pairs[race];
         let law = pair.law.elastic.name();
         let count = pair.slices.count();
         let slices = match &pair.slices {
@@ -86,9 +56,4 @@ impl Dynamics<'_> {
             format!("{count} {slices}, {law}")
         }
     }
-}
-
-fn is_wavy(model: &Model) -> bool {
-    let mut pairs = model.rows.iter().flat_map(|row| &row.pairs);
-    pairs.any(|pair| !pair.waves.is_round())
 }

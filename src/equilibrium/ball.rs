@@ -1,14 +1,15 @@
 //! A ball between rings that stand still.
 
-use nalgebra::{Matrix2, SVector, Vector2};
+use nalgebra::{Matrix2, Vector2};
 
 use super::guess::RowSpring;
 use super::problem::{BallState, Problem};
 use super::search::search;
+use super::unknowns::{self, Rings};
 use super::{FINE, TOLERANCE};
-use crate::contact::V2;
 use crate::error::{Error, Result};
 use crate::interrupt;
+use crate::model::{BodyId, Dof, Race};
 use crate::told;
 
 /// Newton iterations of a ball before giving up.
@@ -26,13 +27,14 @@ const BALL_STALLED: f64 = 1e-2;
 impl Problem<'_> {
     /// A ball on the line of the groove centres, where both races press it alike, or in the gap; a loose ball where its
     /// own load presses it, as far as the other race lets it.
-    pub(super) fn seed(&self, j: usize, rings: &SVector<f64, 6>) -> Vector2<f64> {
+    pub(super) fn seed(&self, j: usize, rings: &Rings) -> Vector2<f64> {
         match self.loose(j, rings) {
             Some(ends) if self.own_load(j).norm() > 0.0 => {
                 let seat = self.seat(j, rings);
                 let race = self.towards(j);
                 let (centres, reach) = self.grooves(j, rings);
-                let is_free = (seat - centres[1 - race]).norm() <= reach[1 - race];
+                let other = race.other();
+                let is_free = (seat - centres[other]).norm() <= reach[other];
                 if is_free { seat } else { ends[race] }
             }
             _ => {
@@ -44,7 +46,7 @@ impl Problem<'_> {
     }
 
     /// Where a loose ball's own load presses it: the normal of its only contact lies along the load.
-    fn seat(&self, j: usize, rings: &SVector<f64, 6>) -> Vector2<f64> {
+    fn seat(&self, j: usize, rings: &Rings) -> Vector2<f64> {
         let (centres, reach) = self.grooves(j, rings);
         let load = self.own_load(j);
         let race = self.towards(j);
@@ -55,8 +57,12 @@ impl Problem<'_> {
     }
 
     /// The race that a loose ball's own load presses it against.
-    pub(super) fn towards(&self, j: usize) -> usize {
-        usize::from(self.own_load(j).x < 0.0)
+    pub(super) fn towards(&self, j: usize) -> Race {
+        if self.own_load(j).x < 0.0 {
+            Race::Inner
+        } else {
+            Race::Outer
+        }
     }
 
     fn spring(&self, j: usize) -> &RowSpring {
@@ -64,7 +70,7 @@ impl Problem<'_> {
     }
 
     /// The line of the groove centres.
-    pub(super) fn line(&self, j: usize, rings: &SVector<f64, 6>) -> Line {
+    pub(super) fn line(&self, j: usize, rings: &Rings) -> Line {
         let (centres, reach) = self.grooves(j, rings);
         let apart = centres[1] - centres[0];
         let length = apart.norm();
@@ -78,17 +84,17 @@ impl Problem<'_> {
     }
 
     /// How far out and in a ball between whole races can be; none for a ball that both press.
-    pub(super) fn loose(&self, j: usize, rings: &SVector<f64, 6>) -> Option<[Vector2<f64>; 2]> {
+    pub(super) fn loose(&self, j: usize, rings: &Rings) -> Option<[Vector2<f64>; 2]> {
         let (centres, reach) = self.grooves(j, rings);
         let apart = centres[1] - centres[0];
         let length = apart.norm();
         if length >= reach[0] + reach[1] {
             return None;
         }
-        Some([0, 1].map(|race| {
-            let outwards = if race == 0 { 1.0 } else { -1.0 };
+        Some(Race::BOTH.map(|race| {
+            let outwards = race.sigma();
             let seat = centres[race] + Vector2::x() * (outwards * reach[race]);
-            let other = 1 - race;
+            let other = race.other();
             if (seat - centres[other]).norm() <= reach[other] {
                 return seat;
             }
@@ -107,16 +113,17 @@ impl Problem<'_> {
 
     /// Groove centres (radius, axial place) in the ball's meridional plane, and how far from them a ball that
     /// just touches has its centre.
-    fn grooves(&self, j: usize, rings: &SVector<f64, 6>) -> ([Vector2<f64>; 2], [f64; 2]) {
+    fn grooves(&self, j: usize, rings: &Rings) -> ([Vector2<f64>; 2], [f64; 2]) {
         let ball = &self.model.balls[j];
         let pairs = &self.model.rows[ball.row].pairs;
-        let centre = |race: usize| {
-            let shift = V2::new(rings[3 * race], rings[3 * race + 1]).dot(&self.directions[j]);
+        let centre = |race: Race| {
+            let ring = unknowns::of(rings, race);
+            let shift = ring.xy().dot(&self.directions[j]);
             let torus = &pairs[race].race;
-            Vector2::new(torus.a + shift, torus.centre + rings[3 * race + 2])
+            Vector2::new(torus.a + shift, torus.centre + ring.z)
         };
-        let reach = [0, 1].map(|race| pairs[race].race.r - ball.side.radius);
-        ([centre(0), centre(1)], reach)
+        let reach = Race::BOTH.map(|race| pairs[race].race.r - ball.side.radius);
+        (Race::BOTH.map(centre), reach)
     }
 
     /// A ball between rings that stand still, sought from a place; the precision is a residual over the ball's share of
@@ -124,13 +131,14 @@ impl Problem<'_> {
     pub(super) fn settle(
         &self,
         j: usize,
-        rings: &SVector<f64, 6>,
+        rings: &Rings,
         start: Vector2<f64>,
         precision: f64,
     ) -> Result<BallState> {
-        let body = &self.model.bodies[2 + j];
+        let body = &self.model.bodies[BodyId::ball(j)];
         if self.is_held(j) {
-            let place = Vector2::new(body.nominal[0].hypot(body.nominal[1]), body.nominal[2]);
+            let [x, y, z] = Dof::TRANSLATIONS.map(|dof| body.nominal[dof]);
+            let place = Vector2::new(x.hypot(y), z);
             return Ok(self.ball_at(j, rings, place));
         }
         let accepted = |state: &BallState| {
@@ -173,7 +181,7 @@ impl Problem<'_> {
     fn relax(
         &self,
         j: usize,
-        rings: &SVector<f64, 6>,
+        rings: &Rings,
         start: Vector2<f64>,
         precision: f64,
     ) -> Result<BallState> {

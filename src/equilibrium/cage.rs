@@ -2,11 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{SVector, Vector2};
+use nalgebra::Vector2;
 
 use super::problem::Problem;
+use super::unknowns::Rings;
 use crate::contact::V2;
-use crate::model::RowModel;
+use crate::model::{BodyId, Dof, RowModel};
 use crate::scene::Cage;
 
 /// Newton iterations for the length of the links, at most; three do.
@@ -179,14 +180,14 @@ impl Problem<'_> {
     pub(super) fn engage(
         &mut self,
         cage: &Cage,
-        rings: &SVector<f64, 6>,
+        rings: &Rings,
         places: &mut [Vector2<f64>],
         holds: &[Hold],
     ) -> f64 {
         let model = self.model;
         let mut left: f64 = 0.0;
         for row in model.rows.iter().filter(|row| row.count > 1) {
-            let places = &mut places[row.first..row.first + row.count];
+            let places = &mut places[row.balls()];
             let (length, turned) = self.spread(row, places);
             left = left.max(self.share() * turned);
             let balls = places.iter().enumerate();
@@ -265,8 +266,8 @@ impl Problem<'_> {
         }
         let mean = shift.iter().sum::<f64>() / row.count as f64;
         for (k, shift) in shift.into_iter().enumerate() {
-            let body = &self.model.bodies[2 + row.first + k];
-            let angle = body.nominal[1].atan2(body.nominal[0]) + shift - mean;
+            let nominal = &self.model.bodies[BodyId::ball(row.first + k)].nominal;
+            let angle = nominal[Dof::Y].atan2(nominal[Dof::X]) + shift - mean;
             let direction = V2::new(angle.cos(), angle.sin());
             turned = turned.max((direction - self.directions[row.first + k]).norm());
             self.directions[row.first + k] = direction;
@@ -274,13 +275,7 @@ impl Problem<'_> {
         (length, turned)
     }
 
-    fn chain_ball(
-        &self,
-        j: usize,
-        rings: &SVector<f64, 6>,
-        place: Vector2<f64>,
-        hold: Hold,
-    ) -> ChainBall {
+    fn chain_ball(&self, j: usize, rings: &Rings, place: Vector2<f64>, hold: Hold) -> ChainBall {
         let mut ball = ChainBall {
             place,
             inmost: place,

@@ -3,11 +3,12 @@
 //! The usual model of a bearing at rest (T. A. Harris, *Rolling Bearing Analysis*, ch. 7): no centrifugal force turns
 //! a ball's two contacts against each other. It costs a hundredth of the contacts themselves.
 
-use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, SVector, Vector2, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
 
 use super::problem::Problem;
 use super::search::search;
-use crate::model::{Model, RowModel};
+use super::unknowns::{self, OF_A_RING, RingStiffness, Rings};
+use crate::model::{Model, Race, RowModel};
 
 /// Newton iterations at most, and the residual over the sum of the acting forces that is good enough.
 const ITERATIONS: usize = 40;
@@ -30,7 +31,7 @@ impl RowSpring {
             let race = &pair.race;
             let distance = race.a + race.sigma * (race.r - side.radius + scales.approach);
             let place = Vector3::new(distance, 0.0, race.centre);
-            let force = pair.tangent(model.level, side, &place).force.norm();
+            let force = pair.tangent(side, &place).force.norm();
             // A defect may lie there.
             let force = if force > 0.0 { force } else { scales.load };
             scales.approach / force.powf(1.0 / exponent)
@@ -39,13 +40,13 @@ impl RowSpring {
     }
 
     /// Approach at a race under a force.
-    pub(super) fn approach(&self, race: usize, force: f64) -> f64 {
+    pub(super) fn approach(&self, race: Race, force: f64) -> f64 {
         self.give[race] * force.powf(1.0 / self.exponent)
     }
 
     /// The outer race's share of the approach of both.
     pub(super) fn outer_share(&self) -> f64 {
-        self.give[0] / (self.give[0] + self.give[1])
+        self.give[Race::Outer] / (self.give[0] + self.give[1])
     }
 
     /// Force at an approach of both races together, above 0, and its slope.
@@ -57,9 +58,9 @@ impl RowSpring {
 
 impl Problem<'_> {
     /// Places of the rings where such springs carry the load.
-    pub(super) fn guess(&self) -> Option<SVector<f64, 6>> {
+    pub(super) fn guess(&self) -> Option<Rings> {
         let longest = 0.02 * self.model.balls[0].side.radius;
-        let mut rings = SVector::zeros();
+        let mut rings = Rings::zeros();
         let mut state = self.sprung(&rings);
         for _ in 0..ITERATIONS {
             let (forces, stiffness) = &state;
@@ -82,40 +83,40 @@ impl Problem<'_> {
     }
 
     /// Forces on the rings, and the stiffness against them.
-    fn sprung(&self, rings: &SVector<f64, 6>) -> (SVector<f64, 6>, SMatrix<f64, 6, 6>) {
+    fn sprung(&self, rings: &Rings) -> (Rings, RingStiffness) {
         let mut forces = self.loads;
         let mut tied = Matrix3::zeros();
         for (j, ball) in self.model.balls.iter().enumerate() {
             let (x, y) = (self.directions[j].x, self.directions[j].y);
             let in_space = |v: Vector2<f64>| Vector3::new(v.x * x, v.x * y, v.y);
-            let mut pressed = forces.fixed_rows_mut::<3>(3 * self.towards(j));
-            pressed += in_space(self.own_load(j));
+            let own = in_space(self.own_load(j));
+            unknowns::add(&mut forces, self.towards(j), &own);
             let line = self.line(j, rings);
             if line.approach <= 0.0 {
                 continue;
             }
             let (force, slope) = self.springs[ball.row].force(line.approach);
             let unit = in_space(line.unit);
-            for (ring, sign) in [(0, 1.0), (3, -1.0)] {
-                let mut pulled = forces.fixed_rows_mut::<3>(ring);
-                pulled += unit * (sign * force);
+            for race in Race::BOTH {
+                unknowns::add(&mut forces, race, &(unit * (race.sigma() * force)));
             }
             // Stiff along the line; aside, in the meridional plane, the force turns with it.
             let aside = force / line.length;
             let plane = Matrix3::new(x * x, x * y, 0.0, x * y, y * y, 0.0, 0.0, 0.0, 1.0);
             tied += unit * unit.transpose() * (slope - aside) + plane * aside;
         }
-        let mut stiffness = SMatrix::<f64, 6, 6>::zeros();
-        for (a, b, sign) in [(0, 0, 1.0), (3, 3, 1.0), (0, 3, -1.0), (3, 0, -1.0)] {
-            let mut part = stiffness.fixed_view_mut::<3, 3>(a, b);
-            part += tied * sign;
-        }
-        for (b, body) in self.model.bodies[..2].iter().enumerate() {
-            for i in 0..3 {
-                let (a, k) = (3 * b + i, body.degrees[i].stiffness());
-                forces[a] -= k * rings[a];
-                stiffness[(a, a)] += k;
+        let mut stiffness = RingStiffness::zeros();
+        for a in Race::BOTH {
+            for b in Race::BOTH {
+                let (row, column) = (unknowns::first(a), unknowns::first(b));
+                let mut part = stiffness.fixed_view_mut::<OF_A_RING, OF_A_RING>(row, column);
+                part += tied * (a.sigma() * b.sigma());
             }
+        }
+        for (a, race, dof) in unknowns::all() {
+            let k = self.support(race, dof);
+            forces[a] -= k * rings[a];
+            stiffness[(a, a)] += k;
         }
         (forces, stiffness)
     }

@@ -23,20 +23,23 @@ mod residual;
 mod rings;
 mod search;
 mod stiffness;
+mod unknowns;
 
-use nalgebra::{SMatrix, SVector};
 use serde::Serialize;
 
 use crate::error::Result;
+use crate::inspect;
 use crate::interrupt;
-use crate::model::Model;
+use crate::model::{BodyId, Dof, Model, Race};
+use crate::reduction::levels;
 use crate::scene::{Doubt, Scene};
 pub use distribution::{EquivalentLoads, LoadDistribution, load_distribution};
-pub use place::Placed;
 pub(crate) use place::{Meeting, place};
+pub use place::{Placed, compile};
 use problem::Problem;
 use residual::Residual;
 pub use stiffness::{Stiffness, stiffness};
+use unknowns::{RingStiffness, Rings};
 
 /// Residual over the sum of the acting forces that counts as zero.
 const TOLERANCE: f64 = 1e-10;
@@ -129,7 +132,7 @@ pub struct ContactEquilibrium {
 /// where more than 1e-4 of the largest load is left unbalanced on a body; [`crate::Error::Interrupted`] under a
 /// [`crate::Interrupt`].
 pub fn equilibrium(scene: &Scene) -> Result<Equilibrium> {
-    let model = Model::new(scene)?;
+    let model = compile(scene)?;
     Ok(solve(&model)?.describe(&model))
 }
 
@@ -138,12 +141,17 @@ pub fn equilibrium(scene: &Scene) -> Result<Equilibrium> {
 /// share one place would else be pressed more or less than they bear.
 pub(crate) fn positions(model: &Model) -> Result<Vec<f64>> {
     let solved = solve(model)?;
-    let Some(levels) = model.levels(&solved.y) else {
+    let Some(levels) = levels(model, &solved.y) else {
         return Ok(solved.y);
     };
-    let (outer, inner) = (&solved.y[..3], &solved.y[4..7]);
-    let mut rings = SVector::from_fn(|i, _| if i < 3 { outer[i] } else { inner[i - 3] });
-    (rings[2], rings[5]) = (levels[0], levels[1]);
+    let layout = model.layout();
+    let mut rings = Rings::zeros();
+    for (at, race, dof) in unknowns::all() {
+        rings[at] = match dof {
+            Dof::Z => levels.rings[race],
+            _ => solved.y[layout.at(race.ring(), dof)],
+        };
+    }
     solve_from(Problem::in_planes(model, levels), rings).map(|solved| solved.y)
 }
 
@@ -153,7 +161,7 @@ struct Solved {
     y: Vec<f64>,
     iterations: usize,
     /// Stiffness of the bearing between its rings: x, y, z of outer and inner ring.
-    bearing: SMatrix<f64, 6, 6>,
+    bearing: RingStiffness,
     residual: Residual,
 }
 
@@ -169,14 +177,17 @@ impl Solved {
 
 /// Places and contacts of a state, and what is doubtful there; what is unbalanced is not looked at.
 pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibrium {
-    let place = |body: usize| [y[4 * body], y[4 * body + 1], y[4 * body + 2]];
-    let contact = |j: usize, race: usize| {
-        let summary = model.contact(y, j, race);
+    let layout = model.layout();
+    let place = |body: BodyId| layout.centre(y, body);
+    let contact = |j: usize, race: Race| {
+        let summary = inspect::contact(model, y, j, race);
         let ball = &model.balls[j];
         let pair = &model.rows[ball.row].pairs[race];
-        let (b, r) = (place(2 + j), place(race));
+        let (b, r) = (place(BodyId::ball(j)), place(race.ring()));
         let (dx, dy) = (b[0] - r[0], b[1] - r[1]);
-        let wave = pair.waves.at(dy.atan2(dx) - y[4 * race + 3]);
+        let wave = pair
+            .waves
+            .at(dy.atan2(dx) - y[layout.at(race.ring(), Dof::Theta)]);
         let radius = ball.side.radius;
         let section = pair.race.section(radius, dx.hypot(dy), b[2] - r[2], wave);
         let loaded = summary.load > 0.0;
@@ -185,24 +196,24 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
             angle: loaded.then_some(summary.angle),
             deflection: section.approach,
             zone_centre: loaded.then_some(summary.zone_centre),
-            pressure: model.pressure(j, race, summary.load),
+            pressure: inspect::pressure(model, j, race, summary.load),
         }
     };
     let balls = model.balls.iter().enumerate().map(|(j, ball)| {
-        let [x, y, z] = place(2 + j);
+        let [x, y, z] = place(BodyId::ball(j));
         BallEquilibrium {
             row: ball.row,
             ball: ball.index,
             angle: y.atan2(x),
             radius: x.hypot(y),
             z,
-            outer: contact(j, 0),
-            inner: contact(j, 1),
+            outer: contact(j, Race::Outer),
+            inner: contact(j, Race::Inner),
         }
     });
     let mut found = Equilibrium {
-        outer: place(0),
-        inner: place(1),
+        outer: place(BodyId::OUTER),
+        inner: place(BodyId::INNER),
         balls: balls.collect(),
         iterations,
         residual: 0.0,
@@ -230,11 +241,11 @@ fn solve(model: &Model) -> Result<Solved> {
         return Ok(solved);
     }
     interrupt::check()?;
-    solve_from(Problem::new(model), SVector::zeros())
+    solve_from(Problem::new(model), Rings::zeros())
 }
 
 /// Solves with the balls at their nominal angles; then lets the cage shift them and pull, and solves again.
-fn solve_from(mut problem: Problem, mut rings: SVector<f64, 6>) -> Result<Solved> {
+fn solve_from(mut problem: Problem, mut rings: Rings) -> Result<Solved> {
     let model = problem.model;
     let seeds: Vec<_> = (0..model.balls.len())
         .map(|j| problem.seed(j, &rings))

@@ -10,7 +10,8 @@ use serde::Serialize;
 
 use super::positions;
 use crate::error::{Error, Result};
-use crate::model::{Model, compile};
+use crate::inspect;
+use crate::model::{BodyId, Dof, Model, Race, compile_placed};
 use crate::scene::{AxialOffset, Defect, Row, Scene, Surface, TimeFunction};
 
 /// Where the number of a defect's axial place comes from.
@@ -30,15 +31,13 @@ const FINEST: f64 = 1e9;
 /// Share of the contacts' scale from which a load counts: what lies below is left over from the solution.
 const LOADED: f64 = 1e-9;
 
-impl Model {
-    /// Checks a scene, places the defects that are to lie where contacts run, and compiles it.
-    ///
-    /// # Errors
-    /// [`crate::Error::Scene`] names the first field that is not usable, or the environment variable
-    /// `BALLRACE_SIMD` where it names no level of this processor.
-    pub fn new(scene: &Scene) -> Result<Self> {
-        compile(&place(scene)?.0)
-    }
+/// Checks a scene, places the defects that are to lie where contacts run, and compiles it.
+///
+/// # Errors
+/// [`crate::Error::Scene`] names the first field that is not usable, or the environment variable `BALLRACE_SIMD` where it
+/// names no level of this processor.
+pub fn compile(scene: &Scene) -> Result<Model> {
+    compile_placed(&place(scene)?.0)
 }
 
 /// The scene with a number for the axial place of every defect, and where the numbers come from, by the defects' names.
@@ -78,8 +77,8 @@ pub(crate) struct Meeting {
     pub model: Model,
     /// A state vector with zero velocities.
     pub y: Vec<f64>,
-    /// Ball among all balls, and race: 0 (outer) or 1 (inner).
-    pub contacts: Vec<(usize, usize)>,
+    /// Ball among all balls, and race.
+    pub contacts: Vec<(usize, Race)>,
 }
 
 impl Meeting {
@@ -100,13 +99,15 @@ impl Meeting {
                 row.start_angle += turn;
             }
         }
-        let model = compile(&healthy)?;
+        let model = compile_placed(&healthy)?;
         let row = &model.rows[defect.row];
-        let balls = row.first..row.first + row.count;
         let contacts = match defect.on {
-            Surface::OuterRace => vec![(row.first, 0)],
-            Surface::InnerRace => balls.map(|j| (j, 1)).collect(),
-            Surface::Ball => balls.flat_map(|j| [(j, 0), (j, 1)]).collect(),
+            Surface::OuterRace => vec![(row.first, Race::Outer)],
+            Surface::InnerRace => row.balls().map(|j| (j, Race::Inner)).collect(),
+            Surface::Ball => {
+                let both = |j| Race::BOTH.map(|race| (j, race));
+                row.balls().flat_map(both).collect()
+            }
         };
         match positions(&model) {
             Ok(y) => Ok(Some(Self { model, y, contacts })),
@@ -118,10 +119,10 @@ impl Meeting {
     /// Where the most loaded of these contacts runs, from the row's plane or the ball's centre \[m\]; none without load.
     fn place(&self, defect: &Defect) -> Option<f64> {
         let told = self.contacts.iter().map(|&(j, race)| {
-            let contact = self.model.contact(&self.y, j, race);
-            let z = |body: usize| self.y[4 * body + 2];
+            let contact = inspect::contact(&self.model, &self.y, j, race);
+            let z = |body: BodyId| self.y[self.model.layout().at(body, Dof::Z)];
             let from = match defect.on {
-                Surface::Ball => z(2 + j) - z(race),
+                Surface::Ball => z(BodyId::ball(j)) - z(race.ring()),
                 _ => self.model.scene().rows[defect.row].axial_position,
             };
             (contact.load, contact.zone_centre - from)

@@ -2,13 +2,15 @@
 //!
 //! Rounds converge the slower the stiffer the cage is against the contacts, and the less load the balls have of their own.
 
-use nalgebra::{DMatrix, DVector, SVector, Vector2};
+use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::TOLERANCE;
 use super::cage::CageSpring;
 use super::problem::Problem;
+use super::unknowns::{self, OF_A_RING, RingStiffness, Rings};
 use crate::error::Result;
 use crate::interrupt;
+use crate::model::Race;
 
 /// Iterations, at most.
 const ITERATIONS: usize = 60;
@@ -28,7 +30,7 @@ impl Problem<'_> {
     /// are, at the balls' present angles.
     pub(super) fn polish(
         &mut self,
-        rings: &mut SVector<f64, 6>,
+        rings: &mut Rings,
         places: &mut Vec<Vector2<f64>>,
     ) -> Result<()> {
         // They stand for the cage in the rounds.
@@ -72,11 +74,11 @@ impl Problem<'_> {
 
     fn moved(
         &self,
-        rings: &SVector<f64, 6>,
+        rings: &Rings,
         places: &[Vector2<f64>],
         step: &DVector<f64>,
         share: f64,
-    ) -> (SVector<f64, 6>, Vec<Vector2<f64>>) {
+    ) -> (Rings, Vec<Vector2<f64>>) {
         let mut rings = *rings;
         for (a, &i) in self.free.iter().enumerate() {
             rings[i] += share * step[a];
@@ -89,23 +91,22 @@ impl Problem<'_> {
         (rings, places.collect())
     }
 
-    fn whole(&self, rings: &SVector<f64, 6>, places: &[Vector2<f64>]) -> Whole {
+    fn whole(&self, rings: &Rings, places: &[Vector2<f64>]) -> Whole {
         let first = self.free.len();
         let count = first + 2 * places.len();
         let mut force = DVector::zeros(count);
         let mut stiffness = DMatrix::zeros(count, count);
-        let (mut on_rings, mut own_of_rings) =
-            (self.loads, nalgebra::SMatrix::<f64, 6, 6>::zeros());
+        let (mut on_rings, mut own_of_rings) = (self.loads, RingStiffness::zeros());
         let pulls = self.cage_pulls(places);
         for (j, &place) in places.iter().enumerate() {
             let at = first + 2 * j;
             let mut ball = self.ball_at(j, rings, place);
             let contacts = self.contact_stiffness(j, &mut ball);
-            for (race, k) in contacts.iter().enumerate() {
-                let mut on_ring = on_rings.fixed_rows_mut::<3>(3 * race);
-                on_ring -= ball.contacts[race].force;
-                let mut own = own_of_rings.fixed_view_mut::<3, 3>(3 * race, 3 * race);
-                own += k;
+            for race in Race::BOTH {
+                unknowns::add(&mut on_rings, race, &-ball.contacts[race].force);
+                let k = unknowns::first(race);
+                let mut own = own_of_rings.fixed_view_mut::<OF_A_RING, OF_A_RING>(k, k);
+                own += contacts[race];
             }
             let mut own = self.ball_stiffness(j, &mut ball);
             own += nalgebra::Matrix2::identity() * (LOOSE * self.stiffness());
@@ -125,7 +126,8 @@ impl Problem<'_> {
         }
         self.add_cage(places, &pulls, &mut stiffness);
         for (a, &i) in self.free.iter().enumerate() {
-            let support = self.model.bodies[i / 3].degrees[i % 3].stiffness();
+            let (race, dof) = unknowns::degree(i);
+            let support = self.support(race, dof);
             force[a] = on_rings[i] - support * rings[i];
             for (b, &k) in self.free.iter().enumerate() {
                 stiffness[(a, b)] = own_of_rings[(i, k)];

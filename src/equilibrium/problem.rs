@@ -1,11 +1,14 @@
 //! What acts: loads of rings and balls, and the forces of a ball's contacts.
 
-use nalgebra::{DVector, Matrix2, Matrix3, SMatrix, SVector, Vector2, Vector3};
+use nalgebra::{DVector, Matrix2, Matrix3, SMatrix, Vector2, Vector3};
 
 use super::cage::CageSpring;
 use super::guess::RowSpring;
+use super::unknowns::{self, OF_RINGS, Rings};
 use crate::contact::{Tangent, V2};
-use crate::model::{Degree, Model};
+use crate::forces::{gravity, load, support, unbalance};
+use crate::model::{BodyId, Dof, Model, Race};
+use crate::reduction::AxialPlaces;
 
 pub(super) struct Problem<'m> {
     pub(super) model: &'m Model,
@@ -17,57 +20,48 @@ pub(super) struct Problem<'m> {
     /// Stiffness of each ball's hold over what a row's cage has against all balls moving out together; at least what
     /// it has against one of them.
     pub(super) cage_share: f64,
-    /// Free directions of the rings, as indices into the six.
+    /// Free directions of the rings, as places among their unknowns.
     pub(super) free: Vec<usize>,
     /// Constant forces on the rings.
-    pub(super) loads: SVector<f64, 6>,
+    pub(super) loads: Rings,
     /// Sum of the magnitudes of what acts.
     pub(super) magnitude: f64,
     /// How far the contacts of each row's balls give.
     pub(super) springs: Vec<RowSpring>,
-    /// Axial places that outer ring, inner ring and the rows keep, where they do.
-    pub(super) levels: Option<Vec<f64>>,
+    /// Axial places that rings and rows keep, where they do.
+    pub(super) levels: Option<AxialPlaces>,
 }
 
 impl<'m> Problem<'m> {
     pub(super) fn new(model: &'m Model) -> Self {
-        let gravity = model.scene.gravity;
         let mut centrifugal = Vec::new();
         let mut directions = Vec::new();
         let mut magnitude = 0.0;
         for (j, ball) in model.balls.iter().enumerate() {
-            let body = &model.bodies[2 + j];
-            let place = V2::new(body.nominal[0], body.nominal[1]);
+            let body = &model.bodies[BodyId::ball(j)];
+            let place = V2::new(body.nominal[Dof::X], body.nominal[Dof::Y]);
             let direction = place.normalize();
             let orbit = model.rolling_speeds(ball.row).0;
-            let weight = body.mass[0] * (gravity[0] * direction.x + gravity[1] * direction.y);
-            centrifugal.push(body.mass[0] * orbit * orbit);
+            let weight = gravity::along(model, BodyId::ball(j), direction.into());
+            centrifugal.push(body.mass[Dof::X] * orbit * orbit);
             directions.push(direction);
             magnitude += centrifugal[j] * place.norm() + weight.abs();
         }
-        let mut loads = SVector::<f64, 6>::zeros();
+        let mut loads = Rings::zeros();
         for load in &model.loads {
-            for i in 0..3 {
-                loads[3 * load.ring + i] += load.force.at(0.0) * load.direction[i];
-            }
+            unknowns::add(&mut loads, load.ring, &load::at(load, 0.0));
         }
-        for ring in 0..2 {
-            for i in 0..3 {
-                loads[3 * ring + i] += model.bodies[ring].mass[i] * gravity[i];
-            }
+        for race in Race::BOTH {
+            let weight = gravity::on(model, race.ring());
+            unknowns::add(&mut loads, race, &weight.into());
         }
         for unbalance in &model.unbalances {
-            let speed = if unbalance.ring == 1 {
-                model.scene.drive.initial_speed()
-            } else {
-                0.0
-            };
-            let force = unbalance.moment * speed * speed;
-            loads[3 * unbalance.ring] += force * unbalance.angle.cos();
-            loads[3 * unbalance.ring + 1] += force * unbalance.angle.sin();
+            let [x, y] = unbalance::at_start(model, unbalance);
+            unknowns::add(&mut loads, unbalance.ring, &Vector3::new(x, y, 0.0));
         }
-        let free = (0..6)
-            .filter(|&i| matches!(model.bodies[i / 3].degrees[i % 3], Degree::Free { .. }))
+        let free = unknowns::all()
+            .filter(|(_, race, dof)| model.bodies[race.ring()].degrees[*dof].is_free())
+            .map(|(at, ..)| at)
             .collect();
         magnitude += loads.iter().map(|x| x.abs()).sum::<f64>();
         // Without any load, the contact scale keeps the tolerance from being zero.
@@ -90,10 +84,10 @@ impl<'m> Problem<'m> {
         }
     }
 
-    /// The same where rings and rows keep their axial places: the outer ring's, the inner one's, the rows'.
-    pub(super) fn in_planes(model: &'m Model, levels: Vec<f64>) -> Self {
+    /// The same where rings and rows keep their axial places.
+    pub(super) fn in_planes(model: &'m Model, levels: AxialPlaces) -> Self {
         let mut problem = Self::new(model);
-        problem.free.retain(|i| i % 3 != 2);
+        problem.free.retain(|at| unknowns::degree(*at).1 != Dof::Z);
         problem.levels = Some(levels);
         problem
     }
@@ -101,7 +95,7 @@ impl<'m> Problem<'m> {
     /// The axial place that a ball keeps, if it does.
     fn level(&self, j: usize) -> Option<f64> {
         let row = self.model.balls[j].row;
-        self.levels.as_ref().map(|levels| levels[2 + row])
+        self.levels.as_ref().map(|levels| levels.rows[row])
     }
 
     /// A typical contact stiffness.
@@ -115,37 +109,28 @@ impl<'m> Problem<'m> {
 
     /// Weight and centrifugal force of a ball along its radius and along z, near its nominal place.
     pub(super) fn own_load(&self, j: usize) -> Vector2<f64> {
-        let [x, y, ..] = self.model.bodies[2 + j].nominal;
+        let [x, y, ..] = self.model.bodies[BodyId::ball(j)].nominal;
         self.own_load_at(j, x.hypot(y))
     }
 
     /// The same at a radius, at the angle where the cage holds it.
     pub(super) fn own_load_at(&self, j: usize, radius: f64) -> Vector2<f64> {
-        let mass = self.model.bodies[2 + j].mass[0];
-        let (g, direction) = (self.model.scene.gravity, self.directions[j]);
-        let weight = mass * (g[0] * direction.x + g[1] * direction.y);
-        Vector2::new(self.centrifugal[j] * radius + weight, mass * g[2])
+        let ball = BodyId::ball(j);
+        let weight = gravity::along(self.model, ball, self.directions[j].into());
+        let [_, _, axial] = gravity::on(self.model, ball);
+        Vector2::new(self.centrifugal[j] * radius + weight, axial)
     }
 
     /// A ball at a radius and an axial place between the rings: what acts on it there.
-    pub(super) fn ball_at(
-        &self,
-        j: usize,
-        rings: &SVector<f64, 6>,
-        place: Vector2<f64>,
-    ) -> BallState {
+    pub(super) fn ball_at(&self, j: usize, rings: &Rings, place: Vector2<f64>) -> BallState {
         let ball = &self.model.balls[j];
         let direction = self.directions[j];
         let level = self.level(j);
         let place = Vector2::new(place.x, level.unwrap_or(place.y));
         let centre = Vector3::new(direction.x * place.x, direction.y * place.x, place.y);
-        let from_rings = [0, 3].map(|k| centre - rings.fixed_rows::<3>(k));
-        let contacts = [0, 1].map(|race| {
-            self.model.rows[ball.row].pairs[race].tangent(
-                self.model.level,
-                &ball.side,
-                &from_rings[race],
-            )
+        let from_rings = Race::BOTH.map(|race| centre - unknowns::of(rings, race));
+        let contacts = Race::BOTH.map(|race| {
+            self.model.rows[ball.row].pairs[race].tangent(&ball.side, &from_rings[race])
         });
         let pressed = contacts[0].force + contacts[1].force;
         let own = self.own_load_at(j, place.x);
@@ -153,15 +138,11 @@ impl<'m> Problem<'m> {
             pressed.xy().dot(&direction) + own.x + self.cage_spring[j].pull(place.x),
             pressed.z + own.y,
         );
-        let body = &self.model.bodies[2 + j];
-        for i in 0..3 {
-            let pull = body.degrees[i].stiffness() * (body.nominal[i] - centre[i]);
-            if i < 2 {
-                force.x += pull * direction[i];
-            } else {
-                force.y += pull;
-            }
-        }
+        let body = &self.model.bodies[BodyId::ball(j)];
+        let pull = Dof::TRANSLATIONS.map(|dof| support::at_rest(body, dof, centre[dof.index()]));
+        force.x += pull[0] * direction.x;
+        force.x += pull[1] * direction.y;
+        force.y += pull[2];
         if level.is_some() {
             // What keeps the ball in its plane.
             force.y = 0.0;
@@ -179,7 +160,7 @@ impl<'m> Problem<'m> {
         let ball = &self.model.balls[j];
         // A thousandth of the approach: truncation 1e-6, noise 1e-9 of the stiffness.
         let step = 1e-3 * self.model.scales.approach;
-        [0, 1].map(|race| {
+        Race::BOTH.map(|race| {
             *state.contacts[race].stiffness.get_or_insert_with(|| {
                 let pair = &self.model.rows[ball.row].pairs[race];
                 pair.stiffness_by_differences(&ball.side, &state.from_rings[race], step)
@@ -194,11 +175,10 @@ impl<'m> Problem<'m> {
         let (x, y) = (self.directions[j].x, self.directions[j].y);
         let mut radial = x * x * k[(0, 0)] + y * y * k[(1, 1)] + x * y * (k[(0, 1)] + k[(1, 0)]);
         let mut axial = k[(2, 2)];
-        let degrees = &self.model.bodies[2 + j].degrees;
-        for (degree, share) in degrees.iter().zip([x * x, y * y]) {
-            radial += degree.stiffness() * share;
-        }
-        axial += degrees[2].stiffness();
+        let degrees = &self.model.bodies[BodyId::ball(j)].degrees;
+        radial += degrees[Dof::X].stiffness() * (x * x);
+        radial += degrees[Dof::Y].stiffness() * (y * y);
+        axial += degrees[Dof::Z].stiffness();
         // The centrifugal force grows with the radius.
         radial += self.cage_spring[j].stiffness() - self.centrifugal[j];
         if self.level(j).is_some() {
@@ -212,21 +192,19 @@ impl<'m> Problem<'m> {
         )
     }
 
-    /// Stiffness of a ball (radius, z) against the six places of the rings, and of these against the ball.
+    /// Stiffness of a ball (radius, z) against the places of the rings, and of these against the ball.
     pub(super) fn coupling(
         &self,
         j: usize,
         contacts: &[Matrix3<f64>; 2],
-    ) -> (SMatrix<f64, 2, 6>, SMatrix<f64, 6, 2>) {
+    ) -> (SMatrix<f64, 2, OF_RINGS>, SMatrix<f64, OF_RINGS, 2>) {
         let (x, y) = (self.directions[j].x, self.directions[j].y);
-        let mut pulled = SMatrix::<f64, 2, 6>::zeros();
-        let mut pulling = SMatrix::<f64, 6, 2>::zeros();
-        for (race, k) in contacts.iter().enumerate() {
-            for i in 0..3 {
-                let a = 3 * race + i;
-                (pulled[(0, a)], pulled[(1, a)]) = (x * k[(0, i)] + y * k[(1, i)], k[(2, i)]);
-                (pulling[(a, 0)], pulling[(a, 1)]) = (x * k[(i, 0)] + y * k[(i, 1)], k[(i, 2)]);
-            }
+        let mut pulled = SMatrix::<f64, 2, OF_RINGS>::zeros();
+        let mut pulling = SMatrix::<f64, OF_RINGS, 2>::zeros();
+        for (a, race, dof) in unknowns::all() {
+            let (k, i) = (&contacts[race], dof.index());
+            (pulled[(0, a)], pulled[(1, a)]) = (x * k[(0, i)] + y * k[(1, i)], k[(2, i)]);
+            (pulling[(a, 0)], pulling[(a, 1)]) = (x * k[(i, 0)] + y * k[(i, 1)], k[(i, 2)]);
         }
         if self.level(j).is_some() {
             pulled.row_mut(1).fill(0.0);
@@ -235,20 +213,33 @@ impl<'m> Problem<'m> {
         (pulled, pulling)
     }
 
-    /// Whether a support holds a ball at its nominal place.
-    pub(super) fn is_held(&self, j: usize) -> bool {
-        let degrees = &self.model.bodies[2 + j].degrees[..3];
-        degrees.iter().any(|d| !matches!(d, Degree::Free { .. }))
+    /// Stiffness of a ring's support.
+    pub(super) fn support(&self, race: Race, dof: Dof) -> f64 {
+        self.model.bodies[race.ring()].degrees[dof].stiffness()
     }
 
-    pub(super) fn state(&self, rings: &SVector<f64, 6>, balls: &[Vector2<f64>]) -> Vec<f64> {
+    /// Whether a support holds a ball at its nominal place.
+    pub(super) fn is_held(&self, j: usize) -> bool {
+        let body = &self.model.bodies[BodyId::ball(j)];
+        Dof::TRANSLATIONS
+            .iter()
+            .any(|dof| !body.degrees[*dof].is_free())
+    }
+
+    pub(super) fn state(&self, rings: &Rings, balls: &[Vector2<f64>]) -> Vec<f64> {
         let mut y = vec![0.0; self.model.dim()];
-        for i in 0..6 {
-            y[4 * (i / 3) + i % 3] = rings[i];
+        let layout = self.model.layout();
+        for (at, race, dof) in unknowns::all() {
+            y[layout.at(race.ring(), dof)] = rings[at];
         }
         for (j, ball) in balls.iter().enumerate() {
             let place = self.directions[j] * ball.x;
-            y[4 * (2 + j)..4 * (2 + j) + 3].copy_from_slice(&[place.x, place.y, ball.y]);
+            for (dof, of) in Dof::TRANSLATIONS
+                .into_iter()
+                .zip([place.x, place.y, ball.y])
+            {
+                y[layout.at(BodyId::ball(j), dof)] = of;
+            }
         }
         y
     }

@@ -1,12 +1,14 @@
 //! What a solution leaves unbalanced, by the forces themselves.
 
-use nalgebra::{SVector, Vector2};
+use nalgebra::Vector2;
 
 use super::problem::Problem;
+use super::unknowns::{self, Rings};
 use crate::contact::Motion;
-use crate::dynamics::link;
 use crate::error::{Error, Result};
+use crate::forces::cage;
 use crate::interrupt;
+use crate::model::{BodyId, DOFS, Race};
 use crate::told;
 
 /// Force left on a body, over the largest load, above which there is no equilibrium.
@@ -19,11 +21,11 @@ pub(super) struct Residual {
     pub(super) force: f64,
     /// The largest force of a contact, or of all loads on a ring \[N\].
     pub(super) largest: f64,
-    body: usize,
+    body: BodyId,
 }
 
 impl Residual {
-    fn add(&mut self, body: usize, force: f64) {
+    fn add(&mut self, body: BodyId, force: f64) {
         if force > self.force || force.is_nan() {
             (self.force, self.body) = (force, body);
         }
@@ -48,11 +50,7 @@ impl Residual {
 impl Problem<'_> {
     /// What the places of rings and balls leave: springs that stood in for the cage, and balls that followed the rings to
     /// first order, have no part in it.
-    pub(super) fn residual(
-        &self,
-        rings: &SVector<f64, 6>,
-        places: &[Vector2<f64>],
-    ) -> Result<Residual> {
+    pub(super) fn residual(&self, rings: &Rings, places: &[Vector2<f64>]) -> Result<Residual> {
         let mut on_rings = self.loads;
         let mut found = Residual {
             largest: self.largest_load(),
@@ -61,29 +59,31 @@ impl Problem<'_> {
         for (j, (&place, pull)) in places.iter().zip(self.cage_pulls(places)).enumerate() {
             interrupt::check()?;
             let ball = self.ball_at(j, rings, place);
-            for (race, contact) in ball.contacts.iter().enumerate() {
-                found.largest = found.largest.max(contact.force.norm());
-                let mut on_ring = on_rings.fixed_rows_mut::<3>(3 * race);
-                on_ring -= contact.force;
+            for race in Race::BOTH {
+                let force = ball.contacts[race].force;
+                found.largest = found.largest.max(force.norm());
+                unknowns::add(&mut on_rings, race, &-force);
             }
             if !self.is_held(j) {
                 let more = pull - self.cage_spring[j].pull(place.x);
-                found.add(2 + j, (ball.force.x + more).hypot(ball.force.y));
+                found.add(BodyId::ball(j), (ball.force.x + more).hypot(ball.force.y));
             }
         }
         let mut left = [0.0_f64; 2];
         for &i in &self.free {
-            let support = self.model.bodies[i / 3].degrees[i % 3].stiffness();
-            left[i / 3] = left[i / 3].hypot(on_rings[i] - support * rings[i]);
+            let (race, dof) = unknowns::degree(i);
+            left[race] = left[race].hypot(on_rings[i] - self.support(race, dof) * rings[i]);
         }
-        (0..2).for_each(|ring| found.add(ring, left[ring]));
+        for race in Race::BOTH {
+            found.add(race.ring(), left[race]);
+        }
         Ok(found)
     }
 
     /// Of the two rings' loads the larger one.
     fn largest_load(&self) -> f64 {
-        let on = |ring: usize| self.loads.fixed_rows::<3>(3 * ring).norm();
-        on(0).max(on(1))
+        let on = |race| unknowns::of(&self.loads, race).norm();
+        on(Race::Outer).max(on(Race::Inner))
     }
 
     /// What the cage pulls every ball outwards, link by link.
@@ -94,12 +94,12 @@ impl Problem<'_> {
         };
         let at = |j: usize| {
             let centre = self.directions[j] * places[j].x;
-            Motion::new(&[centre.x, centre.y, places[j].y, 0.0], &[0.0; 4])
+            Motion::new(&[centre.x, centre.y, places[j].y, 0.0], &[0.0; DOFS])
         };
         for row in &self.model.rows {
             for (j, k) in row.links() {
                 let (first, second) = (at(j), at(k));
-                let tension = link(cage, row.cage_distance, &first, &second).force;
+                let tension = cage::link(cage, row.cage_distance, &first, &second).force;
                 let along = (second.centre - first.centre).normalize() * tension;
                 pulls[j] += along.dot(&self.directions[j]);
                 pulls[k] -= along.dot(&self.directions[k]);
@@ -130,8 +130,9 @@ impl Problem<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::equilibrium::compile;
     use crate::equilibrium::solve;
-    use crate::model::Model;
+    use crate::model::Dof;
     use crate::scene::presets;
 
     /// Truth: the tangent stiffness. What a ring leaves that is not where it should be is told by name, and refused.
@@ -139,19 +140,23 @@ mod tests {
     fn a_ring_out_of_place_is_told_and_refused() {
         let mut scene = presets::deep_groove_6205(500.0, 200.0, 1800.0);
         scene.cage = None;
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let problem = Problem::new(&model);
         let solved = solve(&model).unwrap();
         assert!(solved.residual.share() < 1e-8);
-        let at = |body: usize, i: usize| solved.y[4 * body + i];
-        let balls: Vec<_> = (2..model.bodies.len())
-            .map(|body| Vector2::new(at(body, 0).hypot(at(body, 1)), at(body, 2)))
+        let centre = |body| model.layout().centre(&solved.y, body);
+        let balls: Vec<_> = (0..model.balls.len())
+            .map(|j| centre(BodyId::ball(j)))
+            .map(|[x, y, z]| Vector2::new(x.hypot(y), z))
             .collect();
-        let mut rings = SVector::<f64, 6>::from_fn(|i, _| at(i / 3, i % 3));
+        let mut rings = Rings::zeros();
+        for race in Race::BOTH {
+            unknowns::add(&mut rings, race, &centre(race.ring()).into());
+        }
         let fine = problem.residual(&rings, &balls).unwrap();
         assert!(problem.accept(&fine).is_ok());
         // A metre of the spring under the outer ring, and as much of its contacts, is some 10⁸ N.
-        rings[1] += 1e-9;
+        rings[unknowns::at(Race::Outer, Dof::Y)] += 1e-9;
         let off = problem.residual(&rings, &balls).unwrap();
         assert!((0.05..1.0).contains(&off.force), "{off:?}");
         let error = problem.accept(&off).unwrap_err().to_string();

@@ -1,15 +1,17 @@
 //! Newton's method on the rings, every ball condensed to a nonlinear spring.
 
-use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector2};
+use nalgebra::{DMatrix, DVector, SMatrix, Vector2};
 
 use super::ball::least;
 use super::cage::Hold;
 use super::problem::Problem;
 use super::search::search;
+use super::unknowns::{self, OF_A_RING, OF_RINGS, RingStiffness, Rings};
 use super::{FINE, STALLED};
 use crate::contact::V2;
 use crate::error::{Error, Result};
 use crate::interrupt;
+use crate::model::{BodyId, Race};
 use crate::told;
 
 /// Newton iterations of the rings before giving up.
@@ -33,16 +35,16 @@ pub(super) struct RingState {
     precision: f64,
     stiffness: DMatrix<f64>,
     /// How each ball follows the rings, as far as it does so smoothly.
-    follow: Vec<SMatrix<f64, 2, 6>>,
+    follow: Vec<SMatrix<f64, 2, OF_RINGS>>,
     /// How the races hold each ball.
     pub(super) holds: Vec<Hold>,
     /// Stiffness of the bearing alone, both rings free.
-    pub(super) bearing: SMatrix<f64, 6, 6>,
+    pub(super) bearing: RingStiffness,
 }
 
 impl RingState {
     /// Where the balls would stand after a step of the rings, to first order.
-    fn followed(&self, step: &SVector<f64, 6>) -> Vec<Vector2<f64>> {
+    fn followed(&self, step: &Rings) -> Vec<Vector2<f64>> {
         let places = self.balls.iter().zip(&self.follow);
         places
             .map(|(place, follow)| place + follow * step)
@@ -56,7 +58,7 @@ impl Problem<'_> {
     /// what they left would look like a residual of the rings.
     pub(super) fn balance(
         &self,
-        rings: &mut SVector<f64, 6>,
+        rings: &mut Rings,
         starts: &[Vector2<f64>],
         unbalanced: f64,
         tolerance: f64,
@@ -141,13 +143,13 @@ impl Problem<'_> {
     /// far.
     pub(super) fn rings(
         &self,
-        rings: &SVector<f64, 6>,
+        rings: &Rings,
         starts: &[Vector2<f64>],
         moved: f64,
         precision: f64,
     ) -> Result<RingState> {
         let mut forces = self.loads;
-        let mut bearing = SMatrix::<f64, 6, 6>::zeros();
+        let mut bearing = RingStiffness::zeros();
         let mut balls = Vec::with_capacity(starts.len());
         let mut follow = Vec::with_capacity(starts.len());
         let mut holds = vec![Hold::default(); starts.len()];
@@ -155,12 +157,11 @@ impl Problem<'_> {
             let start = self.refreshed(j, rings, start, moved);
             let mut ball = self.settle(j, rings, start, precision)?;
             let contacts = self.contact_stiffness(j, &mut ball);
-            for (race, stiffness) in contacts.iter().enumerate() {
-                let k = 3 * race;
-                let mut on_ring = forces.fixed_rows_mut::<3>(k);
-                on_ring -= ball.contacts[race].force;
-                let mut own = bearing.fixed_view_mut::<3, 3>(k, k);
-                own += stiffness;
+            for race in Race::BOTH {
+                unknowns::add(&mut forces, race, &-ball.contacts[race].force);
+                let k = unknowns::first(race);
+                let mut own = bearing.fixed_view_mut::<OF_A_RING, OF_A_RING>(k, k);
+                own += contacts[race];
             }
             let (pulled, pulling) = self.coupling(j, &contacts);
             let own = self.ball_stiffness(j, &mut ball);
@@ -168,7 +169,7 @@ impl Problem<'_> {
             let stiff = !self.is_held(j) && least(&own) > 1e-9 * self.stiffness();
             let mut followed = SMatrix::zeros();
             if let Some(inverse) = own.try_inverse().filter(|_| stiff) {
-                followed = SMatrix::<f64, 2, 6>::from_fn(|a, b| {
+                followed = SMatrix::<f64, 2, OF_RINGS>::from_fn(|a, b| {
                     inverse[(a, 0)] * pulled[(0, b)] + inverse[(a, 1)] * pulled[(1, b)]
                 });
                 let radial = 1.0 / inverse[(0, 0)] - self.cage_spring[j].stiffness();
@@ -182,7 +183,7 @@ impl Problem<'_> {
                 forces += pulling * last;
                 ball.place += last;
             }
-            bearing -= SMatrix::<f64, 6, 6>::from_fn(|a, b| {
+            bearing -= RingStiffness::from_fn(|a, b| {
                 pulling[(a, 0)] * followed[(0, b)] + pulling[(a, 1)] * followed[(1, b)]
             });
             balls.push(ball.place);
@@ -190,12 +191,10 @@ impl Problem<'_> {
         }
         bearing = (bearing + bearing.transpose()) / 2.0;
         let mut held = bearing;
-        for (b, body) in self.model.bodies[..2].iter().enumerate() {
-            for i in 0..3 {
-                let (a, k) = (3 * b + i, body.degrees[i].stiffness());
-                forces[a] -= k * rings[a];
-                held[(a, a)] += k;
-            }
+        for (a, race, dof) in unknowns::all() {
+            let k = self.support(race, dof);
+            forces[a] -= k * rings[a];
+            held[(a, a)] += k;
         }
         let n = self.free.len();
         Ok(RingState {
@@ -210,13 +209,7 @@ impl Problem<'_> {
     }
 
     /// A ball's place to start from: it is seeded anew when the rings have moved far.
-    fn refreshed(
-        &self,
-        j: usize,
-        rings: &SVector<f64, 6>,
-        start: Vector2<f64>,
-        moved: f64,
-    ) -> Vector2<f64> {
+    fn refreshed(&self, j: usize, rings: &Rings, start: Vector2<f64>, moved: f64) -> Vector2<f64> {
         let approach = self.model.scales.approach;
         if moved <= approach {
             return start;
@@ -235,9 +228,9 @@ impl Problem<'_> {
         stiffness: &DMatrix<f64>,
         residual: &DVector<f64>,
         longest: f64,
-    ) -> SVector<f64, 6> {
+    ) -> Rings {
         let n = self.free.len();
-        let mut step = SVector::<f64, 6>::zeros();
+        let mut step = Rings::zeros();
         if n == 0 {
             return step;
         }
@@ -261,28 +254,25 @@ impl Problem<'_> {
     }
 
     /// Refuses what balances without being stable, and balls that left their groove.
-    pub(super) fn check(&self, state: &RingState, rings: &SVector<f64, 6>) -> Result<()> {
+    pub(super) fn check(&self, state: &RingState, rings: &Rings) -> Result<()> {
         let n = self.free.len();
         if n > 0 && state.stiffness.clone().cholesky().is_none() {
             let eigen = state.stiffness.clone().symmetric_eigen();
             let weakest = eigen.eigenvectors.column(eigen.eigenvalues.imin()).iamax();
-            let i = self.free[weakest];
+            let (race, dof) = unknowns::degree(self.free[weakest]);
             return Err(Error::Equilibrium {
                 reason: format!(
                     "nothing holds {}.{} (tangent stiffness not positive definite); add a load or a support",
-                    self.model.bodies[i / 3].name,
-                    ["x", "y", "z"][i % 3]
+                    race.name(),
+                    dof.name()
                 ),
             });
         }
         for (j, ball) in state.balls.iter().enumerate() {
             let compiled = &self.model.balls[j];
-            for (race, pair) in self.model.rows[compiled.row].pairs.iter().enumerate() {
-                let ring = SVector::<f64, 3>::new(
-                    rings[3 * race],
-                    rings[3 * race + 1],
-                    rings[3 * race + 2],
-                );
+            for race in Race::BOTH {
+                let pair = &self.model.rows[compiled.row].pairs[race];
+                let ring = unknowns::of(rings, race);
                 let offset = ball.y - ring.z - pair.race.centre;
                 let distance = ball.x - V2::new(ring.x, ring.y).dot(&self.directions[j]);
                 let radius = compiled.side.radius;
@@ -301,8 +291,8 @@ impl Problem<'_> {
                         reason: format!(
                             "{} leaves the groove of the {} race: its contact lies {} from the groove's \
                              middle, which ends at {} and {}; lower the load or widen the groove",
-                            self.model.bodies[2 + j].name,
-                            ["outer", "inner"][race],
+                            self.model.bodies[BodyId::ball(j)].name,
+                            race.name(),
                             told::length(point),
                             told::length(pair.race.lowest),
                             told::length(pair.race.highest)

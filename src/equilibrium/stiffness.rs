@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
-use super::{Equilibrium, solve};
+use super::unknowns::{OF_RINGS, at};
+use super::{Equilibrium, compile, solve};
 use crate::error::Result;
-use crate::model::Model;
+use crate::model::{Dof, Race};
 use crate::scene::Scene;
 
 /// Tangent stiffness of a bearing at its static equilibrium, in the frame of the scene (z along the axis).
@@ -17,7 +18,7 @@ pub struct Stiffness {
     /// Inner ring against a held outer ring: forces and moves of the inner ring along x, y, z \[N/m\].
     pub inner: [[f64; 3]; 3],
     /// Both rings: x, y, z of the outer, then of the inner ring \[N/m\].
-    pub rings: [[f64; 6]; 6],
+    pub rings: [[f64; OF_RINGS]; OF_RINGS],
     /// Where the bearing stands.
     pub equilibrium: Equilibrium,
 }
@@ -38,11 +39,14 @@ pub struct Stiffness {
 /// # Errors
 /// As [`super::equilibrium()`].
 pub fn stiffness(scene: &Scene) -> Result<Stiffness> {
-    let model = Model::new(scene)?;
+    let model = compile(scene)?;
     let solved = solve(&model)?;
     let bearing = &solved.bearing;
     Ok(Stiffness {
-        inner: [0, 1, 2].map(|i| [0, 1, 2].map(|j| bearing[(3 + i, 3 + j)])),
+        inner: Dof::TRANSLATIONS.map(|i| {
+            let inner = |dof| at(Race::Inner, dof);
+            Dof::TRANSLATIONS.map(|j| bearing[(inner(i), inner(j))])
+        }),
         rings: std::array::from_fn(|i| std::array::from_fn(|j| bearing[(i, j)])),
         equilibrium: solved.describe(&model),
     })

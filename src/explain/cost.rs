@@ -12,7 +12,8 @@ use crate::follow::{options, tolerance};
 use crate::integrate::{DenseStep, Statistics, System};
 use crate::interrupt;
 use crate::method::{self, Task};
-use crate::model::Model;
+use crate::model::{BodyId, Dof, Model};
+use crate::reduction::Reduction;
 
 /// Places of the cage over a ball's pitch.
 const PLACES: usize = 8;
@@ -87,7 +88,7 @@ pub(super) fn of(model: &Model, y0: &[f64]) -> Result<Cost> {
 /// Time for an evaluation in some steps, and evaluations for a simulated second.
 fn steps(model: &Model, start: &[f64], count: usize) -> Result<(f64, f64)> {
     let options = options(model)?;
-    let reduction = model.reduction(start);
+    let reduction = Reduction::of(model, start);
     let mut best = f64::INFINITY;
     let mut reached = [(0.0, 0); 2];
     for _ in 0..TIMES {
@@ -139,7 +140,7 @@ fn time_at_places(
     work: impl Fn(&mut Dynamics<'_>, &[f64], &mut [f64]),
 ) -> f64 {
     let at = |start: &Vec<f64>| {
-        let reduction = model.reduction(start);
+        let reduction = Reduction::of(model, start);
         let mut dynamics = Dynamics::begin(model, reduction.as_ref(), start);
         let own = dynamics.compress(start);
         let mut dy = vec![0.0; own.len()];
@@ -162,16 +163,17 @@ fn time_at_places(
 /// A state with the balls turned about the axis by parts of their pitch: a ball in a defect costs more than the others,
 /// and it is not always there.
 fn places(model: &Model, y0: &[f64]) -> Vec<Vec<f64>> {
-    let half = y0.len() / 2;
+    let layout = model.layout();
     let turned = |part: usize| {
         let mut y = y0.to_vec();
         for (j, ball) in model.balls.iter().enumerate() {
             let pitch = TAU / model.rows[ball.row].count as f64;
             let (sin, cos) = (pitch * part as f64 / PLACES as f64).sin_cos();
-            for at in [4 * (2 + j), half + 4 * (2 + j)] {
-                let (along_x, along_y) = (y[at], y[at + 1]);
-                y[at] = cos * along_x - sin * along_y;
-                y[at + 1] = sin * along_x + cos * along_y;
+            for half in y.chunks_mut(layout.half()) {
+                let body = layout.of_mut(half, BodyId::ball(j));
+                let [along_x, along_y] = Dof::PLANE.map(|dof| body[dof]);
+                body[Dof::X] = cos * along_x - sin * along_y;
+                body[Dof::Y] = sin * along_x + cos * along_y;
             }
         }
         y
@@ -182,6 +184,7 @@ fn places(model: &Model, y0: &[f64]) -> Vec<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::equilibrium::compile;
     use crate::scene::{Friction, presets};
     use crate::start::{Start, start};
 
@@ -190,7 +193,7 @@ mod tests {
     fn parts_add_up() {
         let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
         scene.friction = Friction::None;
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let y0 = start(&model, &Start::Equilibrium).unwrap();
         let cost = of(&model, &y0).unwrap();
         let parts = cost.contacts + cost.cage;

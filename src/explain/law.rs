@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Serialize;
 
 use crate::equilibrium::Equilibrium;
-use crate::model::Model;
+use crate::model::{Model, Race};
 use crate::scene::NormalLaw;
 
 /// How far the heaviest contact gives way at the start, beside Hertz's theory.
@@ -27,14 +27,19 @@ pub struct LawExplanation {
 
 /// Of the scene at its start; absent where no contact is loaded.
 pub(super) fn of(model: &Model, at_start: &Equilibrium) -> Option<LawExplanation> {
-    let contacts = at_start
-        .balls
-        .iter()
-        .flat_map(|ball| [(ball, 0, &ball.outer), (ball, 1, &ball.inner)]);
+    let contacts = at_start.balls.iter().flat_map(|ball| {
+        [
+            (ball, Race::Outer, &ball.outer),
+            (ball, Race::Inner, &ball.inner),
+        ]
+    });
     let (ball, race, contact) = contacts.max_by(|a, b| a.2.load.total_cmp(&b.2.load))?;
-    let ring = ["outer", "inner"][race];
+    let ring = race.name();
     (contact.load > 0.0).then(|| LawExplanation {
-        law: model.scene().contact.law.clone(),
+        law: {
+            let scene = model.scene();
+            scene.contact_of(&scene.rows[ball.row]).law.clone()
+        },
         contact: format!("row{}.ball{}.{ring}", ball.row, ball.ball),
         load: contact.load,
         approach: contact.deflection,

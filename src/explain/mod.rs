@@ -10,12 +10,14 @@ use std::fmt;
 use serde::Serialize;
 
 use crate::contact::Sighted;
-use crate::dynamics::{Dynamics, motion};
+use crate::dynamics::Dynamics;
+use crate::equilibrium::compile;
 use crate::equilibrium::{Meeting, Placed, describe, place};
 use crate::error::Result;
 use crate::interrupt;
-use crate::model::{Model, Obstacle, Omission, Reduction};
+use crate::model::{BodyId, Model, Race};
 use crate::orbit;
+use crate::reduction::{Obstacle, Omission, Reduction};
 use crate::scene::{Defect, Doubt, Scene, Surface};
 use crate::start::{Start, start};
 use crate::touched::{Touched, compiled, is_there};
@@ -88,12 +90,12 @@ pub struct ContactKind {
 /// As [`crate::simulate()`].
 pub fn explain(scene: &Scene) -> Result<Explanation> {
     let (scene, placed) = place(scene)?;
-    let model = Model::new(&scene)?;
+    let model = compile(&scene)?;
     let y0 = start(&model, &Start::Equilibrium)?;
-    let reduction = model.reduction(&y0);
+    let reduction = Reduction::of(&model, &y0);
     let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);
     let forces = dynamics.uses();
-    let of = |wanted: crate::dynamics::Use| {
+    let of = |wanted: crate::forces::Use| {
         let named = forces.iter().filter(|(_, kind)| *kind == wanted);
         named.map(|(name, _)| *name).collect()
     };
@@ -110,9 +112,9 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         omissions: listed(reduction.as_ref(), Reduction::omissions),
         obstacles: listed(reduction.as_ref(), Reduction::obstacles),
         contacts: contacts(&model, &dynamics),
-        evaluated: of(crate::dynamics::Use::Evaluated),
-        constant: of(crate::dynamics::Use::Constant),
-        absent: of(crate::dynamics::Use::Absent),
+        evaluated: of(crate::forces::Use::Evaluated),
+        constant: of(crate::forces::Use::Constant),
+        absent: of(crate::forces::Use::Absent),
         variants,
         cost,
         law: law::of(&model, &at_start),
@@ -152,7 +154,8 @@ fn met(mut told: Touched, defect: &Defect, meeting: &Meeting) -> Touched {
     };
     let mut most = 0.0;
     for &(j, race) in contacts {
-        let (ball, ring) = (motion(y, 2 + j), motion(y, race));
+        let [ball, ring] =
+            [BodyId::ball(j), race.ring()].map(|body| model.layout().motion(y, body));
         let pair = &model.rows[defect.row].pairs[race];
         let found = pair.load_within(&model.balls[j].side, &ball, &ring, &sighted);
         told.passes += 1;
@@ -168,10 +171,10 @@ fn met(mut told: Touched, defect: &Defect, meeting: &Meeting) -> Touched {
 fn contacts(model: &Model, dynamics: &Dynamics<'_>) -> Vec<ContactKind> {
     let rows = model.scene().rows.iter().enumerate();
     rows.flat_map(|(row, of)| {
-        [0, 1].map(|side| ContactKind {
-            race: format!("row {row}, {} race", ["outer", "inner"][side]),
+        Race::BOTH.map(|race| ContactKind {
+            race: format!("row {row}, {} race", race.name()),
             contacts: of.ball_count,
-            evaluation: dynamics.evaluation(row, side),
+            evaluation: dynamics.evaluation(row, race),
         })
     })
     .collect()

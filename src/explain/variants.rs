@@ -3,8 +3,10 @@
 use serde::Serialize;
 
 use super::cost::{self, Cost};
-use crate::model::{Model, Reduction};
-use crate::scene::{Friction, Load, Scene, Slices, Surface};
+use crate::equilibrium::compile;
+use crate::model::Model;
+use crate::reduction::Reduction;
+use crate::scene::{Load, Scene, Slices, Surface};
 
 /// The same scene with one change.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -55,10 +57,9 @@ const CHANGES: [(&str, &str, Change); 11] = [
         },
     ),
     ("without friction", "another answer", |scene| {
-        (scene.friction != Friction::None).then(|| Scene {
-            friction: Friction::None,
-            ..scene.clone()
-        })
+        let mut changed = scene.clone();
+        changed.remove_friction();
+        (changed != *scene).then_some(changed)
     }),
     ("without the cage", "another answer", |scene| {
         scene.cage.as_ref().map(|_| Scene {
@@ -68,8 +69,8 @@ const CHANGES: [(&str, &str, Change); 11] = [
     }),
     ("without damping in contacts", "another answer", |scene| {
         let mut changed = scene.clone();
-        changed.contact.damping = 0.0;
-        (scene.contact.damping > 0.0).then_some(changed)
+        changed.contacts_mut().for_each(|of| of.damping = 0.0);
+        (changed != *scene).then_some(changed)
     }),
     ("without defects", "another answer", |scene| {
         let mut changed = scene.clone();
@@ -94,8 +95,9 @@ const CHANGES: [(&str, &str, Change); 11] = [
         "normal force to 4e-4, friction to some 10 %",
         |scene| {
             let mut changed = scene.clone();
-            changed.contact.slices = Slices::Fitted(4);
-            (scene.contact.slices != changed.contact.slices).then_some(changed)
+            let slices = Slices::Fitted(4);
+            changed.contacts_mut().for_each(|of| of.slices = slices);
+            (changed != *scene).then_some(changed)
         },
     ),
     (
@@ -103,19 +105,23 @@ const CHANGES: [(&str, &str, Change); 11] = [
         "closer to the converged force",
         |scene| {
             let mut changed = scene.clone();
-            changed.contact.slices = Slices::Fitted(6);
-            matches!(scene.contact.slices, Slices::Fixed(_)).then_some(changed)
+            for contact in changed.contacts_mut() {
+                if matches!(contact.slices, Slices::Fixed(_)) {
+                    contact.slices = Slices::Fitted(6);
+                }
+            }
+            (changed != *scene).then_some(changed)
         },
     ),
 ];
 
 /// All that help, the cheapest first. They are timed at the scene's own start, and take its steps.
 pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Vec<Variant> {
-    let own = model.reduction(y0).map_or(model.dim(), |r| r.dim());
+    let own = Reduction::of(model, y0).map_or(model.dim(), |r| r.dim());
     let mut variants: Vec<Variant> = offers(model, y0)
         .into_iter()
         .map(|(change, note, changed)| {
-            let kept = changed.reduction(y0).map_or(changed.dim(), |r| r.dim());
+            let kept = Reduction::of(&changed, y0).map_or(changed.dim(), |r| r.dim());
             // The integrator's share goes with the states.
             let share =
                 (cost.evaluation - cost.right_hand_side).max(0.0) * kept as f64 / own as f64;
@@ -142,12 +148,12 @@ pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Vec<Variant> {
 /// Changes that apply to a scene and hold at its start, with their notes and models. What the scene does not allow, or
 /// what meets an obstacle that was not there, is no offer.
 fn offers(model: &Model, y0: &[f64]) -> Vec<(&'static str, &'static str, Model)> {
-    let now = obstacles(model.reduction(y0).as_ref());
+    let now = obstacles(Reduction::of(model, y0).as_ref());
     CHANGES
         .into_iter()
         .filter_map(|(change, note, apply)| {
-            let changed = Model::new(&apply(model.scene())?).ok()?;
-            let holds = obstacles(changed.reduction(y0).as_ref()) <= now;
+            let changed = compile(&apply(model.scene())?).ok()?;
+            let holds = obstacles(Reduction::of(&changed, y0).as_ref()) <= now;
             holds.then_some((change, note, changed))
         })
         .collect()
@@ -179,7 +185,7 @@ mod tests {
     use crate::start::{Start, start};
 
     fn offered(scene: &Scene) -> Vec<&'static str> {
-        let model = Model::new(scene).unwrap();
+        let model = compile(scene).unwrap();
         let y0 = start(&model, &Start::Equilibrium).unwrap();
         let offers = offers(&model, &y0);
         offers.into_iter().map(|(change, _, _)| change).collect()

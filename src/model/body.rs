@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::{DOFS, Dof, Race};
 use crate::scene::{Mount, Ring, Row, Scene};
 
 /// A body compiled.
@@ -10,16 +11,23 @@ pub struct Body {
     /// Its name, as in the names of the states.
     pub name: String,
     /// Mass along x, y, z \[kg\] and moment of inertia about z \[kg m²\].
-    pub mass: [f64; 4],
+    pub mass: [f64; DOFS],
     /// How each direction moves.
-    pub degrees: [Degree; 4],
+    pub degrees: [Degree; DOFS],
     /// Nominal place x, y, z \[m\] and angle \[rad\]: rings at the origin, balls on the pitch circle.
-    pub nominal: [f64; 4],
+    pub nominal: [f64; DOFS],
 }
 
 impl Body {
+    /// Whether forces move it along any axis.
+    pub(crate) fn moves_along_axes(&self) -> bool {
+        Dof::TRANSLATIONS
+            .iter()
+            .any(|dof| self.degrees[*dof].is_free())
+    }
+
     /// One over the mass where a direction is free, 0 where it is not.
-    pub(super) fn mobility(&self) -> [f64; 4] {
+    pub(super) fn mobility(&self) -> [f64; DOFS] {
         std::array::from_fn(|i| match self.degrees[i] {
             Degree::Free { .. } => 1.0 / self.mass[i],
             Degree::Fixed | Degree::Driven => 0.0,
@@ -44,6 +52,11 @@ pub enum Degree {
 }
 
 impl Degree {
+    /// Whether forces move it.
+    pub(crate) fn is_free(&self) -> bool {
+        matches!(self, Self::Free { .. })
+    }
+
     /// Of the spring to the frame \[N/m\], about z \[N m/rad\]; 0 where nothing moves by forces.
     pub(crate) fn stiffness(&self) -> f64 {
         match self {
@@ -70,7 +83,7 @@ impl From<Mount> for Degree {
 pub(super) fn ball_mass(scene: &Scene, row: &Row, diameter: f64) -> (f64, f64) {
     let mass = row
         .ball_mass
-        .unwrap_or_else(|| scene.materials.balls.density * PI * diameter.powi(3) / 6.0);
+        .unwrap_or_else(|| scene.ball_material_of(row).density * PI * diameter.powi(3) / 6.0);
     (
         mass,
         row.ball_inertia.unwrap_or(0.1 * mass * diameter * diameter),
@@ -80,23 +93,22 @@ pub(super) fn ball_mass(scene: &Scene, row: &Row, diameter: f64) -> (f64, f64) {
 /// Mass and moment of inertia of a ring; given values first.
 ///
 /// From geometry: a hollow cylinder between boundary and land, less the grooves' circular segments. The
-/// land is at the shoulder angle, or 0.3 D beyond the pitch radius.
-pub(super) fn ring_mass(scene: &Scene, ring: &Ring, sigma: f64) -> (f64, f64) {
+/// land is at the shoulder angle, or 0.3 D beyond the pitch radius; in the mean of unlike rows.
+pub(super) fn ring_mass(scene: &Scene, ring: &Ring, race: Race) -> (f64, f64) {
+    let sigma = race.sigma();
     let geometry = || {
         let (boundary, width) = (ring.diameter? / 2.0, ring.width?);
         let density = scene.materials.rings.density;
-        let first = &scene.rows[0];
-        let land = land_radius(first, sigma);
-        let (inside, outside) = if sigma > 0.0 {
-            (land, boundary)
-        } else {
-            (boundary, land)
+        let land = mean(scene, |row| land_radius(row, race));
+        let (inside, outside) = match race {
+            Race::Outer => (land, boundary),
+            Race::Inner => (boundary, land),
         };
         let cylinder = density * PI * width * (outside.powi(2) - inside.powi(2));
         let mut mass = cylinder;
         let mut inertia = cylinder * (outside.powi(2) + inside.powi(2)) / 2.0;
         for row in &scene.rows {
-            let r = groove_radius(row, sigma);
+            let r = groove_radius(row, race);
             let bottom = f64::midpoint(row.pitch_diameter, sigma * row.ball_diameter);
             let depth = (sigma * (bottom - land)).clamp(0.0, r);
             let area = r * r * (1.0 - depth / r).acos()
@@ -112,31 +124,38 @@ pub(super) fn ring_mass(scene: &Scene, ring: &Ring, sigma: f64) -> (f64, f64) {
     let mass = ring.mass.or(computed.map(|(mass, _)| mass)).unwrap_or(1.0);
     let inertia = ring.inertia.unwrap_or_else(|| match computed {
         Some((computed_mass, inertia)) => inertia * mass / computed_mass,
-        None => mass * (scene.rows[0].pitch_diameter / 2.0).powi(2),
+        None => mass * mean(scene, |row| row.pitch_diameter / 2.0).powi(2),
     });
     (mass, inertia)
 }
 
-/// Groove radius \[m\] of the outer (σ = +1) or inner race.
-pub(super) fn groove_radius(row: &Row, sigma: f64) -> f64 {
-    row.ball_diameter
-        * if sigma > 0.0 {
-            row.outer_conformity
-        } else {
-            row.inner_conformity
-        }
+/// Mean of all rows.
+pub(super) fn mean(scene: &Scene, of: impl Fn(&Row) -> f64) -> f64 {
+    scene.rows.iter().map(of).sum::<f64>() / scene.rows.len() as f64
 }
 
-fn land_radius(row: &Row, sigma: f64) -> f64 {
-    let shoulders = if sigma > 0.0 {
-        row.outer_shoulders
-    } else {
-        row.inner_shoulders
+/// Groove radius of a race over the ball diameter.
+pub(super) fn conformity(row: &Row, race: Race) -> f64 {
+    match race {
+        Race::Outer => row.outer_conformity,
+        Race::Inner => row.inner_conformity,
+    }
+}
+
+/// Groove radius of a race \[m\].
+pub(super) fn groove_radius(row: &Row, race: Race) -> f64 {
+    row.ball_diameter * conformity(row, race)
+}
+
+fn land_radius(row: &Row, race: Race) -> f64 {
+    let shoulders = match race {
+        Race::Outer => row.outer_shoulders,
+        Race::Inner => row.inner_shoulders,
     };
-    let r = groove_radius(row, sigma);
+    let r = groove_radius(row, race);
     let height = match shoulders {
         Some([low, high]) => row.ball_diameter / 2.0 - r * (1.0 - low.max(high).cos()),
         None => 0.3 * row.ball_diameter,
     };
-    row.pitch_diameter / 2.0 + sigma * height
+    row.pitch_diameter / 2.0 + race.sigma() * height
 }

@@ -2,46 +2,45 @@
 
 use std::f64::consts::PI;
 
-use super::body::{Body, Degree, ball_mass, groove_radius, ring_mass};
-use super::{Ball, LoadModel, Model, RowModel, Scales, Spring, UnbalanceModel, demand, nodes};
+use super::body::{Body, Degree, ball_mass, conformity, groove_radius, ring_mass};
+use super::{
+    Ball, BodyId, DOFS, Dof, LoadModel, Model, Race, RowModel, Scales, Spring, UnbalanceModel,
+    demand, nodes,
+};
 use crate::contact::hertz::Hertz;
 use crate::contact::iso16281::Iso16281;
 use crate::contact::{
     BallSide, Damping, Elastic, Fault, Law, Pair, Rules, Slices, Torus, Traction, Waves,
 };
 use crate::error::{Error, Result};
-use crate::scene::{
-    self, Approximations, Defect, Drive, Mount, NormalLaw, RingName, Row, Scene, Surface,
-};
+use crate::scene::{self, Approximations, Defect, Drive, Mount, NormalLaw, Row, Scene, Surface};
 use crate::simd::Level;
 use crate::told::number;
 
-/// Checks and compiles a scene whose defects all have numbers for their places; [`Model::new`] gives them those.
-pub(crate) fn compile(scene: &Scene) -> Result<Model> {
+/// Checks and compiles a scene whose defects all have numbers for their places; [`crate::compile()`] gives them those.
+pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     scene.validate()?;
     demand::check(scene)?;
     let scene = &Approximations::simplified(scene);
     let mut bodies = vec![
-        ring(scene, &scene.outer_ring, RingName::Outer)?,
-        ring(scene, &scene.inner_ring, RingName::Inner)?,
+        ring(scene, &scene.outer_ring, Race::Outer)?,
+        ring(scene, &scene.inner_ring, Race::Inner)?,
     ];
     if matches!(scene.drive, Drive::Speed(_)) {
-        bodies[1].degrees[3] = Degree::Driven;
+        bodies[BodyId::INNER].degrees[Dof::Theta] = Degree::Driven;
     }
     let mut rows = Vec::new();
     let mut balls = Vec::new();
     for (i, row) in scene.rows.iter().enumerate() {
-        let hertz = [1.0, -1.0].map(|sigma| hertz(scene, row, sigma));
+        let hertz = Race::BOTH.map(|race| hertz(scene, row, race));
         rows.push(RowModel {
             first: balls.len(),
             count: row.ball_count,
-            pairs: [
-                pair(scene, i, row, 1.0, hertz[0]),
-                pair(scene, i, row, -1.0, hertz[1]),
-            ],
+            pairs: Race::BOTH.map(|race| pair(scene, (i, row), race, hertz[race])),
             hertz,
             cage_distance: row.pitch_diameter * (PI / row.ball_count as f64).sin(),
             side: f64::from(row.side),
+            class: i,
         });
         for index in 0..row.ball_count {
             let error = row.diameter_errors.get(index).copied().unwrap_or(0.0);
@@ -67,6 +66,7 @@ pub(crate) fn compile(scene: &Scene) -> Result<Model> {
             });
         }
     }
+    classify(&mut rows);
     let unbalances = unbalances(scene, &bodies)?;
     let mut model = Model {
         scene: scene.clone(),
@@ -84,37 +84,49 @@ pub(crate) fn compile(scene: &Scene) -> Result<Model> {
         })?,
     };
     model.scales = Scales::of(&model);
-    if let scene::Slices::Accuracy(accuracy) = scene.contact.slices {
-        fit_nodes(&mut model, accuracy);
-    }
+    fit_nodes(&mut model);
     Ok(model)
 }
 
-/// Gives each race the fewest nodes that reach an accuracy.
-fn fit_nodes(model: &mut Model, accuracy: f64) {
-    let exponent = model.rows[0].pairs[0].law.elastic.exponent();
-    let fewest = [0, 1].map(|side| nodes::fewest(model, side, exponent, accuracy));
-    for row in &mut model.rows {
-        for (pair, count) in row.pairs.iter_mut().zip(fewest) {
-            pair.slices = Slices::Fitted(Rules::new(count, exponent));
+/// Gives each race the fewest nodes that reach the accuracy it asks for: rows that are alike in all else the same number, so
+/// that they stay alike.
+fn fit_nodes(model: &mut Model) {
+    let fewest: Vec<Option<[Slices; 2]>> = (0..model.rows.len())
+        .map(|row| {
+            let scene::Slices::Accuracy(accuracy) =
+                model.scene.contact_of(&model.scene.rows[row]).slices
+            else {
+                return None;
+            };
+            let alike = |other: &usize| model.rows[*other].class == model.rows[row].class;
+            let alike: Vec<usize> = (0..model.rows.len()).filter(alike).collect();
+            Some(Race::BOTH.map(|race| nodes::fewest(model, &alike, race, accuracy)))
+        })
+        .collect();
+    for (row, fewest) in model.rows.iter_mut().zip(fewest) {
+        for (pair, slices) in row.pairs.iter_mut().zip(fewest.into_iter().flatten()) {
+            pair.slices = slices;
         }
     }
+    classify(&mut model.rows);
 }
 
-/// Body of a ring.
-pub(crate) fn ring_body(ring: RingName) -> usize {
-    match ring {
-        RingName::Outer => 0,
-        RingName::Inner => 1,
+/// Sorts rows into classes: contacts of one class differ in numbers that every contact has of its own, and may be evaluated
+/// side by side.
+fn classify(rows: &mut [RowModel]) {
+    for row in 0..rows.len() {
+        let like = |other: &usize| rows[*other].is_like(&rows[row]);
+        rows[row].class = (0..row).find(like).unwrap_or(row);
     }
 }
 
-fn ring(scene: &Scene, ring: &scene::Ring, name: RingName) -> Result<Body> {
-    let (label, sigma, absent) = match name {
-        RingName::Outer => ("outer", 1.0, Mount::Fixed),
-        RingName::Inner => ("inner", -1.0, Mount::Free),
+fn ring(scene: &Scene, ring: &scene::Ring, race: Race) -> Result<Body> {
+    let label = race.name();
+    let absent = match race {
+        Race::Outer => Mount::Fixed,
+        Race::Inner => Mount::Free,
     };
-    let (mass, inertia) = ring_mass(scene, ring, sigma);
+    let (mass, inertia) = ring_mass(scene, ring, race);
     for (field, value) in [("mass", mass), ("inertia", inertia)] {
         if value <= 0.0 {
             return Err(Error::scene(
@@ -129,46 +141,38 @@ fn ring(scene: &Scene, ring: &scene::Ring, name: RingName) -> Result<Body> {
     }
     Ok(Body {
         name: label.to_owned(),
-        nominal: [0.0; 4],
+        nominal: [0.0; DOFS],
         mass: [mass, mass, mass, inertia],
         degrees: ring.support.mounts(absent).map(Degree::from),
     })
 }
 
-/// Hertz's contact of a ball and one race, σ = +1 for the outer.
-fn hertz(scene: &Scene, row: &Row, sigma: f64) -> Hertz {
-    let materials = &scene.materials;
-    let conformity = if sigma > 0.0 {
-        row.outer_conformity
-    } else {
-        row.inner_conformity
-    };
+/// Hertz's contact of a ball and one race.
+fn hertz(scene: &Scene, row: &Row, race: Race) -> Hertz {
     Hertz::new(
-        sigma,
+        race.sigma(),
         row.ball_diameter,
         row.pitch_diameter,
-        conformity,
+        conformity(row, race),
         row.contact_angle,
-        &materials.balls,
-        &materials.rings,
+        scene.ball_material_of(row),
+        &scene.materials.rings,
     )
 }
 
-/// Geometry and laws of one race (model section 2), σ = +1 for the outer.
-fn pair(scene: &Scene, index: usize, row: &Row, sigma: f64, hertz: Hertz) -> Pair {
-    let radius = row.ball_diameter / 2.0;
-    let r = groove_radius(row, sigma);
+/// Geometry and laws of one race (model section 2).
+fn pair(scene: &Scene, (index, row): (usize, &Row), race: Race, hertz: Hertz) -> Pair {
+    let (radius, sigma) = (row.ball_diameter / 2.0, race.sigma());
+    let r = groove_radius(row, race);
     let (sin, cos) = row.contact_angle.sin_cos();
     let side = f64::from(row.side);
-    let preload = if sigma > 0.0 {
-        0.0
-    } else {
-        side * row.axial_preload
+    let preload = match race {
+        Race::Outer => 0.0,
+        Race::Inner => side * row.axial_preload,
     };
-    let (shoulders, waviness, surface) = if sigma > 0.0 {
-        (row.outer_shoulders, &row.outer_waviness, Surface::OuterRace)
-    } else {
-        (row.inner_shoulders, &row.inner_waviness, Surface::InnerRace)
+    let (shoulders, waviness, surface) = match race {
+        Race::Outer => (row.outer_shoulders, &row.outer_waviness, Surface::OuterRace),
+        Race::Inner => (row.inner_shoulders, &row.inner_waviness, Surface::InnerRace),
     };
     let [low, high] = shoulders.map_or([r, r], |angles| angles.map(|angle| r * angle.sin()));
     let race = Torus {
@@ -185,7 +189,7 @@ fn pair(scene: &Scene, index: usize, row: &Row, sigma: f64, hertz: Hertz) -> Pai
         .filter(|defect| defect.on == surface && defect.row == index)
         .map(|defect| race_fault(defect, row, &race))
         .collect();
-    let contact = &scene.contact;
+    let contact = scene.contact_of(row);
     let elastic = match contact.law {
         NormalLaw::Iso16281 {
             constant,
@@ -247,16 +251,16 @@ fn offset(defect: &Defect) -> f64 {
 fn springs(bodies: &[Body]) -> Vec<Spring> {
     let mut springs = Vec::new();
     for (b, body) in bodies.iter().enumerate() {
-        for (direction, degree) in body.degrees.iter().enumerate() {
-            if let Degree::Free { stiffness, damping } = *degree
+        for dof in Dof::ALL {
+            if let Degree::Free { stiffness, damping } = body.degrees[dof]
                 && (stiffness != 0.0 || damping != 0.0)
             {
                 springs.push(Spring {
-                    body: b,
-                    direction,
+                    body: BodyId::new(b),
+                    dof,
                     stiffness,
                     damping,
-                    nominal: body.nominal[direction],
+                    nominal: body.nominal[dof],
                 });
             }
         }
@@ -269,11 +273,11 @@ fn unbalances(scene: &Scene, bodies: &[Body]) -> Result<Vec<UnbalanceModel>> {
     let mut sums = [0.0; 2];
     let mut found = Vec::new();
     for (name, unbalance) in &scene.unbalances {
-        let ring = ring_body(unbalance.ring);
-        let body = &bodies[ring];
+        let ring = Race::from(unbalance.ring);
+        let body = &bodies[ring.ring().index()];
         sums[ring] += unbalance.moment;
-        let most = (body.mass[0] * body.mass[3]).sqrt();
-        if matches!(body.degrees[3], Degree::Free { .. }) && sums[ring] >= most {
+        let most = (body.mass[Dof::X] * body.mass[Dof::Theta]).sqrt();
+        if body.degrees[Dof::Theta].is_free() && sums[ring] >= most {
             return Err(Error::scene(
                 format!("unbalances.{name}.moment"),
                 unbalance.moment,
@@ -300,7 +304,7 @@ fn loads(scene: &Scene) -> Vec<LoadModel> {
         .map(|load| {
             let size = load.direction.iter().map(|x| x * x).sum::<f64>().sqrt();
             LoadModel {
-                ring: ring_body(load.ring),
+                ring: load.ring.into(),
                 direction: load.direction.map(|x| x / size),
                 force: load.force.clone(),
             }

@@ -75,7 +75,7 @@ fn in_time(value: &TimeFunction) -> usize {
 mod tests {
     use super::*;
     use crate::Error;
-    use crate::model::Model;
+    use crate::model::compile_placed;
     use crate::scene::presets;
 
     #[test]
@@ -86,7 +86,7 @@ mod tests {
             values: vec![1.0; times.len()],
             times,
         }));
-        let compiled = |scene: &Scene| memory::within(200e3, || Model::new(scene));
+        let compiled = |scene: &Scene| memory::within(200e3, || compile_placed(scene));
         let error = compiled(&scene).unwrap_err();
         assert!(
             matches!(error, Error::Memory { .. }) && error.to_string().contains("2002 numbers"),

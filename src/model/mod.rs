@@ -1,30 +1,34 @@
 //! The scene compiled: indices, arrays and constants that a run only reads.
 //!
 //! Bodies stand in one order everywhere: outer ring, inner ring, balls row by row. The state vector holds
-//! (x, y, z, θ) of every body, then (vx, vy, vz, ω) of every body.
+//! (x, y, z, θ) of every body, then (vx, vy, vz, ω) of every body; [`Layout`] says where.
 
 mod body;
 mod compile;
 mod demand;
+mod layout;
 mod nodes;
-mod reduction;
 mod scales;
 
+use std::mem::discriminant;
+use std::ops::Range;
+
 use crate::contact::hertz::Hertz;
-use crate::contact::{BallSide, Pair};
-use crate::scene::{Component, Method, Scene, TimeFunction};
-use crate::simd::Level;
+use crate::contact::{BallSide, Pair, Slices, cross};
+use crate::scene::{Component, Scene, TimeFunction};
+use crate::simd::{LANES, Level};
 
 pub use body::{Body, Degree};
-pub(crate) use compile::{ball_fault, compile, race_fault};
-pub use reduction::{Obstacle, Omission, Reduction};
+pub(crate) use compile::{ball_fault, compile_placed, race_fault};
+pub use layout::{BodyId, BodyKind, DOFS, Dof, Layout, Race};
+pub(crate) use layout::{RING_DOFS, RINGS};
 pub use scales::Scales;
 
 /// A compiled scene. Immutable and shared by threads.
 ///
 /// ```
-/// use ballrace::{Model, scene::presets};
-/// let model = Model::new(&presets::wheel_bearing(3000.0)).unwrap();
+/// use ballrace::{compile, scene::presets};
+/// let model = compile(&presets::wheel_bearing(3000.0)).unwrap();
 /// assert_eq!(model.dim(), 8 * 28);
 /// assert_eq!(model.names()[4 * 28 + 1], "outer.vy");
 /// ```
@@ -38,7 +42,7 @@ pub struct Model {
     pub(crate) unbalances: Vec<UnbalanceModel>,
     pub(crate) springs: Vec<Spring>,
     /// One over the mass of every body's free directions, 0 for the others.
-    pub(crate) mobility: Vec<[f64; 4]>,
+    pub(crate) mobility: Vec<[f64; DOFS]>,
     pub(crate) scales: Scales,
     pub(crate) level: Level,
 }
@@ -56,9 +60,37 @@ pub(crate) struct RowModel {
     /// Distance of neighbouring balls ℓ₀.
     pub cage_distance: f64,
     pub side: f64,
+    /// The first row like it ([`RowModel::is_like`]), which may be itself.
+    pub class: usize,
 }
 
 impl RowModel {
+    /// Its balls among those of all rows.
+    pub fn balls(&self) -> Range<usize> {
+        self.first..self.first + self.count
+    }
+
+    /// The body of its first ball; the others follow.
+    pub fn first_body(&self) -> BodyId {
+        BodyId::ball(self.first)
+    }
+
+    /// Whether its contacts follow the same equations as another row's, cut at as many places: kind of law, slices, damping
+    /// and friction are the same. Geometry, waves and strength of the law may differ.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let alike = |(a, b): (&Pair, &Pair)| {
+            discriminant(&a.law.elastic) == discriminant(&b.law.elastic)
+                && (&a.slices, a.law.damping, a.law.traction)
+                    == (&b.slices, b.law.damping, b.law.traction)
+        };
+        self.pairs.iter().zip(&other.pairs).all(alike)
+    }
+
+    /// Whether its balls rub on either race.
+    pub fn has_friction(&self) -> bool {
+        self.pairs.iter().any(|pair| pair.law.traction.is_some())
+    }
+
     /// Neighbours that the cage links, as indices among all balls: none for one ball, one link for two.
     pub fn links(&self) -> impl Iterator<Item = (usize, usize)> {
         let (first, count) = (self.first, self.count);
@@ -79,9 +111,8 @@ pub(crate) struct Ball {
 /// Spring and damper of a direction of a body against the frame, relaxed at its nominal place.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Spring {
-    pub body: usize,
-    /// 0 to 3.
-    pub direction: usize,
+    pub body: BodyId,
+    pub dof: Dof,
     pub stiffness: f64,
     pub damping: f64,
     pub nominal: f64,
@@ -90,7 +121,7 @@ pub(crate) struct Spring {
 /// A load compiled: force at a ring's centre.
 #[derive(Debug, Clone)]
 pub(crate) struct LoadModel {
-    pub ring: usize,
+    pub ring: Race,
     pub direction: [f64; 3],
     pub force: TimeFunction,
 }
@@ -98,7 +129,7 @@ pub(crate) struct LoadModel {
 /// An unbalance compiled.
 #[derive(Debug, Clone)]
 pub(crate) struct UnbalanceModel {
-    pub ring: usize,
+    pub ring: Race,
     pub moment: f64,
     pub angle: f64,
 }
@@ -115,9 +146,14 @@ impl Model {
         self.bodies.len()
     }
 
-    /// Length of the state vector: eight a body.
+    /// Length of the state vector: a place and a speed for each direction of every body.
     pub fn dim(&self) -> usize {
-        8 * self.bodies.len()
+        self.layout().dim()
+    }
+
+    /// Where the places and speeds of all bodies stand in a state vector.
+    pub fn layout(&self) -> Layout {
+        Layout::of_balls(self.balls.len())
     }
 
     /// Names of the bodies in their order: `outer`, `inner`, `row0.ball0`, …
@@ -137,16 +173,27 @@ impl Model {
                 })
                 .collect::<Vec<_>>()
         };
-        let (positions, velocities) = (&Component::ALL[..4], &Component::ALL[4..8]);
-        [of(positions), of(velocities)].concat()
+        let (positions, velocities) = Component::ALL.split_at(DOFS);
+        [of(positions), of(&velocities[..DOFS])].concat()
     }
 
-    /// Slices or nodes of a contact with the outer and with the inner race.
+    /// Slices or nodes of a contact with the outer and with the inner race, of the row that has most.
     pub fn slices(&self) -> [usize; 2] {
-        self.rows[0]
-            .pairs
-            .each_ref()
-            .map(|pair| pair.slices.count() as usize)
+        Race::BOTH.map(|race| {
+            let of = |row: &RowModel| row.pairs[race].slices.count() as usize;
+            self.rows.iter().map(of).max().unwrap_or(0)
+        })
+    }
+
+    /// Classes of rows whose contacts may be evaluated side by side, each by its first row ([`RowModel::is_like`]).
+    pub(crate) fn classes(&self) -> impl Iterator<Item = usize> {
+        (0..self.rows.len()).filter(|row| self.rows[*row].class == *row)
+    }
+
+    /// Groups of eight that the balls of a class make, at most.
+    pub(crate) fn eights(&self, class: usize) -> usize {
+        let rows = self.rows.iter().filter(|row| row.class == class);
+        rows.map(|row| row.count).sum::<usize>().div_ceil(LANES)
     }
 
     /// Level of vector instructions that evaluations use.
@@ -166,18 +213,32 @@ impl Model {
         &self.scales
     }
 
-    /// What a run from a state of all bodies leaves out; absent where it integrates all states in the order of
-    /// [`Model::names`], since implicit steps solve for a block a body.
-    ///
-    /// # Panics
-    /// If the length of `start` is wrong.
-    pub fn reduction(&self, start: &[f64]) -> Option<Reduction> {
-        assert_eq!(start.len(), self.dim(), "length of the state");
-        let solver = &self.scene.solver;
-        match solver.method {
-            Method::ImplicitFriction | Method::Auto => None,
-            _ => Some(Reduction::of(self, start, solver.reduce)),
+    /// The radius that makes a length of a body's rotation \[m\]: a ball's own, half the mean pitch diameter of the rows for
+    /// a ring.
+    pub(crate) fn radius(&self, body: BodyId) -> f64 {
+        match body.kind() {
+            BodyKind::Ball(ball) => self.balls[ball].side.radius,
+            BodyKind::Ring(_) => {
+                let pitch = self.scene.rows.iter().map(|row| row.pitch_diameter);
+                pitch.sum::<f64>() / self.rows.len() as f64 / 2.0
+            }
         }
+    }
+
+    /// Whether sharing one evaluation among threads pays: below some 7 µs the wait for the last thread costs more
+    /// (`cargo bench --bench layers -- threads`).
+    pub(crate) fn is_large(&self) -> bool {
+        /// Nodes of all contacts from which two threads were faster.
+        const BREAK_EVEN: usize = 1500;
+        let nodes = |row: &RowModel| -> usize {
+            let of = |pair: &Pair| match &pair.slices {
+                // About a third of the ball touches.
+                Slices::Fixed(count) => count / 3,
+                Slices::Fitted(rules) => rules.count(),
+            };
+            row.count * row.pairs.iter().map(of).sum::<usize>()
+        };
+        self.rows.iter().map(nodes).sum::<usize>() > BREAK_EVEN
     }
 
     /// Orbit rate of a row's balls and their rotation about z \[rad/s\] for pure rolling at the nominal contact
@@ -190,12 +251,12 @@ impl Model {
 
     /// Speed of a row's balls about the axis in a state of all bodies, in the mean \[rad/s\].
     pub(crate) fn orbit_speed(&self, row: usize, y: &[f64]) -> f64 {
-        let half = y.len() / 2;
-        let RowModel { first, count, .. } = self.rows[row];
+        let row = &self.rows[row];
         let mut speed = 0.0;
-        for body in 2 + first..2 + first + count {
-            let [x, y_, vx, vy] = [0, 1, half, half + 1].map(|at| y[4 * body + at]);
-            speed += (x * vy - y_ * vx) / (x * x + y_ * y_) / count as f64;
+        for ball in row.balls() {
+            let ball = self.layout().motion(y, BodyId::ball(ball));
+            let orbit = cross(ball.centre, ball.velocity) / ball.centre.norm_squared();
+            speed += orbit / row.count as f64;
         }
         speed
     }
@@ -207,7 +268,7 @@ impl Model {
     }
 
     /// [`Self::rolling_speeds`] over the speed of the inner ring.
-    fn rolling_shares(&self, row: usize) -> (f64, f64) {
+    pub(crate) fn rolling_shares(&self, row: usize) -> (f64, f64) {
         let row = &self.scene.rows[row];
         let gamma = row.ball_diameter * row.contact_angle.cos() / row.pitch_diameter;
         let orbit = (1.0 - gamma) / 2.0;

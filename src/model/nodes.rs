@@ -1,6 +1,6 @@
 //! As many nodes as a contact needs for a requested accuracy of its force.
 
-use super::{Model, RowModel, Scales};
+use super::{Model, Race, RowModel, Scales};
 use crate::contact::{BallSide, Motion, Pair, Rules, Sink, Slices, Touch, V2, Waves};
 
 /// Nodes against which others are measured.
@@ -13,38 +13,38 @@ const MOST: usize = 48;
 const APPROACHES: [f64; 2] = [0.3, 1.0];
 const TURNS: [f64; 2] = [0.0, 0.2];
 
-/// The fewest nodes that give normal and friction force of every row's rolling balls on one race to an accuracy,
-/// relative to the normal force.
-pub(super) fn fewest(model: &Model, side: usize, exponent: f64, accuracy: f64) -> usize {
+/// The fewest nodes that give normal and friction force of the rolling balls of some rows, all of one law, on one race to an
+/// accuracy, relative to the normal force.
+pub(super) fn fewest(model: &Model, rows: &[usize], race: Race, accuracy: f64) -> Slices {
+    let exponent = model.rows[rows[0]].pairs[race].law.elastic.exponent();
+    let rules = |m: usize| Slices::Fitted(Rules::new(m, exponent));
     let error = |m: usize| {
-        let rules = Slices::Fitted(Rules::new(m, exponent));
-        (0..model.rows.len())
-            .map(|row| worst(model, row, side, &rules))
-            .fold(0.0, f64::max)
+        let errors = rows.iter().map(|row| worst(model, *row, race, &rules(m)));
+        errors.fold(0.0, f64::max)
     };
     let mut before = error(FEWEST);
     for m in FEWEST..MOST {
         // The error swings from one number to the next: both must do.
         let next = error(m + 1);
         if before.max(next) <= accuracy {
-            return m;
+            return rules(m);
         }
         before = next;
     }
-    MOST
+    rules(MOST)
 }
 
 /// Largest error over approaches and angles.
-fn worst(model: &Model, row: usize, side: usize, rules: &Slices) -> f64 {
+fn worst(model: &Model, row: usize, race: Race, rules: &Slices) -> f64 {
     let compiled = &model.rows[row];
     let pair = Pair {
         slices: rules.clone(),
         faults: Vec::new(),
         waves: Waves::default(),
-        ..compiled.pairs[side].clone()
+        ..compiled.pairs[race].clone()
     };
     let many = Pair {
-        slices: compiled.pairs[side].slices.clone(),
+        slices: compiled.pairs[race].slices.clone(),
         ..pair.clone()
     };
     let ball = BallSide {

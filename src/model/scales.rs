@@ -1,6 +1,6 @@
 //! The scene's own scales: a typical approach, the highest contact frequency, and what follows from them.
 
-use super::{Degree, Model};
+use super::{Degree, Dof, Model, Race};
 use crate::contact::{BallSide, Law, Motion, Pair, Sink, Touch, V2};
 use crate::scene::Drive;
 
@@ -13,10 +13,6 @@ pub struct Scales {
     pub approach: f64,
     /// Highest angular frequency: a ball between its races, a ring on its balls, supports, cage \[rad/s\].
     pub frequency: f64,
-    /// Rate at which contact damping ends the motion of a ball between its races under that load \[1/s\].
-    pub damping: f64,
-    /// Highest rate at which friction or damping changes a motion under that load \[1/s\].
-    pub rate: f64,
 }
 
 impl Scales {
@@ -37,13 +33,13 @@ impl Scales {
             radial += unbalance.moment * speed * speed;
         }
         for body in &model.bodies {
-            radial += body.mass[0] * scene.gravity[0].hypot(scene.gravity[1]);
-            axial += body.mass[0] * scene.gravity[2].abs();
+            radial += body.mass[Dof::X] * scene.gravity[0].hypot(scene.gravity[1]);
+            axial += body.mass[Dof::Z] * scene.gravity[2].abs();
         }
         let mut scales = Self::default();
         for (i, row) in model.rows.iter().enumerate() {
             let geometry = &scene.rows[i];
-            let body = &model.bodies[2 + row.first];
+            let body = &model.bodies[row.first_body()];
             let ball = &model.balls[row.first];
             // Stribeck's five for the heaviest of the balls of all rows; one row takes the whole thrust, at
             // an angle that a deep-groove bearing reaches under load.
@@ -51,7 +47,7 @@ impl Scales {
             let external =
                 5.0 * radial / (model.balls.len() as f64 * cos) + axial / (row.count as f64 * sin);
             let orbit = 0.4 * speed;
-            let centrifugal = body.mass[0] * orbit * orbit * geometry.pitch_diameter / 2.0;
+            let centrifugal = body.mass[Dof::X] * orbit * orbit * geometry.pitch_diameter / 2.0;
             let squeeze = (-geometry.clearance / 4.0 * cos).max(0.0)
                 + (geometry.axial_preload / 2.0 * sin).max(0.0);
             let bottoms = row
@@ -72,15 +68,13 @@ impl Scales {
             });
             scales.load = scales.load.max(load);
             let cage = scene.cage.as_ref().map_or(0.0, |cage| 4.0 * cage.stiffness);
-            let on_ball = (stiffness[0] + stiffness[1] + cage) / body.mass[0];
+            let on_ball = (stiffness[0] + stiffness[1] + cage) / body.mass[Dof::X];
             scales.frequency = scales.frequency.max(on_ball.sqrt());
-            for (ring, stiffness) in model.bodies[..2].iter().zip(stiffness) {
-                let on_ring =
-                    model.rows.len() as f64 * row.count as f64 / 2.0 * stiffness / ring.mass[0];
-                if ring.degrees[..3]
-                    .iter()
-                    .any(|d| matches!(d, Degree::Free { .. }))
-                {
+            for race in Race::BOTH {
+                let ring = &model.bodies[race.ring()];
+                let balls = model.rows.len() as f64 * row.count as f64;
+                let on_ring = balls / 2.0 * stiffness[race] / ring.mass[Dof::X];
+                if ring.moves_along_axes() {
                     scales.frequency = scales.frequency.max(on_ring.sqrt());
                 }
             }
@@ -92,47 +86,7 @@ impl Scales {
                 }
             }
         }
-        scales.find_rates(model);
         scales
-    }
-
-    /// The rates of friction and damping under the estimated load.
-    fn find_rates(&mut self, model: &Model) {
-        for (i, row) in model.rows.iter().enumerate() {
-            let body = &model.bodies[2 + row.first];
-            let radius = model.balls[row.first].side.radius;
-            // Both races rub on a ball, and turn it more easily than they shift it.
-            let mobility = (radius * radius / body.mass[3]).max(1.0 / body.mass[0]);
-            let rubbing = |pair: &Pair| pair.law.traction.map_or(0.0, |law| law.at(0.0));
-            let friction: f64 = row.pairs.iter().map(rubbing).sum();
-            // Hunt and Crossley's 3/2 α_d N on either side.
-            let damping: f64 = row.pairs.iter().map(|pair| pair.law.damping.rate()).sum();
-            self.damping = self.damping.max(self.load * damping / body.mass[0]);
-            self.rate = self.rate.max(self.load * friction * mobility);
-            self.rate = self.rate.max(model.cage_rate(i));
-        }
-        let supports = (0..model.bodies.len()).map(|body| model.support_rate(body));
-        self.rate = supports.fold(self.rate.max(self.damping), f64::max);
-    }
-}
-
-impl Model {
-    /// Rate at which the cage damps a ball of a row \[1/s\]: by two links, at most 4 c_c/m.
-    pub(crate) fn cage_rate(&self, row: usize) -> f64 {
-        let ball = &self.bodies[2 + self.rows[row].first];
-        let cage = self.scene.cage.as_ref();
-        cage.map_or(0.0, |cage| 4.0 * cage.damping / ball.mass[0])
-    }
-
-    /// Rate of the fastest of a body's own dampers \[1/s\].
-    pub(crate) fn support_rate(&self, body: usize) -> f64 {
-        let body = &self.bodies[body];
-        let rates = body.degrees.iter().zip(body.mass);
-        let rates = rates.map(|(degree, mass)| match degree {
-            Degree::Free { damping, .. } => damping / mass,
-            _ => 0.0,
-        });
-        rates.fold(0.0, f64::max)
     }
 }
 

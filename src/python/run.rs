@@ -11,6 +11,9 @@ use pyo3::types::{PyDict, PyList};
 
 use super::answer::{Callbacks, answering, handing_over};
 use super::errors::{OrRaise, to_json};
+use crate::dynamics;
+use crate::equilibrium::compile;
+use crate::model::{DOFS, Layout};
 use crate::scene::RingName;
 use crate::start::check_length;
 use crate::{Error, Run, Scene, Signals, SliceRow, Start};
@@ -24,7 +27,7 @@ impl Model {
     #[new]
     fn new(py: Python<'_>, scene: &str) -> PyResult<Self> {
         let scene = Scene::from_json(scene).or_raise(py)?;
-        let model = answering(py, None, move |_| crate::Model::new(&scene))?;
+        let model = answering(py, None, move |_| compile(&scene))?;
         Ok(Self(Arc::new(model)))
     }
 
@@ -70,7 +73,7 @@ impl Model {
         let y = self.state(py, &y)?;
         let rates = py.detach(|| {
             let mut rates = vec![0.0; y.len()];
-            self.0.rhs(t, &y, &mut rates);
+            dynamics::rhs(&self.0, t, &y, &mut rates);
             rates
         });
         Ok(rates.into_pyarray(py))
@@ -85,9 +88,9 @@ impl Model {
     ) -> PyResult<Bound<'py, PyDict>> {
         let y = self.state(py, &y)?;
         let forces = PyDict::new(py);
-        for (origin, values) in py.detach(|| self.0.forces(t, &y)) {
-            let rows = values.len() / 4;
-            forces.set_item(origin, values.into_pyarray(py).reshape([rows, 4])?)?;
+        for (origin, values) in py.detach(|| dynamics::contributions(&self.0, t, &y)) {
+            let rows = values.len() / DOFS;
+            forces.set_item(origin, values.into_pyarray(py).reshape([rows, DOFS])?)?;
         }
         Ok(forces)
     }
@@ -160,7 +163,7 @@ pub(super) fn run_from_json(py: Python<'_>, text: &str) -> PyResult<String> {
 /// A copy of a state to begin from, if it has the length for it.
 fn state_of(scene: &Scene, y: &PyReadonlyArray1<'_, f64>) -> crate::Result<Vec<f64>> {
     let balls: usize = scene.rows.iter().map(|row| row.ball_count).sum();
-    check_length(y.as_array().len(), 8 * (2 + balls))?;
+    check_length(y.as_array().len(), Layout::of_balls(balls).dim())?;
     Ok(y.as_array().iter().copied().collect())
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Drive, Friction, Method, Mount, Scene};
+use super::{Drive, Method, Mount, Scene};
 use crate::error::{Error, Result};
 
 /// Simplifications that change the answer, all off by default. What each costs in accuracy is measured in
@@ -31,7 +31,8 @@ impl Approximations {
     pub(crate) fn simplified(scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         if scene.approximations.rolling {
-            (scene.friction, scene.cage) = (Friction::None, None);
+            scene.remove_friction();
+            scene.cage = None;
         }
         scene
     }

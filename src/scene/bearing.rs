@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::defaults;
+use super::{Contact, Friction, Material, defaults};
 
 /// One row of balls between two grooves (geometry of model section 2).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -60,6 +60,15 @@ pub struct Row {
     /// How every ball of the row hangs on the inertial frame; by default free.
     #[serde(default)]
     pub ball_support: Support,
+    /// Material of the row's balls; absent: that of the scene, `materials.balls`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ball_material: Option<Material>,
+    /// How the row's balls meet their races, in place of the whole of the scene's `contact`; absent: as there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact: Option<Contact>,
+    /// Friction of the row's balls and races; absent: that of the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<Friction>,
 }
 
 /// One harmonic of a race's radius: ΔR(φ) = amplitude · cos(order · φ + phase), φ from the ring's own x axis.

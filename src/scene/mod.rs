@@ -123,6 +123,33 @@ fn check_length(text: &str, factor: f64) -> Result<()> {
 }
 
 impl Scene {
+    /// How the balls of a row meet their races: the row's own contact, or that of the scene.
+    pub fn contact_of<'a>(&'a self, row: &'a Row) -> &'a Contact {
+        row.contact.as_ref().unwrap_or(&self.contact)
+    }
+
+    /// Friction of a row's contacts: its own, or that of the scene.
+    pub fn friction_of<'a>(&'a self, row: &'a Row) -> &'a Friction {
+        row.friction.as_ref().unwrap_or(&self.friction)
+    }
+
+    /// Material of a row's balls: its own, or that of the scene.
+    pub fn ball_material_of<'a>(&'a self, row: &'a Row) -> &'a Material {
+        row.ball_material.as_ref().unwrap_or(&self.materials.balls)
+    }
+
+    /// The contacts of all rows, as far as they are said: the scene's and the rows' own.
+    pub(crate) fn contacts_mut(&mut self) -> impl Iterator<Item = &mut Contact> {
+        let own = self.rows.iter_mut().filter_map(|row| row.contact.as_mut());
+        std::iter::once(&mut self.contact).chain(own)
+    }
+
+    /// Leaves all rows without friction.
+    pub(crate) fn remove_friction(&mut self) {
+        self.friction = Friction::None;
+        self.rows.iter_mut().for_each(|row| row.friction = None);
+    }
+
     /// Reads a scene from TOML and checks it.
     ///
     /// # Errors
@@ -144,7 +171,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Reads a scene from JSON for [`crate::Model::new`], which checks it.
+    /// Reads a scene from JSON for [`crate::compile()`], which checks it.
     pub(crate) fn from_json_unchecked(text: &str) -> Result<Self> {
         check_length(text, JSON)?;
         // The document takes three times as long; it knows the path and the value of what is wrong.

@@ -48,6 +48,9 @@ pub fn wheel_bearing(axial_load: f64) -> Scene {
         ball_mass: None,
         ball_inertia: None,
         ball_support: Support::default(),
+        ball_material: None,
+        contact: None,
+        friction: None,
     };
     Scene {
         schema: SCHEMA,
@@ -137,6 +140,9 @@ pub fn deep_groove_6205(radial_load: f64, axial_load: f64, speed_rpm: f64) -> Sc
         ball_mass: None,
         ball_inertia: None,
         ball_support: Support::default(),
+        ball_material: None,
+        contact: None,
+        friction: None,
     };
     Scene {
         schema: SCHEMA,

@@ -118,6 +118,11 @@ impl Component {
         self as usize % 4
     }
 
+    /// 0 for a place, 1 for a speed, 2 for an acceleration.
+    pub fn derivative(self) -> usize {
+        self as usize / 4
+    }
+
     /// Name as in columns and states, and unit.
     pub fn label(self) -> (&'static str, &'static str) {
         [

@@ -3,7 +3,9 @@
 use super::SliceRow;
 use super::blocks::rows_in_memory;
 use super::filter::HALF;
-use crate::dynamics::{CONTRIBUTIONS, Energy};
+use crate::dynamics::CONTRIBUTIONS;
+use crate::inspect::Energy;
+use crate::model::{DOFS, RINGS};
 use crate::scene::{Component, ContactQuantity, Probe, Scene, Slices};
 
 /// A column besides its values: its name twice, and what finds it \[bytes\]. An estimate, generous for names of some tens
@@ -26,7 +28,7 @@ pub(crate) struct Demand {
 impl Demand {
     /// Of a valid scene.
     pub fn of(scene: &Scene) -> Self {
-        let nodes = match scene.contact.slices {
+        let nodes = |row: usize| match scene.contact_of(&scene.rows[row]).slices {
             Slices::Fixed(count) => count,
             Slices::Fitted(count) => PIECES * count,
             Slices::Accuracy(_) => PIECES * 64,
@@ -37,7 +39,7 @@ impl Demand {
         };
         for (_, probe) in scene.recorded().iter() {
             let contacts = |row: usize, balls: Option<usize>, races: Option<usize>| {
-                balls.unwrap_or(scene.rows[row].ball_count) * races.unwrap_or(2)
+                balls.unwrap_or(scene.rows[row].ball_count) * races.unwrap_or(RINGS)
             };
             demand.columns += match probe {
                 Probe::Motion { components, .. } => {
@@ -63,8 +65,8 @@ impl Demand {
                     (_, count) => count,
                 },
                 Probe::Energy {} => Energy::default().entries().len(),
-                Probe::Torque {} => 2,
-                Probe::Forces { .. } => 4 * CONTRIBUTIONS.len(),
+                Probe::Torque {} => RINGS,
+                Probe::Forces { .. } => DOFS * CONTRIBUTIONS.len(),
                 Probe::Slices {
                     row,
                     balls,
@@ -72,7 +74,7 @@ impl Demand {
                     times,
                 } => {
                     demand.slices += times.len()
-                        * nodes
+                        * nodes(*row)
                         * contacts(
                             *row,
                             balls.as_ref().map(Vec::len),
@@ -108,7 +110,7 @@ impl Demand {
 mod tests {
     use super::super::probes::Probes;
     use super::*;
-    use crate::model::Model;
+    use crate::equilibrium::compile;
     use crate::scene::{RingName, presets};
 
     /// Truth: the columns that are made.
@@ -150,7 +152,7 @@ mod tests {
         ];
         for (k, probe) in probes.into_iter().enumerate() {
             scene.probes.insert(format!("p{k}"), probe);
-            let model = Model::new(&scene).unwrap();
+            let model = compile(&scene).unwrap();
             let demand = Demand::of(&scene);
             assert_eq!(demand.columns, Probes::new(&model).columns.len(), "p{k}");
         }

@@ -16,11 +16,12 @@ mod filter;
 mod probes;
 mod recorder;
 mod sampling;
+mod warning;
 
 use serde::Serialize;
 
 use crate::accuracy::Accuracy;
-use crate::model::Omission;
+use crate::reduction::Omission;
 use crate::scene::{RingName, Scene};
 use crate::simd::Distrust;
 use crate::touched::Touched;
@@ -32,6 +33,7 @@ pub(crate) use probes::columns;
 pub(crate) use recorder::Recorder;
 pub use sampling::Bandwidth;
 pub(crate) use sampling::Sampling;
+pub use warning::Warning;
 
 /// What a run gives.
 #[derive(Debug, Clone)]

@@ -2,9 +2,11 @@
 
 use super::Column;
 use super::filter::Kind;
-use crate::dynamics::{CONTRIBUTIONS, Dynamics, Energy};
+use crate::dynamics::{CONTRIBUTIONS, Dynamics, contributions};
+use crate::equilibrium::compile;
 use crate::error::Result;
-use crate::model::Model;
+use crate::inspect::{self, Energy};
+use crate::model::{BodyId, Dof, Model, Race};
 use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene};
 
 /// Names and units of what a scene records.
@@ -16,17 +18,17 @@ pub(crate) fn columns(scene: &Scene) -> Result<Vec<Column>> {
     // What is recorded does not depend on defects, nor on where they are placed.
     let mut healthy = scene.clone();
     healthy.defects.clear();
-    Ok(Probes::new(&Model::new(&healthy)?).columns)
+    Ok(Probes::new(&compile(&healthy)?).columns)
 }
 
 /// A probe with its indices looked up.
 pub(super) enum Reader {
     Motion {
-        body: usize,
+        body: BodyId,
         components: Vec<Component>,
     },
     Contacts {
-        contacts: Vec<(usize, usize)>,
+        contacts: Vec<(usize, Race)>,
         quantities: Vec<ContactQuantity>,
     },
     Cage {
@@ -35,7 +37,7 @@ pub(super) enum Reader {
     Energy,
     Torque,
     Forces {
-        body: usize,
+        body: BodyId,
     },
 }
 
@@ -43,7 +45,7 @@ pub(super) enum Reader {
 pub(super) struct Listing {
     pub probe: String,
     pub time: f64,
-    pub contacts: Vec<(usize, usize)>,
+    pub contacts: Vec<(usize, Race)>,
 }
 
 /// All probes of a scene.
@@ -72,7 +74,7 @@ impl Probes {
 
     fn add(&mut self, model: &Model, name: &str, probe: &Probe) {
         // Validation has made sure that bodies exist.
-        let body_of = |body: &str| model.scene.body_index(body).unwrap_or(0);
+        let body_of = |body: &str| BodyId::new(model.scene.body_index(body).unwrap_or(0));
         let before = self.columns.len();
         let reader = match probe {
             Probe::Motion { body, components } => {
@@ -102,8 +104,9 @@ impl Probes {
                 Reader::Energy
             }
             Probe::Torque {} => {
-                for ring in ["outer", "inner"] {
-                    self.column(format!("{name}.{ring}"), "N m", Some(Kind::Smooth));
+                for race in Race::BOTH {
+                    let column = format!("{name}.{}", race.name());
+                    self.column(column, "N m", Some(Kind::Smooth));
                 }
                 self.needs_rhs = true;
                 Reader::Torque
@@ -127,11 +130,11 @@ impl Probes {
         self.readers.push((reader, self.columns.len() - before));
     }
 
-    fn motion(&mut self, name: &str, body: usize, components: Option<&[Component]>) -> Reader {
+    fn motion(&mut self, name: &str, body: BodyId, components: Option<&[Component]>) -> Reader {
         let components = components.unwrap_or(&Component::ALL).to_vec();
         for component in &components {
             let (label, unit) = component.label();
-            let derived = *component as usize >= 8;
+            let derived = component.derivative() == 2;
             let kind = if derived { Kind::Slope } else { Kind::Smooth };
             self.column(format!("{name}.{label}"), unit, Some(kind));
             self.needs_rhs |= derived;
@@ -143,7 +146,7 @@ impl Probes {
         &mut self,
         model: &Model,
         name: &str,
-        contacts: Vec<(usize, usize)>,
+        contacts: Vec<(usize, Race)>,
         quantities: Option<&[ContactQuantity]>,
     ) -> Reader {
         let quantities = quantities.unwrap_or(&ContactQuantity::ALL).to_vec();
@@ -151,7 +154,7 @@ impl Probes {
             let ball = model.balls[*j].index;
             for quantity in &quantities {
                 let (label, unit) = quantity.label();
-                let race = ["outer", "inner"][*race];
+                let race = race.name();
                 self.column(format!("{name}.ball{ball}.{race}.{label}"), unit, None);
             }
         }
@@ -161,10 +164,11 @@ impl Probes {
         }
     }
 
-    fn forces(&mut self, name: &str, body: usize) -> Reader {
+    fn forces(&mut self, name: &str, body: BodyId) -> Reader {
         for part in CONTRIBUTIONS {
-            for (direction, unit) in [("x", "N"), ("y", "N"), ("z", "N"), ("theta", "N m")] {
-                self.column(format!("{name}.{part}.{direction}"), unit, None);
+            for dof in Dof::ALL {
+                let unit = if dof.is_rotation() { "N m" } else { "N" };
+                self.column(format!("{name}.{part}.{}", dof.name()), unit, None);
             }
         }
         Reader::Forces { body }
@@ -196,15 +200,15 @@ impl Reader {
         values: &mut Vec<f64>,
     ) {
         let model = dynamics.model();
-        let half = y.len() / 2;
+        let layout = model.layout();
         match self {
             Self::Motion { body, components } => {
                 values.extend(components.iter().map(|component| {
-                    let i = *component as usize;
-                    let at = 4 * body + i % 4;
-                    match i / 4 {
+                    let dof = Dof::ALL[component.direction()];
+                    let at = layout.at(*body, dof);
+                    match component.derivative() {
                         0 => y[at],
-                        1 => y[half + at],
+                        1 => y[layout.speed_at(*body, dof)],
                         _ => accelerations[at],
                     }
                 }));
@@ -214,7 +218,7 @@ impl Reader {
                 quantities,
             } => {
                 for (j, race) in contacts {
-                    let contact = model.contact(y, *j, *race);
+                    let contact = inspect::contact(model, y, *j, *race);
                     values.extend(quantities.iter().map(|quantity| match quantity {
                         ContactQuantity::Load => contact.load,
                         ContactQuantity::Angle => contact.angle,
@@ -224,12 +228,16 @@ impl Reader {
                     }));
                 }
             }
-            Self::Cage { row } => values.extend(model.cage_forces(y, *row)),
-            Self::Energy => values.extend(model.energy(y).entries().map(|(_, _, value)| value)),
+            Self::Cage { row } => values.extend(inspect::cage_forces(model, y, *row)),
+            Self::Energy => values.extend(
+                inspect::energy(model, y)
+                    .entries()
+                    .map(|(_, _, value)| value),
+            ),
             Self::Torque => values.extend(dynamics.ring_torques()),
             Self::Forces { body } => {
-                for (_, forces) in Dynamics::contributions(model, t, y) {
-                    values.extend(&forces[4 * body..4 * body + 4]);
+                for (_, forces) in contributions(model, t, y) {
+                    values.extend(layout.of(&forces, *body));
                 }
             }
         }
@@ -242,7 +250,7 @@ fn contacts(
     row: usize,
     balls: Option<&[usize]>,
     races: Option<&[RingName]>,
-) -> Vec<(usize, usize)> {
+) -> Vec<(usize, Race)> {
     let compiled = &model.rows[row];
     let all: Vec<usize> = (0..compiled.count).collect();
     let races = races.unwrap_or(&[RingName::Outer, RingName::Inner]);
@@ -252,7 +260,7 @@ fn contacts(
         .flat_map(|ball| {
             races
                 .iter()
-                .map(move |race| (compiled.first + ball, *race as usize))
+                .map(move |race| (compiled.first + ball, Race::from(*race)))
         })
         .collect()
 }

@@ -9,11 +9,11 @@ use super::probes::{Probes, Reader};
 use super::{Sampling, SliceRow};
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
+use crate::inspect;
 use crate::integrate::{DenseStep, System};
 use crate::memory;
 use crate::model::Model;
 use crate::residual::Residual;
-use crate::scene::RingName;
 use crate::touched::Watch;
 
 /// What is read at one kind of times: some readers, and the columns that theirs are.
@@ -250,17 +250,13 @@ impl<'s> Recorder<'s> {
             dynamics.expand(listing.time, &self.own.0, &mut self.y);
             for (j, race) in listing.contacts {
                 let ball = &model.balls[j];
-                for slice in model.slice_forces(&self.y, j, race) {
+                for slice in inspect::slice_forces(model, &self.y, j, race) {
                     self.slices.push(SliceRow {
                         probe: listing.probe.clone(),
                         time: listing.time,
                         row: ball.row,
                         ball: ball.index,
-                        race: if race == 0 {
-                            RingName::Outer
-                        } else {
-                            RingName::Inner
-                        },
+                        race: race.into(),
                         zeta: slice.zeta,
                         z: slice.z,
                         width: slice.width,
@@ -287,6 +283,7 @@ impl Reading {
 mod tests {
     use super::super::{Block, Column};
     use super::*;
+    use crate::equilibrium::compile;
     use crate::integrate::{self, DORMAND_PRINCE, Options, Tolerance, integrate};
     use crate::scene::{Probe, Scene, presets};
     use crate::signals::Bandwidth;
@@ -302,7 +299,7 @@ mod tests {
         bandwidth: Bandwidth,
         sink: Option<Sink<'_>>,
     ) -> Vec<(String, Vec<f64>)> {
-        let model = Model::new(scene).unwrap();
+        let model = compile(scene).unwrap();
         let y0 = start(&model, &Start::Rolling).unwrap();
         let sampling = Sampling::new(bandwidth, FS, model.scales().frequency).unwrap();
         let mut dynamics = Dynamics::new(&model);

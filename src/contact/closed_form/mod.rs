@@ -42,9 +42,17 @@ pub(crate) struct Series {
 /// K of Hertz's law \[N/m^{3/2}\], where a contact follows it as a whole: not with friction, nor on fixed slices, whose
 /// sum has kinks.
 pub(crate) fn hertz_stiffness(pair: &Pair) -> Option<f64> {
-    match (rules(pair)?, &pair.law.elastic) {
-        (_, Elastic::Hertz(law)) => Some(4.0 / 3.0 * law.slope * (2.0 / law.curvature).sqrt()),
-        (_, Elastic::Iso16281(_)) => None,
+    rules(pair)?;
+    elastic_stiffness(pair)
+}
+
+/// The same for elastic forces alone.
+pub(super) fn elastic_stiffness(pair: &Pair) -> Option<f64> {
+    match (&pair.slices, &pair.law.elastic) {
+        (Slices::Fitted(_), Elastic::Hertz(law)) => {
+            Some(4.0 / 3.0 * law.slope * (2.0 / law.curvature).sqrt())
+        }
+        _ => None,
     }
 }
 

@@ -78,12 +78,7 @@ impl Torus {
     /// A ball of some radius in the groove's meridional plane, at distance `d` from the ring's axis and at axial place
     /// `z`, the race raised by `wave` \[m\].
     pub(crate) fn section(&self, radius: f64, d: f64, z: f64, wave: f64) -> Section<f64> {
-        let (e, c) = self.centres(d, z, wave);
-        Section::new::<false, false>(radius, self.r, e, c)
-    }
-
-    /// The places e and c of ball and groove in a [`Section`] \[m\].
-    pub(super) fn centres(&self, d: f64, z: f64, wave: f64) -> (f64, f64) {
-        (self.sigma * (d - self.a - wave), self.centre - z)
+        let e = self.sigma * (d - self.a - wave);
+        Section::new::<false, false>(radius, self.r, e, self.centre - z)
     }
 }

@@ -2,8 +2,8 @@
 
 use super::Single;
 use crate::contact::{Constants, Motion, Octet, Press, Raise};
-use crate::dynamics::state::State;
-use crate::model::{Ball, Model};
+use crate::forces::State;
+use crate::model::{Ball, BodyId, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
 
 /// Constants of all contacts with one ring.
@@ -11,9 +11,16 @@ use crate::simd::{LANES, Lanes, Mask, Task};
 pub(in crate::dynamics) struct SideConstants {
     /// Those of every ball.
     pub balls: Vec<Constants<f64>>,
-    /// Those of the first in all lanes.
+    /// What the balls of a class of rows share, by class.
+    classes: Vec<ClassConstants>,
+}
+
+/// What the contacts of a class of rows share.
+#[derive(Debug, Clone)]
+struct ClassConstants {
+    /// Constants of the first ball in all lanes.
     first: Constants<Lanes>,
-    /// Whether all are the same but for the axial place, so that nothing else need be gathered.
+    /// Whether those of all balls are the same but for the axial place, so that nothing else need be gathered.
     alike: bool,
     /// Whether any race has waves.
     wavy: bool,
@@ -29,30 +36,22 @@ pub(in crate::dynamics) struct Touching {
 /// Up to eight contacts with one ring; the last one fills the lanes that are left.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Group {
-    pub side: usize,
+    /// The class of their rows.
+    pub class: usize,
+    pub race: Race,
     pub contacts: [Touching; LANES],
     pub count: usize,
     pub press: Press,
 }
 
 impl SideConstants {
-    pub fn new(model: &Model, side: usize) -> Self {
-        let of = |ball: &Ball| model.rows[ball.row].pairs[side].constants(ball.side.radius);
+    pub fn new(model: &Model, race: Race) -> Self {
+        let of = |ball: &Ball| model.rows[ball.row].pairs[race].constants(ball.side.radius);
         let balls: Vec<_> = model.balls.iter().map(of).collect();
-        let mut first = Constants::default();
-        (0..LANES).for_each(|lane| first.set(lane, &balls[0]));
-        let alike = balls.iter().all(|other| {
-            let centre = balls[0].centre;
-            Constants { centre, ..*other } == balls[0]
-        });
+        let class = |class: usize| ClassConstants::new(model, race, &balls, class);
         Self {
+            classes: (0..model.rows.len()).map(class).collect(),
             balls,
-            first,
-            alike,
-            wavy: model
-                .rows
-                .iter()
-                .any(|row| !row.pairs[side].waves.is_round()),
         }
     }
 
@@ -60,28 +59,26 @@ impl SideConstants {
     // Compiled for the level that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
-    pub fn octet(&self, contacts: &[Touching; LANES], state: &State) -> Octet {
+    pub fn octet(&self, class: usize, contacts: &[Touching; LANES], state: &State) -> Octet {
+        let ClassConstants { first, alike, wavy } = &self.classes[class];
         let State { q, v } = state;
-        let (q, v) = (
-            [0, 1, 2].map(|k| q.along(k)),
-            [0, 1, 2, 3].map(|k| v.along(k)),
-        );
+        let (q, v) = (Dof::TRANSLATIONS.map(|dof| q.along(dof)), v.directions());
         let mut octet = Octet {
-            constants: self.first,
-            wavy: self.wavy,
+            constants: *first,
+            wavy: *wavy,
             ..Octet::default()
         };
         for (lane, contact) in contacts.iter().enumerate() {
             let of = &self.balls[contact.ball];
-            if self.alike {
+            if *alike {
                 octet.constants.centre[lane] = of.centre;
             } else {
                 octet.constants.set(lane, of);
             }
-            if self.wavy {
+            if *wavy {
                 octet.raise.set(lane, contact.raise);
             }
-            let body = 2 + contact.ball;
+            let body = BodyId::ball(contact.ball).index();
             for (to, from) in octet.q.iter_mut().zip(q) {
                 to[lane] = from[body];
             }
@@ -93,6 +90,24 @@ impl SideConstants {
     }
 }
 
+impl ClassConstants {
+    fn new(model: &Model, race: Race, balls: &[Constants<f64>], class: usize) -> Self {
+        let own = balls[model.rows[class].first];
+        let mut first = Constants::default();
+        (0..LANES).for_each(|lane| first.set(lane, &own));
+        let rows = || model.rows.iter().filter(|row| row.class == class);
+        let like = |other: &Constants<f64>| {
+            let centre = own.centre;
+            Constants { centre, ..*other } == own
+        };
+        Self {
+            first,
+            alike: rows().all(|row| balls[row.balls()].iter().all(like)),
+            wavy: rows().any(|row| !row.pairs[race].waves.is_round()),
+        }
+    }
+}
+
 /// Leaves to themselves the contacts that were not simple.
 pub(super) fn leave(groups: &[Group], singles: &mut Vec<Single>) {
     for group in groups {
@@ -101,7 +116,7 @@ pub(super) fn leave(groups: &[Group], singles: &mut Vec<Single>) {
             .careful
             .lanes()
             .filter(|lane| *lane < group.count);
-        singles.extend(lanes.map(|lane| Single::new(group.side, group.contacts[lane].ball)));
+        singles.extend(lanes.map(|lane| Single::new(group.race, group.contacts[lane].ball)));
     }
 }
 
@@ -123,14 +138,14 @@ impl Task for Eight<'_> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let group = self.group;
-        let side = group.side;
-        let mut octet = self.constants[side].octet(&group.contacts, self.state);
+        let race = group.race;
+        let mut octet = self.constants[race].octet(group.class, &group.contacts, self.state);
         // Lanes left over must not count as pulling.
         for lane in group.count..LANES {
             octet.constants.radius[lane] *= 0.5;
         }
-        let pair = &self.model.rows[0].pairs[side];
-        let (ring, skip) = (&self.rings[side], Mask::default());
+        let pair = &self.model.rows[group.class].pairs[race];
+        let (ring, skip) = (&self.rings[race], Mask::default());
         group.press = if self.plane {
             pair.press::<FMA, true>(&octet, ring, skip, None)
         } else {

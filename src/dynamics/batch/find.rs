@@ -1,11 +1,9 @@
 //! The search: which balls touch which race, eight at a time.
 
-use std::array::from_fn;
-
 use super::{Batch, SideConstants, Single, Touching};
 use crate::contact::{Constants, Motion, Octet, Places, Raise};
-use crate::dynamics::state::{State, Table};
-use crate::model::Model;
+use crate::forces::{State, Table};
+use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
 
 /// Up to eight neighbours of a row.
@@ -37,9 +35,9 @@ impl Stretch {
             radius: Lanes::from_fn(|i| model.balls[lane(i)].side.radius),
             filled: Mask::from_fn(|i| i < count),
             faulted: Mask::from_fn(|i| !model.balls[lane(i)].side.faults.is_empty()),
-            constants: from_fn(|side| {
+            constants: Race::BOTH.map(|race| {
                 let mut all = Constants::default();
-                (0..LANES).for_each(|i| all.set(i, &constants[side].balls[lane(i)]));
+                (0..LANES).for_each(|i| all.set(i, &constants[race].balls[lane(i)]));
                 all
             }),
         }
@@ -49,8 +47,8 @@ impl Stretch {
     // Into what is compiled for the level that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
-    fn lanes(&self, of: &Table, direction: usize) -> Lanes {
-        of.eight(2 + self.first, direction)
+    fn lanes(&self, of: &Table, dof: Dof) -> Lanes {
+        of.eight(BodyId::ball(self.first), dof)
     }
 }
 
@@ -77,53 +75,55 @@ impl Task for Find<'_> {
             state,
             rings,
         } = self;
-        let mut on_rings = [[Lanes::ZERO; 4]; 2];
+        let mut on_rings = [[Lanes::ZERO; DOFS]; 2];
         for stretch in &batch.stretches {
             let q = [
-                stretch.lanes(&state.q, 0),
-                stretch.lanes(&state.q, 1),
-                stretch.lanes(&state.q, 2),
+                stretch.lanes(&state.q, Dof::X),
+                stretch.lanes(&state.q, Dof::Y),
+                stretch.lanes(&state.q, Dof::Z),
             ];
             let places = Places {
                 radius: stretch.radius,
                 q,
             };
             let mut lost = Mask::default();
-            for (side, pair) in model.rows[stretch.row].pairs.iter().enumerate() {
-                let near = pair.near::<FMA>(&places, &rings[side]);
+            let class = model.rows[stretch.row].class;
+            for race in Race::BOTH {
+                let (pair, ring) = (&model.rows[stretch.row].pairs[race], &rings[race]);
+                let near = pair.near::<FMA>(&places, ring);
                 lost = lost.or(near.lost);
                 let touching = near.touching.and(stretch.filled);
                 if !touching.any() {
                     continue;
                 }
                 let faulted = near.faulted.or(stretch.faulted).and(touching);
-                let stiffness = batch.stiffness[stretch.row][side];
+                let stiffness = batch.stiffness[stretch.row][race];
                 if let Some((stiffness, forces)) = stiffness.zip(forces.as_deref_mut()) {
                     let skip = faulted.or(touching.not());
                     let octet = Octet {
-                        constants: stretch.constants[side],
+                        constants: stretch.constants[race],
                         raise: near.raise,
                         wavy: !pair.waves.is_round(),
                         q,
                         v: [
-                            stretch.lanes(&state.v, 0),
-                            stretch.lanes(&state.v, 1),
-                            stretch.lanes(&state.v, 2),
+                            stretch.lanes(&state.v, Dof::X),
+                            stretch.lanes(&state.v, Dof::Y),
+                            stretch.lanes(&state.v, Dof::Z),
                             Lanes::ZERO,
                         ],
                     };
-                    let ring = &rings[side];
                     let press = pair.press::<FMA, false>(&octet, ring, skip, Some(stiffness));
-                    for (i, force) in press.ball.into_iter().take(3).enumerate() {
-                        forces.add_eight(2 + stretch.first, i, force);
-                        on_rings[side][i] = on_rings[side][i] - force;
+                    for dof in Dof::TRANSLATIONS {
+                        let force = press.ball[dof];
+                        forces.add_eight(BodyId::ball(stretch.first), dof, force);
+                        on_rings[race][dof] = on_rings[race][dof] - force;
                     }
-                    on_rings[side][3] += press.ring[3];
+                    on_rings[race][Dof::Theta] += press.ring[Dof::Theta];
                     batch.pulls += press.pulls;
                     let careful = press.careful.or(faulted).and(touching);
                     if careful.any() {
                         for lane in careful.lanes() {
-                            batch.singles.push(Single::new(side, stretch.first + lane));
+                            batch.singles.push(Single::new(race, stretch.first + lane));
                         }
                     }
                     continue;
@@ -131,13 +131,13 @@ impl Task for Find<'_> {
                 for lane in touching.lanes() {
                     let ball = stretch.first + lane;
                     if faulted.lane(lane) {
-                        batch.singles.push(Single::new(side, ball));
+                        batch.singles.push(Single::new(race, ball));
                     } else {
                         let raise = Raise {
                             height: near.raise.height[lane],
                             slope: near.raise.slope[lane],
                         };
-                        batch.touching[side].push(Touching { ball, raise });
+                        batch.touching[class][race].push(Touching { ball, raise });
                     }
                 }
             }

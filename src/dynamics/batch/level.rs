@@ -2,8 +2,8 @@
 
 use super::{Kind, Single};
 use crate::contact::{InPlane, LevelBalls, LevelRace, Motion, Pair, Sight};
-use crate::dynamics::state::{State, Table};
-use crate::model::Model;
+use crate::forces::{State, Table};
+use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Simd, Vector, Wide};
 
 /// A row and what its contacts need.
@@ -31,17 +31,17 @@ impl LevelRow {
     /// None where a contact has no closed form.
     pub fn new(model: &Model, row: usize, kind: &Kind) -> Option<Self> {
         let compiled = &model.rows[row];
-        let balls = compiled.first..compiled.first + compiled.count;
+        let balls = compiled.balls();
         let radius = model.balls[compiled.first].side.radius;
         let alike = |j: usize| model.balls[j].side.radius == radius;
         if !kind.closed || !balls.clone().all(alike) {
             return None;
         }
         let padded = compiled.count.next_multiple_of(LANES);
-        let side = |side: usize| {
-            let offset = kind.offset(model, row, side)?;
+        let side = |race: Race| {
+            let offset = kind.offset(model, row, race)?;
             Some(LevelSide {
-                form: InPlane::new(&compiled.pairs[side], radius, offset)?,
+                form: InPlane::new(&compiled.pairs[race], radius, offset)?,
                 whole: vec![1.0; padded],
                 raise: vec![0.0; padded],
                 slope: vec![0.0; padded],
@@ -51,7 +51,7 @@ impl LevelRow {
             row,
             first: compiled.first,
             count: compiled.count,
-            races: [side(0)?, side(1)?],
+            races: [side(Race::Outer)?, side(Race::Inner)?],
             must_look: compiled
                 .pairs
                 .iter()
@@ -83,8 +83,8 @@ impl LevelRow {
     pub fn look(&mut self, model: &Model, state: &State, rings: &[Motion; 2]) {
         let row = &model.rows[self.row];
         for ((side, pair), ring) in self.races.iter_mut().zip(&row.pairs).zip(rings) {
-            let balls = row.first..row.first + row.count;
-            let apart = |j: usize| state.motion(2 + j).centre - ring.centre;
+            let balls = row.balls();
+            let apart = |j: usize| state.motion(BodyId::ball(j)).centre - ring.centre;
             for (j, whole) in balls.clone().zip(&mut side.whole) {
                 *whole = f64::from(model.balls[j].side.faults.is_empty());
             }
@@ -96,7 +96,7 @@ impl LevelRow {
             }
             for fault in &pair.faults {
                 let Sight { middle, bound } = fault.sight(ring.theta);
-                let balls = row.first..row.first + row.count;
+                let balls = row.balls();
                 for (j, whole) in balls.zip(&mut side.whole) {
                     let apart = apart(j);
                     if apart.x * middle[0] + apart.y * middle[1] > bound * apart.norm() {
@@ -111,7 +111,7 @@ impl LevelRow {
 /// What the contacts of a row have told, besides the forces on the balls.
 pub(super) struct LevelSums<'a> {
     /// On the two rings.
-    pub rings: &'a mut [[f64; 4]; 2],
+    pub rings: &'a mut [[f64; DOFS]; 2],
     /// Contacts that are left to be evaluated one by one.
     pub singles: &'a mut Vec<Single>,
     /// Slices whose damping wanted to pull.
@@ -173,7 +173,7 @@ impl EvaluateLevel<'_> {
         let [vx, vy, ..] = state.v.directions();
         let [fx, fy, ..] = forces.directions_mut();
         for at in (0..row.count).step_by(Vector::<S>::LANES) {
-            let body = 2 + row.first + at;
+            let body = BodyId::ball(row.first + at).index();
             let there = Vector::count(simd).below(Vector::all(simd, (row.count - at) as f64));
             let balls = LevelBalls {
                 x: Vector::load(simd, &x[body..]),
@@ -202,33 +202,35 @@ impl EvaluateLevel<'_> {
                 let to = &mut along[body..];
                 (Vector::load(simd, to) + force).store(to);
             }
-            for side in 0..2 {
-                on_rings[side][0] += found[side].x;
-                on_rings[side][1] += found[side].y;
+            for race in Race::BOTH {
+                on_rings[race][0] += found[race].x;
+                on_rings[race][1] += found[race].y;
                 if LOOK {
-                    on_rings[side][2] += found[side].moment;
+                    on_rings[race][2] += found[race].moment;
                 }
-                pulls[side] += found[side].pulls.choose(one, zero);
+                pulls[race] += found[race].pulls.choose(one, zero);
             }
             if outer.careful.or(inner.careful).and(there).any() {
                 let ball = |lane: usize| row.first + at + lane;
-                for (side, of) in found.iter().enumerate() {
+                for race in Race::BOTH {
+                    let of = &found[race];
                     let careful = of.careful.and(there).lanes();
-                    let singles = careful.map(|lane| Single::new(side, ball(lane)));
+                    let singles = careful.map(|lane| Single::new(race, ball(lane)));
                     sums.singles.extend(singles);
-                    let lost = races[side].lost(of).and(there).lanes().next();
+                    let lost = races[race].lost(of).and(there).lanes().next();
                     *sums.lost = sums.lost.or(lost.map(ball));
                 }
             }
         }
-        for (side, [x, y, moment]) in on_rings.into_iter().enumerate() {
-            sums.rings[side][0] -= x.sum();
-            sums.rings[side][1] -= y.sum();
-            sums.rings[side][3] -= moment.sum();
+        for race in Race::BOTH {
+            let [x, y, moment] = on_rings[race];
+            sums.rings[race][Dof::X] -= x.sum();
+            sums.rings[race][Dof::Y] -= y.sum();
+            sums.rings[race][Dof::Theta] -= moment.sum();
             // A count that fits: at most a thousand balls.
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-            let pulls = pulls[side].sum() as u32;
-            *sums.pulls += pulls * pairs[side].slices.count();
+            let pulls = pulls[race].sum() as u32;
+            *sums.pulls += pulls * pairs[race].slices.count();
         }
     }
 }

@@ -16,10 +16,11 @@ use std::ops::Range;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use super::state::{State, Table};
 use super::sums::Sum;
 use crate::contact::{self, InPlane, Motion, Press};
-use crate::model::{Degree, Model};
+use crate::forces::{State, Table};
+use crate::model::{BodyId, DOFS, Degree, Dof, Model, Race};
+use crate::reduction::AxialPlaces;
 use crate::simd::{LANES, Lanes};
 
 use eight::{Eight, Group, leave};
@@ -34,8 +35,8 @@ pub(super) struct Kind {
     pub rows: Range<usize>,
     /// All bodies stay in the planes of their rows.
     pub plane: bool,
-    /// Axial places of rings (first two) and rows that never change.
-    pub levels: Option<Vec<f64>>,
+    /// Axial places of rings and rows that never change.
+    pub levels: Option<AxialPlaces>,
     /// The second row is an image of the first.
     pub mirrored: bool,
     /// Closed forms are used where there are any.
@@ -55,15 +56,15 @@ impl Kind {
     }
 
     /// Axial place of a row's balls from the centre of a groove, where it never changes.
-    fn offset(&self, model: &Model, row: usize, side: usize) -> Option<f64> {
+    fn offset(&self, model: &Model, row: usize, race: Race) -> Option<f64> {
         if self.plane {
             return Some(0.0);
         }
         let compiled = &model.rows[row];
         let levels = self.levels.as_ref()?;
-        let held = |j: usize| model.bodies[2 + j].degrees[2] == Degree::Fixed;
-        let free = !(compiled.first..compiled.first + compiled.count).any(held);
-        free.then(|| levels[2 + row] - levels[side] - compiled.pairs[side].race.centre)
+        let held = |j: usize| model.bodies[BodyId::ball(j)].degrees[Dof::Z] == Degree::Fixed;
+        let free = !compiled.balls().any(held);
+        free.then(|| levels.rows[row] - levels.rings[race] - compiled.pairs[race].race.centre)
     }
 }
 
@@ -79,8 +80,8 @@ pub(super) struct Batch {
     stiffness: Vec<[Option<f64>; 2]>,
     /// Constants of the contacts with the outer and with the inner race.
     pub constants: [SideConstants; 2],
-    /// Contacts of whole surfaces with the outer and with the inner ring, in the order of the balls.
-    touching: [Vec<Touching>; 2],
+    /// Contacts of whole surfaces with the outer and with the inner ring in the order of the balls, by the class of their row.
+    touching: Vec<[Vec<Touching>; 2]>,
     /// The same by eights: the first `active` of these.
     groups: Vec<Group>,
     active: usize,
@@ -89,20 +90,20 @@ pub(super) struct Batch {
     /// The first ball that has left its groove.
     lost: Option<usize>,
     /// Forces on the two rings by closed forms, and slices there whose damping wanted to pull.
-    rings: [[f64; 4]; 2],
+    rings: [[f64; DOFS]; 2],
     pulls: u32,
 }
 
 #[derive(Debug, Clone, Copy)]
 struct Single {
-    side: usize,
+    race: Race,
     ball: usize,
     sum: Sum,
 }
 
 impl Batch {
     pub fn new(model: &Model, kind: Kind) -> Self {
-        let constants: [SideConstants; 2] = from_fn(|side| SideConstants::new(model, side));
+        let constants: [SideConstants; 2] = Race::BOTH.map(|race| SideConstants::new(model, race));
         let levels: Vec<LevelRow> = kind
             .rows
             .clone()
@@ -119,7 +120,9 @@ impl Batch {
             }
         }
         let balls = model.balls.len();
+        let eights = model.classes().map(|class| model.eights(class));
         Self {
+            groups: vec![Group::default(); 2 * eights.sum::<usize>()],
             stiffness: model
                 .rows
                 .iter()
@@ -134,12 +137,13 @@ impl Batch {
             kind,
             stretches,
             constants,
-            touching: from_fn(|_| Vec::with_capacity(balls)),
-            groups: vec![Group::default(); 2 * balls.div_ceil(LANES)],
+            touching: (0..model.rows.len())
+                .map(|_| from_fn(|_| Vec::with_capacity(balls)))
+                .collect(),
             active: 0,
             singles: Vec::with_capacity(2 * balls),
             lost: None,
-            rings: [[0.0; 4]; 2],
+            rings: [[0.0; DOFS]; 2],
             pulls: 0,
         }
     }
@@ -164,7 +168,7 @@ impl Batch {
         state: &State,
         pool: Option<&ThreadPool>,
     ) {
-        let rings = [state.motion(0), state.motion(1)];
+        let rings = state.rings();
         self.find(Some(forces), model, state, &rings);
         self.level(forces, model, state, &rings);
         self.gather();
@@ -194,11 +198,11 @@ impl Batch {
         };
         let one = |single: &mut Single| {
             let ball = &model.balls[single.ball];
-            let motion = state.motion(2 + single.ball);
-            model.rows[ball.row].pairs[single.side].evaluate(
+            let motion = state.motion(BodyId::ball(single.ball));
+            model.rows[ball.row].pairs[single.race].evaluate(
                 &ball.side,
                 &motion,
-                &rings[single.side],
+                &rings[single.race],
                 &mut single.sum,
             );
         };
@@ -247,10 +251,11 @@ impl Batch {
         state: &State,
         rings: &[Motion; 2],
     ) {
-        self.touching.iter_mut().for_each(Vec::clear);
+        let touching = self.touching.as_flattened_mut().iter_mut();
+        touching.for_each(Vec::clear);
         self.singles.clear();
         (self.lost, self.pulls) = (None, 0);
-        self.rings = [[0.0; 4]; 2];
+        self.rings = [[0.0; DOFS]; 2];
         if self.stretches.is_empty() {
             return;
         }
@@ -264,25 +269,27 @@ impl Batch {
     }
 
     /// Contacts of whole surfaces with a ring, as last found.
-    pub fn touching(&self, side: usize) -> &[Touching] {
-        &self.touching[side]
+    pub fn touching(&self, race: Race) -> impl Iterator<Item = &Touching> {
+        self.touching.iter().flat_map(move |of| &of[race])
     }
 
-    /// Ring and ball of the contacts that may see a defect, as last found.
-    pub fn faulted(&self) -> impl Iterator<Item = (usize, usize)> {
-        self.singles.iter().map(|single| (single.side, single.ball))
+    /// Race and ball of the contacts that may see a defect, as last found.
+    pub fn faulted(&self) -> impl Iterator<Item = (Race, usize)> {
+        self.singles.iter().map(|single| (single.race, single.ball))
     }
 
     /// What touches, by eights.
     fn gather(&mut self) {
         self.active = 0;
-        for (side, touching) in self.touching.iter().enumerate() {
-            for contacts in touching.chunks(LANES) {
-                let group = &mut self.groups[self.active];
-                self.active += 1;
-                (group.side, group.count) = (side, contacts.len());
-                group.contacts[..contacts.len()].copy_from_slice(contacts);
-                group.contacts[contacts.len()..].fill(contacts[contacts.len() - 1]);
+        for (class, touching) in self.touching.iter().enumerate() {
+            for race in Race::BOTH {
+                for contacts in touching[race].chunks(LANES) {
+                    let group = &mut self.groups[self.active];
+                    self.active += 1;
+                    (group.class, group.race, group.count) = (class, race, contacts.len());
+                    group.contacts[..contacts.len()].copy_from_slice(contacts);
+                    group.contacts[contacts.len()..].fill(contacts[contacts.len() - 1]);
+                }
             }
         }
     }
@@ -292,23 +299,25 @@ impl Batch {
         for group in &self.groups[..self.active] {
             for (lane, contact) in group.contacts.iter().enumerate().take(group.count) {
                 let Press { ball, ring, .. } = &group.press;
-                let of = |[x, y, z, theta]: &[Lanes; 4]| [x[lane], y[lane], z[lane], theta[lane]];
-                forces.add(2 + contact.ball, &of(ball));
-                super::add(&mut rings[group.side], &of(ring));
+                let of = |wrench: &[Lanes; DOFS]| wrench.each_ref().map(|of| of[lane]);
+                forces.add(BodyId::ball(contact.ball), &of(ball));
+                super::add(&mut rings[group.race], &of(ring));
             }
         }
         for single in &self.singles {
-            forces.add(2 + single.ball, &single.sum.ball);
-            super::add(&mut rings[single.side], &single.sum.ring);
+            forces.add(BodyId::ball(single.ball), &single.sum.ball);
+            super::add(&mut rings[single.race], &single.sum.ring);
         }
-        for (ring, mut sum) in rings.into_iter().enumerate() {
+        for race in Race::BOTH {
+            let mut sum = rings[race];
             if self.kind.mirrored {
                 // What the image adds; along z it takes all.
-                sum = [2.0 * sum[0], 2.0 * sum[1], 0.0, 2.0 * sum[3]];
+                sum = sum.map(|part| 2.0 * part);
+                sum[Dof::Z] = 0.0;
             }
-            forces.add(ring, &sum);
+            forces.add(race.ring(), &sum);
         }
-        rings.map(|sum| sum[3] * self.times())
+        rings.map(|sum| sum[Dof::Theta] * self.times())
     }
 
     /// What the contacts of all rows are evaluated by, if that is a closed form everywhere and there is nothing else to
@@ -339,8 +348,8 @@ impl Batch {
     }
 
     /// Whether the contacts of a row with a race are evaluated in closed form.
-    pub fn is_closed(&self, row: usize, side: usize) -> bool {
-        self.stiffness[row][side].is_some() || self.levels.iter().any(|level| level.row() == row)
+    pub fn is_closed(&self, row: usize, race: Race) -> bool {
+        self.stiffness[row][race].is_some() || self.levels.iter().any(|level| level.row() == row)
     }
 
     /// Whether all bodies stay in the planes of their rows.
@@ -376,9 +385,9 @@ impl Batch {
 }
 
 impl Single {
-    fn new(side: usize, ball: usize) -> Self {
+    fn new(race: Race, ball: usize) -> Self {
         Self {
-            side,
+            race,
             ball,
             sum: Sum::default(),
         }

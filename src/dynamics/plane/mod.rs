@@ -6,10 +6,11 @@
 
 mod rates;
 
-use super::state::{State, Table};
 use crate::contact::InPlane;
-use crate::model::{Model, Reduction, Spring};
-use crate::scene::{Drive, TimeFunction};
+use crate::forces::{State, Table, load};
+use crate::model::{BodyId, BodyKind, Dof, Model, Race, Spring};
+use crate::reduction::Reduction;
+use crate::scene::Drive;
 use crate::simd::Level;
 
 pub(super) use rates::Rates;
@@ -70,14 +71,18 @@ impl Plane {
         let Ground {
             model, reduction, ..
         } = ground;
-        let varies = |force: &TimeFunction| !matches!(force, TimeFunction::Constant(_));
-        let is_timed = model.loads.iter().any(|load| varies(&load.force))
+        let is_timed = !model.loads.iter().all(load::is_steady)
             || !model.unbalances.is_empty()
             || matches!(model.scene.drive, Drive::Torque { .. })
             || !reduction.felt().is_empty();
-        let is_plane = reduction.degrees().all(|(_, direction)| direction < 2)
+        let is_plane = reduction
+            .degrees()
+            .all(|(_, dof)| Dof::PLANE.contains(&dof))
             && reduction.orbits().next().is_none()
-            && ground.springs.iter().all(|spring| spring.body < 2);
+            && ground
+                .springs
+                .iter()
+                .all(|spring| matches!(spring.body.kind(), BodyKind::Ring(_)));
         let are_all = forms.iter().map(|(row, _)| *row).eq(reduction.rows.clone());
         if is_timed || !is_plane || !are_all {
             return None;
@@ -89,8 +94,8 @@ impl Plane {
         let links = rows.iter().map(|row| row.count - 1).min()?;
         let plane = Self {
             rows,
-            rings: [0, 1]
-                .map(|ring| [0, 1].map(|direction| Direction::new(ground, ring, direction))),
+            rings: Race::BOTH
+                .map(|race| Dof::PLANE.map(|dof| Direction::new(ground, race.ring(), dof))),
             times: if reduction.mirrored { 2.0 } else { 1.0 },
         };
         Some((model.level.filled_by(links)?, plane))
@@ -100,18 +105,18 @@ impl Plane {
 impl Balls {
     fn new(ground: &Ground<'_>, row: usize, forms: &[InPlane; 2]) -> Option<Self> {
         let compiled = &ground.model.rows[row];
-        let first = 2 + compiled.first;
-        let at = |body: usize, direction: usize| ground.reduction.place(body, direction);
-        let of = |body: usize, direction: usize| {
-            let mobility = ground.model.mobility[body][direction];
-            (ground.steady.get(body, direction), mobility)
-        };
-        let (x, y) = (at(first, 0)?, at(first, 1)?);
+        let first = compiled.first_body();
+        let at = |body: BodyId, dof: Dof| ground.reduction.place(body, dof);
+        let steady = |body: BodyId, dof: Dof| ground.steady.get(body, dof);
+        let (x, y) = (at(first, Dof::X)?, at(first, Dof::Y)?);
+        let mobility = ground.model.mobility[first][Dof::X];
         let alike = |k: usize| {
-            at(first + k, 0) == Some(x + k)
-                && at(first + k, 1) == Some(y + k)
-                && of(first + k, 0) == of(first, 0)
-                && of(first + k, 1) == (of(first, 1).0, of(first, 0).1)
+            let body = first.after(k);
+            [Dof::X, Dof::Y].map(|dof| at(body, dof)) == [Some(x + k), Some(y + k)]
+                && Dof::PLANE.iter().all(|dof| {
+                    steady(body, *dof) == steady(first, *dof)
+                        && ground.model.mobility[body][*dof] == mobility
+                })
         };
         let count = compiled.count;
         (0..count).all(alike).then(|| Self {
@@ -119,21 +124,21 @@ impl Balls {
             count,
             at: [x, y],
             forms: forms.clone(),
-            steady: [0, 1].map(|direction| of(first, direction).0),
-            mobility: of(first, 0).1,
+            steady: Dof::PLANE.map(|dof| steady(first, dof)),
+            mobility,
             links: [0, 1].map(|_| vec![0.0; count + 1]),
         })
     }
 }
 
 impl Direction {
-    fn new(ground: &Ground<'_>, ring: usize, direction: usize) -> Self {
-        let holds = |spring: &&Spring| (spring.body, spring.direction) == (ring, direction);
+    fn new(ground: &Ground<'_>, ring: BodyId, dof: Dof) -> Self {
+        let holds = |spring: &&Spring| (spring.body, spring.dof) == (ring, dof);
         Self {
-            at: ground.reduction.place(ring, direction),
-            place: ground.state.q.get(ring, direction),
-            steady: ground.steady.get(ring, direction),
-            mobility: ground.model.mobility[ring][direction],
+            at: ground.reduction.place(ring, dof),
+            place: ground.state.q.get(ring, dof),
+            steady: ground.steady.get(ring, dof),
+            mobility: ground.model.mobility[ring][dof],
             spring: ground.springs.iter().find(holds).copied(),
         }
     }
@@ -144,8 +149,9 @@ impl Direction {
 mod tests {
     use super::*;
     use crate::dynamics::Dynamics;
+    use crate::equilibrium::compile;
     use crate::integrate::System;
-    use crate::scene::{Friction, NormalLaw, Profile, Scene, presets};
+    use crate::scene::{Friction, NormalLaw, Profile, Scene, TimeFunction, presets};
     use crate::{Start, start};
 
     fn smooth() -> Scene {
@@ -225,9 +231,9 @@ mod tests {
     fn the_loop_and_the_tables_agree() {
         for (name, scene, most) in scenes() {
             for level in Level::available() {
-                let model = Model::new(&scene).unwrap().with_level(level);
+                let model = compile(&scene).unwrap().with_level(level);
                 let y0 = start(&model, &Start::Equilibrium).unwrap();
-                let reduction = model.reduction(&y0).unwrap();
+                let reduction = Reduction::of(&model, &y0).unwrap();
                 let mut dynamics = Dynamics::reduced(&model, reduction.clone(), &y0);
                 let mut tables = Dynamics::reduced(&model, reduction, &y0);
                 let super::super::Order::Kept(kept) = &mut tables.order else {
@@ -266,18 +272,17 @@ mod tests {
     #[test]
     fn what_is_not_plain_is_left_to_the_tables() {
         let scene = smooth();
-        let model = Model::new(&scene).unwrap();
+        let model = compile(&scene).unwrap();
         let y0 = start(&model, &Start::Equilibrium).unwrap();
-        let reduction = model.reduction(&y0).unwrap();
+        let reduction = Reduction::of(&model, &y0).unwrap();
         let mut dynamics = Dynamics::reduced(&model, reduction, &y0);
         let y = dynamics.compress(&y0);
         let mut dy = y.clone();
         let half = y.len() / 2;
-        let at = |direction: usize| {
-            let of = (2, direction);
+        let places = Dof::PLANE.map(|dof| {
+            let of = (BodyId::ball(0), dof);
             dynamics.degrees().iter().position(|d| *d == of).unwrap()
-        };
-        let places = [at(0), at(1)];
+        });
         let out = places.map(|i| y[i] / y[places[0]].hypot(y[places[1]]));
         // The first ball into the outer race, and away from there at 100 m/s.
         let [mut pressed, mut torn, mut nowhere] = [0; 3].map(|_| y.clone());
@@ -290,7 +295,7 @@ mod tests {
         dynamics.rhs(0.0, &y, &mut dy);
         assert_eq!((dynamics.lost(), dynamics.pulls()), (None, 0));
         dynamics.rhs(0.0, &pressed, &mut dy);
-        assert_eq!(dynamics.lost(), Some(2));
+        assert_eq!(dynamics.lost(), Some(BodyId::ball(0)));
         dynamics.rhs(0.0, &torn, &mut dy);
         assert_eq!(dynamics.lost(), None);
         assert!(dynamics.pulls() > 0);

@@ -5,8 +5,9 @@
 
 use super::{Balls, Direction, Plane};
 use crate::contact::{InPlane, LevelBalls, LevelRace, Motion, Pair, V2};
-use crate::dynamics::others::pull;
-use crate::model::Model;
+use crate::forces::cage::pull;
+use crate::forces::support::resistance;
+use crate::model::{Model, Race};
 use crate::scene::Cage;
 use crate::simd::{Simd, Vector, Wide};
 
@@ -32,7 +33,10 @@ impl Wide for Rates<'_> {
         let (q, v) = y.split_at(y.len() / 2);
         let (rates, accelerations) = dy.split_at_mut(q.len());
         rates.copy_from_slice(v);
-        let rings = [plane.motion(0, q, v), plane.motion(1, q, v)];
+        let rings = [
+            plane.motion(Race::Outer, q, v),
+            plane.motion(Race::Inner, q, v),
+        ];
         let mut on_rings = [[0.0; 2]; 2];
         for row in &mut plane.rows {
             let compiled = &model.rows[row.row];
@@ -61,8 +65,9 @@ impl Wide for Rates<'_> {
 
 impl Plane {
     #[inline(always)]
-    fn motion(&self, ring: usize, q: &[f64], v: &[f64]) -> Motion {
-        let [(x, vx), (y, vy)] = [self.rings[ring][0].of(q, v), self.rings[ring][1].of(q, v)];
+    fn motion(&self, race: Race, q: &[f64], v: &[f64]) -> Motion {
+        let [x, y] = &self.rings[race];
+        let ((x, vx), (y, vy)) = (x.of(q, v), y.of(q, v));
         Motion {
             centre: V2::new(x, y),
             velocity: V2::new(vx, vy),
@@ -85,9 +90,10 @@ impl Direction {
     #[inline(always)]
     fn accelerate(&self, force: f64, (q, v, to): (&[f64], &[f64], &mut [f64])) {
         let Some(at) = self.at else { return };
-        let spring = self.spring.map_or(0.0, |spring| {
-            spring.stiffness * (q[at] - spring.nominal) + spring.damping * v[at]
-        });
+        let spring = self
+            .spring
+            .as_ref()
+            .map_or(0.0, |spring| resistance(spring, q[at], v[at]));
         to[at] = (force + self.steady - spring) * self.mobility;
     }
 }

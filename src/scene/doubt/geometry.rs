@@ -25,7 +25,10 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
         diameters(&path, row, found);
         gaps(&path, row, found);
         waves(&path, row, found);
-        balls(&path, row, &scene.materials.balls, found);
+        balls(&path, row, scene.ball_material_of(row), found);
+        if let Some(own) = &row.ball_material {
+            material(&format!("{path}.ball_material"), own, found);
+        }
     }
     let (rings, first) = (&scene.materials.rings, &scene.rows[0]);
     ring("outer_ring", &scene.outer_ring, rings, first, found);

@@ -19,7 +19,12 @@ const GRAVITY: f64 = 1e3;
 const UNBALANCE: f64 = 1.0;
 
 pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
-    friction(&scene.friction, found);
+    friction("friction", &scene.friction, found);
+    for (i, row) in scene.rows.iter().enumerate() {
+        if let Some(own) = &row.friction {
+            friction(&format!("rows[{i}].friction"), own, found);
+        }
+    }
     if let Some(cage) = &scene.cage {
         let most = 0.5 * scene.rows[0].ball_diameter;
         length("cage.play".to_owned(), cage.play, most, found);
@@ -53,7 +58,7 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
     }
 }
 
-fn friction(friction: &Friction, found: &mut Vec<Doubt>) {
+fn friction(path: &str, friction: &Friction, found: &mut Vec<Doubt>) {
     let (law, coefficients, slip_speed) = match *friction {
         Friction::None => return,
         Friction::Coulomb {
@@ -94,7 +99,7 @@ fn friction(friction: &Friction, found: &mut Vec<Doubt>) {
         if value > FRICTION {
             let usual = "rolling bearings have 0.001 to 0.2, dry steel less than 1";
             found.push(Doubt::new(
-                format!("friction.{law}.{field}"),
+                format!("{path}.{law}.{field}"),
                 number(value),
                 usual,
             ));
@@ -103,11 +108,7 @@ fn friction(friction: &Friction, found: &mut Vec<Doubt>) {
     if slip_speed > SLIP {
         let usual = "below it friction fades, so that rolling balls would have none; speeds are in metres a second";
         let value = format!("{} m/s", number(slip_speed));
-        found.push(Doubt::new(
-            format!("friction.{law}.slip_speed"),
-            value,
-            usual,
-        ));
+        found.push(Doubt::new(format!("{path}.{law}.slip_speed"), value, usual));
     }
 }
 

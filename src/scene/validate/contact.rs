@@ -2,55 +2,65 @@
 
 use super::check::{positive, within};
 use crate::error::{Error, Result};
-use crate::scene::{Contact, Friction, Materials, NormalLaw, Slices};
+use crate::scene::{Contact, Friction, Material, Materials, NormalLaw, Row, Slices};
 
 pub(super) fn materials(materials: &Materials) -> Result<()> {
-    for (part, material) in [("rings", &materials.rings), ("balls", &materials.balls)] {
-        let at = |field: &str| format!("materials.{part}.{field}");
-        within(&at("density"), material.density, 1.0..=1e6)?;
-        within(&at("youngs_modulus"), material.youngs_modulus, 1e3..=1e15)?;
-        within(&at("poisson_ratio"), material.poisson_ratio, 0.0..=0.499)?;
-    }
-    Ok(())
+    material("materials.rings", &materials.rings)?;
+    material("materials.balls", &materials.balls)
 }
 
-pub(super) fn contact(contact: &Contact) -> Result<()> {
+/// Contact, friction and material that a row says for itself.
+pub(super) fn of_row(path: &str, row: &Row) -> Result<()> {
+    let at = |field: &str| format!("{path}.{field}");
+    if let Some(own) = &row.ball_material {
+        material(&at("ball_material"), own)?;
+    }
+    if let Some(own) = &row.contact {
+        contact(&at("contact"), own)?;
+    }
+    match &row.friction {
+        Some(own) => friction(&at("friction"), own),
+        None => Ok(()),
+    }
+}
+
+fn material(path: &str, material: &Material) -> Result<()> {
+    let at = |field: &str| format!("{path}.{field}");
+    within(&at("density"), material.density, 1.0..=1e6)?;
+    within(&at("youngs_modulus"), material.youngs_modulus, 1e3..=1e15)?;
+    within(&at("poisson_ratio"), material.poisson_ratio, 0.0..=0.499)
+}
+
+pub(super) fn contact(path: &str, contact: &Contact) -> Result<()> {
+    let at = |field: &str| format!("{path}.{field}");
     if let NormalLaw::Iso16281 {
         constant,
         length_ratio,
     } = contact.law
     {
-        within("contact.law.iso16281.constant", constant, 1.0..=1e16)?;
-        within(
-            "contact.law.iso16281.length_ratio",
-            length_ratio,
-            1e-3..=10.0,
-        )?;
+        within(&at("law.iso16281.constant"), constant, 1.0..=1e16)?;
+        within(&at("law.iso16281.length_ratio"), length_ratio, 1e-3..=10.0)?;
     }
     match contact.slices {
         Slices::Fixed(n) if !(10..=100_000).contains(&n) => {
-            Err(Error::scene("contact.slices.fixed", n, "10 to 100000"))
+            Err(Error::scene(at("slices.fixed"), n, "10 to 100000"))
         }
         Slices::Fitted(n) if !(2..=64).contains(&n) => {
-            Err(Error::scene("contact.slices.fitted", n, "2 to 64"))
+            Err(Error::scene(at("slices.fitted"), n, "2 to 64"))
         }
         Slices::Accuracy(a) if !(1e-9..=1e-1).contains(&a) => {
-            Err(Error::scene("contact.slices.accuracy", a, "1e-9 to 1e-1"))
+            Err(Error::scene(at("slices.accuracy"), a, "1e-9 to 1e-1"))
         }
-        _ => within("contact.damping", contact.damping, 0.0..=1e3),
+        _ => within(&at("damping"), contact.damping, 0.0..=1e3),
     }
 }
 
-pub(super) fn friction(friction: &Friction) -> Result<()> {
+pub(super) fn friction(path: &str, friction: &Friction) -> Result<()> {
     let check = |law: &str, fields: &[(&str, f64)], slip_speed: f64| {
         for (field, value) in fields {
-            within(&format!("friction.{law}.{field}"), *value, 0.0..=1e6)?;
+            within(&format!("{path}.{law}.{field}"), *value, 0.0..=1e6)?;
         }
-        within(
-            &format!("friction.{law}.slip_speed"),
-            slip_speed,
-            1e-9..=1e3,
-        )
+        within(&format!("{path}.{law}.slip_speed"), slip_speed, 1e-9..=1e3)
     };
     match *friction {
         Friction::None => Ok(()),
@@ -64,7 +74,7 @@ pub(super) fn friction(friction: &Friction) -> Result<()> {
             stribeck_speed,
             slip_speed,
         } => {
-            positive("friction.stribeck.stribeck_speed", stribeck_speed)?;
+            positive(&format!("{path}.stribeck.stribeck_speed"), stribeck_speed)?;
             check(
                 "stribeck",
                 &[
@@ -82,7 +92,7 @@ pub(super) fn friction(friction: &Friction) -> Result<()> {
             slip_speed,
         } => {
             for (field, value) in [("a", a), ("b", b)] {
-                within(&format!("friction.traction.{field}"), value, -1e6..=1e6)?;
+                within(&format!("{path}.traction.{field}"), value, -1e6..=1e6)?;
             }
             check("traction", &[("c", c), ("d", d)], slip_speed)?;
             // Dissipation must not be negative: μ(u) ≥ 0 at its ends and at its only stationary point.
@@ -95,7 +105,7 @@ pub(super) fn friction(friction: &Friction) -> Result<()> {
                 let mu = (a + b * u) * (-c * u).exp() + d;
                 if mu < 0.0 {
                     return Err(Error::scene(
-                        "friction.traction",
+                        format!("{path}.traction"),
                         format!("μ({u} m/s) = {mu}"),
                         "coefficients with μ ≥ 0 at every slip",
                     ));
@@ -103,7 +113,7 @@ pub(super) fn friction(friction: &Friction) -> Result<()> {
             }
             if c == 0.0 && b < 0.0 {
                 return Err(Error::scene(
-                    "friction.traction.b",
+                    format!("{path}.traction.b"),
                     b,
                     "at least 0 when c is 0",
                 ));

@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use check::{entry_name, positive, within};
 
 impl Scene {
-    /// Checks every field; [`crate::Model::new`] does it for you.
+    /// Checks every field; [`crate::compile()`] does it for you.
     ///
     /// # Errors
     /// [`Error::Scene`] with the path, the value and what is allowed, for the first field that is not usable.
@@ -29,6 +29,7 @@ impl Scene {
         }
         for (i, row) in self.rows.iter().enumerate() {
             bearing::row(&format!("rows[{i}]"), row)?;
+            contact::of_row(&format!("rows[{i}]"), row)?;
         }
         bearing::ring(self, RingName::Outer)?;
         bearing::ring(self, RingName::Inner)?;
@@ -40,8 +41,8 @@ impl Scene {
             ));
         }
         contact::materials(&self.materials)?;
-        contact::contact(&self.contact)?;
-        contact::friction(&self.friction)?;
+        contact::contact("contact", &self.contact)?;
+        contact::friction("friction", &self.friction)?;
         if let Some(cage) = &self.cage {
             within("cage.stiffness", cage.stiffness, 0.0..=1e15)?;
             within("cage.damping", cage.damping, 0.0..=1e12)?;

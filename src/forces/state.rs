@@ -4,12 +4,13 @@
 #![allow(clippy::inline_always)]
 
 use crate::contact::{Motion, V2};
+use crate::model::{BodyId, DOFS, Dof, Layout, Race};
 use crate::simd::{LANES, Lanes};
 
 /// A number a body along x, y, z and about z, each direction padded so that eight neighbours can be read from any
 /// body.
 #[derive(Debug, Clone)]
-pub(super) struct Table {
+pub(crate) struct Table {
     values: Vec<f64>,
     stride: usize,
 }
@@ -18,7 +19,7 @@ impl Table {
     pub fn zeros(bodies: usize) -> Self {
         let stride = bodies + LANES;
         Self {
-            values: vec![0.0; 4 * stride],
+            values: vec![0.0; DOFS * stride],
             stride,
         }
     }
@@ -30,73 +31,68 @@ impl Table {
 
     /// All bodies, along one direction.
     #[inline(always)]
-    pub fn along(&self, direction: usize) -> &[f64] {
-        &self.values[direction * self.stride..][..self.stride]
+    pub fn along(&self, dof: Dof) -> &[f64] {
+        &self.values[dof.index() * self.stride..][..self.stride]
     }
 
     #[inline(always)]
-    pub fn along_mut(&mut self, direction: usize) -> &mut [f64] {
-        &mut self.values[direction * self.stride..][..self.stride]
+    pub fn along_mut(&mut self, dof: Dof) -> &mut [f64] {
+        &mut self.values[dof.index() * self.stride..][..self.stride]
     }
 
     /// All bodies, direction by direction.
     #[inline(always)]
-    pub fn directions(&self) -> [&[f64]; 4] {
-        std::array::from_fn(|direction| self.along(direction))
+    pub fn directions(&self) -> [&[f64]; DOFS] {
+        Dof::ALL.map(|dof| self.along(dof))
     }
 
     #[inline(always)]
-    pub fn directions_mut(&mut self) -> [&mut [f64]; 4] {
+    pub fn directions_mut(&mut self) -> [&mut [f64]; DOFS] {
         let mut chunks = self.values.chunks_exact_mut(self.stride);
         std::array::from_fn(|_| chunks.next().unwrap_or_default())
     }
 
     #[inline(always)]
-    pub fn get(&self, body: usize, direction: usize) -> f64 {
-        self.values[direction * self.stride + body]
+    pub fn get(&self, body: BodyId, dof: Dof) -> f64 {
+        self.values[dof.index() * self.stride + body.index()]
     }
 
     #[inline(always)]
-    pub fn get_mut(&mut self, body: usize, direction: usize) -> &mut f64 {
-        &mut self.values[direction * self.stride + body]
+    pub fn get_mut(&mut self, body: BodyId, dof: Dof) -> &mut f64 {
+        &mut self.values[dof.index() * self.stride + body.index()]
     }
 
-    /// The four numbers of a body.
+    /// The numbers of a body.
     #[inline(always)]
-    pub fn of(&self, body: usize) -> [f64; 4] {
-        [
-            self.get(body, 0),
-            self.get(body, 1),
-            self.get(body, 2),
-            self.get(body, 3),
-        ]
+    pub fn of(&self, body: BodyId) -> [f64; DOFS] {
+        Dof::ALL.map(|dof| self.get(body, dof))
     }
 
     #[inline(always)]
-    pub fn add(&mut self, body: usize, numbers: &[f64; 4]) {
-        for (direction, number) in numbers.iter().enumerate() {
-            *self.get_mut(body, direction) += number;
+    pub fn add(&mut self, body: BodyId, numbers: &[f64; DOFS]) {
+        for (dof, number) in Dof::ALL.into_iter().zip(numbers) {
+            *self.get_mut(body, dof) += number;
         }
     }
 
     /// Eight neighbours.
     #[inline(always)]
-    pub fn eight(&self, first: usize, direction: usize) -> Lanes {
-        Lanes::from_slice(&self.values[direction * self.stride + first..][..LANES])
+    pub fn eight(&self, first: BodyId, dof: Dof) -> Lanes {
+        Lanes::from_slice(&self.values[dof.index() * self.stride + first.index()..][..LANES])
     }
 
     /// Adds to eight neighbours.
     #[inline(always)]
-    pub fn add_eight(&mut self, first: usize, direction: usize, lanes: Lanes) {
-        let values = &mut self.values[direction * self.stride + first..][..LANES];
+    pub fn add_eight(&mut self, first: BodyId, dof: Dof, lanes: Lanes) {
+        let values = &mut self.values[dof.index() * self.stride + first.index()..][..LANES];
         (Lanes::from_slice(values) + lanes).to_slice(values);
     }
 
     /// Reads a half of a state vector as `Model` orders it, body by body.
     pub fn read(&mut self, half: &[f64]) {
-        for (body, numbers) in half.as_chunks::<4>().0.iter().enumerate() {
-            for (direction, number) in numbers.iter().enumerate() {
-                *self.get_mut(body, direction) = *number;
+        for (body, numbers) in Layout::each(half).iter().enumerate() {
+            for dof in Dof::ALL {
+                *self.get_mut(BodyId::new(body), dof) = numbers[dof];
             }
         }
     }
@@ -104,7 +100,7 @@ impl Table {
 
 /// Where all bodies are and how they move.
 #[derive(Debug, Clone)]
-pub(super) struct State {
+pub(crate) struct State {
     pub q: Table,
     pub v: Table,
 }
@@ -113,7 +109,7 @@ impl State {
     pub fn new(bodies: usize) -> Self {
         let mut q = Table::zeros(bodies);
         // No body: away from all axes, so that nothing divides by zero there.
-        q.along_mut(0)[bodies..].fill(1.0);
+        q.along_mut(Dof::X)[bodies..].fill(1.0);
         let v = Table::zeros(bodies);
         Self { q, v }
     }
@@ -126,7 +122,7 @@ impl State {
     }
 
     #[inline]
-    pub fn motion(&self, body: usize) -> Motion {
+    pub fn motion(&self, body: BodyId) -> Motion {
         let ([x, y, z, theta], [vx, vy, vz, omega]) = (self.q.of(body), self.v.of(body));
         Motion {
             centre: V2::new(x, y),
@@ -136,5 +132,11 @@ impl State {
             vz,
             omega,
         }
+    }
+
+    /// Both rings, by race.
+    #[inline]
+    pub fn rings(&self) -> [Motion; 2] {
+        Race::BOTH.map(|race| self.motion(race.ring()))
     }
 }

@@ -1,28 +1,34 @@
 //! Approximations by request: what they need of scene and start.
 
-use crate::model::Model;
+use super::AxialPlaces;
+use crate::inspect;
+use crate::model::{BodyId, Dof, Model, Race};
 use crate::scene::TimeFunction;
 
 /// Share of the load up to which a row counts as unloaded.
 const IDLE: f64 = 0.02;
 
-/// Axial places that rings (first two) and rows keep: those of the start, a row's balls in the mean of what they carry.
-pub(super) fn levels(model: &Model, start: &[f64]) -> Result<Vec<f64>, String> {
+/// Axial places that rings and rows keep: those of the start, a row's balls in the mean of what they carry.
+pub(super) fn levels(model: &Model, start: &[f64]) -> Result<AxialPlaces, String> {
     steady(model, |direction| direction[2] != 0.0)?;
-    let z = |body: usize| start[4 * body + 2];
+    let z = |body: BodyId| start[model.layout().at(body, Dof::Z)];
     let rows = model.rows.iter().map(|row| {
-        let balls = row.first..row.first + row.count;
         let (mut sum, mut all, mut mean) = (0.0, 0.0, 0.0);
-        for j in balls {
-            let [outer, inner] = [0, 1].map(|race| model.contact(start, j, race).load);
+        for j in row.balls() {
+            let [outer, inner] =
+                Race::BOTH.map(|race| inspect::contact(model, start, j, race).load);
             let load = outer.min(inner);
-            sum += load * z(2 + j);
+            let z = z(BodyId::ball(j));
+            sum += load * z;
             all += load;
-            mean += z(2 + j) / row.count as f64;
+            mean += z / row.count as f64;
         }
         if all > 0.0 { sum / all } else { mean }
     });
-    Ok([z(0), z(1)].into_iter().chain(rows).collect())
+    Ok(AxialPlaces {
+        rows: rows.collect(),
+        rings: Race::BOTH.map(|race| z(race.ring())),
+    })
 }
 
 /// The unloaded one of two rows.
@@ -32,8 +38,8 @@ pub(super) fn idle_row(model: &Model, start: &[f64]) -> Result<usize, String> {
         .rows
         .iter()
         .map(|row| {
-            let balls = row.first..row.first + row.count;
-            balls.map(|j| model.contact(start, j, 1).load).sum()
+            let load = |j| inspect::contact(model, start, j, Race::Inner).load;
+            row.balls().map(load).sum()
         })
         .collect();
     let row = usize::from(loads[1] < loads[0]);

@@ -1,6 +1,6 @@
 //! Motions that no force changes.
 
-use crate::model::{Model, RowModel};
+use crate::model::{BodyId, DOFS, Dof, Layout, Model};
 use crate::scene::{Antiderivative, Drive, TimeFunction};
 
 /// A place whose speed is constant or follows the drive.
@@ -87,11 +87,11 @@ impl Course {
     }
 }
 
-/// A degree of freedom that runs its course.
+/// A degree of freedom whose motion is prescribed.
 #[derive(Debug, Clone)]
-pub(crate) struct Coast {
-    pub body: usize,
-    pub direction: usize,
+pub(crate) struct Prescribed {
+    pub body: BodyId,
+    pub dof: Dof,
     pub course: Course,
 }
 
@@ -99,7 +99,7 @@ pub(crate) struct Coast {
 #[derive(Debug, Clone)]
 pub(crate) struct Orbit {
     /// Body of its first ball.
-    pub first: usize,
+    pub first: BodyId,
     /// Directions of the balls at the start; or their places, where radii do not change.
     pub starts: Vec<[f64; 2]>,
     /// Place of the first radius among the states, if they are: they stand where x would, their speeds where vx.
@@ -129,11 +129,11 @@ impl Orbit {
     /// From a start, a state of all bodies: as fast as the balls of the row are in the mean, and in proportion to the
     /// drive. `at` is the place of the first radius among the states, if they are.
     pub fn of(model: &Model, row: usize, start: &[f64], at: Option<usize>) -> Self {
-        let RowModel { first, count, .. } = model.rows[row];
-        let first = 2 + first;
-        let starts = (first..first + count)
-            .map(|body| {
-                let [x, y] = [start[4 * body], start[4 * body + 1]];
+        let layout = model.layout();
+        let balls = model.rows[row].balls();
+        let starts = balls
+            .map(|ball| {
+                let [x, y, _] = layout.centre(start, BodyId::ball(ball));
                 let square = x * x + y * y;
                 let scale = if at.is_some() { square.sqrt() } else { 1.0 };
                 [x / scale, y / scale]
@@ -141,7 +141,7 @@ impl Orbit {
             .collect();
         let (at_rest, _) = model.rolling_shares(row);
         Self {
-            first,
+            first: model.rows[row].first_body(),
             starts,
             at,
             course: Course::geared(
@@ -168,47 +168,59 @@ impl Orbit {
     /// Writes places and speeds of its balls into a state of all bodies, from those that are kept.
     pub(super) fn place(&self, t: f64, y: &[f64], full: &mut [f64]) {
         let turn = self.turn(t);
-        let half = full.len() / 2;
+        let (places, speeds) = halves(full);
         for (k, start) in self.starts.iter().enumerate() {
             let [r, v] = self
                 .at
                 .map_or([1.0, 0.0], |at| [y[at + k], y[y.len() / 2 + at + k]]);
             let [x, y] = turn.of(*start);
-            let body = 4 * (self.first + k);
-            full[body..body + 2].copy_from_slice(&[r * x, r * y]);
+            let body = self.first.after(k).index();
             let w = r * turn.speed;
-            full[half + body..half + body + 2].copy_from_slice(&[v * x - w * y, v * y + w * x]);
+            set_plane(&mut places[body], [r * x, r * y]);
+            set_plane(&mut speeds[body], [v * x - w * y, v * y + w * x]);
         }
     }
 
     /// The same for the rates.
     pub(super) fn rates(&self, t: f64, y: &[f64], rates: &[f64], full: &mut [f64]) {
         let turn = self.turn(t);
-        let half = full.len() / 2;
+        let (places, speeds) = halves(full);
         for (k, start) in self.starts.iter().enumerate() {
             let [r, v, a] = self.at.map_or([1.0, 0.0, 0.0], |at| {
                 [y[at + k], rates[at + k], rates[y.len() / 2 + at + k]]
             });
             let [x, y] = turn.of(*start);
-            let body = 4 * (self.first + k);
+            let body = self.first.after(k).index();
             let w = r * turn.speed;
-            full[body..body + 2].copy_from_slice(&[v * x - w * y, v * y + w * x]);
+            set_plane(&mut places[body], [v * x - w * y, v * y + w * x]);
             let (radial, along) = (a - w * turn.speed, 2.0 * v * turn.speed + r * turn.rate);
-            full[half + body..half + body + 2]
-                .copy_from_slice(&[radial * x - along * y, radial * y + along * x]);
+            let acceleration = [radial * x - along * y, radial * y + along * x];
+            set_plane(&mut speeds[body], acceleration);
         }
     }
 
     /// Radii and their speeds into the kept states, from a state of all bodies.
     pub(super) fn compress(&self, full: &[f64], y: &mut [f64]) {
         let Some(at) = self.at else { return };
-        let (half, kept) = (full.len() / 2, y.len() / 2);
+        let kept = y.len() / 2;
+        let [places, speeds] = [0, 1].map(|half| Layout::each(&full[half * (full.len() / 2)..]));
         for k in 0..self.starts.len() {
-            let body = 4 * (self.first + k);
-            let [x, y_] = [full[body], full[body + 1]];
+            let body = self.first.after(k).index();
+            let [x, y_] = Dof::PLANE.map(|dof| places[body][dof]);
+            let [vx, vy] = Dof::PLANE.map(|dof| speeds[body][dof]);
             let r = x.hypot(y_);
             y[at + k] = r;
-            y[kept + at + k] = (x * full[half + body] + y_ * full[half + body + 1]) / r;
+            y[kept + at + k] = (x * vx + y_ * vy) / r;
         }
     }
+}
+
+/// The numbers of all bodies in both halves of a state vector.
+fn halves(full: &mut [f64]) -> (&mut [[f64; DOFS]], &mut [[f64; DOFS]]) {
+    let (places, speeds) = full.split_at_mut(full.len() / 2);
+    (Layout::each_mut(places), Layout::each_mut(speeds))
+}
+
+fn set_plane(body: &mut [f64; DOFS], [x, y]: [f64; 2]) {
+    (body[Dof::X], body[Dof::Y]) = (x, y);
 }

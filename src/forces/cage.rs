@@ -1,12 +1,24 @@
-//! Forces that are not contacts: cage, supports, gravity, loads, unbalances, drive.
+//! The cage: springs and dampers that keep the centres of neighbouring balls of a row at their distance ℓ₀, slack within ± p/2
+//! of it (model section 6).
+//!
+//! ```text
+//! F = k_c (ℓ − ℓ₀ ∓ p/2) + c_c dℓ/dt        energy k_c (ℓ − ℓ₀ ∓ p/2)²/2        power c_c (dℓ/dt)²
+//! ```
 
 use std::ops::Range;
 
-use super::state::{State, Table};
-use crate::contact::{Motion, V2, cross};
-use crate::model::{Model, RowModel, Spring, UnbalanceModel};
-use crate::scene::{Cage, Drive, TimeFunction};
+use super::{Account, Force, State, Table, Use};
+use crate::contact::Motion;
+use crate::model::{BodyId, Dof, Model, RowModel};
+use crate::scene::Cage;
 use crate::simd::{Simd, Vector, Wide};
+
+pub(crate) const FORCE: Force = Force {
+    name: "cage",
+    contribution: "cage",
+    used: |model| Use::evaluated(model.scene.cage.is_some()),
+    add: |model, _, state, forces| add(model, 0..model.rows.len(), state, forces),
+};
 
 /// A cage link between two balls: force on the first (positive in tension), stored energy and dissipated power.
 pub(crate) struct Link {
@@ -36,8 +48,8 @@ pub(crate) fn link(cage: &Cage, nominal: f64, first: &Motion, second: &Motion) -
     }
 }
 
-/// The links of some rows.
-pub(super) fn cage(model: &Model, rows: Range<usize>, state: &State, forces: &mut Table) {
+/// Those of some rows.
+pub(crate) fn add(model: &Model, rows: Range<usize>, state: &State, forces: &mut Table) {
     if let Some(cage) = &model.scene.cage {
         for row in &model.rows[rows] {
             model.level.run_wide(Links {
@@ -72,7 +84,7 @@ impl Wide for Links<'_> {
             forces,
         } = self;
         let all = |x: f64| Vector::all(simd, x);
-        let (from, balls) = (2 + row.first, row.count);
+        let (from, balls) = (row.first_body().index(), row.count);
         let [x, y, ..] = state.q.directions();
         let [vx, vy, ..] = state.v.directions();
         let of = [x, y, vx, vy];
@@ -112,7 +124,7 @@ impl Wide for Links<'_> {
 /// What [`link`] puts on the first of two balls along x and y, from how far the second is apart and how fast it departs.
 #[allow(clippy::inline_always)]
 #[inline(always)]
-pub(super) fn pull<S: Simd>(
+pub(crate) fn pull<S: Simd>(
     (cage, nominal): (&Cage, f64),
     [dx, dy, dvx, dvy]: [Vector<S>; 4],
 ) -> [Vector<S>; 2] {
@@ -134,103 +146,29 @@ pub(super) fn pull<S: Simd>(
     [tension * nx, tension * ny]
 }
 
-pub(super) fn supports(springs: &[Spring], state: &State, forces: &mut Table) {
-    for spring in springs {
-        let (direction, body) = (spring.direction, spring.body);
-        *forces.get_mut(body, direction) -= spring.stiffness
-            * (state.q.get(body, direction) - spring.nominal)
-            + spring.damping * state.v.get(body, direction);
+/// Of all links in a state.
+pub(crate) fn account(model: &Model, y: &[f64]) -> Account {
+    let mut account = Account::default();
+    for link in model.rows.iter().flat_map(|row| of_row(model, y, row)) {
+        account.energy += link.energy;
+        account.power += link.power;
     }
+    account
 }
 
-pub(super) fn gravity(model: &Model, forces: &mut Table) {
-    for (b, body) in model.bodies.iter().enumerate() {
-        for (i, g) in model.scene.gravity.iter().enumerate() {
-            *forces.get_mut(b, i) += body.mass[i] * g;
-        }
-    }
+/// The links of a row in a state; none without a cage.
+pub(crate) fn of_row(model: &Model, y: &[f64], row: &RowModel) -> Vec<Link> {
+    let motion = |ball| model.layout().motion(y, BodyId::ball(ball));
+    let links = model.scene.cage.iter().flat_map(|cage| {
+        let of = move |(i, j)| link(cage, row.cage_distance, &motion(i), &motion(j));
+        row.links().map(of)
+    });
+    links.collect()
 }
 
-/// Loads that stay the same, or those that change.
-pub(super) fn loads(model: &Model, constant: bool, t: f64, forces: &mut Table) {
-    for load in &model.loads {
-        if matches!(load.force, TimeFunction::Constant(_)) == constant {
-            let force = load.force.at(t);
-            let [x, y, z] = load.direction.map(|direction| force * direction);
-            forces.add(load.ring, &[x, y, z, 0.0]);
-        }
-    }
-}
-
-/// What the unbalances of a ring do, x, y, z and about z, from all other forces on it.
-///
-/// The ring's mass m and its inertia I about its own centre are those of the whole, its centre of mass stands at
-/// u/m = Σ m e r̂ / m from the centre, so with ψ the angle of each r̂ (Lagrange)
-///
-/// ```text
-/// m ẍ = F_x + m e (ω² cos ψ + ω̇ sin ψ)        m ÿ = F_y + m e (ω² sin ψ − ω̇ cos ψ)
-/// I ω̇ = T + u × g − u × (ẍ, ÿ)
-/// ```
-///
-/// A driven speed tells ω̇. Else the first two in the third give it, over 1 − (u_x²/m_y + u_y²/m_x)/I, which is above 0
-/// where the ring's inertia about its centre of mass is.
-pub(super) fn unbalance(
-    model: &Model,
-    t: f64,
-    state: &State,
-    ring: usize,
-    others: &[f64; 4],
-) -> [f64; 4] {
-    let mut sum = [0.0; 4];
-    let of_ring = model.unbalances.iter().filter(|u| u.ring == ring);
-    if of_ring.clone().next().is_none() {
-        return sum;
-    }
-    let motion = state.motion(ring);
-    let square = motion.omega * motion.omega;
-    let direction = |u: &UnbalanceModel| (motion.theta + u.angle).sin_cos();
-    let mut whole = V2::zeros();
-    for unbalance in of_ring.clone() {
-        let (sin, cos) = direction(unbalance);
-        whole += V2::new(cos, sin) * unbalance.moment;
-    }
-    let [gx, gy, _] = model.scene.gravity;
-    let mobility = &model.mobility[ring];
-    let accelerate = |spin: f64| {
-        V2::new(
-            mobility[0] * (others[0] + square * whole.x + spin * whole.y),
-            mobility[1] * (others[1] + square * whole.y - spin * whole.x),
-        )
-    };
-    let weight = cross(whole, V2::new(gx, gy));
-    let spin = if let (Drive::Speed(speed), 1) = (&model.scene.drive, ring) {
-        speed.rate(t)
-    } else {
-        let coupled = mobility[1] * whole.x * whole.x + mobility[0] * whole.y * whole.y;
-        let torque = others[3] + weight - cross(whole, accelerate(0.0));
-        mobility[3] * torque / (1.0 - mobility[3] * coupled)
-    };
-    for unbalance in of_ring {
-        let (sin, cos) = direction(unbalance);
-        sum[0] += unbalance.moment * (square * cos + spin * sin);
-        sum[1] += unbalance.moment * (square * sin - spin * cos);
-    }
-    sum[3] = weight - cross(whole, accelerate(spin));
-    sum
-}
-
-/// Adds them to the forces on both rings, after all others.
-pub(super) fn unbalances(model: &Model, t: f64, state: &State, forces: &mut Table) {
-    if !model.unbalances.is_empty() {
-        for ring in 0..2 {
-            let others = forces.of(ring);
-            forces.add(ring, &unbalance(model, t, state, ring, &others));
-        }
-    }
-}
-
-pub(super) fn drive(model: &Model, t: f64, forces: &mut Table) {
-    if let Drive::Torque { value, .. } = &model.scene.drive {
-        *forces.get_mut(1, 3) += TimeFunction::at(value, t);
-    }
+/// Rate at which the cage damps a ball of a row \[1/s\]: by two links, at most 4 c_c/m.
+pub(crate) fn rate(model: &Model, row: usize) -> f64 {
+    let ball = &model.bodies[model.rows[row].first_body()];
+    let cage = model.scene.cage.as_ref();
+    cage.map_or(0.0, |cage| 4.0 * cage.damping / ball.mass[Dof::X])
 }

@@ -3,7 +3,7 @@
 //! They are looked for in the compiled model, so that whatever breaks one is seen wherever it was said.
 
 use crate::contact::{Fault, Pair, Torus};
-use crate::model::{Ball, Model, RowModel};
+use crate::model::{Ball, BodyId, Dof, Model, Race, RowModel};
 
 /// How far places may be apart that are the same but for rounding \[m\].
 const ROUNDING: f64 = 1e-15;
@@ -21,7 +21,8 @@ pub(super) fn about_rows(model: &Model, start: &[f64]) -> Symmetry {
     forces(model)?;
     for (i, row) in model.rows.iter().enumerate() {
         let plane = model.scene.rows[i].axial_position;
-        for (pair, race) in row.pairs.iter().zip(["outer", "inner"]) {
+        for race in Race::BOTH {
+            let (pair, race) = (&row.pairs[race], race.name());
             let torus = &pair.race;
             require((torus.centre - plane).abs() <= ROUNDING, || {
                 format!("the {race} groove of row {i} is not level with its balls")
@@ -42,7 +43,11 @@ pub(super) fn about_rows(model: &Model, start: &[f64]) -> Symmetry {
     require(model.balls.iter().all(level), || {
         "a ball's defect is off the middle".to_owned()
     })?;
-    let levels: Vec<f64> = model.bodies.iter().map(|body| body.nominal[2]).collect();
+    let levels: Vec<f64> = model
+        .bodies
+        .iter()
+        .map(|body| body.nominal[Dof::Z])
+        .collect();
     at_rest(model, start, &levels)
 }
 
@@ -62,16 +67,23 @@ fn images(model: &Model, first: &RowModel, second: &RowModel, start: &[f64]) -> 
         first.count == second.count && first.cage_distance == second.cage_distance,
         || "the rows have different balls".to_owned(),
     )?;
-    for (side, race) in ["outer", "inner"].into_iter().enumerate() {
+    for race in Race::BOTH {
         require(
-            pair_is_image(&first.pairs[side], &second.pairs[side], sum),
-            || format!("the {race} races of the rows are no images of each other"),
+            pair_is_image(&first.pairs[race], &second.pairs[race], sum),
+            || {
+                let race = race.name();
+                format!("the {race} races of the rows are no images of each other")
+            },
         )?;
     }
     for k in 0..first.count {
         let [a, b] = [first.first + k, second.first + k];
-        let (one, other) = (&model.bodies[2 + a], &model.bodies[2 + b]);
-        let in_phase = [0, 1].map(|i| (one.nominal[i] - other.nominal[i]).abs() <= ROUNDING);
+        let (one, other) = (
+            &model.bodies[BodyId::ball(a)],
+            &model.bodies[BodyId::ball(b)],
+        );
+        let in_phase =
+            Dof::PLANE.map(|dof| (one.nominal[dof] - other.nominal[dof]).abs() <= ROUNDING);
         require(in_phase == [true; 2], || {
             "the rows are out of phase".to_owned()
         })?;
@@ -84,20 +96,23 @@ fn images(model: &Model, first: &RowModel, second: &RowModel, start: &[f64]) -> 
             || format!("balls {k} of the rows differ"),
         )?;
     }
-    let half = start.len() / 2;
+    let (places, speeds) = start.split_at(model.layout().half());
     at_rest(model, start, &[0.0, 0.0])?;
     let speed = START * model.scales.approach * model.scales.frequency;
-    let apart = |offset: usize, sum: f64, limit: f64| {
+    let apart = |half: &[f64], sum: f64, limit: f64| {
         (0..first.count).all(|k| {
-            let of = |row: &RowModel| &start[offset + 4 * (2 + row.first + k)..][..4];
+            let of = |row: &RowModel| *model.layout().of(half, row.first_body().after(k));
             let (a, b) = (of(first), of(second));
-            (0..2).all(|i| (a[i] - b[i]).abs() <= limit)
-                && (a[2] + b[2] - sum).abs() <= limit
-                && (a[3] - b[3]).abs() <= 1e-9 * (1.0 + a[3].abs())
+            let [turn, other] = [a, b].map(|body| body[Dof::Theta]);
+            Dof::PLANE
+                .iter()
+                .all(|dof| (a[*dof] - b[*dof]).abs() <= limit)
+                && (a[Dof::Z] + b[Dof::Z] - sum).abs() <= limit
+                && (turn - other).abs() <= 1e-9 * (1.0 + turn.abs())
         })
     };
     require(
-        apart(0, sum, START * model.scales.approach) && apart(half, 0.0, speed),
+        apart(places, sum, START * model.scales.approach) && apart(speeds, 0.0, speed),
         || "the start is not symmetric".to_owned(),
     )
 }
@@ -118,12 +133,13 @@ fn forces(model: &Model) -> Symmetry {
 /// The first bodies must start at these levels and not leave them.
 fn at_rest(model: &Model, start: &[f64], levels: &[f64]) -> Symmetry {
     let limit = START * model.scales.approach;
-    let half = start.len() / 2;
-    let rests = |(body, level): (usize, &f64)| {
-        let (z, vz) = (start[4 * body + 2], start[half + 4 * body + 2]);
+    let layout = model.layout();
+    let rests = |(body, level): (BodyId, &f64)| {
+        let z = start[layout.at(body, Dof::Z)];
+        let vz = start[layout.speed_at(body, Dof::Z)];
         (z - level).abs() <= limit && vz.abs() <= limit * model.scales.frequency
     };
-    require(levels.iter().enumerate().all(rests), || {
+    require(layout.bodies().zip(levels).all(rests), || {
         "the start is not symmetric".to_owned()
     })
 }

@@ -11,9 +11,10 @@ mod symmetry;
 
 use std::ops::Range;
 
-use super::Model;
+use crate::model::{BodyId, BodyKind, DOFS, Dof, Layout, Model};
+use crate::scene::Method;
 
-use course::{Coast, Orbit};
+use course::{Orbit, Prescribed};
 use grounds::{Grounds, Reason, is_felt};
 
 /// The degrees of freedom that a run integrates, and what becomes of the others.
@@ -24,17 +25,17 @@ use grounds::{Grounds, Reason, is_felt};
 pub struct Reduction {
     stretches: Vec<Stretch>,
     kept: usize,
-    coasts: Vec<Coast>,
+    prescribed: Vec<Prescribed>,
     /// Those that some force depends on.
-    felt: Vec<Coast>,
+    felt: Vec<Prescribed>,
     /// Rows that turn as one.
     orbits: Vec<Orbit>,
     /// Rows whose contacts are evaluated.
     pub(crate) rows: Range<usize>,
     /// All bodies stay in the planes of their rows.
     pub(crate) plane: bool,
-    /// Axial places of rings (first two) and rows that are kept.
-    pub(crate) levels: Option<Vec<f64>>,
+    /// Axial places of rings and rows that are kept.
+    pub(crate) levels: Option<AxialPlaces>,
     /// The second row is the first one's mirror image.
     pub(crate) mirrored: bool,
     /// Contacts may be evaluated in closed form.
@@ -63,14 +64,45 @@ pub struct Obstacle {
     pub reason: String,
 }
 
+/// Axial places that rings and rows keep.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct AxialPlaces {
+    /// Of outer and inner ring \[m\].
+    pub rings: [f64; 2],
+    /// Of the balls of each row \[m\].
+    pub rows: Vec<f64>,
+}
+
+impl AxialPlaces {
+    /// The one that a body keeps \[m\].
+    pub fn of(&self, model: &Model, body: BodyId) -> f64 {
+        match body.kind() {
+            BodyKind::Ring(race) => self.rings[race],
+            BodyKind::Ball(ball) => self.rows[model.balls[ball].row],
+        }
+    }
+}
+
 /// Neighbouring bodies that keep a direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stretch {
-    pub direction: usize,
-    pub first: usize,
+    pub dof: Dof,
+    pub first: BodyId,
     pub count: usize,
     /// Place of the first among the states.
     pub at: usize,
+}
+
+impl Stretch {
+    /// Their numbers among all bodies.
+    pub fn bodies(&self) -> Range<usize> {
+        self.first.range(self.count)
+    }
+
+    /// Their places among the states.
+    pub fn states(&self) -> Range<usize> {
+        self.at..self.at + self.count
+    }
 }
 
 impl Reduction {
@@ -79,7 +111,7 @@ impl Reduction {
         let mut whole = Self {
             stretches: Vec::new(),
             kept: 0,
-            coasts: Vec::new(),
+            prescribed: Vec::new(),
             felt: Vec::new(),
             orbits: Vec::new(),
             rows: 0..model.rows.len(),
@@ -90,13 +122,27 @@ impl Reduction {
             omissions: Vec::new(),
             obstacles: Vec::new(),
         };
-        whole.keep(model, |_, _| true);
+        whole.keep(model.layout(), |_, _| true);
         whole
+    }
+
+    /// What a run from a state of all bodies leaves out; absent where it integrates all states in the order of
+    /// [`Model::names`], since implicit steps solve for a block a body.
+    ///
+    /// # Panics
+    /// If the length of `start` is wrong.
+    pub fn of(model: &Model, start: &[f64]) -> Option<Self> {
+        assert_eq!(start.len(), model.dim(), "length of the state");
+        let solver = &model.scene.solver;
+        match solver.method {
+            Method::ImplicitFriction | Method::Auto => None,
+            _ => Some(Self::leaving_out(model, start, solver.reduce)),
+        }
     }
 
     /// Leaves out what is given up by request and, if `exact` reductions are wanted, what does not change the motion
     /// from a start, a state of all bodies.
-    pub(super) fn of(model: &Model, start: &[f64], exact: bool) -> Self {
+    fn leaving_out(model: &Model, start: &[f64], exact: bool) -> Self {
         let mut reduction = Self::none(model);
         let mut obstacle = |what: &str, reason: String| {
             let what = what.to_owned();
@@ -116,8 +162,14 @@ impl Reduction {
                     .map_err(|reason| obstacle("one row for two", reason))
                     .is_ok()
             });
-            if model.rows[0].pairs[0].law.traction.is_some() {
+            let rub: Vec<usize> = (0..model.rows.len())
+                .filter(|row| model.rows[*row].has_friction())
+                .collect();
+            if rub.len() == model.rows.len() {
                 obstacle("balls without spin", "friction turns them".to_owned());
+            } else if let Some(row) = rub.first() {
+                let reason = format!("friction turns those of row {row}");
+                obstacle("balls without spin", reason);
             }
         }
         if wanted.plane {
@@ -143,12 +195,14 @@ impl Reduction {
     }
 
     fn leave_out(&mut self, model: &Model, start: &[f64], grounds: &Grounds) {
-        let reasons: Vec<[Option<Reason>; 4]> = (0..model.bodies.len())
-            .map(|body| std::array::from_fn(|direction| grounds.reason(model, body, direction)))
+        let layout = model.layout();
+        let reasons: Vec<[Option<Reason>; DOFS]> = layout
+            .bodies()
+            .map(|body| Dof::ALL.map(|dof| grounds.reason(model, body, dof)))
             .collect();
-        self.keep(model, |body, direction| reasons[body][direction].is_none());
+        self.keep(layout, |body, dof| reasons[body][dof].is_none());
         for reason in Reason::ALL {
-            let of = |degrees: &[Option<Reason>; 4]| {
+            let of = |degrees: &[Option<Reason>; DOFS]| {
                 degrees.iter().filter(|r| **r == Some(reason)).count()
             };
             let degrees = reasons.iter().map(of).sum();
@@ -161,53 +215,48 @@ impl Reduction {
                 });
             }
         }
-        for (state, reason) in reasons.iter().flatten().enumerate() {
-            let Some(reason) = *reason else { continue };
-            let Some(course) = grounds.course(model, start, state, reason) else {
+        for (body, dof) in layout.degrees() {
+            let Some(reason) = reasons[body][dof] else {
                 continue;
             };
-            let coast = Coast {
-                body: state / 4,
-                direction: state % 4,
-                course,
+            let Some(course) = grounds.course(model, start, (body, dof), reason) else {
+                continue;
             };
-            if coast.course.moves() && is_felt(model, &coast, reason) {
-                self.felt.push(coast.clone());
+            let prescribed = Prescribed { body, dof, course };
+            if prescribed.course.moves() && is_felt(model, &prescribed, reason) {
+                self.felt.push(prescribed.clone());
             }
-            self.coasts.push(coast);
+            self.prescribed.push(prescribed);
         }
         for row in 0..model.rows.len() {
             let idle = grounds.idle == Some(row);
             let copy = grounds.mirrored && row == 1;
             if idle || model.scene.approximations.rolling && !copy {
-                let at = self.place(2 + model.rows[row].first, 0);
+                let at = self.place(model.rows[row].first_body(), Dof::X);
                 self.orbits.push(Orbit::of(model, row, start, at));
             }
         }
     }
 
     /// Place of a degree of freedom among the states, if it is kept.
-    pub(crate) fn place(&self, body: usize, direction: usize) -> Option<usize> {
-        let holds =
-            |s: &&Stretch| s.direction == direction && (s.first..s.first + s.count).contains(&body);
+    pub(crate) fn place(&self, body: BodyId, dof: Dof) -> Option<usize> {
+        let holds = |s: &&Stretch| s.dof == dof && s.bodies().contains(&body.index());
         let stretch = self.stretches.iter().find(holds)?;
-        Some(stretch.at + body - stretch.first)
+        Some(stretch.at + body.index() - stretch.first.index())
     }
 
     /// Lists what is kept, direction by direction.
-    fn keep(&mut self, model: &Model, keeps: impl Fn(usize, usize) -> bool) {
+    fn keep(&mut self, layout: Layout, keeps: impl Fn(BodyId, Dof) -> bool) {
         self.stretches.clear();
         self.kept = 0;
-        for direction in 0..4 {
-            for body in (0..model.bodies.len()).filter(|body| keeps(*body, direction)) {
+        for dof in Dof::ALL {
+            for body in layout.bodies().filter(|body| keeps(*body, dof)) {
                 match self.stretches.last_mut() {
-                    Some(last)
-                        if last.direction == direction && last.first + last.count == body =>
-                    {
+                    Some(last) if last.dof == dof && last.first.after(last.count) == body => {
                         last.count += 1;
                     }
                     _ => self.stretches.push(Stretch {
-                        direction,
+                        dof,
                         first: body,
                         count: 1,
                         at: self.kept,
@@ -238,7 +287,7 @@ impl Reduction {
     }
 
     /// What moves by itself and is felt by some force.
-    pub(crate) fn felt(&self) -> &[Coast] {
+    pub(crate) fn felt(&self) -> &[Prescribed] {
         &self.felt
     }
 
@@ -249,11 +298,11 @@ impl Reduction {
             .filter_map(|orbit| Some((orbit, orbit.at?)))
     }
 
-    /// The kept degrees of freedom in their order, as (body, direction).
-    pub(crate) fn degrees(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+    /// The kept degrees of freedom in their order.
+    pub(crate) fn degrees(&self) -> impl Iterator<Item = (BodyId, Dof)> + '_ {
         self.stretches
             .iter()
-            .flat_map(|s| (0..s.count).map(|i| (s.first + i, s.direction)))
+            .flat_map(|s| (0..s.count).map(|i| (s.first.after(i), s.dof)))
     }
 
     /// The kept states out of those of all bodies.
@@ -263,8 +312,9 @@ impl Reduction {
     pub fn compress(&self, full: &[f64]) -> Vec<f64> {
         let (q, v) = full.split_at(full.len() / 2);
         let of = |half: &'_ [f64]| -> Vec<f64> {
+            let bodies = Layout::each(half);
             self.degrees()
-                .map(|(body, direction)| half[4 * body + direction])
+                .map(|(body, dof)| bodies[body.index()][dof])
                 .collect()
         };
         let mut kept = [of(q), of(v)].concat();
@@ -277,20 +327,18 @@ impl Reduction {
     /// The states of all bodies at a time, from those that are kept. `full` holds them from another time, or from
     /// the start.
     pub(crate) fn expand(&self, model: &Model, t: f64, y: &[f64], full: &mut [f64]) {
-        let half = full.len() / 2;
-        self.spread(y, full);
-        for coast in &self.coasts {
-            let state = 4 * coast.body + coast.direction;
-            (full[state], full[half + state]) = coast.course.at(t);
+        let layout = model.layout();
+        self.spread(layout, y, full);
+        for motion in &self.prescribed {
+            let (place, speed) = motion.course.at(t);
+            full[layout.at(motion.body, motion.dof)] = place;
+            full[layout.speed_at(motion.body, motion.dof)] = speed;
         }
         for orbit in &self.orbits {
             orbit.place(t, y, full);
         }
-        if self.mirrored {
-            let axial = f64::midpoint(
-                model.scene.rows[0].axial_position,
-                model.scene.rows[1].axial_position,
-            );
+        if let (true, [first, second]) = (self.mirrored, &model.scene.rows[..]) {
+            let axial = f64::midpoint(first.axial_position, second.axial_position);
             copy_row(model, full, 2.0 * axial);
         }
     }
@@ -304,12 +352,11 @@ impl Reduction {
         rates: &[f64],
         full: &mut [f64],
     ) {
-        let half = full.len() / 2;
-        self.spread(rates, full);
-        for coast in &self.coasts {
-            let state = 4 * coast.body + coast.direction;
-            full[state] = coast.course.at(t).1;
-            full[half + state] = coast.course.rate(t);
+        let layout = model.layout();
+        self.spread(layout, rates, full);
+        for motion in &self.prescribed {
+            full[layout.at(motion.body, motion.dof)] = motion.course.at(t).1;
+            full[layout.speed_at(motion.body, motion.dof)] = motion.course.rate(t);
         }
         for orbit in &self.orbits {
             orbit.rates(t, y, rates, full);
@@ -319,36 +366,31 @@ impl Reduction {
         }
     }
 
-    fn spread(&self, y: &[f64], full: &mut [f64]) {
-        let half = full.len() / 2;
-        for s in &self.stretches {
-            for i in 0..s.count {
-                let state = 4 * (s.first + i) + s.direction;
-                full[state] = y[s.at + i];
-                full[half + state] = y[self.kept + s.at + i];
-            }
+    fn spread(&self, layout: Layout, y: &[f64], full: &mut [f64]) {
+        for (at, (body, dof)) in self.degrees().enumerate() {
+            full[layout.at(body, dof)] = y[at];
+            full[layout.speed_at(body, dof)] = y[self.kept + at];
         }
     }
 }
 
-impl Model {
-    /// Axial places that outer ring, inner ring and the rows of balls keep by request, from a state of all bodies in
-    /// equilibrium; none where that is not asked for or cannot be.
-    pub(crate) fn levels(&self, start: &[f64]) -> Option<Vec<f64>> {
-        let levels = request::levels(self, start);
-        levels.ok().filter(|_| self.scene.approximations.plane)
-    }
+/// Axial places that rings and rows keep by request, from a state of all bodies in equilibrium; none where that is not asked
+/// for or cannot be.
+pub(crate) fn levels(model: &Model, start: &[f64]) -> Option<AxialPlaces> {
+    let levels = request::levels(model, start);
+    levels.ok().filter(|_| model.scene.approximations.plane)
 }
 
 /// Makes the second row the image of the first, whose axial places z become `sum` − z.
 fn copy_row(model: &Model, full: &mut [f64], sum: f64) {
-    let (first, second) = (2 + model.rows[0].first, 2 + model.rows[1].first);
-    let half = full.len() / 2;
-    for (offset, sum) in [(0, sum), (half, 0.0)] {
+    let [first, second] = [0, 1].map(|row| model.rows[row].first_body());
+    let (places, speeds) = full.split_at_mut(model.layout().half());
+    for (half, sum) in [(places, sum), (speeds, 0.0)] {
+        let bodies = Layout::each_mut(half);
         for k in 0..model.rows[0].count {
-            let (from, to) = (offset + 4 * (first + k), offset + 4 * (second + k));
-            full.copy_within(from..from + 4, to);
-            full[to + 2] = sum - full[from + 2];
+            let mut image = bodies[first.after(k).index()];
+            image[Dof::Z] = sum - image[Dof::Z];
+            bodies[second.after(k).index()] = image;
         }
     }
 }

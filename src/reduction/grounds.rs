@@ -1,8 +1,9 @@
 //! Who is left out, for which reason, and how it moves all the same.
 
-use super::course::{Coast, Course};
+use super::AxialPlaces;
+use super::course::{Course, Prescribed};
 use crate::contact::Pair;
-use crate::model::{Degree, Model};
+use crate::model::{BodyId, Degree, Dof, Model, Race};
 
 /// Why a degree of freedom is not integrated.
 #[derive(Clone, Copy, PartialEq)]
@@ -57,32 +58,34 @@ pub(super) struct Grounds {
     pub plane: bool,
     pub mirrored: bool,
     /// Axial places of rings and rows.
-    pub levels: Option<Vec<f64>>,
+    pub levels: Option<AxialPlaces>,
     /// The row that is left out.
     pub idle: Option<usize>,
 }
 
 impl Grounds {
     /// Why a degree of freedom can be left out.
-    pub fn reason(&self, model: &Model, body: usize, direction: usize) -> Option<Reason> {
-        let ball = body.checked_sub(2).map(|j| &model.balls[j]);
+    pub fn reason(&self, model: &Model, body: BodyId, dof: Dof) -> Option<Reason> {
+        let ball = body.as_ball().map(|j| &model.balls[j]);
         if self.mirrored && ball.is_some_and(|ball| ball.row == 1) {
             return Some(Reason::Copy);
         }
         if ball.is_some_and(|ball| self.idle == Some(ball.row)) {
             return Some(Reason::Idle);
         }
-        match model.bodies[body].degrees[direction] {
+        match model.bodies[body].degrees[dof] {
             Degree::Fixed => self.exact.then_some(Reason::Held),
             Degree::Driven => self.exact.then_some(Reason::Driven),
-            Degree::Free { stiffness, damping } => match (direction, ball) {
-                (2, _) if self.plane => Some(Reason::Mirror),
+            Degree::Free { stiffness, damping } => match (dof, ball) {
+                (Dof::Z, _) if self.plane => Some(Reason::Mirror),
                 // The image pulls the rings the other way.
-                (2, None) if self.mirrored => Some(Reason::Mirror),
-                (2, _) if self.levels.is_some() => Some(Reason::Level),
-                (1 | 3, Some(_)) if model.scene.approximations.rolling => Some(Reason::Rolling),
-                (3, Some(ball)) if self.exact => {
-                    let smooth = model.rows[ball.row].pairs[0].law.traction.is_none();
+                (Dof::Z, None) if self.mirrored => Some(Reason::Mirror),
+                (Dof::Z, _) if self.levels.is_some() => Some(Reason::Level),
+                (Dof::Y | Dof::Theta, Some(_)) if model.scene.approximations.rolling => {
+                    Some(Reason::Rolling)
+                }
+                (Dof::Theta, Some(ball)) if self.exact => {
+                    let smooth = !model.rows[ball.row].has_friction();
                     let whole = ball.side.faults.is_empty();
                     let loose = stiffness == 0.0 && damping == 0.0;
                     (smooth && whole && loose).then_some(Reason::NoMoment)
@@ -97,28 +100,27 @@ impl Grounds {
         &self,
         model: &Model,
         start: &[f64],
-        state: usize,
+        (body, dof): (BodyId, Dof),
         reason: Reason,
     ) -> Option<Course> {
-        let (body, direction) = (state / 4, state % 4);
-        let (place, speed) = (start[state], start[start.len() / 2 + state]);
+        let layout = model.layout();
+        let (place, speed) = (
+            start[layout.at(body, dof)],
+            start[layout.speed_at(body, dof)],
+        );
         let drive = &model.scene.drive;
-        match (reason, direction) {
-            (Reason::Copy, _) | (Reason::Rolling, 1) | (Reason::Idle, 0 | 1) => None,
-            (Reason::Mirror, _) => Some(Course::steady(model.bodies[body].nominal[direction], 0.0)),
+        match (reason, dof) {
+            (Reason::Copy, _) | (Reason::Rolling, Dof::Y) | (Reason::Idle, Dof::X | Dof::Y) => None,
+            (Reason::Mirror, _) => Some(Course::steady(model.bodies[body].nominal[dof], 0.0)),
             (Reason::Level, _) => {
-                let at = match body.checked_sub(2) {
-                    Some(j) => 2 + model.balls[j].row,
-                    None => body,
-                };
-                self.levels
-                    .as_ref()
-                    .map(|levels| Course::steady(levels[at], 0.0))
+                let places = self.levels.as_ref()?;
+                Some(Course::steady(places.of(model, body), 0.0))
             }
-            (Reason::Idle, 2) => Some(Course::steady(place, 0.0)),
+            (Reason::Idle, Dof::Z) => Some(Course::steady(place, 0.0)),
             (Reason::Driven, _) => Some(Course::driven(place, speed, 1.0, drive)),
             (Reason::Rolling, _) => {
-                let (_, at_rest) = model.rolling_shares(model.balls[body - 2].row);
+                let row = model.balls[body.as_ball()?].row;
+                let (_, at_rest) = model.rolling_shares(row);
                 Some(Course::geared(place, speed, at_rest, drive))
             }
             _ => Some(Course::steady(place, speed)),
@@ -127,7 +129,7 @@ impl Grounds {
 }
 
 /// Whether forces depend on a degree of freedom that runs its course.
-pub(super) fn is_felt(model: &Model, coast: &Coast, reason: Reason) -> bool {
+pub(super) fn is_felt(model: &Model, motion: &Prescribed, reason: Reason) -> bool {
     match reason {
         Reason::NoMoment | Reason::Idle => false,
         // A smooth, round and balanced ring may turn as it likes.
@@ -135,11 +137,14 @@ pub(super) fn is_felt(model: &Model, coast: &Coast, reason: Reason) -> bool {
             let told = |pair: &Pair| {
                 pair.law.traction.is_some() || !pair.faults.is_empty() || !pair.waves.is_round()
             };
-            let inner = model.rows.iter().any(|row| told(&row.pairs[coast.body]));
+            let inner = model.rows.iter().any(|row| told(&row.pairs[Race::Inner]));
             inner || !model.unbalances.is_empty()
         }
         // Only a defect tells how far a ball has turned.
-        Reason::Rolling => !model.balls[coast.body - 2].side.faults.is_empty(),
+        Reason::Rolling => {
+            let ball = motion.body.as_ball().map(|j| &model.balls[j].side);
+            ball.is_some_and(|side| !side.faults.is_empty())
+        }
         _ => true,
     }
 }

@@ -1,0 +1,103 @@
+//! Unbalances: masses off the centre of a ring that turns.
+//!
+//! The ring's mass m and its inertia I about its own centre are those of the whole, its centre of mass stands at
+//! u/m = Σ m e r̂ / m from the centre, so with ψ the angle of each r̂ (Lagrange)
+//!
+//! ```text
+//! m ẍ = F_x + m e (ω² cos ψ + ω̇ sin ψ)        m ÿ = F_y + m e (ω² sin ψ − ω̇ cos ψ)
+//! I ω̇ = T + u × g − u × (ẍ, ÿ)
+//! ```
+//!
+//! A driven speed tells ω̇. Else the first two in the third give it, over 1 − (u_x²/m_y + u_y²/m_x)/I, which is above 0
+//! where the ring's inertia about its centre of mass is.
+
+use super::{Force, State, Table, Use, drive};
+use crate::contact::{V2, cross};
+use crate::model::{DOFS, Dof, Model, Race, UnbalanceModel};
+
+pub(crate) const FORCE: Force = Force {
+    name: "unbalance",
+    contribution: "load",
+    used: |model| Use::evaluated(!model.unbalances.is_empty()),
+    add,
+};
+
+/// What the unbalances of a ring do, x, y, z and about z, from all other forces on it.
+pub(crate) fn on(
+    model: &Model,
+    t: f64,
+    state: &State,
+    ring: Race,
+    others: &[f64; DOFS],
+) -> [f64; DOFS] {
+    let mut sum = [0.0; DOFS];
+    let of_ring = model.unbalances.iter().filter(|u| u.ring == ring);
+    if of_ring.clone().next().is_none() {
+        return sum;
+    }
+    let motion = state.motion(ring.ring());
+    let square = motion.omega * motion.omega;
+    let direction = |u: &UnbalanceModel| (motion.theta + u.angle).sin_cos();
+    let mut whole = V2::zeros();
+    for unbalance in of_ring.clone() {
+        let (sin, cos) = direction(unbalance);
+        whole += V2::new(cos, sin) * unbalance.moment;
+    }
+    let [gx, gy, _] = model.scene.gravity;
+    let mobility = &model.mobility[ring.ring()];
+    let accelerate = |spin: f64| {
+        V2::new(
+            mobility[Dof::X] * (others[Dof::X] + square * whole.x + spin * whole.y),
+            mobility[Dof::Y] * (others[Dof::Y] + square * whole.y - spin * whole.x),
+        )
+    };
+    let weight = cross(whole, V2::new(gx, gy));
+    let driven = drive::acceleration(model, t).filter(|_| ring == Race::Inner);
+    let spin = driven.unwrap_or_else(|| {
+        let coupled = mobility[Dof::Y] * whole.x * whole.x + mobility[Dof::X] * whole.y * whole.y;
+        let torque = others[Dof::Theta] + weight - cross(whole, accelerate(0.0));
+        mobility[Dof::Theta] * torque / (1.0 - mobility[Dof::Theta] * coupled)
+    });
+    for unbalance in of_ring {
+        let (sin, cos) = direction(unbalance);
+        sum[Dof::X] += unbalance.moment * (square * cos + spin * sin);
+        sum[Dof::Y] += unbalance.moment * (square * sin - spin * cos);
+    }
+    sum[Dof::Theta] = weight - cross(whole, accelerate(spin));
+    sum
+}
+
+/// On both rings, after all other forces.
+pub(crate) fn add(model: &Model, t: f64, state: &State, forces: &mut Table) {
+    if !model.unbalances.is_empty() {
+        for race in Race::BOTH {
+            let others = forces.of(race.ring());
+            forces.add(race.ring(), &on(model, t, state, race, &others));
+        }
+    }
+}
+
+/// The centrifugal force of one at the start, its ring at angle 0 \[N\].
+pub(crate) fn at_start(model: &Model, unbalance: &UnbalanceModel) -> [f64; 2] {
+    let speed = match unbalance.ring {
+        Race::Inner => model.scene.drive.initial_speed(),
+        Race::Outer => 0.0,
+    };
+    let (sin, cos) = unbalance.angle.sin_cos();
+    let force = unbalance.moment * speed * speed;
+    [force * cos, force * sin]
+}
+
+/// What they add to kinetic energy and to that in the field of gravity \[J\].
+pub(crate) fn energies(model: &Model, y: &[f64]) -> [f64; 2] {
+    let mut energies = [0.0; 2];
+    let [gx, gy, _] = model.scene.gravity;
+    for unbalance in &model.unbalances {
+        let ring = model.layout().motion(y, unbalance.ring.ring());
+        let (sin, cos) = (ring.theta + unbalance.angle).sin_cos();
+        let along = ring.velocity.y * cos - ring.velocity.x * sin;
+        energies[0] += unbalance.moment * ring.omega * along;
+        energies[1] -= unbalance.moment * (gx * cos + gy * sin);
+    }
+    energies
+}

@@ -1,0 +1,127 @@
+//! A contact in a state: load, angle, zone, slip, and the forces of its slices.
+
+use crate::contact::{Sink, Touch, V2};
+use crate::model::{BodyId, Model, Race};
+
+/// A contact in a few numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactSummary {
+    /// Magnitude of the normal force, elastic and damping \[N\].
+    pub load: f64,
+    /// Its angle against the radial plane, positive in the sense of the nominal contact angle \[rad\]; NaN without load.
+    pub angle: f64,
+    /// Axial place of the zone's middle of force, in the ring's frame \[m\]; NaN without load.
+    pub zone_centre: f64,
+    /// Axial extent of the slices that touch \[m\].
+    pub zone_width: f64,
+    /// Load-weighted slip speed \[m/s\]; NaN without load.
+    pub slip: f64,
+}
+
+/// The force of one slice.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SliceForce {
+    /// Place along the ball, from its centre \[m\].
+    pub zeta: f64,
+    /// Axial place in the ring's frame \[m\].
+    pub z: f64,
+    /// Width of the slice \[m\].
+    pub width: f64,
+    /// Penetration \[m\].
+    pub penetration: f64,
+    /// Normal force \[N\].
+    pub force: f64,
+}
+
+#[derive(Default)]
+struct Summary {
+    plane: V2,
+    axial: f64,
+    weight: f64,
+    moment: f64,
+    slip: f64,
+    low: f64,
+    high: f64,
+}
+
+impl Sink for Summary {
+    fn touch(&mut self, touch: &Touch) {
+        let half = touch.width / 2.0;
+        if self.weight == 0.0 {
+            (self.low, self.high) = (f64::INFINITY, f64::NEG_INFINITY);
+        }
+        self.plane += touch.n_e * (touch.normal * touch.share.0);
+        self.axial += touch.normal * touch.share.1;
+        self.weight += touch.normal;
+        self.moment += touch.normal * touch.z;
+        self.slip += touch.normal * touch.slip;
+        self.low = self.low.min(touch.z - half);
+        self.high = self.high.max(touch.z + half);
+    }
+}
+
+struct List(Vec<SliceForce>);
+
+impl Sink for List {
+    fn touch(&mut self, touch: &Touch) {
+        self.0.push(SliceForce {
+            zeta: touch.zeta,
+            z: touch.z,
+            width: touch.width,
+            penetration: touch.depth,
+            force: touch.normal,
+        });
+    }
+}
+
+/// A contact in a few numbers: ball `j` among all balls on a race.
+pub fn contact(model: &Model, y: &[f64], j: usize, race: Race) -> ContactSummary {
+    let mut sum = Summary::default();
+    let side = visit(model, y, j, race, &mut sum);
+    if sum.weight == 0.0 {
+        return ContactSummary {
+            load: 0.0,
+            angle: f64::NAN,
+            zone_centre: f64::NAN,
+            zone_width: sum.high - sum.low,
+            slip: f64::NAN,
+        };
+    }
+    let radial = sum.plane.norm();
+    ContactSummary {
+        load: radial.hypot(sum.axial),
+        angle: (sum.axial * race.sigma() * side).atan2(radial),
+        zone_centre: sum.moment / sum.weight,
+        zone_width: sum.high - sum.low,
+        slip: sum.slip / sum.weight,
+    }
+}
+
+/// Largest Hertz pressure of any contact \[Pa\], at the zone's centre; of the smooth race where there is a defect.
+pub(crate) fn largest_pressure(model: &Model, y: &[f64]) -> f64 {
+    let balls = 0..model.balls.len();
+    let contacts = balls.flat_map(|j| Race::BOTH.map(|race| (j, race)));
+    contacts
+        .map(|(j, race)| pressure(model, j, race, contact(model, y, j, race).load))
+        .fold(0.0, f64::max)
+}
+
+/// Hertz pressure \[Pa\] of a ball on a race under a load \[N\].
+pub(crate) fn pressure(model: &Model, j: usize, race: Race, load: f64) -> f64 {
+    model.rows[model.balls[j].row].hertz[race].pressure(load)
+}
+
+/// The forces of the slices of one contact, in order of ζ; on a fault a slice may appear more than once.
+pub fn slice_forces(model: &Model, y: &[f64], j: usize, race: Race) -> Vec<SliceForce> {
+    let mut list = List(Vec::new());
+    visit(model, y, j, race, &mut list);
+    list.0
+}
+
+fn visit<S: Sink>(model: &Model, y: &[f64], j: usize, race: Race, sink: &mut S) -> f64 {
+    let ball = &model.balls[j];
+    let row = &model.rows[ball.row];
+    let [at, ring] = [BodyId::ball(j), race.ring()].map(|body| model.layout().motion(y, body));
+    row.pairs[race].evaluate(&ball.side, &at, &ring, sink);
+    row.side
+}

@@ -1,0 +1,103 @@
+//! Energies and dissipated powers of a state.
+
+use crate::contact::{Sink, Touch};
+use crate::forces;
+use crate::model::{BodyId, Dof, Model, Race};
+
+/// Energies \[J\] and dissipated powers \[W\]. Loads and drive do work on top of these.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Energy {
+    /// Of all bodies that move.
+    pub kinetic: f64,
+    /// Stored in contacts.
+    pub contact: f64,
+    /// Stored in supports.
+    pub support: f64,
+    /// Stored in the cage.
+    pub cage: f64,
+    /// In the field of gravity, 0 at the origin.
+    pub gravity: f64,
+    /// Power lost to contact damping.
+    pub damping_power: f64,
+    /// Power lost to friction.
+    pub friction_power: f64,
+    /// Power lost in supports and cage.
+    pub support_power: f64,
+}
+
+impl Energy {
+    /// All stored and kinetic energy \[J\].
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.contact + self.support + self.cage + self.gravity
+    }
+
+    /// Names, units and values, in order.
+    pub fn entries(&self) -> [(&'static str, &'static str, f64); 9] {
+        [
+            ("kinetic", "J", self.kinetic),
+            ("contact", "J", self.contact),
+            ("support", "J", self.support),
+            ("cage", "J", self.cage),
+            ("gravity", "J", self.gravity),
+            ("total", "J", self.total()),
+            ("damping_power", "W", self.damping_power),
+            ("friction_power", "W", self.friction_power),
+            ("support_power", "W", self.support_power),
+        ]
+    }
+}
+
+#[derive(Default)]
+struct Contacts {
+    energy: f64,
+    damping: f64,
+    friction: f64,
+}
+
+impl Sink for Contacts {
+    const ENERGY: bool = true;
+
+    fn touch(&mut self, touch: &Touch) {
+        self.energy += touch.energy;
+        self.damping += (touch.normal - touch.elastic) * touch.approach;
+        self.friction += touch.friction_power;
+    }
+}
+
+/// Energies and dissipated powers of a state.
+pub fn energy(model: &Model, y: &[f64]) -> Energy {
+    let mut energy = Energy::default();
+    let layout = model.layout();
+    for id in layout.bodies() {
+        let body = &model.bodies[id];
+        for dof in Dof::ALL {
+            let speed = y[layout.speed_at(id, dof)];
+            energy.kinetic += 0.5 * body.mass[dof] * speed * speed;
+        }
+    }
+    let [cage, support] = [forces::cage::account, forces::support::account].map(|of| of(model, y));
+    let [kinetic, gravity] = forces::unbalance::energies(model, y);
+    energy.kinetic += kinetic;
+    energy.gravity = forces::gravity::energy(model, y) + gravity;
+    (energy.cage, energy.support) = (cage.energy, support.energy);
+    energy.support_power = cage.power + support.power;
+    let mut contacts = Contacts::default();
+    for (j, ball) in model.balls.iter().enumerate() {
+        let at = layout.motion(y, BodyId::ball(j));
+        for race in Race::BOTH {
+            let ring = layout.motion(y, race.ring());
+            let pair = &model.rows[ball.row].pairs[race];
+            pair.evaluate(&ball.side, &at, &ring, &mut contacts);
+        }
+    }
+    energy.contact = contacts.energy;
+    energy.damping_power = contacts.damping;
+    energy.friction_power = contacts.friction;
+    energy
+}
+
+/// Forces of the cage links of a row, positive in tension \[N\]; empty without a cage.
+pub fn cage_forces(model: &Model, y: &[f64], row: usize) -> Vec<f64> {
+    let links = forces::cage::of_row(model, y, &model.rows[row]);
+    links.iter().map(|link| link.force).collect()
+}

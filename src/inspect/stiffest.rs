@@ -1,0 +1,97 @@
+//! The elements that hold an explicit step down: contacts, cages and supports with the highest rates.
+
+use crate::forces;
+use crate::inspect::contact;
+use crate::model::{BodyId, Dof, Model, Race};
+use crate::told::{force, number};
+
+/// Elements that are named at most.
+const NAMED: usize = 4;
+
+/// A contact, a cage or a support.
+pub(crate) struct Element {
+    /// `row0.ball3.outer` (ball and race), `row0.cage` or `outer.support`.
+    pub name: String,
+    /// A body it acts on.
+    pub body: BodyId,
+    /// What it does, in numbers.
+    state: String,
+    /// Rate at which its friction and damping change the motion of what it acts on \[1/s\].
+    rate: f64,
+}
+
+impl std::fmt::Display for Element {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self {
+            name, state, rate, ..
+        } = self;
+        write!(f, "{name} ({state}rate {} 1/s)", number(*rate))
+    }
+}
+
+/// The contacts that touch, cages and supports of a body in a state, the fastest first; all without a body. An
+/// explicit step is held below about 3.3 over the rate.
+pub(crate) fn stiffest(model: &Model, y: &[f64], body: Option<BodyId>) -> Vec<Element> {
+    let concerns = |touched: &[BodyId]| body.is_none_or(|b| touched.contains(&b));
+    let contacts = (0..model.balls.len())
+        .flat_map(|j| Race::BOTH.map(|race| (j, race)))
+        .filter(|&(j, race)| concerns(&[BodyId::ball(j), race.ring()]))
+        .filter_map(|(j, race)| of_contact(model, y, j, race));
+    let cages = (0..model.rows.len())
+        .filter(|&row| {
+            let links = |ball: usize| model.balls[ball].row == row;
+            body.is_none_or(|body| body.as_ball().is_some_and(links))
+        })
+        .filter_map(|row| of_cage(model, row));
+    let supports = model.layout().bodies();
+    let supports = supports
+        .filter(|&body| concerns(&[body]))
+        .filter_map(|body| of_support(model, body));
+    let mut found: Vec<Element> = contacts.chain(cages).chain(supports).collect();
+    found.sort_by(|a, b| b.rate.total_cmp(&a.rate));
+    found.truncate(NAMED);
+    found
+}
+
+/// A sliding ball's N (1/m + R²/I) μ(u)/√(u² + v_s²), and Hunt–Crossley's 3/2 α_d N/m.
+fn of_contact(model: &Model, y: &[f64], j: usize, race: Race) -> Option<Element> {
+    let (ball, body) = (&model.balls[j], &model.bodies[BodyId::ball(j)]);
+    let pair = &model.rows[ball.row].pairs[race];
+    let contact = contact(model, y, j, race);
+    let mobility = 1.0 / body.mass[Dof::X] + ball.side.radius.powi(2) / body.mass[Dof::Theta];
+    let traction = pair.law.traction;
+    let friction = traction.map_or(0.0, |law| law.at(contact.slip) * mobility);
+    let damping = pair.law.damping.rate() / body.mass[Dof::X];
+    (contact.load > 0.0).then(|| Element {
+        name: format!("{}.{}", body.name, race.name()),
+        body: BodyId::ball(j),
+        state: format!(
+            "load {}, slip {} m/s, ",
+            force(contact.load),
+            number(contact.slip)
+        ),
+        rate: contact.load * (friction + damping),
+    })
+}
+
+/// The links of the cage that damp a ball.
+fn of_cage(model: &Model, row: usize) -> Option<Element> {
+    let rate = forces::cage::rate(model, row);
+    (rate > 0.0).then(|| Element {
+        name: format!("row{row}.cage"),
+        body: model.rows[row].first_body(),
+        state: String::new(),
+        rate,
+    })
+}
+
+/// The fastest direction of a body's dampers.
+fn of_support(model: &Model, body: BodyId) -> Option<Element> {
+    let rate = forces::support::rate(model, body);
+    (rate > 0.0).then(|| Element {
+        name: format!("{}.support", model.bodies[body].name),
+        body,
+        state: String::new(),
+        rate,
+    })
+}

@@ -1,0 +1,378 @@
+//! Bodies, races and directions, and the one place that says where they stand in a state vector.
+//!
+//! A state vector holds the places of all bodies, then their speeds in the same order. Nobody else computes with the number
+//! of a body's directions or with the bodies before the balls: a direction more is a change of this file.
+
+use std::ops::{Index, IndexMut, Range};
+
+use crate::contact::Motion;
+use crate::scene::RingName;
+
+/// Number of directions of a body: [`Dof::ALL`].
+pub const DOFS: usize = 4;
+
+/// Bodies before the first ball: one ring a race.
+pub(crate) const RINGS: usize = Race::BOTH.len();
+
+/// Directions of both rings.
+pub(crate) const RING_DOFS: usize = RINGS * DOFS;
+
+/// One of the two races of a row, and the ring that carries it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub enum Race {
+    /// On the outer ring.
+    #[default]
+    Outer,
+    /// On the inner ring.
+    Inner,
+}
+
+impl Race {
+    /// Outer, then inner: the order of everything that has one entry a race.
+    pub const BOTH: [Self; 2] = [Self::Outer, Self::Inner];
+
+    /// The race opposite.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Outer => Self::Inner,
+            Self::Inner => Self::Outer,
+        }
+    }
+
+    /// The ring that carries it.
+    pub const fn ring(self) -> BodyId {
+        BodyId(self as usize)
+    }
+
+    /// `outer` or `inner`: as in the names of states and columns.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Outer => "outer",
+            Self::Inner => "inner",
+        }
+    }
+
+    /// σ of model section 2: +1 where a ball touches outwards, −1 where it touches inwards.
+    pub const fn sigma(self) -> f64 {
+        match self {
+            Self::Outer => 1.0,
+            Self::Inner => -1.0,
+        }
+    }
+}
+
+impl From<RingName> for Race {
+    fn from(name: RingName) -> Self {
+        match name {
+            RingName::Outer => Self::Outer,
+            RingName::Inner => Self::Inner,
+        }
+    }
+}
+
+impl From<Race> for RingName {
+    fn from(race: Race) -> Self {
+        match race {
+            Race::Outer => Self::Outer,
+            Race::Inner => Self::Inner,
+        }
+    }
+}
+
+/// What a body is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BodyKind {
+    /// The ring that carries a race.
+    Ring(Race),
+    /// A ball, by its number among the balls of all rows.
+    Ball(usize),
+}
+
+/// A body of a model: outer ring, inner ring, then all balls row by row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct BodyId(usize);
+
+impl BodyId {
+    /// The outer ring.
+    pub const OUTER: Self = Race::Outer.ring();
+    /// The inner ring.
+    pub const INNER: Self = Race::Inner.ring();
+
+    /// A ball by its number among the balls of all rows.
+    #[inline]
+    pub const fn ball(ball: usize) -> Self {
+        Self(RINGS + ball)
+    }
+
+    /// A body by its number among all bodies, as in [`crate::Model::bodies`].
+    #[inline]
+    pub const fn new(index: usize) -> Self {
+        Self(index)
+    }
+
+    /// Its number among all bodies.
+    #[inline]
+    pub const fn index(self) -> usize {
+        self.0
+    }
+
+    /// Ring or ball.
+    #[inline]
+    pub const fn kind(self) -> BodyKind {
+        match self.0 {
+            0 => BodyKind::Ring(Race::Outer),
+            1 => BodyKind::Ring(Race::Inner),
+            body => BodyKind::Ball(body - RINGS),
+        }
+    }
+
+    /// Its number among the balls of all rows; none for a ring.
+    #[inline]
+    pub const fn as_ball(self) -> Option<usize> {
+        match self.kind() {
+            BodyKind::Ball(ball) => Some(ball),
+            BodyKind::Ring(_) => None,
+        }
+    }
+
+    /// So many bodies from this one on, which are neighbours in any table of bodies.
+    #[inline]
+    pub(crate) fn range(self, count: usize) -> Range<usize> {
+        self.0..self.0 + count
+    }
+
+    /// The body so many places after it.
+    #[inline]
+    pub(crate) const fn after(self, count: usize) -> Self {
+        Self(self.0 + count)
+    }
+}
+
+/// A direction in which a body moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Dof {
+    /// Along x \[m\].
+    X,
+    /// Along y \[m\].
+    Y,
+    /// Along the bearing's axis \[m\].
+    Z,
+    /// About the bearing's axis \[rad\].
+    Theta,
+}
+
+impl Dof {
+    /// All of a body, in their order.
+    pub const ALL: [Self; DOFS] = [Self::X, Self::Y, Self::Z, Self::Theta];
+    /// Those along axes.
+    pub const TRANSLATIONS: [Self; 3] = [Self::X, Self::Y, Self::Z];
+    /// Those in the plane of rotation.
+    pub const PLANE: [Self; 2] = [Self::X, Self::Y];
+
+    /// Its number among those of a body.
+    #[inline]
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+
+    /// `x`, `y`, `z` or `theta`: as in the names of states.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Z => "z",
+            Self::Theta => "theta",
+        }
+    }
+
+    /// Whether it is an angle, its speed in rad/s and its force a moment.
+    pub const fn is_rotation(self) -> bool {
+        matches!(self, Self::Theta)
+    }
+}
+
+/// Where the places and speeds of all bodies stand in a state vector.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Layout {
+    bodies: usize,
+}
+
+impl Layout {
+    /// Of two rings and so many balls.
+    pub const fn of_balls(balls: usize) -> Self {
+        Self {
+            bodies: RINGS + balls,
+        }
+    }
+
+    /// Length of a state vector.
+    pub const fn dim(self) -> usize {
+        2 * self.half()
+    }
+
+    /// Number of places, and of speeds.
+    #[inline]
+    pub const fn half(self) -> usize {
+        DOFS * self.bodies
+    }
+
+    /// Where a place stands in a state vector, or a speed among the speeds.
+    #[inline]
+    pub const fn at(self, body: BodyId, dof: Dof) -> usize {
+        DOFS * body.0 + dof.index()
+    }
+
+    /// Where a speed stands in a state vector.
+    #[inline]
+    pub const fn speed_at(self, body: BodyId, dof: Dof) -> usize {
+        self.half() + self.at(body, dof)
+    }
+
+    /// What stands at a place in either half of a state vector.
+    pub const fn degree(self, at: usize) -> (BodyId, Dof) {
+        (BodyId(at / DOFS), Dof::ALL[at % DOFS])
+    }
+
+    /// All directions of all bodies, in the order of the places in a state vector.
+    pub fn degrees(self) -> impl Iterator<Item = (BodyId, Dof)> {
+        (0..self.half()).map(move |at| self.degree(at))
+    }
+
+    /// Rings and balls in their order.
+    pub fn bodies(self) -> impl ExactSizeIterator<Item = BodyId> + Clone {
+        (0..self.bodies).map(BodyId)
+    }
+
+    /// The numbers of a body in half a state vector.
+    ///
+    /// # Panics
+    /// If there is no such body.
+    #[inline]
+    pub fn of(self, half: &[f64], body: BodyId) -> &[f64; DOFS] {
+        &half.as_chunks().0[body.0]
+    }
+
+    /// The same to be written.
+    ///
+    /// # Panics
+    /// If there is no such body.
+    #[inline]
+    pub fn of_mut(self, half: &mut [f64], body: BodyId) -> &mut [f64; DOFS] {
+        &mut half.as_chunks_mut().0[body.0]
+    }
+
+    /// The numbers of all bodies in half a state vector, body by body.
+    #[inline]
+    pub fn each(half: &[f64]) -> &[[f64; DOFS]] {
+        half.as_chunks().0
+    }
+
+    /// The same to be written.
+    #[inline]
+    pub fn each_mut(half: &mut [f64]) -> &mut [[f64; DOFS]] {
+        half.as_chunks_mut().0
+    }
+
+    /// Where a body is and how it moves in a state.
+    ///
+    /// # Panics
+    /// If there is no such body.
+    #[inline]
+    pub fn motion(self, y: &[f64], body: BodyId) -> Motion {
+        let (q, v) = y.split_at(self.half());
+        Motion::new(self.of(q, body), self.of(v, body))
+    }
+
+    /// The place of a body's centre in a state \[m\].
+    ///
+    /// # Panics
+    /// If there is no such body.
+    pub fn centre(self, y: &[f64], body: BodyId) -> [f64; 3] {
+        Dof::TRANSLATIONS.map(|dof| y[self.at(body, dof)])
+    }
+}
+
+/// What has one entry a race is indexed by the race.
+impl<T> Index<Race> for [T; 2] {
+    type Output = T;
+
+    #[inline]
+    fn index(&self, race: Race) -> &T {
+        &self[race as usize]
+    }
+}
+
+impl<T> IndexMut<Race> for [T; 2] {
+    #[inline]
+    fn index_mut(&mut self, race: Race) -> &mut T {
+        &mut self[race as usize]
+    }
+}
+
+/// What has one entry a direction of a body is indexed by the direction.
+impl<T> Index<Dof> for [T; DOFS] {
+    type Output = T;
+
+    #[inline]
+    fn index(&self, dof: Dof) -> &T {
+        &self[dof as usize]
+    }
+}
+
+impl<T> IndexMut<Dof> for [T; DOFS] {
+    #[inline]
+    fn index_mut(&mut self, dof: Dof) -> &mut T {
+        &mut self[dof as usize]
+    }
+}
+
+/// What has one entry a body is indexed by the body.
+impl<T> Index<BodyId> for Vec<T> {
+    type Output = T;
+
+    #[inline]
+    fn index(&self, body: BodyId) -> &T {
+        &self[body.0]
+    }
+}
+
+impl<T> IndexMut<BodyId> for Vec<T> {
+    #[inline]
+    fn index_mut(&mut self, body: BodyId) -> &mut T {
+        &mut self[body.0]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Truth: the order that `Model::names` tells.
+    #[test]
+    fn every_place_has_one_owner() {
+        let layout = Layout::of_balls(3);
+        assert_eq!((layout.half(), layout.dim()), (20, 40));
+        for (at, (body, dof)) in layout.degrees().enumerate() {
+            assert_eq!(layout.at(body, dof), at);
+            assert_eq!(layout.speed_at(body, dof), 20 + at);
+        }
+        let y: Vec<f64> = (0..layout.dim()).map(|i| i as f64).collect();
+        let motion = layout.motion(&y, BodyId::ball(1));
+        assert_eq!(
+            (motion.centre.x, motion.z, motion.omega),
+            (12.0, 14.0, 35.0)
+        );
+        assert_eq!(layout.centre(&y, BodyId::INNER), [4.0, 5.0, 6.0]);
+    }
+
+    #[test]
+    fn rings_stand_before_balls() {
+        assert_eq!(BodyId::ball(0).index(), 2);
+        assert_eq!(BodyId::ball(5).as_ball(), Some(5));
+        for race in Race::BOTH {
+            assert_eq!(race.ring().kind(), BodyKind::Ring(race));
+            assert_eq!((race.ring().as_ball(), race.other().other()), (None, race));
+        }
+    }
+}
