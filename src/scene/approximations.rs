@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 pub struct Approximations {
     /// Balls and cage are kinematic: every row orbits in proportion to the inner ring as it rolls at the start, its
     /// balls spaced as there, and moves along its radii and z only. Friction and cage are left out, of
-    /// [`crate::Model::rhs`] too, which else is that of free balls.
+    /// [`crate::dynamics::rhs()`] too, which else is that of free balls.
     pub rolling: bool,
     /// Rings and balls keep their axial places from the start, the balls of a row all the same one: the plane model
     /// of a bearing with a contact angle, for loads along z that do not change.

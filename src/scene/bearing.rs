@@ -61,13 +61,13 @@ pub struct Row {
     #[serde(default)]
     pub ball_support: Support,
     /// Material of the row's balls; absent: that of the scene, `materials.balls`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub ball_material: Option<Material>,
     /// How the row's balls meet their races, in place of the whole of the scene's `contact`; absent: as there.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub contact: Option<Contact>,
     /// Friction of the row's balls and races; absent: that of the scene.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub friction: Option<Friction>,
 }
 

@@ -57,6 +57,9 @@ def every_field() -> s.Scene:
         ball_mass=2e-3,
         ball_inertia=1.3e-8,
         ball_support=s.Support(x=s.Spring(damping=1.0)),
+        ball_material=s.Material(density=3200.0, youngs_modulus=310e9, poisson_ratio=0.26),
+        contact=s.Contact(law=s.Iso16281(constant=4e10), damping=0.3),
+        friction=s.Coulomb(coefficient=0.05, slip_speed=0.1),
     )
     defect = s.Defect(
         on="outer_race",

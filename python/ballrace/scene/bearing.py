@@ -6,6 +6,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 from .._document import Part
+from .contact import Contact
+from .friction import Friction
+from .material import Material
 from .support import Support
 
 __all__ = ["Ring", "RingName", "Row", "Waviness"]
@@ -72,6 +75,12 @@ class Row(Part):
         Moment of inertia of a ball about z [kg m²]; None: 2/5 m R².
     ball_support : Support
         How every ball of the row hangs on the inertial frame; by default free.
+    ball_material : Material or None
+        Material of the row's balls; None: the scene's ``materials.balls``.
+    contact : Contact or None
+        How the row's balls meet their races, in place of the whole of the scene's ``contact``; None: as there.
+    friction : Friction or None
+        Friction of the row's balls and races, ``"none"`` for none; None: that of the scene.
     """
 
     ball_count: int
@@ -93,6 +102,9 @@ class Row(Part):
     ball_mass: float | None = None
     ball_inertia: float | None = None
     ball_support: Support = Support()
+    ball_material: Material | None = None
+    contact: Contact | None = None
+    friction: Friction | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
