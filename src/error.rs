@@ -2,7 +2,6 @@
 
 use thiserror::Error;
 
-use crate::memory::GIB;
 use crate::told;
 
 /// What `ballrace` refuses or fails at.
@@ -67,8 +66,8 @@ pub enum Error {
     /// More memory would be set aside than there is; nothing was computed.
     #[error(
         "{:.2} GiB of memory would be needed where {:.2} GiB are left to use: {what}",
-        .needed / GIB,
-        .available / GIB
+        .needed / told::GIB,
+        .available / told::GIB
     )]
     Memory {
         /// What would be set aside \[bytes\].

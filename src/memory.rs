@@ -9,6 +9,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::error::{Error, Result};
+use crate::told::GIB;
 
 /// What a run may take where the system does not tell \[bytes\].
 const UNTOLD: f64 = 8.0 * GIB;
@@ -16,7 +17,6 @@ const UNTOLD: f64 = 8.0 * GIB;
 const SHARE: f64 = 0.9;
 /// Less than the stack of a thread: not worth asking the system, which takes as long as compiling a bearing \[bytes\].
 const SMALL: f64 = 1e6;
-pub(crate) const GIB: f64 = (1u64 << 30) as f64;
 
 /// Refuses to set aside more than there is; `what` says for what, and how to need less.
 ///

@@ -4,8 +4,11 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 32] = [
+const ORDER: [&str; 35] = [
+    "told",
     "error",
+    "memory",
+    "interrupt",
     "simd",
     "scene",
     "contact",

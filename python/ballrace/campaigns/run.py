@@ -330,7 +330,7 @@ def _work(
 
 
 def _record_unusable(plan: Plan, store: Store, indices: list[int]) -> None:
-    import polars as pl
+    from .._polars import pl
 
     cases = [plan.cases.cases[i] for i in indices]
     rows = [row(case.id, record_of(case.error)) for case in cases if case.error is not None]

@@ -120,7 +120,7 @@ class Writer:
         self._rows, self._signals, self._size = [], [], 0
 
     def _write_signals(self) -> str:
-        import polars as pl
+        from .._polars import pl
 
         frames = []
         for case_id, raw in sorted(self._signals, key=lambda pair: pair[0]):
@@ -223,7 +223,7 @@ def record_of(error: BallraceError) -> dict[str, Any]:
 
 
 def _results(rows: list[dict[str, Any]]) -> Any:
-    import polars as pl
+    from .._polars import pl
 
     base = schema()
     names = list(dict.fromkeys(name for entry in rows for name in entry))
