@@ -26,7 +26,7 @@ from .plan import (
 )
 from .progress import Counts, Progress, Teller
 from .result import Campaign
-from .spread import executor_of, run_spread
+from .spread import executor_of, run_spread, tasks_on_a_machine
 from .store import Store, schema
 from .work import Job, check_process, record_of, row, run_here
 
@@ -248,6 +248,7 @@ def campaign(
         identity={"schema": schema_version, "scenes": scenes, "run": run, "features": features},
         job=Job(
             threads=threads_of(threads, executor),
+            sharing=1 if executor is None else tasks_on_a_machine(executor),
             keep_signals=keep == "signals",
             features=json.dumps(features),
             raise_errors=on_error == "raise",
