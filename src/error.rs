@@ -4,8 +4,6 @@ use thiserror::Error;
 
 use crate::told;
 
-pub(crate) const GIB: f64 = (1u64 << 30) as f64;
-
 /// What `ballrace` refuses or fails at.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -68,8 +66,8 @@ pub enum Error {
     /// More memory would be set aside than there is; nothing was computed.
     #[error(
         "{:.2} GiB of memory would be needed where {:.2} GiB are left to use: {what}",
-        .needed / GIB,
-        .available / GIB
+        .needed / told::GIB,
+        .available / told::GIB
     )]
     Memory {
         /// What would be set aside \[bytes\].

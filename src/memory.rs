@@ -8,7 +8,8 @@ use std::cell::Cell;
 use std::fs;
 use std::path::Path;
 
-use crate::error::{Error, GIB, Result};
+use crate::error::{Error, Result};
+use crate::told::GIB;
 
 /// What a run may take where the system does not tell \[bytes\].
 const UNTOLD: f64 = 8.0 * GIB;

@@ -5,6 +5,9 @@ use std::ops::Range;
 /// Units by their size, the largest first.
 type Units = [(f64, &'static str)];
 
+/// What memory is told in \[bytes\].
+pub(crate) const GIB: f64 = (1u64 << 30) as f64;
+
 const LENGTHS: &Units = &[(1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")];
 const FORCES: &Units = &[(1e6, "MN"), (1e3, "kN"), (1.0, "N")];
 const TIMES: &Units = &[

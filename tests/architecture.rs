@@ -6,12 +6,13 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 36] = [
+const ORDER: [&str; 37] = [
+    "told",
     "error",
+    "memory",
+    "interrupt",
     "simd",
     "integrate",
-    "interrupt",
-    "memory",
     "budget",
     "scene",
     "contact",

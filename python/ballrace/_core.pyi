@@ -102,6 +102,7 @@ def simulate(
 def campaign(
     cases: Iterable[tuple[str, str]],
     threads: int,
+    sharing: int,
     options: str,
     keep_signals: bool,
     done: Callable[[list[tuple[int, str, _Signals | None]]], object],

@@ -1,10 +1,14 @@
-"""Long calls of numpy that answer Ctrl-C: Python hears it between two calls, and one may take half a minute."""
+"""Long calls that answer Ctrl-C, and answer it once.
+
+Python hears it between two calls, and one of numpy may take half a minute. Polars hears it by itself, raises
+``KeyboardInterrupt``, and Python then another in the midst of what follows.
+"""
 
 from __future__ import annotations
 
 import functools
 import threading
-from concurrent.futures import Future, wait
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 if TYPE_CHECKING:
@@ -34,6 +38,14 @@ def answers_ctrl_c(function: Callable[P, T]) -> Callable[P, T]:
         return _apart(lambda: function(*args, **kwargs))
 
     return called
+
+
+def heard_once(work: Callable[[], T]) -> T:
+    """Let polars work on a thread of its own, and wait for its end; after Ctrl-C it soon ends what it does."""
+    if not _hears_signals():
+        return work()
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(work).result()
 
 
 def _hears_signals() -> bool:

@@ -12,10 +12,11 @@ from __future__ import annotations
 import errno
 import hashlib
 import io
-import mmap
 import os
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, BinaryIO, TypeVar
+
+from ._interrupt import heard_once
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -30,12 +31,14 @@ _SIZE = 16
 """Length of the hash [bytes]."""
 _TAIL = 8
 """Length of what follows the footer: its own length, and the format's name [bytes]."""
+_PART = 1 << 20
+"""What is read and hashed between two looks at Ctrl-C [bytes]."""
 
 
 @contextmanager
 def writing_to(path: str | os.PathLike[str]) -> Iterator[None]:
     """Have what polars cannot write, as to a full disk, be an ``OSError`` that names the file."""
-    import polars as pl
+    from ._polars import pl
 
     try:
         yield
@@ -49,16 +52,9 @@ def seal(file: BinaryIO) -> None:
     start = size - _TAIL - _footer(file, size)
     file.seek(start)
     footer = file.read()
-    file.seek(0)
-    found = _hash()
-    left = start
-    while left:
-        part = file.read(min(left, 1 << 20))
-        found.update(part)
-        left -= len(part)
-    found.update(footer)
+    digest = _hash(file, start, footer)
     file.seek(start)
-    file.write(_MARK + found.digest() + footer)
+    file.write(_MARK + digest + footer)
 
 
 def read_sealed(path: Path) -> tuple[pl.DataFrame, dict[str, str]]:
@@ -71,10 +67,10 @@ def read_sealed(path: Path) -> tuple[pl.DataFrame, dict[str, str]]:
     OSError
         It cannot be read.
     """
-    import polars as pl
+    from ._polars import pl
 
     _check_file(path)
-    table = _unless_damaged(lambda: pl.read_parquet(path, glob=False))
+    table = _unless_damaged(lambda: heard_once(lambda: pl.read_parquet(path, glob=False)))
     return table, _unless_damaged(lambda: pl.read_parquet_metadata(path))
 
 
@@ -88,7 +84,7 @@ def scan_sealed(path: Path) -> dict[str, str]:
     OSError
         It cannot be read.
     """
-    import polars as pl
+    from ._polars import pl
 
     _check_file(path)
     return _unless_damaged(lambda: pl.read_parquet_metadata(path))
@@ -96,7 +92,7 @@ def scan_sealed(path: Path) -> dict[str, str]:
 
 def columns_and_rows(path: Path) -> tuple[list[str], int]:
     """Return the names of the columns of a Parquet file, and how many rows it has."""
-    import polars as pl
+    from ._polars import pl
 
     table = pl.scan_parquet(path, glob=False)
     return table.collect_schema().names(), table.select(pl.len()).collect().item()
@@ -104,9 +100,9 @@ def columns_and_rows(path: Path) -> tuple[list[str], int]:
 
 def read_columns(path: Path, names: list[str]) -> pl.DataFrame:
     """Read some columns of a Parquet file whose hash is known to be right."""
-    import polars as pl
+    from ._polars import pl
 
-    return pl.read_parquet(path, columns=names, glob=False)
+    return heard_once(lambda: pl.read_parquet(path, columns=names, glob=False))
 
 
 def read_bytes(data: bytes) -> pl.DataFrame:
@@ -117,44 +113,55 @@ def read_bytes(data: bytes) -> pl.DataFrame:
     ValueError
         It is not Parquet.
     """
-    import polars as pl
+    from ._polars import pl
 
     return _unless_damaged(lambda: pl.read_parquet(io.BytesIO(data)))
 
 
 def _check_file(path: Path) -> None:
-    with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
-        _check(data)
+    with path.open("rb") as file:
+        size = file.seek(0, io.SEEK_END)
+        start = size - _TAIL - _footer(file, size) - len(_MARK) - _SIZE
+        file.seek(max(start, 0))
+        if start < 0 or file.read(len(_MARK)) != _MARK:
+            if _has_mark(file):
+                raise ValueError("its end is not what was written")
+            return
+        written, footer = file.read(_SIZE), file.read()
+        if _hash(file, start, footer) != written:
+            raise ValueError("its content is not what was written")
 
 
-def _check(data: mmap.mmap) -> None:
-    size = len(data)
-    start = size - _TAIL - int.from_bytes(data[-_TAIL : -_TAIL + 4], "little") - len(_MARK) - _SIZE
-    if start < 0 or data[start : start + len(_MARK)] != _MARK:
-        if data.find(_MARK) >= 0:
-            raise ValueError("its end is not what was written")
-        return
-    end = start + len(_MARK) + _SIZE
-    with memoryview(data) as view, view[:start] as columns, view[end:] as rest:
-        found = _hash()
-        found.update(columns)
-        found.update(rest)
-    if found.digest() != data[end - _SIZE : end]:
-        raise ValueError("its content is not what was written")
+def _has_mark(file: BinaryIO) -> bool:
+    file.seek(0)
+    seen = b""
+    while part := file.read(_PART):
+        seen = seen[-len(_MARK) :] + part
+        if _MARK in seen:
+            return True
+    return False
 
 
 def _footer(file: BinaryIO, size: int) -> int:
-    file.seek(size - _TAIL)
+    file.seek(max(size - _TAIL, 0))
     return int.from_bytes(file.read(4), "little")
 
 
-def _hash() -> hashlib.blake2b:
-    return hashlib.blake2b(digest_size=_SIZE)
+def _hash(file: BinaryIO, start: int, footer: bytes) -> bytes:
+    """Hash what stands before ``start``, and the footer."""
+    file.seek(0)
+    found = hashlib.blake2b(digest_size=_SIZE)
+    left = start
+    while left and (part := file.read(min(left, _PART))):
+        found.update(part)
+        left -= len(part)
+    found.update(footer)
+    return found.digest()
 
 
 def _unless_damaged(read: Callable[[], T]) -> T:
     """Read by polars, whose errors come in several kinds; a panic is no ``Exception``."""
-    import polars as pl
+    from ._polars import pl
 
     try:
         return read()

@@ -12,7 +12,6 @@ import base64
 import io
 import json
 from collections.abc import Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -22,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._files import whole
+from ._interrupt import heard_once
 from ._parquet import columns_and_rows, read_bytes, read_columns, seal, writing_to
 from .errors import BallraceError, FileError
 from .scene import Scene
@@ -49,7 +49,7 @@ class Writer:
 
     def take(self, columns: Mapping[str, NDArray[np.float64]]) -> None:
         """Write a block: columns of one length, the same names in each block."""
-        import polars as pl
+        from ._polars import pl
 
         table = pl.DataFrame(dict(columns))
         block = self._folder / f"{len(self._blocks):08}.parquet"
@@ -60,14 +60,13 @@ class Writer:
 
     def finish(self, metadata: dict[str, str]) -> None:
         """Write the one file, sealed."""
-        # This thread waits, so that Ctrl-C is answered here, once; polars itself ends what it does then.
-        with writing_to(self._target), ThreadPoolExecutor(1) as pool:
-            pool.submit(self._join, metadata).result()
+        with writing_to(self._target):
+            heard_once(lambda: self._join(metadata))
         with self._path.open("r+b") as file:
             seal(file)
 
     def _join(self, metadata: dict[str, str]) -> None:
-        import polars as pl
+        from ._polars import pl
 
         table = pl.scan_parquet(self._blocks, glob=False)
         table.sink_parquet(self._path, metadata=metadata, row_group_size=self._rows)
@@ -145,7 +144,7 @@ def unless_damaged(path: Path, read: Callable[[], Any]) -> Any:
 
 def samples(path: Path, table: pl.DataFrame, name: str) -> NDArray[np.float64]:
     """Return a column of a file, which has to hold numbers."""
-    import polars as pl
+    from ._polars import pl
 
     if name not in table.columns:
         raise FileError(str(path), f"damaged: the column {name} is missing")

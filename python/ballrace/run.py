@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, ParamSpec, TypeAlias
 
 import numpy as np
 
@@ -33,7 +34,22 @@ __all__ = ["simulate"]
 
 _CATEGORIES = {"accuracy": AccuracyWarning, "scene": SceneWarning}
 
+P = ParamSpec("P")
 
+
+def _of_a_scene(function: Callable[P, Signals]) -> Callable[P, Signals]:
+    """Look at the scene before Python misses arguments: ``simulate("file.toml")`` is told how to read a file."""
+
+    @functools.wraps(function)
+    def called(*args: P.args, **kwargs: P.kwargs) -> Signals:
+        if args or "scene" in kwargs:
+            checked_scene(args[0] if args else kwargs["scene"])
+        return function(*args, **kwargs)
+
+    return called
+
+
+@_of_a_scene
 def simulate(
     scene: Scene,
     *,
@@ -168,7 +184,6 @@ def simulate(
         accuracy=accuracy, method=method, threads=threads, bandwidth=bandwidth, settle=settle,
         time_limit=time_limit, max_steps=max_steps,
     ).to_json()  # fmt: skip
-    scene = checked_scene(scene)
     if reduce is not None:
         scene = scene.replace({"solver.reduce": reduce})
     document = scene.to_json()
@@ -184,7 +199,7 @@ def simulate(
 
     raw, written = (shown(None), None) if target is None else _written(target, shown)
     for category, text in raw["warnings"]:
-        warnings.warn(printable(text), _CATEGORIES[category], stacklevel=2)
+        warnings.warn(printable(text), _CATEGORIES[category], stacklevel=3)
     return Signals._from_core(raw, written)
 
 

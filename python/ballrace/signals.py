@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from . import _core
 from ._features import feature_options
 from ._files import whole
+from ._interrupt import heard_once
 from ._parquet import read_sealed, scan_sealed, seal, writing_to
 from ._record import Scanned, described, metadata, samples, unless_damaged
 from ._text import printable
@@ -266,7 +267,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
     def slices(self) -> pl.DataFrame | None:
         """Forces of single slices, a line each, as asked for by the probes ``slices``; None without them."""
         if isinstance(self._slices, Mapping):
-            import polars as pl
+            from ._polars import pl
 
             self._slices = pl.DataFrame(self._slices)
         return self._slices
@@ -319,7 +320,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with the time ``t`` and all columns."""
-        import polars as pl
+        from ._polars import pl
 
         return pl.DataFrame({"t": self.t, **self._columns})
 
@@ -336,7 +337,8 @@ class Signals(Mapping[str, NDArray[np.float64]]):
         """
         with whole(path) as temporary:
             with writing_to(path):
-                self.to_polars().write_parquet(temporary, metadata=metadata(self))
+                table, told = self.to_polars(), metadata(self)
+                heard_once(lambda: table.write_parquet(temporary, metadata=told))
             with temporary.open("r+b") as file:
                 seal(file)
 

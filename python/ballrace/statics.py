@@ -97,7 +97,7 @@ class Equilibrium:
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with a line per ball and the columns ``row``, ``ball``, ``angle``, …."""
-        import polars as pl
+        from ._polars import pl
 
         names = ["row", "ball", *_BALL]
         names += [f"{race}_{quantity}" for race in ("outer", "inner") for quantity in _CONTACT]

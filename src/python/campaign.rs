@@ -19,12 +19,14 @@ const KEEPING: f64 = 0.4;
 /// Run cases on threads of their own, each a pair of scene and run as JSON.
 ///
 /// `done` is given a list of (index, record as JSON, signals or None), in any order and possibly empty, at
-/// least about every 50 ms. What `cases` or `done` raise, or Ctrl-C, stops everything.
+/// least about every 50 ms. What `cases` or `done` raise, or Ctrl-C, stops everything. `sharing` calls at once, of
+/// which this is one, have the memory of the machine between them.
 #[pyfunction]
 pub(super) fn campaign(
     py: Python<'_>,
     cases: &Bound<'_, PyAny>,
     threads: usize,
+    sharing: u32,
     options: &str,
     keep_signals: bool,
     done: &Bound<'_, PyAny>,
@@ -56,11 +58,8 @@ pub(super) fn campaign(
             }
         };
         let stream = || crate::stream(pull, threads, &options, &mut watch);
-        if keep_signals {
-            memory::within(KEEPING * memory::available(), stream)
-        } else {
-            stream()
-        }
+        let part = if keep_signals { KEEPING } else { 1.0 } / f64::from(sharing.max(1));
+        memory::within(part * memory::available(), stream)
     });
     if let Some(exception) = raised.or(failed_pull) {
         return Err(exception);

@@ -168,6 +168,29 @@ class Recorder:
         return future
 
 
+class Crowd(Recorder):
+    """As many workers on this machine as leave each a few kilobytes."""
+
+    _max_workers = 10**6
+
+
+def test_workers_on_a_machine_share_its_memory(tmp_path: Path) -> None:
+    table = {"loads.radial.force": [1e3, 2e3]}
+    done = run(table, tmp_path, duration=LONGER, executor=Crowd())
+    assert done.manifest["error"].to_list() == ["MemoryLimitError"] * 2
+    assert "run fewer cases at once, which share the memory" in done.manifest["message"][0]
+
+
+def test_tasks_of_dask_are_counted_by_machine() -> None:
+    class Client:
+        def nthreads(self) -> dict[str, int]:
+            return {"tcp://10.0.0.1:4711": 3, "tcp://10.0.0.1:4712": 2, "tls://10.0.0.2:4711": 4}
+
+    assert spread.tasks_on_a_machine(Client()) == 5
+    assert spread.tasks_on_a_machine(Recorder()) == 2
+    assert spread.tasks_on_a_machine(object()) == 1
+
+
 def test_chunks_grow_with_what_is_known_and_shrink_at_the_end(tmp_path: Path) -> None:
     recorder = Recorder()
     run(table(100), tmp_path, duration=2e-4, start="rolling", executor=recorder, in_flight=4)

@@ -191,7 +191,7 @@ def test_a_new_entry_by_its_path(tmp_path: Path) -> None:
     "call",
     [
         lambda scene: br.simulate(scene, duration=1e-3),
-        br.equilibrium, br.stiffness, br.load_distribution, br.explain, br.Model,
+        br.simulate, br.equilibrium, br.stiffness, br.load_distribution, br.explain, br.Model,
     ],
 )  # fmt: skip
 def test_a_file_in_place_of_a_scene(call: Any) -> None:

@@ -113,6 +113,36 @@ def test_a_start_of_another_length_is_not_copied() -> None:
     assert program(call) == ["start = 40000000 numbers: 88 numbers, named by the model"]
 
 
+FIRST = """
+import resource
+import ballrace as br
+with open("/proc/self/statm") as file:
+    used = int(file.read().split()[0]) * resource.getpagesize()
+limit = used + {left} * 2**20
+resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+for _ in range(2):
+    try:
+        br.campaign([{{"duration": 1e-3}}], {folder!r}, scene=br.presets.deep_groove_6205())
+    except MemoryError as error:
+        assert isinstance(error, br.BallraceError) and error.needed > error.available, error
+        print(error)
+print("alive", len(br.simulate(br.presets.deep_groove_6205(), duration=1e-3)["outer.ay"]))
+"""
+"""A campaign is the first that needs polars, whose library and threads find too little address space."""
+
+
+@pytest.mark.parametrize("left", [100, 300, 400, 450, 550])
+def test_polars_that_cannot_start_is_a_memory_error(left: int, tmp_path: Path) -> None:
+    command = [sys.executable, "-c", FIRST.format(left=left, folder=str(tmp_path / "out"))]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=60.0, check=False)
+    assert ended.returncode == 0, ended.stderr
+    *refused, alive = ended.stdout.splitlines()
+    assert alive == "alive 50"
+    assert len(refused) == 2
+    assert all(text.startswith("polars, which holds the tables, would need ") for text in refused)
+    assert not (tmp_path / "out").exists()
+
+
 @pytest.mark.parametrize("name", CALLS)
 def test_what_does_not_fit_is_a_memory_error(name: str) -> None:
     (refused,) = program(CALLS[name])

@@ -70,7 +70,7 @@ def scatter(
     >>> cases.height, cases["bearing_id"].n_unique()
     (2000, 1000)
     """
-    import polars as pl
+    from .._polars import pl
 
     if n < 1:
         raise SceneError("n", str(n), "at least 1")

@@ -97,7 +97,7 @@ class Cases:
 
     def frame(self) -> pl.DataFrame:
         """Return the table with case ids: the left part of the manifest."""
-        import polars as pl
+        from .._polars import pl
 
         columns = [pl.Series("case_id", [case.id for case in self.cases], dtype=pl.String)]
         columns += [_series(name, [row.get(name) for row in self._rows]) for name in self.names]
@@ -226,7 +226,7 @@ def _plain(value: Any) -> Any:
 
 def _series(name: str, values: Iterable[Any]) -> pl.Series:
     """Return a column; where its cells are of different kinds, as JSON text."""
-    import polars as pl
+    from .._polars import pl
 
     # A label may well be no number.
     cells = [value if isinstance(value, float) else _plain(value) for value in values]

@@ -214,7 +214,7 @@ def _values(column: str, value: Any) -> list[Any]:
 
 
 def _file(path: Path) -> pl.DataFrame:
-    import polars as pl
+    from .._polars import pl
 
     try:
         match path.suffix.lower():

@@ -18,7 +18,7 @@ def rows_of(table: object) -> tuple[list[dict[str, Any]], list[str]]:
     SceneError
         It is no table, or has no rows.
     """
-    import polars as pl
+    from .._polars import pl
 
     if isinstance(table, Sequence) and all(isinstance(row, Mapping) for row in table):
         rows = [dict(row) for row in table]

@@ -66,7 +66,7 @@ class Campaign:
         ``.touched``, the share of them in which a contact was loaded within it, and its ``.largest_load`` [N]
         (see :class:`ballrace.Touched`).
         """
-        import polars as pl
+        from .._polars import pl
 
         results = self._results
         features = sorted(name for name in results.columns if name not in (*BASE, *BUDGET))
@@ -89,7 +89,7 @@ class Campaign:
     @property
     def warned(self) -> pl.DataFrame:
         """The rows of the manifest that ran, but want a second look."""
-        import polars as pl
+        from .._polars import pl
 
         return self.manifest.filter(pl.col("warnings").is_not_null())
 
@@ -106,7 +106,7 @@ class Campaign:
         CampaignError
             A shard is missing or damaged.
         """
-        import polars as pl
+        from .._polars import pl
 
         kept = self.manifest.filter(pl.col("signals").is_not_null()).unique(
             "case_id", maintain_order=True
@@ -130,7 +130,7 @@ class Campaign:
         CampaignError
             The shard that holds them is missing or damaged.
         """
-        import polars as pl
+        from .._polars import pl
 
         row = self.manifest.filter(pl.col("case_id") == case_id, pl.col("signals").is_not_null())
         if row.is_empty():

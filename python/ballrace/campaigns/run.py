@@ -27,7 +27,7 @@ from .plan import (
 )
 from .progress import Counts, Progress, Teller
 from .result import Campaign
-from .spread import executor_of, run_spread
+from .spread import executor_of, run_spread, tasks_on_a_machine
 from .store import Store, schema
 from .work import Job, check_process, record_of, row, run_here
 
@@ -244,6 +244,7 @@ def campaign(
         identity={"schema": schema_version, "scenes": scenes, "run": run, "features": features},
         job=Job(
             threads=threads_of(threads, executor),
+            sharing=1 if executor is None else tasks_on_a_machine(executor),
             keep_signals=keep == "signals",
             features=json.dumps(features),
             raise_errors=on_error == "raise",
@@ -326,7 +327,7 @@ def _work(
 
 
 def _record_unusable(plan: Plan, store: Store, indices: list[int]) -> None:
-    import polars as pl
+    from .._polars import pl
 
     cases = [plan.cases.cases[i] for i in indices]
     rows = [row(case.id, record_of(case.error)) for case in cases if case.error is not None]

@@ -6,12 +6,14 @@ import json
 import math
 import time
 import uuid
+from collections import Counter
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import suppress
 from dataclasses import asdict
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
+from urllib.parse import urlsplit
 
 from .._core import available_threads
 from ..errors import BallraceError, CampaignError, from_record
@@ -60,6 +62,19 @@ def executor_of(given: Any) -> tuple[Executor, int | None]:
     for name in ("num_workers", "_max_workers"):
         workers = workers or getattr(given, name, None)
     return given, workers
+
+
+def tasks_on_a_machine(given: Any) -> int:
+    """Return how many tasks an executor runs at once on one machine, as far as that can be known; else 1.
+
+    Those of Dask stand in the addresses of its workers; a pool of :mod:`concurrent.futures` is on this machine.
+    """
+    if hasattr(given, "nthreads"):
+        tasks: Counter[str] = Counter()
+        for address, threads in given.nthreads().items():
+            tasks[urlsplit(address).hostname or ""] += threads
+        return max(tasks.values(), default=1)
+    return getattr(given, "_max_workers", None) or 1
 
 
 def run_spread(

@@ -201,7 +201,7 @@ class Store:
         CampaignError
             A shard is damaged, or the folder cannot be read.
         """
-        import polars as pl
+        from .._polars import pl
 
         # A shard of an older version may lack columns.
         frames = [pl.DataFrame(schema=schema())]
@@ -300,7 +300,7 @@ def _description(identity: Mapping[str, Any]) -> dict[str, Any]:
 
 def schema() -> dict[str, Any]:
     """Return the types of the columns that every row of results has."""
-    import polars as pl
+    from .._polars import pl
 
     types = {**STATISTICS, **BUDGET, **dict.fromkeys(FAULTS, "Boolean")}
     return {name: getattr(pl, types.get(name, "String")) for name in (*BASE, *BUDGET)}
@@ -308,7 +308,7 @@ def schema() -> dict[str, Any]:
 
 def _check_results(frame: pl.DataFrame) -> None:
     """Refuse a table that has the right hash but was not written as rows of results."""
-    import polars as pl
+    from .._polars import pl
 
     base = schema()
     if not {"case_id", "status"} <= set(frame.columns):

@@ -37,7 +37,7 @@ def grid(values: Mapping[str, Iterable[object]]) -> pl.DataFrame:
     >>> table.shape, table.row(1)
     ((6, 2), (0.0, 0.001))
     """
-    import polars as pl
+    from .._polars import pl
 
     lists = {name: list(column) for name, column in values.items()}
     for name, column in lists.items():
@@ -144,7 +144,7 @@ def _check(ranges: Mapping[str, tuple[float, float]], n: int) -> None:
 
 
 def _scaled(unit: Any, ranges: Mapping[str, tuple[float, float]]) -> pl.DataFrame:
-    import polars as pl
+    from .._polars import pl
 
     columns = zip(ranges.items(), unit.T, strict=True)
     return pl.DataFrame({name: low + (high - low) * u for (name, (low, high)), u in columns})

@@ -34,6 +34,8 @@ class Job:
     ----------
     threads : int
         Cases at once in a process; 0: as many as it has cores.
+    sharing : int
+        Processes, or tasks of one process, at once on a machine, which have its memory between them.
     keep_signals : bool
         Whether signals are written beside features.
     features : str
@@ -43,6 +45,7 @@ class Job:
     """
 
     threads: int
+    sharing: int = 1
     keep_signals: bool
     features: str
     raise_errors: bool
@@ -120,7 +123,7 @@ class Writer:
         self._rows, self._signals, self._size = [], [], 0
 
     def _write_signals(self) -> str:
-        import polars as pl
+        from .._polars import pl
 
         frames = []
         for case_id, raw in sorted(self._signals, key=lambda pair: pair[0]):
@@ -162,7 +165,7 @@ def run_here(
         told(counts)
 
     try:
-        _core.campaign(documents(), job.threads, job.features, job.keep_signals, done)
+        _core.campaign(documents(), job.threads, job.sharing, job.features, job.keep_signals, done)
     except KeyboardInterrupt:
         # Of one Ctrl-C polars tells as it writes, and then Python, in the midst of what follows.
         with suppress(KeyboardInterrupt):
@@ -223,7 +226,7 @@ def record_of(error: BallraceError) -> dict[str, Any]:
 
 
 def _results(rows: list[dict[str, Any]]) -> Any:
-    import polars as pl
+    from .._polars import pl
 
     base = schema()
     names = list(dict.fromkeys(name for entry in rows for name in entry))

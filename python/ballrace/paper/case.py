@@ -61,7 +61,7 @@ class Balls:
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with a line per ball."""
-        import polars as pl
+        from .._polars import pl
 
         return pl.DataFrame(self.__dict__)
 

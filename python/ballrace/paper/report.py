@@ -69,7 +69,7 @@ def _finite(value: Any) -> Any:
 
 
 def _tables(paper: Paper) -> dict[str, pl.DataFrame]:
-    import polars as pl
+    from .._polars import pl
 
     def stacked(of: Callable[[Case], pl.DataFrame]) -> pl.DataFrame:
         return pl.concat(
