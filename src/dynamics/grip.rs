@@ -5,7 +5,7 @@ use std::array::from_fn;
 use super::batch::{SideConstants, Touching};
 use crate::contact::{Held, Motion, Pack, Packing, Plane, Raise, Reaction, Still, in_contact};
 use crate::forces::State;
-use crate::model::{BodyId, DOFS, Dof, Model, Race};
+use crate::model::{BodyId, DOFS, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
 
 /// What a ball may meet at one ring.
@@ -219,8 +219,8 @@ impl<const SLOPE: bool> Task for React<'_, SLOPE> {
         let (layout, mut of_balls) = (model.layout(), [Lanes::ZERO; DOFS]);
         for (lane, ball) in grip.balls.iter().enumerate() {
             let v = layout.of(v, BodyId::ball(*ball));
-            for dof in Dof::ALL {
-                of_balls[dof][lane] = v[dof];
+            for i in 0..DOFS {
+                of_balls[i][lane] = v[i];
             }
         }
         for race in Race::BOTH {

@@ -12,7 +12,7 @@ use nalgebra::{Matrix4, Vector4};
 use super::Dynamics;
 use super::stage::{Largest, Stage};
 use crate::integrate::{ImplicitVelocity, Stuck};
-use crate::model::{BodyId, Dof, Layout, Race};
+use crate::model::{BodyId, DOFS, Layout, Race};
 
 /// Iterations before a stage is given up and the step tried again smaller.
 const MOST_ITERATIONS: usize = 20;
@@ -41,8 +41,8 @@ impl Dynamics<'_> {
         let bodies = bases.iter().zip(velocities).enumerate();
         for (residual, (b, (base, v))) in work.residual.iter_mut().zip(bodies) {
             let acceleration = self.acceleration(t, BodyId::new(b));
-            for dof in Dof::ALL {
-                residual[dof] = base[dof] + acceleration[dof] * gamma_h - v[dof];
+            for i in 0..DOFS {
+                residual[i] = base[i] + acceleration[i] * gamma_h - v[i];
             }
         }
     }

@@ -131,10 +131,8 @@ impl Stage {
                 }
                 let ([x, y, z, turn], apart) = (side.reaction.wrench, side.apart());
                 for (lane, ball) in grip.balls[..grip.count].iter().enumerate() {
-                    forces.add(
-                        BodyId::ball(*ball),
-                        &side.reaction.wrench.map(|of| of[lane]),
-                    );
+                    let wrench = [x[lane], y[lane], z[lane], turn[lane]];
+                    forces.add(BodyId::ball(*ball), &wrench);
                 }
                 // −Tᵀ of the wrench on the ball.
                 let about = turn + y * apart[0] - x * apart[1];
@@ -174,12 +172,13 @@ impl Stage {
         let bodies = Layout::each_mut(velocities).iter_mut();
         let corrections = self.residual.iter().zip(&self.radii);
         for (b, (v, (correction, radius))) in bodies.zip(corrections).enumerate() {
-            for dof in Dof::ALL {
-                v[dof] += correction[dof];
-                let lever = if dof.is_rotation() { *radius } else { 1.0 };
-                let size = correction[dof].abs() * lever;
+            let mut levers = [1.0; DOFS];
+            levers[Dof::Theta] = *radius;
+            for (i, lever) in levers.into_iter().enumerate() {
+                v[i] += correction[i];
+                let size = correction[i].abs() * lever;
                 if size > largest.size || size.is_nan() {
-                    let velocity = DOFS * b + dof.index();
+                    let velocity = DOFS * b + i;
                     largest = Largest { size, velocity };
                 }
             }
@@ -282,8 +281,8 @@ impl Task for Correct<'_> {
             let mut right = [Lanes::ZERO; DOFS];
             for (lane, ball) in grip.balls.iter().enumerate() {
                 let residual = &residual[BodyId::ball(*ball)];
-                for dof in Dof::ALL {
-                    right[dof][lane] = residual[dof];
+                for i in 0..DOFS {
+                    right[i][lane] = residual[i];
                 }
             }
             arrow.eliminate_right::<FMA>(eight, &right);
@@ -296,7 +295,10 @@ impl Task for Correct<'_> {
         for (eight, grip) in grips.iter().enumerate() {
             let balls = arrow.balls::<FMA>(eight, &rings);
             for (lane, ball) in grip.balls[..grip.count].iter().enumerate() {
-                residual[BodyId::ball(*ball)] = balls.map(|of| of[lane]);
+                let residual = &mut residual[BodyId::ball(*ball)];
+                for i in 0..DOFS {
+                    residual[i] = balls[i][lane];
+                }
             }
         }
         true

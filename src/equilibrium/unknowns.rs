@@ -15,16 +15,19 @@ pub(super) type Rings = SVector<f64, OF_RINGS>;
 pub(super) type RingStiffness = SMatrix<f64, OF_RINGS, OF_RINGS>;
 
 /// Where an unknown stands.
+#[inline]
 pub(super) const fn at(race: Race, dof: Dof) -> usize {
     first(race) + dof.index()
 }
 
 /// Where the unknowns of a ring begin.
+#[inline]
 pub(super) const fn first(race: Race) -> usize {
     OF_A_RING * race as usize
 }
 
 /// What stands at a place.
+#[inline]
 pub(super) const fn degree(at: usize) -> (Race, Dof) {
     (
         Race::BOTH[at / OF_A_RING],
@@ -33,6 +36,7 @@ pub(super) const fn degree(at: usize) -> (Race, Dof) {
 }
 
 /// All of them with where they stand.
+#[inline]
 pub(super) fn all() -> impl Iterator<Item = (usize, Race, Dof)> {
     (0..OF_RINGS).map(|at| {
         let (race, dof) = degree(at);
@@ -41,11 +45,13 @@ pub(super) fn all() -> impl Iterator<Item = (usize, Race, Dof)> {
 }
 
 /// Those of one ring.
+#[inline]
 pub(super) fn of(rings: &Rings, race: Race) -> Vector3<f64> {
     rings.fixed_rows::<OF_A_RING>(first(race)).into_owned()
 }
 
 /// Adds to those of one ring.
+#[inline]
 pub(super) fn add(rings: &mut Rings, race: Race, part: &Vector3<f64>) {
     let mut of_ring = rings.fixed_rows_mut::<OF_A_RING>(first(race));
     of_ring += part;

@@ -28,6 +28,7 @@ pub(crate) struct Link {
 }
 
 /// The link between two balls, model section 6.
+#[inline]
 pub(crate) fn link(cage: &Cage, nominal: f64, first: &Motion, second: &Motion) -> Link {
     let apart = second.centre - first.centre;
     let extension = apart.norm() - nominal;
@@ -49,6 +50,7 @@ pub(crate) fn link(cage: &Cage, nominal: f64, first: &Motion, second: &Motion) -
 }
 
 /// Those of some rows.
+#[inline]
 pub(crate) fn add(model: &Model, rows: Range<usize>, state: &State, forces: &mut Table) {
     if let Some(cage) = &model.scene.cage {
         for row in &model.rows[rows] {

@@ -15,6 +15,7 @@ pub(crate) const FORCE: Force = Force {
 };
 
 /// The torque on the inner ring.
+#[inline]
 pub(crate) fn add(model: &Model, t: f64, forces: &mut Table) {
     if let Drive::Torque { value, .. } = &model.scene.drive {
         *forces.get_mut(BodyId::INNER, Dof::Theta) += value.at(t);
@@ -22,6 +23,7 @@ pub(crate) fn add(model: &Model, t: f64, forces: &mut Table) {
 }
 
 /// The angular acceleration of the inner ring where its speed is prescribed \[rad/s²\].
+#[inline]
 pub(crate) fn acceleration(model: &Model, t: f64) -> Option<f64> {
     match &model.scene.drive {
         Drive::Speed(speed) => Some(speed.rate(t)),

@@ -20,12 +20,14 @@ pub(crate) fn add(model: &Model, forces: &mut Table) {
 }
 
 /// On a body along x, y and z \[N\].
+#[inline]
 pub(crate) fn on(model: &Model, body: BodyId) -> [f64; 3] {
     let mass = &model.bodies[body].mass;
     Dof::TRANSLATIONS.map(|dof| mass[dof] * model.scene.gravity[dof.index()])
 }
 
 /// On a body along a direction in the plane \[N\].
+#[inline]
 pub(crate) fn along(model: &Model, body: BodyId, [x, y]: [f64; 2]) -> f64 {
     let [gx, gy, _] = model.scene.gravity;
     model.bodies[body].mass[Dof::X] * (gx * x + gy * y)

@@ -19,11 +19,13 @@ pub(crate) const FORCE: Force = Force {
 };
 
 /// Whether one stays the same.
+#[inline]
 pub(crate) fn is_steady(load: &LoadModel) -> bool {
     matches!(load.force, TimeFunction::Constant(_))
 }
 
 /// One at a time \[s\], along x, y and z \[N\].
+#[inline]
 pub(crate) fn at(load: &LoadModel, t: f64) -> Vector3<f64> {
     Vector3::from(load.direction) * load.force.at(t)
 }
@@ -38,6 +40,7 @@ fn used(model: &Model) -> Use {
 }
 
 /// Loads that stay the same, or those that change.
+#[inline]
 pub(crate) fn add(model: &Model, steady: bool, t: f64, forces: &mut Table) {
     for load in model.loads.iter().filter(|load| is_steady(load) == steady) {
         let force = at(load, t);

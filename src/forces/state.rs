@@ -4,7 +4,7 @@
 #![allow(clippy::inline_always)]
 
 use crate::contact::{Motion, V2};
-use crate::model::{BodyId, DOFS, Dof, Layout, Race};
+use crate::model::{BodyId, DOFS, Dof, Layout};
 use crate::simd::{LANES, Lanes};
 
 /// A number a body along x, y, z and about z, each direction padded so that eight neighbours can be read from any
@@ -43,7 +43,12 @@ impl Table {
     /// All bodies, direction by direction.
     #[inline(always)]
     pub fn directions(&self) -> [&[f64]; DOFS] {
-        Dof::ALL.map(|dof| self.along(dof))
+        [
+            self.along(Dof::X),
+            self.along(Dof::Y),
+            self.along(Dof::Z),
+            self.along(Dof::Theta),
+        ]
     }
 
     #[inline(always)]
@@ -65,13 +70,18 @@ impl Table {
     /// The numbers of a body.
     #[inline(always)]
     pub fn of(&self, body: BodyId) -> [f64; DOFS] {
-        Dof::ALL.map(|dof| self.get(body, dof))
+        [
+            self.get(body, Dof::X),
+            self.get(body, Dof::Y),
+            self.get(body, Dof::Z),
+            self.get(body, Dof::Theta),
+        ]
     }
 
     #[inline(always)]
     pub fn add(&mut self, body: BodyId, numbers: &[f64; DOFS]) {
-        for (dof, number) in Dof::ALL.into_iter().zip(numbers) {
-            *self.get_mut(body, dof) += number;
+        for (direction, number) in numbers.iter().enumerate() {
+            self.values[direction * self.stride + body.index()] += number;
         }
     }
 
@@ -91,8 +101,8 @@ impl Table {
     /// Reads a half of a state vector as `Model` orders it, body by body.
     pub fn read(&mut self, half: &[f64]) {
         for (body, numbers) in Layout::each(half).iter().enumerate() {
-            for dof in Dof::ALL {
-                *self.get_mut(BodyId::new(body), dof) = numbers[dof];
+            for (direction, number) in numbers.iter().enumerate() {
+                self.values[direction * self.stride + body] = *number;
             }
         }
     }
@@ -137,6 +147,6 @@ impl State {
     /// Both rings, by race.
     #[inline]
     pub fn rings(&self) -> [Motion; 2] {
-        Race::BOTH.map(|race| self.motion(race.ring()))
+        [self.motion(BodyId::OUTER), self.motion(BodyId::INNER)]
     }
 }

@@ -24,6 +24,7 @@ pub(crate) fn resistance(spring: &Spring, place: f64, speed: f64) -> f64 {
 }
 
 /// Those of some springs.
+#[inline]
 pub(crate) fn add(springs: &[Spring], state: &State, forces: &mut Table) {
     for spring in springs {
         let (body, dof) = (spring.body, spring.dof);
@@ -33,6 +34,7 @@ pub(crate) fn add(springs: &[Spring], state: &State, forces: &mut Table) {
 }
 
 /// What pulls a body at rest at a place back to its nominal one \[N\].
+#[inline]
 pub(crate) fn at_rest(body: &Body, dof: Dof, place: f64) -> f64 {
     body.degrees[dof].stiffness() * (body.nominal[dof] - place)
 }

@@ -68,6 +68,7 @@ pub(crate) fn on(
 }
 
 /// On both rings, after all other forces.
+#[inline]
 pub(crate) fn add(model: &Model, t: f64, state: &State, forces: &mut Table) {
     if !model.unbalances.is_empty() {
         for race in Race::BOTH {

@@ -33,6 +33,7 @@ impl Race {
 
     /// The race opposite.
     #[must_use]
+    #[inline]
     pub fn other(self) -> Self {
         match self {
             Self::Outer => Self::Inner,
@@ -41,6 +42,7 @@ impl Race {
     }
 
     /// The ring that carries it.
+    #[inline]
     pub const fn ring(self) -> BodyId {
         BodyId(self as usize)
     }
@@ -54,6 +56,7 @@ impl Race {
     }
 
     /// σ of model section 2: +1 where a ball touches outwards, −1 where it touches inwards.
+    #[inline]
     pub const fn sigma(self) -> f64 {
         match self {
             Self::Outer => 1.0,
@@ -187,6 +190,7 @@ impl Dof {
     }
 
     /// Whether it is an angle, its speed in rad/s and its force a moment.
+    #[inline]
     pub const fn is_rotation(self) -> bool {
         matches!(self, Self::Theta)
     }
@@ -200,6 +204,7 @@ pub struct Layout {
 
 impl Layout {
     /// Of two rings and so many balls.
+    #[inline]
     pub const fn of_balls(balls: usize) -> Self {
         Self {
             bodies: RINGS + balls,
@@ -207,6 +212,7 @@ impl Layout {
     }
 
     /// Length of a state vector.
+    #[inline]
     pub const fn dim(self) -> usize {
         2 * self.half()
     }
@@ -230,6 +236,7 @@ impl Layout {
     }
 
     /// What stands at a place in either half of a state vector.
+    #[inline]
     pub const fn degree(self, at: usize) -> (BodyId, Dof) {
         (BodyId(at / DOFS), Dof::ALL[at % DOFS])
     }
@@ -288,6 +295,7 @@ impl Layout {
     ///
     /// # Panics
     /// If there is no such body.
+    #[inline]
     pub fn centre(self, y: &[f64], body: BodyId) -> [f64; 3] {
         Dof::TRANSLATIONS.map(|dof| y[self.at(body, dof)])
     }

@@ -66,11 +66,13 @@ pub(crate) struct RowModel {
 
 impl RowModel {
     /// Its balls among those of all rows.
+    #[inline]
     pub fn balls(&self) -> Range<usize> {
         self.first..self.first + self.count
     }
 
     /// The body of its first ball; the others follow.
+    #[inline]
     pub fn first_body(&self) -> BodyId {
         BodyId::ball(self.first)
     }
@@ -152,6 +154,7 @@ impl Model {
     }
 
     /// Where the places and speeds of all bodies stand in a state vector.
+    #[inline]
     pub fn layout(&self) -> Layout {
         Layout::of_balls(self.balls.len())
     }

@@ -367,9 +367,13 @@ impl Reduction {
     }
 
     fn spread(&self, layout: Layout, y: &[f64], full: &mut [f64]) {
-        for (at, (body, dof)) in self.degrees().enumerate() {
-            full[layout.at(body, dof)] = y[at];
-            full[layout.speed_at(body, dof)] = y[self.kept + at];
+        let (q, v) = full.split_at_mut(layout.half());
+        for s in &self.stretches {
+            let speeds = &y[self.kept..];
+            for (i, at) in s.states().enumerate() {
+                let to = layout.at(s.first.after(i), s.dof);
+                (q[to], v[to]) = (y[at], speeds[at]);
+            }
         }
     }
 }

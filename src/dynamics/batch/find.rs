@@ -113,8 +113,8 @@ impl Task for Find<'_> {
                         ],
                     };
                     let press = pair.press::<FMA, false>(&octet, ring, skip, Some(stiffness));
-                    for dof in Dof::TRANSLATIONS {
-                        let force = press.ball[dof];
+                    for (i, force) in press.ball.into_iter().take(3).enumerate() {
+                        let dof = Dof::TRANSLATIONS[i];
                         forces.add_eight(BodyId::ball(stretch.first), dof, force);
                         on_rings[race][dof] = on_rings[race][dof] - force;
                     }

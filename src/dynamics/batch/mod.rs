@@ -299,7 +299,8 @@ impl Batch {
         for group in &self.groups[..self.active] {
             for (lane, contact) in group.contacts.iter().enumerate().take(group.count) {
                 let Press { ball, ring, .. } = &group.press;
-                let of = |wrench: &[Lanes; DOFS]| wrench.each_ref().map(|of| of[lane]);
+                let of =
+                    |[x, y, z, theta]: &[Lanes; DOFS]| [x[lane], y[lane], z[lane], theta[lane]];
                 forces.add(BodyId::ball(contact.ball), &of(ball));
                 super::add(&mut rings[group.race], &of(ring));
             }
