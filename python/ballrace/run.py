@@ -133,8 +133,8 @@ def simulate(
         0.24 GB of memory, most of it at the end, when the file is put together, and longer ones take some more. It
         is the file that :meth:`Signals.write_parquet` writes of the run without `out`, with units, scene,
         statistics and provenance. It appears at once when the run is over and it is whole, and replaces one of the
-        same name; nothing of it is left where the run fails or is stopped. Until then a hidden folder beside it holds the
-        samples: the disk must have room for them twice.
+        same name; nothing of it is left where the run fails or is stopped. Until then a hidden folder beside it
+        holds the samples: the disk must have room for them twice.
 
     Returns
     -------
