@@ -164,7 +164,8 @@ def campaign(
         executor.
     executor : optional
         Where tasks run: a :class:`concurrent.futures.Executor` whose workers were not forked, or anything with
-        ``get_executor()``, such as a Dask ``Client``.
+        ``get_executor()``, such as a Dask ``Client``. Its tasks share the memory of a machine: all of a pool are
+        counted as on one, those of Dask by the addresses of its workers, of others only what a task takes.
     in_flight : int, optional
         Tasks handed to the executor at most; by default two for each of its workers.
     shard : tuple of int, int

@@ -40,6 +40,7 @@ if TYPE_CHECKING:
 _FORMAT = 1
 _SHARD = re.compile(r"[0-9a-f]{32}\.parquet")
 _FOLDERS = ("locks", "results", "signals", "tmp")
+_AT_ONCE = 200
 _NOT_WRITTEN = "its content is not what was written"
 
 SURFACES = ("outer_race", "inner_race", "ball")
@@ -212,7 +213,7 @@ class Store:
                 if damaged is None:
                     raise
                 damaged.append(self.root / "results" / name)
-        rows = pl.concat(frames, how="diagonal")
+        rows = _joined(frames)
         # Of a case that was run twice, the row with signals that are there counts, and one that did not run out
         # of budget; the order does not depend on the files'.
         kept = pl.col("signals").is_in(sorted(self.names("signals"))).fill_null(value=False)
@@ -304,6 +305,16 @@ def schema() -> dict[str, Any]:
 
     types = {**STATISTICS, **BUDGET, **dict.fromkeys(FAULTS, "Boolean")}
     return {name: getattr(pl, types.get(name, "String")) for name in (*BASE, *BUDGET)}
+
+
+def _joined(frames: list[pl.DataFrame]) -> pl.DataFrame:
+    """Join tables in parts, between which Ctrl-C is heard: polars takes more than a second for 5000 at once."""
+    from .._polars import pl
+
+    while len(frames) > 1:
+        parts = range(0, len(frames), _AT_ONCE)
+        frames = [pl.concat(frames[i : i + _AT_ONCE], how="diagonal") for i in parts]
+    return frames[0]
 
 
 def _check_results(frame: pl.DataFrame) -> None:
