@@ -1,4 +1,4 @@
-//! One benchmark a layer: the power, a contact, a right-hand side by nodes, slices, balls, threads and level of
+//! One benchmark a layer: the power, a contact, a right-hand side by nodes, slices, balls, threads and instructions of
 //! instructions, the integrator alone, a run, the static solve. `cargo bench --bench layers`.
 
 use std::hint::black_box;
@@ -11,7 +11,7 @@ use ballrace::dynamics::Dynamics;
 use ballrace::inspect;
 use ballrace::integrate::{DORMAND_PRINCE, Options, System, Tolerance, integrate};
 use ballrace::scene::{NormalLaw, Scene, Slices, TimeFunction, presets};
-use ballrace::simd::Level;
+use ballrace::simd::InstructionSet;
 use ballrace::{Model, Race, Run, Start, equilibrium, load_distribution, simulate, start};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use rayon::ThreadPoolBuilder;
@@ -64,11 +64,11 @@ fn right_hand_side(c: &mut Criterion) {
         let mut dy = vec![0.0; model.dim()];
         group.bench_function(id, |b| b.iter(|| dynamics.rhs(0.0, black_box(y), &mut dy)));
     };
-    for level in Level::available() {
+    for instructions in InstructionSet::available() {
         let (model, y) = loaded(&wheel(iso(), Slices::Fitted(6)));
         add(
-            BenchmarkId::new("level", level),
-            &model.with_level(level),
+            BenchmarkId::new("instructions", instructions),
+            &model.with_instructions(instructions),
             &y,
         );
     }

@@ -131,16 +131,16 @@ fn tolerances(requested: f64) -> Vec<f64> {
     all
 }
 
-/// The first level that differs from the next by no more than a share, or the last one; that difference; and what its
-/// pilot gave. `now` is what the first level gave.
+/// The first candidate that differs from the next by no more than a share, or the last one; that difference; and what its
+/// pilot gave. `now` is what the first candidate gave.
 fn climb<T: Copy>(
-    levels: &[T],
+    candidates: &[T],
     mut now: Vec<f64>,
     share: f64,
     mut pilot: impl FnMut(T) -> Result<Vec<f64>>,
 ) -> Result<(T, f64, Vec<f64>)> {
     let mut error = f64::INFINITY;
-    for pair in levels.windows(2) {
+    for pair in candidates.windows(2) {
         let next = pilot(pair[1])?;
         error = apart(&now, &next);
         if error <= share {
@@ -148,7 +148,7 @@ fn climb<T: Copy>(
         }
         now = next;
     }
-    Ok((levels[levels.len() - 1], error, now))
+    Ok((candidates[candidates.len() - 1], error, now))
 }
 
 /// Relative difference in the L2 norm.

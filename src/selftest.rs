@@ -1,4 +1,4 @@
-//! Whether contacts evaluated at a level of vector instructions agree with the same contacts one by one, on numbers that a
+//! Whether contacts evaluated at a instruction set agree with the same contacts one by one, on numbers that a
 //! processor has not been seen to compute before.
 
 use std::sync::OnceLock;
@@ -10,7 +10,7 @@ use crate::integrate::System;
 use crate::model::{BodyId, Dof, Model};
 use crate::reduction::Reduction;
 use crate::scene::{Friction, Scene, presets};
-use crate::simd::{Distrust, Level};
+use crate::simd::{Distrust, InstructionSet};
 use crate::start::{Start, start};
 
 /// Largest difference of a body's force, over the largest of all. Both ways agree to about 1e-13; what goes wrong loses whole
@@ -20,29 +20,35 @@ const TOLERANCE: f64 = 1e-9;
 /// What evaluates the contacts of a body, as [`Distrust`] names it.
 const CONTACTS: &str = "contacts";
 
-/// The model at its level, or at the next narrower one where contacts do not agree, and what was wrong if anything was.
+/// The model at its instructions, or at the next narrower one where contacts do not agree, and what was wrong if anything was.
 ///
-/// A level is tried once a process, in less than a millisecond.
+/// A instructions is tried once a process, in less than a millisecond.
 pub(crate) fn trusted(model: Model) -> (Model, Option<Distrust>) {
-    let level = model.level();
-    let below = Level::available()
+    let instructions = model.instructions();
+    let below = InstructionSet::available()
         .into_iter()
-        .skip_while(|other| *other != level);
-    let used = below.into_iter().find(|level| agrees(*level));
-    let used = used.unwrap_or(Level::Baseline);
-    let distrust = (used != level).then(|| Distrust {
-        level: level.name(),
+        .skip_while(|other| *other != instructions);
+    let used = below.into_iter().find(|instructions| agrees(*instructions));
+    let used = used.unwrap_or(InstructionSet::Baseline);
+    let distrust = (used != instructions).then(|| Distrust {
+        instructions: instructions.name(),
         primitive: CONTACTS,
         used: used.name(),
     });
-    (model.with_level(used), distrust.or_else(Level::distrust))
+    (
+        model.with_instructions(used),
+        distrust.or_else(InstructionSet::distrust),
+    )
 }
 
-/// Whether contacts agree at a level; found out once.
-fn agrees(level: Level) -> bool {
+/// Whether contacts agree at a instructions; found out once.
+fn agrees(instructions: InstructionSet) -> bool {
     static FOUND: [OnceLock<bool>; 3] = [const { OnceLock::new() }; 3];
-    let known = Level::known().iter().position(|name| *name == level.name());
-    known.is_some_and(|at| *FOUND[at].get_or_init(|| scenes().iter().all(|s| fits(s, level))))
+    let known = InstructionSet::known()
+        .iter()
+        .position(|name| *name == instructions.name());
+    known
+        .is_some_and(|at| *FOUND[at].get_or_init(|| scenes().iter().all(|s| fits(s, instructions))))
 }
 
 /// One scene a way to evaluate contacts: by eights, in closed form along the balls with one over a spall, in one loop.
@@ -58,23 +64,23 @@ fn scenes() -> [Scene; 3] {
     [wheel, spalled, smooth]
 }
 
-fn fits(scene: &Scene, level: Level) -> bool {
-    difference(scene, level).is_ok_and(|apart| apart <= TOLERANCE)
+fn fits(scene: &Scene, instructions: InstructionSet) -> bool {
+    difference(scene, instructions).is_ok_and(|apart| apart <= TOLERANCE)
 }
 
 /// Largest difference of the accelerations with the inner ring pressed down and balls pressed out, over the largest of all: on
 /// either race a contact that is lost is seen.
-fn difference(scene: &Scene, level: Level) -> crate::Result<f64> {
+fn difference(scene: &Scene, instructions: InstructionSet) -> crate::Result<f64> {
     /// Deeper than the clearance, so that the lower balls carry \[m\].
     const PRESSED: f64 = 20e-6;
     /// Of the way to the pitch circle; the outer race is a quarter of the clearance away.
     const SPREAD: f64 = 1.0 + 5e-4;
-    let model = compile(scene)?.with_level(level);
+    let model = compile(scene)?.with_instructions(instructions);
     let mut y = start(&model, &Start::Rolling)?;
     let layout = model.layout();
     y[layout.at(BodyId::INNER, Dof::Y)] -= PRESSED;
     for ball in 0..model.balls.len() {
-        for dof in Dof::PLANE {
+        for dof in Dof::SYMMETRIC {
             y[layout.at(BodyId::ball(ball), dof)] *= SPREAD;
         }
     }
@@ -115,19 +121,19 @@ fn one_by_one(model: &Model, y: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Analytic: one law, evaluated in two ways, in every way that runs have; a level that loses contacts is seen.
+    /// Analytic: one law, evaluated in two ways, in every way that runs have; a instructions that loses contacts is seen.
     #[test]
     fn levels_of_this_machine_agree() {
-        for level in Level::available() {
+        for instructions in InstructionSet::available() {
             for scene in scenes() {
-                let apart = difference(&scene, level).unwrap();
-                println!("{}, {level}: {apart:.1e}", scene.name);
-                assert!(apart < 1e-11, "{}, {level}: {apart:.1e}", scene.name);
+                let apart = difference(&scene, instructions).unwrap();
+                println!("{}, {instructions}: {apart:.1e}", scene.name);
+                assert!(apart < 1e-11, "{}, {instructions}: {apart:.1e}", scene.name);
             }
         }
         let model = compile(&scenes()[0]).unwrap();
-        let level = model.level();
+        let instructions = model.instructions();
         let (model, distrust) = trusted(model);
-        assert_eq!((model.level(), distrust), (level, None));
+        assert_eq!((model.instructions(), distrust), (instructions, None));
     }
 }

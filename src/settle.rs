@@ -203,7 +203,7 @@ impl Turned {
         let orbit = |row: usize| {
             let ball = &model.bodies[model.rows[row].first_body()];
             let loose = |dof: &Dof| matches!(ball.degrees[*dof], Degree::Free { stiffness, .. } if stiffness == 0.0);
-            if Dof::PLANE.iter().all(loose) {
+            if Dof::SYMMETRIC.iter().all(loose) {
                 model.orbit_speed(row, y0)
             } else {
                 0.0

@@ -172,7 +172,7 @@ fn unlimited(
             threads,
             states: reduction.as_ref().map_or(model.dim(), Reduction::dim),
             left_out: reduction.map_or_else(Vec::new, |r| r.omissions().to_vec()),
-            simd: model.level().name(),
+            simd: model.instructions().name(),
             distrust,
             architecture: std::env::consts::ARCH,
             bandwidth: sampling.bandwidth,

@@ -24,7 +24,7 @@ const ROLLING: Approximations = Approximations {
     plane: false,
     one_row: false,
 };
-const PLANE: Approximations = Approximations {
+const SYMMETRIC: Approximations = Approximations {
     rolling: false,
     plane: true,
     one_row: false,
@@ -224,7 +224,7 @@ fn contacts_in_the_plane_have_a_closed_form() {
 /// Analytic: with axial places kept, all else feels what it would.
 #[test]
 fn axial_places_are_kept_and_nothing_else() {
-    for approximations in [PLANE, FLAT] {
+    for approximations in [SYMMETRIC, FLAT] {
         let model = compile(&wheel(NormalLaw::Hertz, approximations)).unwrap();
         let shaken = Shaken::new(&model, 3);
         let free = shaken.free();
@@ -339,7 +339,7 @@ fn what_does_not_hold_is_told() {
         ("without the unloaded row", ONE_ROW, |s| {
             s.loads.get_mut("radial").unwrap().force = 7e3.into();
         }),
-        ("axial places that are kept", PLANE, |_| {}),
+        ("axial places that are kept", SYMMETRIC, |_| {}),
     ];
     for (what, approximations, change) in cases {
         let mut scene = thrust(approximations);
@@ -382,7 +382,7 @@ fn impossible_requests_are_refused() {
             s.defects.clear();
             s.probes.clear();
         }),
-        ("approximations", PLANE, |s| {
+        ("approximations", SYMMETRIC, |s| {
             s.solver.method = Method::ImplicitFriction;
         }),
     ];

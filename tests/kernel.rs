@@ -1,5 +1,5 @@
 //! Contacts by eights against contacts one by one: `rhs` uses the former wherever surfaces are whole, `forces` the
-//! latter always, and `rhs` at every level of instructions that this processor has.
+//! latter always, and `rhs` at every instruction set that this processor has.
 
 mod common;
 
@@ -11,15 +11,15 @@ use ballrace::dynamics::contributions;
 use ballrace::dynamics::rhs;
 use ballrace::inspect;
 use ballrace::scene::{Defect, Friction, NormalLaw, Scene, Slices, Surface, Waviness, presets};
-use ballrace::simd::Level;
+use ballrace::simd::InstructionSet;
 use ballrace::{Race, Start, start};
 use common::Noise;
 
 /// Largest difference of the two evaluations at random states around an equilibrium, over the sum of the contact
 /// loads on a body and 1 kN: the distance of two axes is known to 4e-18 m, which a contact of some 1e8 N/m turns
 /// into 4e-10 N whatever its load (model section 10).
-fn difference(scene: &Scene, level: Level) -> f64 {
-    let model = compile(scene).unwrap().with_level(level);
+fn difference(scene: &Scene, instructions: InstructionSet) -> f64 {
+    let model = compile(scene).unwrap().with_instructions(instructions);
     let calm = start(&model, &Start::Equilibrium).unwrap();
     let mut dynamics = Dynamics::new(&model);
     let (mut noise, mut worst) = (Noise(1), 0.0_f64);
@@ -130,10 +130,10 @@ fn scenes() -> Vec<(String, Scene)> {
 #[test]
 fn eights_and_ones_agree_at_every_level() {
     for (name, scene) in scenes() {
-        for level in Level::available() {
-            let worst = difference(&scene, level);
-            println!("{name}, {level}: {worst:.1e}");
-            assert!(worst < 1e-12, "{name}, {level}: {worst:.1e}");
+        for instructions in InstructionSet::available() {
+            let worst = difference(&scene, instructions);
+            println!("{name}, {instructions}: {worst:.1e}");
+            assert!(worst < 1e-12, "{name}, {instructions}: {worst:.1e}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The same scene at every level of vector instructions that this machine has: whole runs, each level in a process of its
+//! The same scene at every instruction set that this machine has: whole runs, each instructions in a process of its
 //! own, as users choose it.
 
 mod common;
@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::process::Command;
 
 use ballrace::scene::{Approximations, Defect, Friction, NormalLaw, Scene, Surface, presets};
-use ballrace::simd::Level;
+use ballrace::simd::InstructionSet;
 use ballrace::{Run, Start, Warning};
 use common::{apart, run, soon_over_the_spall};
 
@@ -127,7 +127,7 @@ fn signals() -> Vec<Vec<f64>> {
 const CHILD: &str = "print_signals_of_this_level";
 
 #[test]
-#[ignore = "a part of levels_agree_over_whole_runs, which runs it once a level"]
+#[ignore = "a part of levels_agree_over_whole_runs, which runs it once a instructions"]
 fn print_signals_of_this_level() {
     for signal in signals() {
         let bits: Vec<String> = signal.iter().map(|x| x.to_bits().to_string()).collect();
@@ -135,14 +135,14 @@ fn print_signals_of_this_level() {
     }
 }
 
-fn signals_at(level: &str) -> Vec<Vec<f64>> {
+fn signals_at(instructions: &str) -> Vec<Vec<f64>> {
     let child = Command::new(std::env::current_exe().unwrap())
         .args([CHILD, "--exact", "--ignored", "--nocapture"])
-        .env("BALLRACE_SIMD", level)
+        .env("BALLRACE_SIMD", instructions)
         .output()
         .unwrap();
     let text = String::from_utf8(child.stdout).unwrap();
-    assert!(child.status.success(), "{level}: {text}");
+    assert!(child.status.success(), "{instructions}: {text}");
     let number = |bits: &str| f64::from_bits(bits.parse().unwrap());
     // The test program writes the name of the test before the first line.
     let signals = text.lines().filter_map(|line| line.split_once("signal "));
@@ -151,19 +151,19 @@ fn signals_at(level: &str) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Analytic: levels differ by rounding, which grows by a factor of e a millisecond; contacts that a level loses differ by
+/// Analytic: levels differ by rounding, which grows by a factor of e a millisecond; contacts that a instructions loses differ by
 /// all.
 #[test]
 fn levels_agree_over_whole_runs() {
     let names: Vec<String> = scenes().into_iter().map(|(name, _)| name).collect();
     let truth = signals_at("baseline");
     assert_eq!(truth.len(), names.len());
-    for level in Level::available() {
-        let found = signals_at(level.name());
+    for instructions in InstructionSet::available() {
+        let found = signals_at(instructions.name());
         for ((name, found), truth) in names.iter().zip(&found).zip(&truth) {
             let error = apart(found, truth);
-            println!("{name}, {level}: {error:.1e}");
-            assert!(error < 1e-5, "{name}, {level}: {error:.1e}");
+            println!("{name}, {instructions}: {error:.1e}");
+            assert!(error < 1e-5, "{name}, {instructions}: {error:.1e}");
         }
     }
 }
@@ -171,8 +171,11 @@ fn levels_agree_over_whole_runs() {
 /// Tells the log which levels were tested and which this machine lacks; `tests/run` shows it.
 #[test]
 fn levels_of_this_machine() {
-    let here: Vec<&str> = Level::available().iter().map(Level::name).collect();
-    let known = Level::known().iter().copied();
+    let here: Vec<&str> = InstructionSet::available()
+        .iter()
+        .map(InstructionSet::name)
+        .collect();
+    let known = InstructionSet::known().iter().copied();
     let missing: Vec<&str> = known.filter(|name| !here.contains(name)).collect();
     println!("vector levels tested: {}", here.join(", "));
     println!(

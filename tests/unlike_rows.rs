@@ -13,7 +13,7 @@ use ballrace::integrate::System;
 use ballrace::scene::{
     Contact, Friction, Material, Method, NormalLaw, Scene, Slices, Support, presets,
 };
-use ballrace::simd::Level;
+use ballrace::simd::InstructionSet;
 use ballrace::{BodyId, Dof, Layout, Model, Run, Start, equilibrium, simulate, start};
 
 /// Rows of a wheel bearing, the second and third unlike the first in all that a row may say for itself.
@@ -104,8 +104,8 @@ fn own(layout: Layout, y: &[f64], alone: Layout, first: usize) -> Vec<f64> {
 fn forces_are_those_of_the_rows_alone() {
     for rows in [2, 3] {
         let scene = unlike(rows);
-        for level in Level::available() {
-            let model = compile(&scene).unwrap().with_level(level);
+        for instructions in InstructionSet::available() {
+            let model = compile(&scene).unwrap().with_instructions(instructions);
             let y = pressed(&model);
             let forces = Dynamics::new(&model).forces(0.0, &y);
             let mut on_rings = [[0.0; 4]; 2];
@@ -137,7 +137,7 @@ fn forces_are_those_of_the_rows_alone() {
                         let apart = (found[dof] - sum[dof]).abs();
                         assert!(
                             apart <= 1e-12 * largest,
-                            "{level}: row {row} of {rows}, ball {j}, {dof:?}: {apart:e} of {largest}"
+                            "{instructions}: row {row} of {rows}, ball {j}, {dof:?}: {apart:e} of {largest}"
                         );
                     }
                 }
@@ -148,7 +148,7 @@ fn forces_are_those_of_the_rows_alone() {
                     let apart = (forces[ring][dof] - sum[dof]).abs();
                     assert!(
                         apart <= 1e-11 * largest,
-                        "{level}: ring {ring}, {dof:?}: {apart:e}"
+                        "{instructions}: ring {ring}, {dof:?}: {apart:e}"
                     );
                 }
             }
@@ -159,16 +159,16 @@ fn forces_are_those_of_the_rows_alone() {
 /// What a run leaves out or evaluates in closed form is the row's own affair too.
 #[test]
 fn reduced_runs_accelerate_as_the_whole_does() {
-    let mut level = unlike(2);
-    level.cage = None;
-    for row in &mut level.rows {
+    let mut instructions = unlike(2);
+    instructions.cage = None;
+    for row in &mut instructions.rows {
         row.contact_angle = 0.0;
     }
-    let mut smooth = level.clone();
+    let mut smooth = instructions.clone();
     smooth.friction = Friction::None;
-    for scene in [unlike(2), level, smooth] {
-        for simd in Level::available() {
-            let model = compile(&scene).unwrap().with_level(simd);
+    for scene in [unlike(2), instructions, smooth] {
+        for simd in InstructionSet::available() {
+            let model = compile(&scene).unwrap().with_instructions(simd);
             let y = start(&model, &Start::Rolling).unwrap();
             let mut y = y;
             let layout = model.layout();

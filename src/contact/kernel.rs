@@ -50,7 +50,7 @@ pub(super) struct Element<T> {
 /// Takes the elements of a whole contact.
 pub(super) trait Receiver<T> {
     /// One element, which stands for so many. Wants `#[inline(always)]`.
-    fn element<const FMA: bool, const PLANE: bool>(&mut self, element: &Element<T>, times: u32);
+    fn element<const FMA: bool, const SYMMETRIC: bool>(&mut self, element: &Element<T>, times: u32);
 }
 
 /// The zone of a section for a cut.
@@ -62,16 +62,16 @@ pub(super) fn zone<T: Number>(cut: &Cut, section: &Section<T>, half_curvature: T
     }
 }
 
-/// Hands all elements of a whole contact to their receiver. In the `PLANE` the zone is symmetric, and half of it stands
+/// Hands all elements of a whole contact to their receiver. In the `SYMMETRIC` the zone is symmetric, and half of it stands
 /// for the whole.
 #[inline(always)]
-pub(super) fn elements<T: Number, const FMA: bool, const PLANE: bool>(
+pub(super) fn elements<T: Number, const FMA: bool, const SYMMETRIC: bool>(
     law: &Law,
     slices: &Slices,
     contact: &Whole<T>,
     to: &mut impl Receiver<T>,
 ) {
-    law.elastic.choose(Elements::<_, _, FMA, PLANE> {
+    law.elastic.choose(Elements::<_, _, FMA, SYMMETRIC> {
         slices,
         contact,
         to,
@@ -79,14 +79,14 @@ pub(super) fn elements<T: Number, const FMA: bool, const PLANE: bool>(
 }
 
 /// The elements of a contact, for one elastic law.
-struct Elements<'a, T, R, const FMA: bool, const PLANE: bool> {
+struct Elements<'a, T, R, const FMA: bool, const SYMMETRIC: bool> {
     slices: &'a Slices,
     contact: &'a Whole<T>,
     to: &'a mut R,
 }
 
-impl<T: Number, R: Receiver<T>, const FMA: bool, const PLANE: bool> ForLaw
-    for Elements<'_, T, R, FMA, PLANE>
+impl<T: Number, R: Receiver<T>, const FMA: bool, const SYMMETRIC: bool> ForLaw
+    for Elements<'_, T, R, FMA, SYMMETRIC>
 {
     #[inline(always)]
     fn run<L: Load>(self) {
@@ -98,33 +98,33 @@ impl<T: Number, R: Receiver<T>, const FMA: bool, const PLANE: bool> ForLaw
         let (half, radius) = (contact.half, contact.section.radius);
         match slices {
             Slices::Fitted(rules) if L::FLAT => {
-                for (x, weight, times) in nodes::<PLANE>(rules) {
+                for (x, weight, times) in nodes::<SYMMETRIC>(rules) {
                     let element = contact.on_tangent::<L, FMA>(half * x, half * weight);
-                    to.element::<FMA, PLANE>(&element, times);
+                    to.element::<FMA, SYMMETRIC>(&element, times);
                 }
             }
             Slices::Fitted(rules) => {
                 let reach = half * contact.inverse;
-                for (x, weight, times) in nodes::<PLANE>(rules) {
-                    let element = contact.on_chord::<L, FMA, PLANE>(reach * x, half * weight);
-                    to.element::<FMA, PLANE>(&element, times);
+                for (x, weight, times) in nodes::<SYMMETRIC>(rules) {
+                    let element = contact.on_chord::<L, FMA, SYMMETRIC>(reach * x, half * weight);
+                    to.element::<FMA, SYMMETRIC>(&element, times);
                 }
             }
             Slices::Fixed(count) if L::FLAT => {
                 let (cos, sin) = contact.section.normal;
                 let over = cos.same(1.0) / cos;
                 let length = radius * (2.0 / *count as f64) * over;
-                for (place, times) in contact.fixed_sines::<PLANE>(*count) {
+                for (place, times) in contact.fixed_sines::<SYMMETRIC>(*count) {
                     let u = radius * (-sin + place) * over;
                     let element = contact.on_tangent::<L, FMA>(u, length * f64::from(times));
-                    to.element::<FMA, PLANE>(&element, times);
+                    to.element::<FMA, SYMMETRIC>(&element, times);
                 }
             }
             Slices::Fixed(count) => {
                 let width = radius * (2.0 / *count as f64);
-                for (sin, times) in contact.fixed_sines::<PLANE>(*count) {
+                for (sin, times) in contact.fixed_sines::<SYMMETRIC>(*count) {
                     let element = contact.fixed_slice::<L, FMA>(sin, width * f64::from(times));
-                    to.element::<FMA, PLANE>(&element, times);
+                    to.element::<FMA, SYMMETRIC>(&element, times);
                 }
             }
         }
@@ -151,12 +151,12 @@ pub(super) fn as_one<T: Number>(contact: &Whole<T>, stiffness: f64) -> Element<T
 impl<T: Number> Whole<T> {
     /// An element at u/R on the common chord that stands for a stretch of u.
     #[inline(always)]
-    pub(super) fn on_chord<L: Load, const FMA: bool, const PLANE: bool>(
+    pub(super) fn on_chord<L: Load, const FMA: bool, const SYMMETRIC: bool>(
         &self,
         u: T,
         stretch: T,
     ) -> Element<T> {
-        if PLANE {
+        if SYMMETRIC {
             // tan α has no part in what the two halves add up to.
             let cos = (-u).mul_add::<FMA>(u, u.same(1.0)).sqrt();
             return self.on_surface::<L, FMA>((u, cos, u.same(0.0)), stretch);
@@ -221,23 +221,27 @@ impl<T: Number> Whole<T> {
 
     /// ζ/R in the middle of all fixed slices that may lie in any of the zones, and how many each stands for.
     #[inline(always)]
-    fn fixed_sines<const PLANE: bool>(
+    fn fixed_sines<const SYMMETRIC: bool>(
         &self,
         count: usize,
-    ) -> impl Iterator<Item = (f64, u32)> + use<T, PLANE> {
+    ) -> impl Iterator<Item = (f64, u32)> + use<T, SYMMETRIC> {
         let (low, high) = (self.ends.0 * self.inverse, self.ends.1 * self.inverse);
         let slices = count as f64;
         // A float becomes the nearest index that exists; one slice more on either side decides for itself.
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let index = |sin: f64| (0.5 * (sin + 1.0) * slices) as usize;
         let (first, last) = (index(low.range().0), index(high.range().1));
-        let first = if PLANE {
+        let first = if SYMMETRIC {
             count / 2
         } else {
             first.saturating_sub(1)
         };
         (first..(last + 2).min(count)).map(move |k| {
-            let times = if PLANE && 2 * k + 1 != count { 2 } else { 1 };
+            let times = if SYMMETRIC && 2 * k + 1 != count {
+                2
+            } else {
+                1
+            };
             ((2 * k + 1) as f64 / slices - 1.0, times)
         })
     }
@@ -245,10 +249,14 @@ impl<T: Number> Whole<T> {
 
 /// The nodes of a whole zone with what they weigh and how many they stand for: in the plane those of one half, twice.
 #[inline(always)]
-fn nodes<const PLANE: bool>(rules: &Rules) -> impl Iterator<Item = (f64, f64, u32)> + '_ {
+fn nodes<const SYMMETRIC: bool>(rules: &Rules) -> impl Iterator<Item = (f64, f64, u32)> + '_ {
     let rule = rules.on([true; 2]);
-    let first = if PLANE { rule.len() / 2 } else { 0 };
-    let alone = if PLANE { rule.len() % 2 } else { rule.len() };
+    let first = if SYMMETRIC { rule.len() / 2 } else { 0 };
+    let alone = if SYMMETRIC {
+        rule.len() % 2
+    } else {
+        rule.len()
+    };
     rule[first..].iter().enumerate().map(move |(k, (x, w))| {
         let times = if k < alone { 1 } else { 2 };
         (*x, w * f64::from(times), times)
@@ -296,16 +304,16 @@ pub(super) struct Force<T> {
     pub bend: T,
 }
 
-/// Elastic force, damping and friction of an element, and how friction bends if asked. In the `PLANE` nothing moves along
+/// Elastic force, damping and friction of an element, and how friction bends if asked. In the `SYMMETRIC` nothing moves along
 /// z and all presses in the plane.
 #[inline(always)]
-pub(super) fn force<T: Number, const FMA: bool, const PLANE: bool, const BEND: bool>(
+pub(super) fn force<T: Number, const FMA: bool, const SYMMETRIC: bool, const BEND: bool>(
     law: &Law,
     of: &State<T>,
 ) -> Force<T> {
     let (in_plane, axial) = of.share;
     let [v_n, v_t, v_z] = of.velocity;
-    let approach = if PLANE {
+    let approach = if SYMMETRIC {
         v_n
     } else {
         v_n.mul_add::<FMA>(in_plane, v_z * axial)
@@ -321,7 +329,7 @@ pub(super) fn force<T: Number, const FMA: bool, const PLANE: bool, const BEND: b
     let (mut factor, mut bend, mut slip, mut friction) = (zero, zero, [zero; 2], [zero; 3]);
     if let Some(traction) = &law.traction {
         let (sin, cos) = of.slope;
-        let u_m = if PLANE {
+        let u_m = if SYMMETRIC {
             -(v_n * sin)
         } else {
             v_z * cos - v_n * sin
@@ -337,7 +345,7 @@ pub(super) fn force<T: Number, const FMA: bool, const PLANE: bool, const BEND: b
         let meridional = drag * u_m;
         friction = [meridional * sin, -(drag * v_t), -(meridional * cos)];
     }
-    let pressing = if PLANE {
+    let pressing = if SYMMETRIC {
         [normal, zero, zero]
     } else {
         [normal * in_plane, zero, normal * axial]

@@ -27,8 +27,8 @@ mod stiffness;
 
 use nalgebra::Vector2;
 
-pub(crate) use batch::{Constants, Octet, Places, Press};
-pub(crate) use closed_form::{InPlane, LevelBalls, LevelRace, hertz_stiffness};
+pub(crate) use batch::{BatchForces, Constants, EightContacts, Places};
+pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz_stiffness};
 pub use fault::Fault;
 pub(crate) use fault::{Sight, Sighted};
 pub use laws::elastic::{elliptic, hertz, iso16281};
@@ -37,7 +37,9 @@ pub(crate) use profile::{Raise, Section};
 pub use profile::{Torus, Waves};
 pub use quadrature::{Rules, Slices};
 pub use scalar::{BallSide, Pair};
-pub(crate) use stage::{Held, Pack, Packing, Plane, Reaction, Still, in_contact};
+pub(crate) use stage::{
+    PlaneVector, SlicePack, SlicePacking, StageContacts, StageElement, StageWrench, in_contact,
+};
 pub(crate) use stiffness::Tangent;
 
 /// A vector in the x-y plane.

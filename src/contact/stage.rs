@@ -1,4 +1,4 @@
-//! Contacts held still: what of their nodes does not depend on velocities, ready for any of them.
+//! Contacts held element: what of their nodes does not depend on velocities, ready for any of them.
 //!
 //! With all of a node's force at one point, slip and approach depend only on the relative twist
 //! w = (v_b − v_r − θ̇_r ẑ × a, θ̇_b − θ̇_r), where a leads from the ring's centre to the ball's: four numbers a
@@ -9,18 +9,18 @@
 // Loops over matrices read as their formulae do.
 #![allow(clippy::needless_range_loop)]
 
-use super::batch::{Moves, Octet};
+use super::batch::{EightContacts, Moves};
 use super::kernel::{self, Element, Force, Receiver, State};
 use super::laws::traction::Rolling;
 use super::{Aside, Motion, Pair, Sink, Touch, cross, turned};
 use crate::simd::{LANES, Lanes, Mask};
 
 /// Directions in the plane.
-pub(crate) type Plane = [Lanes; 2];
+pub(crate) type PlaneVector = [Lanes; 2];
 
 /// An element of eight contacts, or eight slices of one: what of its [`State`] does not depend on velocities.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Still {
+pub(crate) struct StageElement {
     elastic: Lanes,
     share: (Lanes, Lanes),
     slope: (Lanes, Lanes),
@@ -28,7 +28,7 @@ pub(crate) struct Still {
     depth: Lanes,
     arm: Lanes,
     /// Moments about the ball's centre of unit forces along n_e and t_e.
-    levers: Plane,
+    levers: PlaneVector,
 }
 
 /// What all elements of a contact share beside their law.
@@ -58,52 +58,52 @@ impl Around {
 /// Wrench on the ball about its centre, (n_e, t_e, z \[N\], about z \[N m\]) or (x, y, z, about z), and its
 /// derivative by the relative twist.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Reaction {
+pub(crate) struct StageWrench {
     pub wrench: [Lanes; 4],
     pub slope: [[Lanes; 4]; 4],
 }
 
 /// Where eight contacts are held.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Held {
+pub(crate) struct StageContacts {
     /// Unit vector out of the ball at the contact.
-    pub n_e: Plane,
+    pub n_e: PlaneVector,
     /// From the ring's centre to the ball's.
-    pub apart: Plane,
+    pub apart: PlaneVector,
     /// Forces of the waves' slope through the ball's centre (see `gradient`).
-    pub aside: Plane,
+    pub aside: PlaneVector,
     /// Contacts whose nodes are there; the others get none that press.
-    pub simple: Mask,
+    pub regular: Mask,
     pub around: Around,
 }
 
 impl Pair {
-    /// Holds eight contacts still, those of `whole` with their nodes.
+    /// Holds eight contacts element, those of `whole` with their nodes.
     #[inline(always)]
-    pub(crate) fn hold<const FMA: bool>(
+    pub(crate) fn stage_elements<const FMA: bool>(
         &self,
-        octet: &Octet,
+        eight: &EightContacts,
         ring: &Motion,
         whole: Mask,
-        nodes: &mut Vec<Still>,
-    ) -> Held {
-        let (contact, moves, place) = self.place::<FMA, false>(octet, ring, whole.not());
-        let (simple, sigma) = (place.simple.and(whole), self.race.sigma);
+        nodes: &mut Vec<StageElement>,
+    ) -> StageContacts {
+        let (contact, moves, place) = self.place::<FMA, false>(eight, ring, whole.not());
+        let (regular, sigma) = (place.regular.and(whole), self.race.sigma);
         let mut holding = Holding {
             nodes,
             moves: &moves,
             sigma,
-            simple,
+            regular,
             radial: Lanes::ZERO,
         };
         kernel::elements::<_, FMA, false>(&self.law, &self.slices, &contact, &mut holding);
         let radial = holding.radial;
         let across = radial * place.lean.unwrap_or_default() * sigma;
-        Held {
+        StageContacts {
             aside: [-(across * place.n.1), across * place.n.0],
             n_e: [place.n.0 * sigma, place.n.1 * sigma],
             apart: [place.n.0 * place.d, place.n.1 * place.d],
-            simple,
+            regular,
             around: Around {
                 rolling: moves.rolling,
                 radii: [contact.section.radius, contact.section.r],
@@ -116,25 +116,25 @@ impl Pair {
     /// With `secant`, friction's slope is the steeper one through rest, φ for φ + φ'(u) u: from far away, where
     /// Newton's tangent leads across to the other side, iterations by it do not overshoot.
     #[inline(always)]
-    pub(crate) fn react<const FMA: bool, const SLOPE: bool>(
+    pub(crate) fn force<const FMA: bool, const SLOPE: bool>(
         &self,
-        still: &Still,
+        element: &StageElement,
         around: &Around,
         twist: &[Lanes; 4],
         secant: bool,
-        to: &mut Reaction,
+        to: &mut StageWrench,
     ) {
-        let levers = still.levers;
+        let levers = element.levers;
         let along = |i: usize| twist[3].mul_add::<FMA>(levers[i], twist[i]);
         let velocity = [along(0), along(1), twist[2]];
         let state = State {
-            elastic: still.elastic,
-            share: still.share,
-            slope: still.slope,
+            elastic: element.elastic,
+            share: element.share,
+            slope: element.slope,
             velocity,
-            load: still.load,
-            depth: still.depth,
-            arm: still.arm,
+            load: element.load,
+            depth: element.depth,
+            arm: element.arm,
             rolling: around.rolling,
             radii: around.radii,
         };
@@ -200,10 +200,10 @@ impl Pair {
     }
 }
 
-impl Reaction {
+impl StageWrench {
     /// Subtracts a force at a point with those levers.
     #[inline(always)]
-    fn subtract_force<const FMA: bool>(&mut self, force: &[Lanes; 3], levers: Plane) {
+    fn subtract_force<const FMA: bool>(&mut self, force: &[Lanes; 3], levers: PlaneVector) {
         for i in 0..3 {
             self.wrench[i] = self.wrench[i] - force[i];
         }
@@ -212,7 +212,7 @@ impl Reaction {
 
     /// Subtracts the slope of such a force by the velocity of the point.
     #[inline(always)]
-    fn subtract_slope<const FMA: bool>(&mut self, slope: &[[Lanes; 3]; 3], levers: Plane) {
+    fn subtract_slope<const FMA: bool>(&mut self, slope: &[[Lanes; 3]; 3], levers: PlaneVector) {
         for i in 0..3 {
             for j in 0..3 {
                 self.slope[i][j] = self.slope[i][j] - slope[i][j];
@@ -230,7 +230,7 @@ impl Reaction {
 
     /// Turns it from the contact's frame into (x, y, z, about z).
     #[inline(always)]
-    pub(crate) fn turn<const SLOPE: bool>(&mut self, n_e: Plane) {
+    pub(crate) fn turn<const SLOPE: bool>(&mut self, n_e: PlaneVector) {
         let turn = |n: Lanes, t: Lanes| (n * n_e[0] - t * n_e[1], n * n_e[1] + t * n_e[0]);
         let force = &mut self.wrench;
         (force[0], force[1]) = turn(force[0], force[1]);
@@ -258,30 +258,30 @@ impl Reaction {
 
 /// About z of components along n_e and t_e.
 #[inline(always)]
-fn moment<const FMA: bool>(n: Lanes, t: Lanes, levers: Plane) -> Lanes {
+fn moment<const FMA: bool>(n: Lanes, t: Lanes, levers: PlaneVector) -> Lanes {
     levers[0].mul_add::<FMA>(n, levers[1] * t)
 }
 
 /// A relative twist (x, y, z, about z) in the frame (n_e, t_e, z, about z).
 #[inline(always)]
-pub(crate) fn in_contact(twist: &[Lanes; 4], n_e: Plane) -> [Lanes; 4] {
+pub(crate) fn in_contact(twist: &[Lanes; 4], n_e: PlaneVector) -> [Lanes; 4] {
     let [x, y, z, turn] = *twist;
     [x * n_e[0] + y * n_e[1], y * n_e[0] - x * n_e[1], z, turn]
 }
 
 /// Collects the elements of eight contacts, of those that are whole.
 struct Holding<'a> {
-    nodes: &'a mut Vec<Still>,
+    nodes: &'a mut Vec<StageElement>,
     moves: &'a Moves,
     sigma: f64,
-    simple: Mask,
+    regular: Mask,
     /// Sum of the elastic forces in the plane.
     radial: Lanes,
 }
 
 impl Receiver<Lanes> for Holding<'_> {
     #[inline(always)]
-    fn element<const FMA: bool, const PLANE: bool>(
+    fn element<const FMA: bool, const SYMMETRIC: bool>(
         &mut self,
         element: &Element<Lanes>,
         _times: u32,
@@ -289,9 +289,9 @@ impl Receiver<Lanes> for Holding<'_> {
         let sigma = Lanes::all(self.sigma);
         let arm = element.groove.mul_add::<FMA>(sigma, self.moves.arm);
         let elastic = element.load * element.length;
-        let elastic = self.simple.choose(elastic, Lanes::ZERO);
+        let elastic = self.regular.choose(elastic, Lanes::ZERO);
         self.radial += elastic * element.share.0;
-        self.nodes.push(Still {
+        self.nodes.push(StageElement {
             elastic,
             share: element.share,
             slope: (element.sin, element.cos),
@@ -305,14 +305,14 @@ impl Receiver<Lanes> for Holding<'_> {
 
 /// Eight slices of one contact, each with its own direction.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Pack {
-    pub n_e: Plane,
-    pub still: Still,
+pub(crate) struct SlicePack {
+    pub n_e: PlaneVector,
+    pub element: StageElement,
 }
 
 /// Collects the slices of a contact in packs of some lane.
-pub(crate) struct Packing<'a> {
-    pub packs: &'a mut Vec<(usize, Pack)>,
+pub(crate) struct SlicePacking<'a> {
+    pub packs: &'a mut Vec<(usize, SlicePack)>,
     pub lane: usize,
     /// Ball radius \[m\].
     pub radius: f64,
@@ -324,14 +324,14 @@ pub(crate) struct Packing<'a> {
     pub count: usize,
 }
 
-impl Sink for Packing<'_> {
+impl Sink for SlicePacking<'_> {
     fn touch(&mut self, touch: &Touch) {
         let lane = self.count % LANES;
         if lane == 0 {
-            self.packs.push((self.lane, Pack::default()));
+            self.packs.push((self.lane, SlicePack::default()));
         }
         self.count += 1;
-        let Some((_, Pack { n_e, still })) = self.packs.last_mut() else {
+        let Some((_, SlicePack { n_e, element })) = self.packs.last_mut() else {
             return;
         };
         // α of the slice: that of the place on the ball (flat contact), or of the force's direction.
@@ -345,13 +345,13 @@ impl Sink for Packing<'_> {
         };
         let (out, arm) = (touch.n_e, touch.arm_ball);
         (n_e[0][lane], n_e[1][lane]) = (out.x, out.y);
-        still.elastic[lane] = touch.elastic;
-        (still.share.0[lane], still.share.1[lane]) = touch.share;
-        (still.slope.0[lane], still.slope.1[lane]) = (sin, cos);
-        still.load[lane] = touch.elastic / touch.width;
-        still.depth[lane] = touch.depth;
-        still.levers[0][lane] = cross(arm, out);
-        still.levers[1][lane] = cross(arm, turned(out));
+        element.elastic[lane] = touch.elastic;
+        (element.share.0[lane], element.share.1[lane]) = touch.share;
+        (element.slope.0[lane], element.slope.1[lane]) = (sin, cos);
+        element.load[lane] = touch.elastic / touch.width;
+        element.depth[lane] = touch.depth;
+        element.levers[0][lane] = cross(arm, out);
+        element.levers[1][lane] = cross(arm, turned(out));
     }
 
     fn aside(&mut self, force: &Aside) {

@@ -81,7 +81,7 @@ impl Pair {
         stiffness
     }
 
-    /// Elastic force on the ball by the walk along the contact.
+    /// Elastic force on the ball slice by slice.
     fn elastic(&self, ball: &BallSide, place: &Vector3<f64>) -> Vector3<f64> {
         let at = |centre: V2, z: f64| Motion {
             centre,
@@ -273,7 +273,7 @@ impl Sums<'_> {
 
 impl Receiver<Dual<f64, 2>> for Sums<'_> {
     #[inline(always)]
-    fn element<const FMA: bool, const PLANE: bool>(
+    fn element<const FMA: bool, const SYMMETRIC: bool>(
         &mut self,
         element: &Element<Dual<f64, 2>>,
         _times: u32,
@@ -355,9 +355,9 @@ mod tests {
         }
     }
 
-    /// Truth: the walk along the contact. The same force, and the stiffness as its central differences.
+    /// Truth: the contact slice by slice. The same force, and the stiffness as its central differences.
     #[test]
-    fn agrees_with_the_walk() {
+    fn agrees_with_the_slices() {
         let ball = BallSide {
             radius: 6e-3,
             faults: Vec::new(),

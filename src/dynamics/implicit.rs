@@ -63,7 +63,7 @@ impl Dynamics<'_> {
         let mut anew = !work.is_kept(gamma_h);
         work.secant = false;
         for iteration in 1..=MOST_ITERATIONS {
-            work.react(self, y, anew);
+            work.forces(self, y, anew);
             self.residual(t, y, base, gamma_h, work);
             if anew {
                 work.factorise(self.model, gamma_h);
@@ -113,7 +113,7 @@ impl ImplicitVelocity for Dynamics<'_> {
     ) -> Result<usize, Stuck> {
         let mut work = self.implicit_memory();
         self.read(t, y);
-        work.hold(self);
+        work.find_elements(self);
         let result = self.iterate(t, y, base, gamma_h, &mut work);
         self.implicit = Some(work);
         result
@@ -122,16 +122,16 @@ impl ImplicitVelocity for Dynamics<'_> {
     fn fastest_rate(&mut self, t: f64, y: &[f64]) -> f64 {
         let mut work = self.implicit_memory();
         self.read(t, y);
-        work.hold(self);
+        work.find_elements(self);
         work.secant = false;
-        work.react(self, y, true);
+        work.forces(self, y, true);
         let mut fastest: f64 = 0.0;
-        for grip in work.grips() {
-            for (lane, ball) in grip.balls[..grip.count].iter().enumerate() {
+        for batch in work.batches() {
+            for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
                 let mobility = Vector4::from(self.model.mobility[BodyId::ball(*ball)]);
                 let root = Matrix4::from_diagonal(&mobility.map(f64::sqrt));
                 let slope = |i: usize, j: usize| {
-                    let of = |race: Race| grip.sides[race].reaction.slope[i][j][lane];
+                    let of = |race: Race| batch.sides[race].wrenches.slope[i][j][lane];
                     of(Race::Outer) + of(Race::Inner)
                 };
                 let block = root * Matrix4::from_fn(slope) * root;
@@ -223,8 +223,8 @@ mod tests {
             let mut dynamics = Dynamics::new(&model);
             let mut work = dynamics.implicit_memory();
             dynamics.read(0.0, &y);
-            work.hold(&dynamics);
-            work.react(&dynamics, &y, true);
+            work.find_elements(&dynamics);
+            work.forces(&dynamics, &y, true);
             let residual: Vec<f64> = (0..half).map(|i| (1.0 + i as f64).sin()).collect();
             work.residual.copy_from_slice(Layout::each(&residual));
             let gamma_h = 1e-6;

@@ -1,11 +1,11 @@
 //! States of a run that leaves some out: from their vector to all bodies, and from forces to their rates.
 
-use super::plane::{Plane, Rates};
+use super::planar::{Planar, Rates};
 use super::rolling::Rolling;
 use crate::forces::{State, Table};
 use crate::model::Model;
 use crate::reduction::Reduction;
-use crate::simd::Level;
+use crate::simd::InstructionSet;
 
 /// What a reduction keeps, and how it is evaluated.
 #[derive(Debug)]
@@ -15,7 +15,7 @@ pub(super) struct Kept {
     pub driven: Option<usize>,
     pub rolling: Rolling,
     /// Where one loop is all.
-    pub plane: Option<(Level, Plane)>,
+    pub planar: Option<(InstructionSet, Planar)>,
 }
 
 impl Kept {
@@ -37,11 +37,11 @@ impl Kept {
 
     /// The rates by one loop, where that is all.
     pub fn in_plane(&mut self, model: &Model, y: &[f64], dy: &mut [f64]) -> bool {
-        let Some((level, plane)) = &mut self.plane else {
+        let Some((instructions, planar)) = &mut self.planar else {
             return false;
         };
-        level.run_wide(Rates {
-            plane,
+        instructions.run_wide(Rates {
+            planar,
             model,
             y,
             dy,

@@ -11,7 +11,7 @@ use crate::reduction::Reduction;
 use crate::scene::{
     Defect, Friction, Method, Profile, Scene, Slices, Surface, TimeFunction, Waviness, presets,
 };
-use crate::simd::Level;
+use crate::simd::InstructionSet;
 use crate::{Error, Model, Run, Start, simulate, start};
 
 /// Truth: geometry. Where a ball is, by what it was moved.
@@ -170,26 +170,33 @@ fn lose(model: &Model, way: Way) -> Vec<f64> {
     y
 }
 
-/// One evaluation notices it, at every level of instructions that there is.
+/// One evaluation notices it, at every instruction set that there is.
 #[test]
 fn an_evaluation_notices_lost_balls_on_every_path() {
     for path in paths() {
-        for level in Level::available() {
-            let model = compile(&path.scene).unwrap().with_level(level);
+        for instructions in InstructionSet::available() {
+            let model = compile(&path.scene)
+                .unwrap()
+                .with_instructions(instructions);
             let fine = start(&model, &Start::Equilibrium).unwrap();
             let dynamics = Dynamics::begin(&model, Reduction::of(&model, &fine).as_ref(), &fine);
             let by_loop = match &dynamics.order {
                 Order::Bodies => false,
-                Order::Kept(kept) => kept.plane.is_some(),
+                Order::Kept(kept) => kept.planar.is_some(),
             };
-            assert_eq!(by_loop, path.is_loop, "{}, {level}", path.name);
-            assert_eq!(first_lost(&model, &fine), None, "{}, {level}", path.name);
+            assert_eq!(by_loop, path.is_loop, "{}, {instructions}", path.name);
+            assert_eq!(
+                first_lost(&model, &fine),
+                None,
+                "{}, {instructions}",
+                path.name
+            );
             for way in path.ways {
                 let lost = first_lost(&model, &lose(&model, *way));
                 assert_eq!(
                     lost,
                     Some(BodyId::ball(0)),
-                    "{}, {level}, {way:?}",
+                    "{}, {instructions}, {way:?}",
                     path.name
                 );
             }

@@ -3,16 +3,16 @@
 mod arrow;
 mod batch;
 mod contributions;
-mod grip;
+mod evaluation;
 mod implicit;
 mod kept;
 #[cfg(test)]
 mod lost;
-mod plane;
+mod planar;
 mod rolling;
 mod stage;
+mod stage_batch;
 mod sums;
-mod uses;
 
 use std::sync::Arc;
 
@@ -27,7 +27,7 @@ pub use contributions::{CONTRIBUTIONS, contributions};
 
 use batch::{Batch, Kind};
 use kept::Kept;
-use plane::{Ground, Plane};
+use planar::{Ground, Planar};
 use rolling::Rolling;
 use stage::Stage;
 
@@ -73,8 +73,8 @@ impl<'m> Dynamics<'m> {
     pub fn reduced(model: &'m Model, reduction: Reduction, start: &[f64]) -> Self {
         let kind = Kind {
             rows: reduction.rows.clone(),
-            plane: reduction.plane,
-            levels: reduction.levels.clone(),
+            symmetric: reduction.plane,
+            axial_places: reduction.axial_places.clone(),
             mirrored: reduction.mirrored,
             closed: reduction.closed,
         };
@@ -86,7 +86,7 @@ impl<'m> Dynamics<'m> {
             reduction,
             driven,
             rolling,
-            plane: None,
+            planar: None,
         }));
         let mut dynamics = Self::with(model, order, kind);
         let kept = dynamics.degrees();
@@ -97,11 +97,11 @@ impl<'m> Dynamics<'m> {
         let kept = dynamics.compress(start);
         dynamics.expand(0.0, &kept, &mut places);
         dynamics.state.read(&places);
-        dynamics.find_plane();
+        dynamics.find_planar();
         dynamics
     }
 
-    fn find_plane(&mut self) {
+    fn find_planar(&mut self) {
         let (Order::Kept(kept), Some(forms)) = (&mut self.order, self.contacts.forms()) else {
             return;
         };
@@ -112,7 +112,7 @@ impl<'m> Dynamics<'m> {
             steady: &self.constant,
             springs: &self.springs,
         };
-        kept.plane = Plane::new(&ground, &forms);
+        kept.planar = Planar::new(&ground, &forms);
     }
 
     /// For a run from a state of all bodies, with what it leaves out.

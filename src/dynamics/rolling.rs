@@ -62,7 +62,7 @@ impl Rolling {
         for (orbit, at) in reduction.orbits() {
             let count = orbit.starts.len();
             let bodies = orbit.first.range(count);
-            let [x, y] = Dof::PLANE.map(|dof| &forces.along(dof)[bodies.clone()]);
+            let [x, y] = Dof::SYMMETRIC.map(|dof| &forces.along(dof)[bodies.clone()]);
             let m = &mobility.along(Dof::X)[bodies];
             for (k, ball) in balls.by_ref().take(count).enumerate() {
                 let [cos, sin] = ball.direction;

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::Dynamics;
 use super::arrow::Arrow;
 use super::batch::{Batch, Kind};
-use super::grip::{Grip, Meeting};
+use super::stage_batch::{Meeting, StageBatch};
 use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Race};
 use crate::simd::{LANES, Lanes, Task};
@@ -22,7 +22,7 @@ pub(super) struct Stage {
     /// What every ball may meet at both rings.
     meetings: Vec<[Meeting; 2]>,
     /// The balls that meet something, by eights: the first `active` of these.
-    grips: Vec<Grip>,
+    batches: Vec<StageBatch>,
     active: usize,
     arrow: Arrow,
     /// Residuals of all velocities, by body; after [`Stage::correct`] their corrections.
@@ -44,7 +44,7 @@ impl Stage {
         Self {
             search: Batch::new(model, Kind::whole(model)),
             meetings: vec![<[Meeting; 2]>::default(); balls],
-            grips: vec![Grip::default(); eights],
+            batches: vec![StageBatch::default(); eights],
             active: 0,
             arrow: Arrow::new(eights),
             residual: vec![[0.0; DOFS]; model.bodies.len()],
@@ -56,17 +56,17 @@ impl Stage {
     }
 
     /// Finds the nodes of all contacts at the state that was read last.
-    pub fn hold(&mut self, dynamics: &Dynamics<'_>) {
+    pub fn find_elements(&mut self, dynamics: &Dynamics<'_>) {
         let (model, state) = (dynamics.model, &dynamics.state);
         let rings = state.rings();
         self.search.find(None, model, state, &rings);
         self.gather(model);
         let constants = &self.search.constants;
-        let hold = |grip: &mut Grip| grip.hold(model, constants, state, &rings);
-        let grips = &mut self.grips[..self.active];
+        let find = |batch: &mut StageBatch| batch.find_elements(model, constants, state, &rings);
+        let batches = &mut self.batches[..self.active];
         match &dynamics.pool {
-            Some(pool) => pool.install(|| grips.par_iter_mut().for_each(hold)),
-            None => grips.iter_mut().for_each(hold),
+            Some(pool) => pool.install(|| batches.par_iter_mut().for_each(find)),
+            None => batches.iter_mut().for_each(find),
         }
     }
 
@@ -92,11 +92,11 @@ impl Stage {
                     if !is_wanted || model.rows[model.balls[ball].row].class != class {
                         continue;
                     }
-                    let grip = &mut self.grips[self.active + taken / LANES];
+                    let batch = &mut self.batches[self.active + taken / LANES];
                     if taken.is_multiple_of(LANES) {
-                        grip.clear(class);
+                        batch.clear(class);
                     }
-                    grip.push(ball, *meetings);
+                    batch.push(ball, *meetings);
                     taken += 1;
                 }
             }
@@ -105,32 +105,32 @@ impl Stage {
     }
 
     /// Finds what the contacts do at the velocities of `y`, with slopes or without.
-    pub fn react(&mut self, dynamics: &Dynamics<'_>, y: &[f64], slopes: bool) {
+    pub fn forces(&mut self, dynamics: &Dynamics<'_>, y: &[f64], slopes: bool) {
         let (model, secant) = (dynamics.model, self.secant);
-        let react = |grip: &mut Grip| {
+        let find = |batch: &mut StageBatch| {
             if slopes {
-                grip.react_and_slope(model, y, secant);
+                batch.forces_and_slopes(model, y, secant);
             } else {
-                grip.react(model, y);
+                batch.forces(model, y);
             }
         };
-        let grips = &mut self.grips[..self.active];
+        let batches = &mut self.batches[..self.active];
         match &dynamics.pool {
-            Some(pool) => pool.install(|| grips.par_iter_mut().for_each(react)),
-            None => grips.iter_mut().for_each(react),
+            Some(pool) => pool.install(|| batches.par_iter_mut().for_each(find)),
+            None => batches.iter_mut().for_each(find),
         }
     }
 
     /// Adds the contacts' forces to those on all bodies.
     pub fn add_to(&self, forces: &mut Table) {
-        for grip in &self.grips[..self.active] {
+        for batch in &self.batches[..self.active] {
             for race in Race::BOTH {
-                let side = &grip.sides[race];
+                let side = &batch.sides[race];
                 if !side.touches {
                     continue;
                 }
-                let ([x, y, z, turn], apart) = (side.reaction.wrench, side.apart());
-                for (lane, ball) in grip.balls[..grip.count].iter().enumerate() {
+                let ([x, y, z, turn], apart) = (side.wrenches.wrench, side.apart());
+                for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
                     let wrench = [x[lane], y[lane], z[lane], turn[lane]];
                     forces.add(BodyId::ball(*ball), &wrench);
                 }
@@ -143,7 +143,7 @@ impl Stage {
 
     /// Makes the matrix of the last slopes.
     pub fn factorise(&mut self, model: &Model, gamma_h: f64) {
-        model.level.run(Factorise {
+        model.instructions.run(Factorise {
             work: self,
             model,
             gamma_h,
@@ -187,13 +187,13 @@ impl Stage {
     }
 
     /// The balls that meet something, by eights.
-    pub fn grips(&self) -> &[Grip] {
-        &self.grips[..self.active]
+    pub fn batches(&self) -> &[StageBatch] {
+        &self.batches[..self.active]
     }
 
     /// Solves for the correction of all velocities; `residual` is replaced by it. False if singular.
     pub fn correct(&mut self, model: &Model) -> bool {
-        model.level.run(Correct { work: self })
+        model.instructions.run(Correct { work: self })
     }
 }
 
@@ -214,30 +214,30 @@ struct Factorise<'a> {
 impl Task for Factorise<'_> {
     type Output = ();
 
-    // Compiled for the level that runs it.
+    // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let (model, gamma_h) = (self.model, self.gamma_h);
         let Stage {
             arrow,
-            grips,
+            batches,
             active,
             ..
         } = self.work;
         arrow.begin();
-        for (eight, grip) in grips[..*active].iter().enumerate() {
+        for (eight, batch) in batches[..*active].iter().enumerate() {
             let mut scale = [Lanes::ZERO; DOFS];
-            for (lane, ball) in grip.balls.iter().enumerate() {
+            for (lane, ball) in batch.balls.iter().enumerate() {
                 let mobility = &model.mobility[BodyId::ball(*ball)];
                 for (scale, mobility) in scale.iter_mut().zip(mobility) {
                     scale[lane] = gamma_h * mobility;
                 }
             }
-            let contacts = grip
+            let contacts = batch
                 .sides
                 .each_ref()
-                .map(|side| side.touches.then(|| (&side.reaction.slope, side.apart())));
+                .map(|side| side.touches.then(|| (&side.wrenches.slope, side.apart())));
             arrow.eliminate::<FMA>(eight, &contacts, &scale);
         }
         let layout = model.layout();
@@ -264,22 +264,22 @@ struct Correct<'a> {
 impl Task for Correct<'_> {
     type Output = bool;
 
-    // Compiled for the level that runs it.
+    // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) -> bool {
         let Stage {
             arrow,
             residual,
-            grips,
+            batches,
             active,
             ..
         } = self.work;
-        let grips = &grips[..*active];
+        let batches = &batches[..*active];
         arrow.begin_right();
-        for (eight, grip) in grips.iter().enumerate() {
+        for (eight, batch) in batches.iter().enumerate() {
             let mut right = [Lanes::ZERO; DOFS];
-            for (lane, ball) in grip.balls.iter().enumerate() {
+            for (lane, ball) in batch.balls.iter().enumerate() {
                 let residual = &residual[BodyId::ball(*ball)];
                 for i in 0..DOFS {
                     right[i][lane] = residual[i];
@@ -292,9 +292,9 @@ impl Task for Correct<'_> {
             return false;
         };
         residual.as_flattened_mut()[..rings.len()].copy_from_slice(rings.as_slice());
-        for (eight, grip) in grips.iter().enumerate() {
+        for (eight, batch) in batches.iter().enumerate() {
             let balls = arrow.balls::<FMA>(eight, &rings);
-            for (lane, ball) in grip.balls[..grip.count].iter().enumerate() {
+            for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
                 let residual = &mut residual[BodyId::ball(*ball)];
                 for i in 0..DOFS {
                     residual[i] = balls[i][lane];

@@ -31,7 +31,7 @@ use crate::error::Result;
 use crate::inspect;
 use crate::interrupt;
 use crate::model::{BodyId, Dof, Model, Race};
-use crate::reduction::levels;
+use crate::reduction::axial_places;
 use crate::scene::{Doubt, Scene};
 pub use distribution::{EquivalentLoads, LoadDistribution, load_distribution};
 pub(crate) use place::{Meeting, place};
@@ -141,18 +141,18 @@ pub fn equilibrium(scene: &Scene) -> Result<Equilibrium> {
 /// share one place would else be pressed more or less than they bear.
 pub(crate) fn positions(model: &Model) -> Result<Vec<f64>> {
     let solved = solve(model)?;
-    let Some(levels) = levels(model, &solved.y) else {
+    let Some(axial_places) = axial_places(model, &solved.y) else {
         return Ok(solved.y);
     };
     let layout = model.layout();
     let mut rings = Rings::zeros();
     for (at, race, dof) in unknowns::all() {
         rings[at] = match dof {
-            Dof::Z => levels.rings[race],
+            Dof::Z => axial_places.rings[race],
             _ => solved.y[layout.at(race.ring(), dof)],
         };
     }
-    solve_from(Problem::in_planes(model, levels), rings).map(|solved| solved.y)
+    solve_from(Problem::in_planes(model, axial_places), rings).map(|solved| solved.y)
 }
 
 /// What the solver found.

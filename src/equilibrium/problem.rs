@@ -29,7 +29,7 @@ pub(super) struct Problem<'m> {
     /// How far the contacts of each row's balls give.
     pub(super) springs: Vec<RowSpring>,
     /// Axial places that rings and rows keep, where they do.
-    pub(super) levels: Option<AxialPlaces>,
+    pub(super) axial_places: Option<AxialPlaces>,
 }
 
 impl<'m> Problem<'m> {
@@ -80,22 +80,24 @@ impl<'m> Problem<'m> {
                 .iter()
                 .map(|row| RowSpring::of(model, row))
                 .collect(),
-            levels: None,
+            axial_places: None,
         }
     }
 
     /// The same where rings and rows keep their axial places.
-    pub(super) fn in_planes(model: &'m Model, levels: AxialPlaces) -> Self {
+    pub(super) fn in_planes(model: &'m Model, axial_places: AxialPlaces) -> Self {
         let mut problem = Self::new(model);
         problem.free.retain(|at| unknowns::degree(*at).1 != Dof::Z);
-        problem.levels = Some(levels);
+        problem.axial_places = Some(axial_places);
         problem
     }
 
     /// The axial place that a ball keeps, if it does.
-    fn level(&self, j: usize) -> Option<f64> {
+    fn axial_place(&self, j: usize) -> Option<f64> {
         let row = self.model.balls[j].row;
-        self.levels.as_ref().map(|levels| levels.rows[row])
+        self.axial_places
+            .as_ref()
+            .map(|axial_places| axial_places.rows[row])
     }
 
     /// A typical contact stiffness.
@@ -125,8 +127,8 @@ impl<'m> Problem<'m> {
     pub(super) fn ball_at(&self, j: usize, rings: &Rings, place: Vector2<f64>) -> BallState {
         let ball = &self.model.balls[j];
         let direction = self.directions[j];
-        let level = self.level(j);
-        let place = Vector2::new(place.x, level.unwrap_or(place.y));
+        let kept = self.axial_place(j);
+        let place = Vector2::new(place.x, kept.unwrap_or(place.y));
         let centre = Vector3::new(direction.x * place.x, direction.y * place.x, place.y);
         let from_rings = Race::BOTH.map(|race| centre - unknowns::of(rings, race));
         let contacts = Race::BOTH.map(|race| {
@@ -143,7 +145,7 @@ impl<'m> Problem<'m> {
         force.x += pull[0] * direction.x;
         force.x += pull[1] * direction.y;
         force.y += pull[2];
-        if level.is_some() {
+        if kept.is_some() {
             // What keeps the ball in its plane.
             force.y = 0.0;
         }
@@ -181,7 +183,7 @@ impl<'m> Problem<'m> {
         axial += degrees[Dof::Z].stiffness();
         // The centrifugal force grows with the radius.
         radial += self.cage_spring[j].stiffness() - self.centrifugal[j];
-        if self.level(j).is_some() {
+        if self.axial_place(j).is_some() {
             return Matrix2::from_diagonal(&Vector2::new(radial, self.stiffness()));
         }
         Matrix2::new(
@@ -206,7 +208,7 @@ impl<'m> Problem<'m> {
             (pulled[(0, a)], pulled[(1, a)]) = (x * k[(0, i)] + y * k[(1, i)], k[(2, i)]);
             (pulling[(a, 0)], pulling[(a, 1)]) = (x * k[(i, 0)] + y * k[(i, 1)], k[(i, 2)]);
         }
-        if self.level(j).is_some() {
+        if self.axial_place(j).is_some() {
             pulled.row_mut(1).fill(0.0);
             pulling.column_mut(1).fill(0.0);
         }

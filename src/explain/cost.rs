@@ -171,7 +171,7 @@ fn places(model: &Model, y0: &[f64]) -> Vec<Vec<f64>> {
             let (sin, cos) = (pitch * part as f64 / PLACES as f64).sin_cos();
             for half in y.chunks_mut(layout.half()) {
                 let body = layout.of_mut(half, BodyId::ball(j));
-                let [along_x, along_y] = Dof::PLANE.map(|dof| body[dof]);
+                let [along_x, along_y] = Dof::SYMMETRIC.map(|dof| body[dof]);
                 body[Dof::X] = cos * along_x - sin * along_y;
                 body[Dof::Y] = sin * along_x + cos * along_y;
             }

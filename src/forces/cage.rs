@@ -54,7 +54,7 @@ pub(crate) fn link(cage: &Cage, nominal: f64, first: &Motion, second: &Motion) -
 pub(crate) fn add(model: &Model, rows: Range<usize>, state: &State, forces: &mut Table) {
     if let Some(cage) = &model.scene.cage {
         for row in &model.rows[rows] {
-            model.level.run_wide(Links {
+            model.instructions.run_wide(Links {
                 cage,
                 row,
                 state,
@@ -75,7 +75,7 @@ struct Links<'a> {
 impl Wide for Links<'_> {
     type Output = ();
 
-    // Compiled for the level that runs it.
+    // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {

@@ -1,6 +1,6 @@
 //! The one inner loop: a base plus a weighted sum of stages.
 
-use crate::simd::{Level, Simd, Vector, Wide};
+use crate::simd::{InstructionSet, Simd, Vector, Wide};
 
 /// Most nonzero weights a row may have; one arm of the match below for each.
 const MAX_TERMS: usize = 8;
@@ -19,7 +19,7 @@ pub(super) fn combine(
     weights: &[f64],
     k: &[Vec<f64>],
 ) {
-    Level::current().run_wide(Combination {
+    InstructionSet::current().run_wide(Combination {
         out,
         base,
         h,
@@ -39,7 +39,7 @@ struct Combination<'a> {
 impl Wide for Combination<'_> {
     type Output = ();
 
-    // Compiled for the level that runs it.
+    // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::failure::Invalid;
-use crate::simd::{Level, Simd, Vector, Wide};
+use crate::simd::{InstructionSet, Simd, Vector, Wide};
 
 /// What error is acceptable in each state, and which states belong together.
 ///
@@ -133,7 +133,7 @@ impl<'a> Norm<'a> {
     /// A non-finite `y1` counts as a non-finite `x`: it would otherwise make
     /// the scale infinite and the error vanish.
     pub(super) fn measure(&mut self, y0: &[f64], y1: &[f64], x: &[f64]) -> Worst {
-        Level::current().run_wide(Scaling {
+        InstructionSet::current().run_wide(Scaling {
             norm: self,
             y0,
             y1,
@@ -190,7 +190,7 @@ struct Scaling<'n, 'a> {
 impl Wide for Scaling<'_, '_> {
     type Output = ();
 
-    // Compiled for the level that runs it.
+    // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {

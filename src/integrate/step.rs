@@ -5,7 +5,7 @@ use super::combine::combine;
 use super::dense::DenseStep;
 use super::stiffness::quotient;
 use super::tableau::Tableau;
-use crate::simd::{Level, Simd, Vector, Wide};
+use crate::simd::{InstructionSet, Simd, Vector, Wide};
 
 /// The workspace of a step: the state, the derivatives and what they give.
 #[derive(Debug)]
@@ -113,7 +113,7 @@ impl<'a> Stepper<'a> {
 
 /// The index of the first non-finite entry, as the error.
 pub(super) fn check_finite(x: &[f64]) -> Result<(), usize> {
-    if Level::current().run_wide(Nothing(x)) == 0.0 {
+    if InstructionSet::current().run_wide(Nothing(x)) == 0.0 {
         return Ok(());
     }
     x.iter().position(|x| !x.is_finite()).map_or(Ok(()), Err)
@@ -125,7 +125,7 @@ struct Nothing<'a>(&'a [f64]);
 impl Wide for Nothing<'_> {
     type Output = f64;
 
-    // Compiled for the level that runs it.
+    // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {

@@ -1,6 +1,6 @@
 //! The stiffness quotient.
 
-use crate::simd::{LANES, Level, Task};
+use crate::simd::{InstructionSet, LANES, Task};
 
 /// `h · ‖k1 − k0‖ / ‖y1 − y0‖`, an estimate of `h·|λ|` for the dominant
 /// eigenvalue λ, from two states `y` at the same time and their derivatives
@@ -21,7 +21,7 @@ pub(super) fn quotient(h: f64, y: [&[f64]; 2], k: [&[f64]; 2], weights: &[f64]) 
 
 /// The weighted sum of squared differences.
 fn distance(x: [&[f64]; 2], weights: &[f64]) -> f64 {
-    Level::current().run(Distance { x, weights })
+    InstructionSet::current().run(Distance { x, weights })
 }
 
 struct Distance<'a> {
@@ -32,7 +32,7 @@ struct Distance<'a> {
 impl Task for Distance<'_> {
     type Output = f64;
 
-    // Compiled for the level that runs it.
+    // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) -> f64 {

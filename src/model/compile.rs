@@ -14,7 +14,7 @@ use crate::contact::{
 };
 use crate::error::{Error, Result};
 use crate::scene::{self, Approximations, Defect, Drive, Mount, NormalLaw, Row, Scene, Surface};
-use crate::simd::Level;
+use crate::simd::InstructionSet;
 use crate::told::number;
 
 /// Checks and compiles a scene whose defects all have numbers for their places; [`crate::compile()`] gives them those.
@@ -78,7 +78,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
         mobility: bodies.iter().map(Body::mobility).collect(),
         bodies,
         scales: Scales::default(),
-        level: Level::chosen().map_err(|unknown| {
+        instructions: InstructionSet::chosen().map_err(|unknown| {
             let allowed = format!("one of {}, or unset", unknown.available.join(", "));
             Error::scene("BALLRACE_SIMD", unknown.value, allowed)
         })?,

@@ -171,7 +171,7 @@ impl Dof {
     /// Those along axes.
     pub const TRANSLATIONS: [Self; 3] = [Self::X, Self::Y, Self::Z];
     /// Those in the plane of rotation.
-    pub const PLANE: [Self; 2] = [Self::X, Self::Y];
+    pub const SYMMETRIC: [Self; 2] = [Self::X, Self::Y];
 
     /// Its number among those of a body.
     #[inline]

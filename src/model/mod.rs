@@ -16,7 +16,7 @@ use std::ops::Range;
 use crate::contact::hertz::Hertz;
 use crate::contact::{BallSide, Pair, Slices, cross};
 use crate::scene::{Component, Scene, TimeFunction};
-use crate::simd::{LANES, Level};
+use crate::simd::{InstructionSet, LANES};
 
 pub use body::{Body, Degree};
 pub(crate) use compile::{ball_fault, compile_placed, race_fault};
@@ -44,7 +44,7 @@ pub struct Model {
     /// One over the mass of every body's free directions, 0 for the others.
     pub(crate) mobility: Vec<[f64; DOFS]>,
     pub(crate) scales: Scales,
-    pub(crate) level: Level,
+    pub(crate) instructions: InstructionSet,
 }
 
 /// A row compiled.
@@ -199,15 +199,15 @@ impl Model {
         rows.map(|row| row.count).sum::<usize>().div_ceil(LANES)
     }
 
-    /// Level of vector instructions that evaluations use.
-    pub fn level(&self) -> Level {
-        self.level
+    /// InstructionSet of vector instructions that evaluations use.
+    pub fn instructions(&self) -> InstructionSet {
+        self.instructions
     }
 
-    /// The same model for another level of instructions.
+    /// The same model for another instruction set.
     #[must_use]
-    pub fn with_level(mut self, level: Level) -> Self {
-        self.level = level;
+    pub fn with_instructions(mut self, instructions: InstructionSet) -> Self {
+        self.instructions = instructions;
         self
     }
 

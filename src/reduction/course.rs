@@ -206,8 +206,8 @@ impl Orbit {
         let [places, speeds] = [0, 1].map(|half| Layout::each(&full[half * (full.len() / 2)..]));
         for k in 0..self.starts.len() {
             let body = self.first.after(k).index();
-            let [x, y_] = Dof::PLANE.map(|dof| places[body][dof]);
-            let [vx, vy] = Dof::PLANE.map(|dof| speeds[body][dof]);
+            let [x, y_] = Dof::SYMMETRIC.map(|dof| places[body][dof]);
+            let [vx, vy] = Dof::SYMMETRIC.map(|dof| speeds[body][dof]);
             let r = x.hypot(y_);
             y[at + k] = r;
             y[kept + at + k] = (x * vx + y_ * vy) / r;

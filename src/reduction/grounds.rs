@@ -14,7 +14,7 @@ pub(super) enum Reason {
     Mirror,
     Copy,
     Rolling,
-    Level,
+    AxiallyFixed,
     Idle,
 }
 
@@ -26,7 +26,7 @@ impl Reason {
         Self::Mirror,
         Self::Copy,
         Self::Rolling,
-        Self::Level,
+        Self::AxiallyFixed,
         Self::Idle,
     ];
 
@@ -41,7 +41,7 @@ impl Reason {
                 "orbit and spin of balls",
                 "by request: they roll, without friction and cage",
             ),
-            Self::Level => ("z", "by request: axial places are kept"),
+            Self::AxiallyFixed => ("z", "by request: axial places are kept"),
             Self::Idle => (
                 "balls of the unloaded row",
                 "by request: they carry less than 2 % of the load",
@@ -58,7 +58,7 @@ pub(super) struct Grounds {
     pub plane: bool,
     pub mirrored: bool,
     /// Axial places of rings and rows.
-    pub levels: Option<AxialPlaces>,
+    pub axial_places: Option<AxialPlaces>,
     /// The row that is left out.
     pub idle: Option<usize>,
 }
@@ -80,7 +80,7 @@ impl Grounds {
                 (Dof::Z, _) if self.plane => Some(Reason::Mirror),
                 // The image pulls the rings the other way.
                 (Dof::Z, None) if self.mirrored => Some(Reason::Mirror),
-                (Dof::Z, _) if self.levels.is_some() => Some(Reason::Level),
+                (Dof::Z, _) if self.axial_places.is_some() => Some(Reason::AxiallyFixed),
                 (Dof::Y | Dof::Theta, Some(_)) if model.scene.approximations.rolling => {
                     Some(Reason::Rolling)
                 }
@@ -112,8 +112,8 @@ impl Grounds {
         match (reason, dof) {
             (Reason::Copy, _) | (Reason::Rolling, Dof::Y) | (Reason::Idle, Dof::X | Dof::Y) => None,
             (Reason::Mirror, _) => Some(Course::steady(model.bodies[body].nominal[dof], 0.0)),
-            (Reason::Level, _) => {
-                let places = self.levels.as_ref()?;
+            (Reason::AxiallyFixed, _) => {
+                let places = self.axial_places.as_ref()?;
                 Some(Course::steady(places.of(model, body), 0.0))
             }
             (Reason::Idle, Dof::Z) => Some(Course::steady(place, 0.0)),

@@ -35,7 +35,7 @@ pub struct Reduction {
     /// All bodies stay in the planes of their rows.
     pub(crate) plane: bool,
     /// Axial places of rings and rows that are kept.
-    pub(crate) levels: Option<AxialPlaces>,
+    pub(crate) axial_places: Option<AxialPlaces>,
     /// The second row is the first one's mirror image.
     pub(crate) mirrored: bool,
     /// Contacts may be evaluated in closed form.
@@ -116,7 +116,7 @@ impl Reduction {
             orbits: Vec::new(),
             rows: 0..model.rows.len(),
             plane: false,
-            levels: None,
+            axial_places: None,
             mirrored: false,
             closed: false,
             omissions: Vec::new(),
@@ -173,7 +173,7 @@ impl Reduction {
             }
         }
         if wanted.plane {
-            grounds.levels = request::levels(model, start)
+            grounds.axial_places = request::axial_places(model, start)
                 .map_err(|reason| obstacle("axial places that are kept", reason))
                 .ok();
         }
@@ -190,7 +190,7 @@ impl Reduction {
             None => 0..model.rows.len(),
         };
         reduction.leave_out(model, start, &grounds);
-        reduction.levels = grounds.levels;
+        reduction.axial_places = grounds.axial_places;
         reduction
     }
 
@@ -380,9 +380,11 @@ impl Reduction {
 
 /// Axial places that rings and rows keep by request, from a state of all bodies in equilibrium; none where that is not asked
 /// for or cannot be.
-pub(crate) fn levels(model: &Model, start: &[f64]) -> Option<AxialPlaces> {
-    let levels = request::levels(model, start);
-    levels.ok().filter(|_| model.scene.approximations.plane)
+pub(crate) fn axial_places(model: &Model, start: &[f64]) -> Option<AxialPlaces> {
+    let axial_places = request::axial_places(model, start);
+    axial_places
+        .ok()
+        .filter(|_| model.scene.approximations.plane)
 }
 
 /// Makes the second row the image of the first, whose axial places z become `sum` − z.

@@ -9,7 +9,7 @@ use crate::scene::TimeFunction;
 const IDLE: f64 = 0.02;
 
 /// Axial places that rings and rows keep: those of the start, a row's balls in the mean of what they carry.
-pub(super) fn levels(model: &Model, start: &[f64]) -> Result<AxialPlaces, String> {
+pub(super) fn axial_places(model: &Model, start: &[f64]) -> Result<AxialPlaces, String> {
     steady(model, |direction| direction[2] != 0.0)?;
     let z = |body: BodyId| start[model.layout().at(body, Dof::Z)];
     let rows = model.rows.iter().map(|row| {

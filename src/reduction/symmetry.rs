@@ -30,25 +30,25 @@ pub(super) fn about_rows(model: &Model, start: &[f64]) -> Symmetry {
             require(torus.lowest == -torus.highest, || {
                 format!("the {race} shoulders of row {i} are unequal")
             })?;
-            let level = |fault: &Fault| fault.is_image(fault, 2.0 * plane, ROUNDING);
-            require(pair.faults.iter().all(level), || {
+            let is_mirrored = |fault: &Fault| fault.is_image(fault, 2.0 * plane, ROUNDING);
+            require(pair.faults.iter().all(is_mirrored), || {
                 format!("a defect of the {race} race of row {i} is off the middle")
             })?;
         }
     }
-    let level = |ball: &Ball| {
+    let is_mirrored = |ball: &Ball| {
         let faults = &ball.side.faults;
         faults.iter().all(|f| f.is_image(f, 0.0, ROUNDING))
     };
-    require(model.balls.iter().all(level), || {
+    require(model.balls.iter().all(is_mirrored), || {
         "a ball's defect is off the middle".to_owned()
     })?;
-    let levels: Vec<f64> = model
+    let middles: Vec<f64> = model
         .bodies
         .iter()
         .map(|body| body.nominal[Dof::Z])
         .collect();
-    at_rest(model, start, &levels)
+    at_rest(model, start, &middles)
 }
 
 /// Whether two rows are images of each other and stay so; none for a single row.
@@ -83,7 +83,7 @@ fn images(model: &Model, first: &RowModel, second: &RowModel, start: &[f64]) -> 
             &model.bodies[BodyId::ball(b)],
         );
         let in_phase =
-            Dof::PLANE.map(|dof| (one.nominal[dof] - other.nominal[dof]).abs() <= ROUNDING);
+            Dof::SYMMETRIC.map(|dof| (one.nominal[dof] - other.nominal[dof]).abs() <= ROUNDING);
         require(in_phase == [true; 2], || {
             "the rows are out of phase".to_owned()
         })?;
@@ -104,7 +104,7 @@ fn images(model: &Model, first: &RowModel, second: &RowModel, start: &[f64]) -> 
             let of = |row: &RowModel| *model.layout().of(half, row.first_body().after(k));
             let (a, b) = (of(first), of(second));
             let [turn, other] = [a, b].map(|body| body[Dof::Theta]);
-            Dof::PLANE
+            Dof::SYMMETRIC
                 .iter()
                 .all(|dof| (a[*dof] - b[*dof]).abs() <= limit)
                 && (a[Dof::Z] + b[Dof::Z] - sum).abs() <= limit
@@ -130,16 +130,16 @@ fn forces(model: &Model) -> Symmetry {
     Ok(())
 }
 
-/// The first bodies must start at these levels and not leave them.
-fn at_rest(model: &Model, start: &[f64], levels: &[f64]) -> Symmetry {
+/// The first bodies must start at these middles and not leave them.
+fn at_rest(model: &Model, start: &[f64], middles: &[f64]) -> Symmetry {
     let limit = START * model.scales.approach;
     let layout = model.layout();
-    let rests = |(body, level): (BodyId, &f64)| {
+    let rests = |(body, middle): (BodyId, &f64)| {
         let z = start[layout.at(body, Dof::Z)];
         let vz = start[layout.speed_at(body, Dof::Z)];
-        (z - level).abs() <= limit && vz.abs() <= limit * model.scales.frequency
+        (z - middle).abs() <= limit && vz.abs() <= limit * model.scales.frequency
     };
-    require(layout.bodies().zip(levels).all(rests), || {
+    require(layout.bodies().zip(middles).all(rests), || {
         "the start is not symmetric".to_owned()
     })
 }

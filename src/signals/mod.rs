@@ -139,9 +139,9 @@ pub struct Provenance {
     pub states: usize,
     /// What was left out since it does not change the motion.
     pub left_out: Vec<Omission>,
-    /// Level of vector instructions.
+    /// InstructionSet of vector instructions.
     pub simd: &'static str,
-    /// What was wrong with the level that would have been used; absent where nothing was.
+    /// What was wrong with the instructions that would have been used; absent where nothing was.
     pub distrust: Option<Distrust>,
     /// Processor architecture.
     pub architecture: &'static str,

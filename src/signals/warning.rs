@@ -42,7 +42,7 @@ pub enum Warning {
         /// Accepted steps.
         steps: usize,
     },
-    /// This processor computes wrongly at a level of vector instructions that it says it has; a narrower one was used.
+    /// This processor computes wrongly at a instruction set that it says it has; a narrower one was used.
     Instructions(Distrust),
     /// The line of a defect lies above half the sampling rate.
     SamplingRate {
@@ -145,12 +145,12 @@ impl std::fmt::Display for Warning {
                  shoulders, or look at the truncated contacts"
             ),
             Self::Instructions(Distrust {
-                level,
+                instructions,
                 primitive,
                 used,
             }) => write!(
                 f,
-                "this processor offers vector instructions of level {level}, but its `{primitive}` gives wrong \
+                "this processor offers vector instructions of instructions {instructions}, but its `{primitive}` gives wrong \
                  results; the run used {used}. Please report it, with the processor's name"
             ),
             Self::SamplingRate { fs, defect, line } => write!(

@@ -1,17 +1,17 @@
 //! Eight numbers at once, and the widest instructions that the processor has for them.
 //!
 //! `Lanes` are plain arrays with arithmetic; the compiler turns them into vector instructions of whatever
-//! level the code around them is compiled for. `Vector`s are the registers themselves. [`Level`] compiles a task for
+//! instructions the code around them is compiled for. `Vector`s are the registers themselves. [`InstructionSet`] compiles a task for
 //! three levels into one program and picks one at run time.
 
+mod isa;
 mod lanes;
-mod level;
 mod number;
 mod proof;
 mod vector;
 
+pub(crate) use isa::Task;
+pub use isa::{Distrust, InstructionSet, UnknownInstructionSet};
 pub(crate) use lanes::{Counters, LANES, Lanes, Mask, mul_add};
-pub(crate) use level::Task;
-pub use level::{Distrust, Level, UnknownLevel};
 pub(crate) use number::{Decision, Number};
 pub(crate) use vector::{Choice, Simd, Vector, Wide};

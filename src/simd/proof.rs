@@ -1,13 +1,13 @@
-//! Whether a level's instructions do what their names say. Run once a process before a level is used, and by the tests at
-//! every level that the machine has.
+//! Whether a instructions's instructions do what their names say. Run once a process before a instructions is used, and by the tests at
+//! every instructions that the machine has.
 
-// Everything here must be compiled for the level that it tries.
+// Everything here must be compiled for the instructions that it tries.
 #![allow(clippy::inline_always)]
 
 use std::hint::black_box;
 
+use super::isa::{InstructionSet, Task};
 use super::lanes::{Counters, LANES, Lanes, Mask};
-use super::level::{Level, Task};
 use super::vector::{Simd, Vector, Wide};
 
 /// Numbers whose sums, products, quotients and roots are exact, so that fused and unfused products agree.
@@ -18,13 +18,13 @@ const C: [f64; LANES] = [-3.0, 5.0, 0.75, 9.0, -2.0, 1.25, 0.5, -6.0];
 /// A primitive and whether it was right.
 type Verdict = (&'static str, bool);
 
-/// The first primitive that errs at a level, if any.
-pub(super) fn wrong_primitive(level: Level) -> Option<&'static str> {
+/// The first primitive that errs at a instructions, if any.
+pub(super) fn wrong_primitive(instructions: InstructionSet) -> Option<&'static str> {
     let first = |verdicts: &[Verdict]| {
         let wrong = verdicts.iter().find(|(_, right)| !right);
         wrong.map(|(name, _)| *name)
     };
-    first(&level.run_wide(Registers)).or_else(|| first(&level.run(Eights)))
+    first(&instructions.run_wide(Registers)).or_else(|| first(&instructions.run(Eights)))
 }
 
 /// The same bits, where a NaN equals any other.
@@ -165,7 +165,7 @@ fn choices<S: Simd>(simd: S) -> Vec<Verdict> {
     ]
 }
 
-/// Primitives of [`Lanes`] and [`Mask`], compiled for a level.
+/// Primitives of [`Lanes`] and [`Mask`], compiled for a instructions.
 struct Eights;
 
 impl Task for Eights {
@@ -245,13 +245,13 @@ fn masks(a: Lanes, b: Lanes) -> [Verdict; 8] {
 mod tests {
     use super::*;
 
-    /// Analytic: every primitive against the same on single numbers, masks of every pattern, at every level of this
+    /// Analytic: every primitive against the same on single numbers, masks of every pattern, at every instructions of this
     /// machine. `tests/levels.rs` tells which levels there are not.
     #[test]
     fn every_primitive_at_every_level() {
-        for level in Level::available() {
-            println!("{level}");
-            assert_eq!(wrong_primitive(level), None, "{level}");
+        for instructions in InstructionSet::available() {
+            println!("{instructions}");
+            assert_eq!(wrong_primitive(instructions), None, "{instructions}");
         }
     }
 }

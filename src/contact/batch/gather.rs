@@ -29,7 +29,7 @@ pub(crate) struct Near {
 
 /// Eight touching contacts, not necessarily of one row, all with the outer or all with the inner ring.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Octet {
+pub(crate) struct EightContacts {
     pub constants: Constants<Lanes>,
     /// Of the race by its waves.
     pub raise: Raise<Lanes>,

@@ -1,7 +1,7 @@
 //! Forces of eight contacts at once.
 //!
 //! The same contacts as [`Pair::evaluate`] takes one by one, wherever ball and race are whole and the zone ends in the
-//! groove: then the contacts lie side by side in [`Lanes`]. Whatever is not so simple (a shoulder, a ball that is not in
+//! groove: then the contacts lie side by side in [`Lanes`]. Whatever is not so regular (a shoulder, a ball that is not in
 //! front of its groove) is told, and left to it.
 
 // Everything here must be compiled for the instructions of its caller.
@@ -9,7 +9,7 @@
 
 mod gather;
 
-pub(crate) use gather::{Constants, Octet, Places};
+pub(crate) use gather::{Constants, EightContacts, Places};
 
 use super::kernel::{self, Element, Receiver, State, Whole};
 use super::laws::traction::Rolling;
@@ -19,13 +19,13 @@ use crate::simd::{Counters, Lanes, Mask};
 
 /// What eight contacts put on balls and ring: force \[N\] and moment about z \[N m\].
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Press {
+pub(crate) struct BatchForces {
     pub ball: [Lanes; 4],
     pub ring: [Lanes; 4],
     /// Slices whose damping wanted to pull.
     pub pulls: u32,
     /// Contacts left out here.
-    pub careful: Mask,
+    pub left_out: Mask,
 }
 
 /// How eight balls move against their ring.
@@ -51,7 +51,7 @@ pub(super) struct Place {
     /// `gradient`).
     pub lean: Option<Lanes>,
     /// Contacts whose nodes are these; the others get none that press.
-    pub simple: Mask,
+    pub regular: Mask,
 }
 
 /// Sums over the elements: forces on the balls along n_e, t_e and z, and the moment of those along t_e about the balls.
@@ -78,107 +78,126 @@ impl Pair {
     /// the ball is cut, damping, friction) is the same for all rows. Contacts in `skip` are left out, and told. With a
     /// `stiffness` they follow Hertz's law as a whole.
     #[inline(always)]
-    pub(crate) fn press<const FMA: bool, const PLANE: bool>(
+    pub(crate) fn forces<const FMA: bool, const SYMMETRIC: bool>(
         &self,
-        octet: &Octet,
+        eight: &EightContacts,
         ring: &Motion,
         skip: Mask,
         stiffness: Option<f64>,
-    ) -> Press {
-        let (whole, moves, place) = self.place::<FMA, PLANE>(octet, ring, skip);
+    ) -> BatchForces {
+        let (whole, moves, place) = self.place::<FMA, SYMMETRIC>(eight, ring, skip);
         let mut sums = Sums::new(self, &whole, &moves);
         if let Some(lean) = place.lean {
             let elastic = Lanes::ZERO;
             let mut wavy = WavySums { sums, elastic };
-            self.elements::<FMA, PLANE>(&whole, stiffness, &mut wavy);
+            self.elements::<FMA, SYMMETRIC>(&whole, stiffness, &mut wavy);
             sums = wavy.sums;
             sums.tangential += wavy.elastic * lean;
         } else {
-            self.elements::<FMA, PLANE>(&whole, stiffness, &mut sums);
+            self.elements::<FMA, SYMMETRIC>(&whole, stiffness, &mut sums);
         }
         let (sigma, n) = (self.race.sigma, place.n);
         let (along, across) = (sums.normal * sigma, sums.tangential * sigma);
         let plane = (n.0 * along - n.1 * across, n.1 * along + n.0 * across);
         let moment = sums.moment * sigma;
-        Press {
+        BatchForces {
             ball: [plane.0, plane.1, sums.axial, moment],
             // About the ring's centre the arm is longer by d.
             ring: [-plane.0, -plane.1, -sums.axial, -moment - place.d * across],
             pulls: sums.pulls.total(),
-            careful: place.simple.not(),
+            left_out: place.regular.not(),
         }
     }
 
-    /// Where eight contacts are; those in `skip` are not simple.
+    /// Where eight contacts are; those in `skip` are not regular.
     #[inline(always)]
-    pub(super) fn place<const FMA: bool, const PLANE: bool>(
+    pub(super) fn place<const FMA: bool, const SYMMETRIC: bool>(
         &self,
-        octet: &Octet,
+        eight: &EightContacts,
         ring: &Motion,
         skip: Mask,
     ) -> (Whole<Lanes>, Moves, Place) {
-        let of = &octet.constants;
+        let of = &eight.constants;
         let sigma = self.race.sigma;
         let (zero, one) = (Lanes::ZERO, Lanes::all(1.0));
-        let (dx, dy) = (octet.q[0] - ring.centre.x, octet.q[1] - ring.centre.y);
+        let (dx, dy) = (eight.q[0] - ring.centre.x, eight.q[1] - ring.centre.y);
         let d = dx.mul_add::<FMA>(dx, dy * dy).sqrt();
         let over = one / d;
         let n = (dx * over, dy * over);
-        let raised = of.a + octet.raise.height;
+        let raised = of.a + eight.raise.height;
         let e = (d - raised) * sigma;
-        let c = if PLANE {
+        let c = if SYMMETRIC {
             zero
         } else {
-            of.centre + ring.z - octet.q[2]
+            of.centre + ring.z - eight.q[2]
         };
-        let section = Section::new::<FMA, PLANE>(of.radius, of.r, e, c);
+        let section = Section::new::<FMA, SYMMETRIC>(of.radius, of.r, e, c);
         let zone = kernel::zone(&self.law.cut(), &section, of.half_curvature);
-        let ends = if PLANE {
+        let ends = if SYMMETRIC {
             (-zone.half, zone.half)
         } else {
             zone.ends(section.normal)
         };
-        let simple = is_simple::<PLANE>(octet, &section, &zone, ends).and(skip.not());
+        let regular = is_regular::<SYMMETRIC>(eight, &section, &zone, ends).and(skip.not());
         // Contacts that are not evaluated here get a place just clear of the groove.
         let clear = (of.r - of.radius) * 0.5;
         let whole = Whole {
             section: Section {
-                e: simple.choose(e, clear),
-                c: simple.choose(c, zero),
-                approach: simple.choose(section.approach, zero),
+                e: regular.choose(e, clear),
+                c: regular.choose(c, zero),
+                approach: regular.choose(section.approach, zero),
                 normal: (
-                    simple.choose(section.normal.0, one),
-                    simple.choose(section.normal.1, zero),
+                    regular.choose(section.normal.0, one),
+                    regular.choose(section.normal.1, zero),
                 ),
                 ..section
             },
             inverse: of.inverse,
-            half: simple.choose(zone.half, zero),
-            ends: (simple.choose(ends.0, zero), simple.choose(ends.1, zero)),
+            half: regular.choose(zone.half, zero),
+            ends: (regular.choose(ends.0, zero), regular.choose(ends.1, zero)),
             strength: of.strength,
             half_curvature: of.half_curvature,
         };
-        let v_z = if PLANE { zero } else { octet.v[2] - ring.vz };
-        let v = [octet.v[0] - ring.velocity.x, octet.v[1] - ring.velocity.y];
+        let v_z = if SYMMETRIC {
+            zero
+        } else {
+            eight.v[2] - ring.vz
+        };
+        let v = [eight.v[0] - ring.velocity.x, eight.v[1] - ring.velocity.y];
         let across = v[1] * n.0 - v[0] * n.1;
         let moves = Moves {
             v_e: (v[0] * n.0 + v[1] * n.1) * sigma,
             v_z,
             slide: (across - d * ring.omega) * sigma,
-            spin: (octet.v[3] - ring.omega) * sigma,
-            rolling: self.rolling(octet, ring, d, across),
+            spin: (eight.v[3] - ring.omega) * sigma,
+            rolling: self.rolling(eight, ring, d, across),
             arm: raised - d,
         };
-        let lean = octet.wavy.then(|| octet.raise.slope * over);
-        (whole, moves, Place { n, d, lean, simple })
+        let lean = eight.wavy.then(|| eight.raise.slope * over);
+        (
+            whole,
+            moves,
+            Place {
+                n,
+                d,
+                lean,
+                regular,
+            },
+        )
     }
 
     /// How the surfaces roll, if friction asks for it.
     #[inline(always)]
-    fn rolling(&self, octet: &Octet, ring: &Motion, d: Lanes, across: Lanes) -> Rolling<Lanes> {
+    fn rolling(
+        &self,
+        eight: &EightContacts,
+        ring: &Motion,
+        d: Lanes,
+        across: Lanes,
+    ) -> Rolling<Lanes> {
         match &self.law.traction {
             Some(law) if law.reads_rolling() => {
-                Rolling::new(d, across, [octet.v[3], Lanes::all(ring.omega)])
+                Rolling::new(d, across, [eight.v[3], Lanes::all(ring.omega)])
             }
             _ => Rolling::resting(d),
         }
@@ -186,7 +205,7 @@ impl Pair {
 
     /// All elements, or with a stiffness one for all.
     #[inline(always)]
-    fn elements<const FMA: bool, const PLANE: bool>(
+    fn elements<const FMA: bool, const SYMMETRIC: bool>(
         &self,
         whole: &Whole<Lanes>,
         stiffness: Option<f64>,
@@ -198,7 +217,7 @@ impl Pair {
                 to.element::<FMA, false>(&element, self.slices.count());
             }
             None => {
-                kernel::elements::<_, FMA, PLANE>(&self.law, &self.slices, whole, to);
+                kernel::elements::<_, FMA, SYMMETRIC>(&self.law, &self.slices, whole, to);
             }
         }
     }
@@ -224,7 +243,7 @@ impl<'a> Sums<'a> {
 
 impl Receiver<Lanes> for Sums<'_> {
     #[inline(always)]
-    fn element<const FMA: bool, const PLANE: bool>(
+    fn element<const FMA: bool, const SYMMETRIC: bool>(
         &mut self,
         element: &Element<Lanes>,
         times: u32,
@@ -247,7 +266,7 @@ impl Receiver<Lanes> for Sums<'_> {
             rolling: moves.rolling,
             radii: self.radii,
         };
-        let force = kernel::force::<Lanes, FMA, PLANE, false>(self.law, &state);
+        let force = kernel::force::<Lanes, FMA, SYMMETRIC, false>(self.law, &state);
         self.pulls.add(Lanes::ZERO.above(force.damped), times);
         let [normal, tangential, axial] = force.on_ring;
         self.normal = self.normal - normal;
@@ -255,7 +274,7 @@ impl Receiver<Lanes> for Sums<'_> {
             self.tangential = self.tangential - tangential;
             self.moment = self.moment - tangential * arm;
         }
-        if !PLANE {
+        if !SYMMETRIC {
             self.axial = self.axial - axial;
         }
     }
@@ -263,39 +282,39 @@ impl Receiver<Lanes> for Sums<'_> {
 
 impl Receiver<Lanes> for WavySums<'_> {
     #[inline(always)]
-    fn element<const FMA: bool, const PLANE: bool>(
+    fn element<const FMA: bool, const SYMMETRIC: bool>(
         &mut self,
         element: &Element<Lanes>,
         times: u32,
     ) {
         self.elastic += element.load * element.length * element.share.0;
-        self.sums.element::<FMA, PLANE>(element, times);
+        self.sums.element::<FMA, SYMMETRIC>(element, times);
     }
 }
 
 /// Whether the zone's ends lie on ball and race.
 #[inline(always)]
-fn is_simple<const PLANE: bool>(
-    octet: &Octet,
+fn is_regular<const SYMMETRIC: bool>(
+    eight: &EightContacts,
     section: &Section<Lanes>,
     zone: &Zone<Lanes>,
     (low, high): (Lanes, Lanes),
 ) -> Mask {
     /// Of the ball's or the groove's radius: nothing is singular yet.
     const EDGE: f64 = 1.0 - 1e-9;
-    let of = &octet.constants;
+    let of = &eight.constants;
     let (e, c) = (section.e, section.c);
     // What is not a number is evaluated here, so that it shows.
     let unknown = (e + c).is_nan();
     let (ball, groove) = (of.radius * EDGE, of.r * EDGE);
-    let lowest = if PLANE {
+    let lowest = if SYMMETRIC {
         zone.height
     } else {
         zone.lowest(section.normal)
     };
     let in_front = e.above(Lanes::ZERO).and(lowest.above(Lanes::ZERO));
     let on_top = zone.height.above(of.radius * SHALLOW);
-    if PLANE {
+    if SYMMETRIC {
         // The groove is wider than the ball, and its shoulders are alike.
         let on_ball = ball.above(high);
         let on_race = of.highest.above(high);

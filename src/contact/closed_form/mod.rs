@@ -10,9 +10,9 @@
 
 use std::f64::consts::PI;
 
-mod planar;
+mod axially_fixed;
 
-pub(crate) use planar::{LevelBalls, LevelRace};
+pub(crate) use axially_fixed::{AxiallyFixedBalls, AxiallyFixedRace};
 
 use super::laws::elastic::ten_ninths;
 use super::profile::{SHALLOW, Section, Zone};
@@ -181,16 +181,20 @@ impl Place<'_> {
     /// The force in the plane by the nodes.
     fn force(&self, rules: &Rules, approach: f64) -> f64 {
         let (_, Zone { half, .. }) = self.at(approach);
-        let level = Profile {
+        let circles = Profile {
             radius: self.radius,
             r: self.pair.race.r,
             approach,
         };
         let force = rules.on([true; 2]).iter().map(|(x, w)| {
             if self.offset == 0.0 {
-                return self.pair.law.elastic.force(level.depth(half * x), half * w);
+                return self
+                    .pair
+                    .law
+                    .elastic
+                    .force(circles.depth(half * x), half * w);
             }
-            let (depth, stretch) = level.inclined(self.offset, half * x);
+            let (depth, stretch) = circles.inclined(self.offset, half * x);
             self.pair.law.elastic.force(depth, half * w * stretch)
         });
         force.sum()
@@ -306,7 +310,7 @@ mod tests {
     use super::*;
     use crate::contact::iso16281::Iso16281;
     use crate::contact::{Law, Torus, Waves};
-    use crate::simd::Level;
+    use crate::simd::InstructionSet;
 
     struct Forces<'a>(&'a Series, f64);
 
@@ -367,7 +371,7 @@ mod tests {
             );
             for share in [1e-6, 0.01, 0.3, 0.77, 1.0] {
                 let approach = share * found.limit;
-                let force = Level::current().run_wide(Forces(series, approach));
+                let force = InstructionSet::current().run_wide(Forces(series, approach));
                 let truth = place.force(&rules, approach);
                 // Next to nothing is not known better off the middle.
                 let bound = if offset == 0.0 {

@@ -19,19 +19,19 @@ impl Contact<'_> {
         // Forces along normals are all there is to the ISO law, and where surfaces are whole.
         if self.common().is_some() && (self.ring_open || self.ball_open) {
             self.element_pairs(node, &mut |met: &ElementPair<Sloped>| {
-                if self.press(node, met, sink) {
+                if self.force(node, met, sink) {
                     self.tilt(node, met, sink);
                 }
             });
         } else {
             self.element_pairs(node, &mut |met: &ElementPair<f64>| {
-                self.press(node, met, sink);
+                self.force(node, met, sink);
             });
         }
     }
 
     /// Elastic force, damping and friction of one feature of the ring against one of the ball; false without any.
-    fn press<D: Depth, S: Sink>(&self, node: &Node, met: &ElementPair<D>, sink: &mut S) -> bool {
+    fn force<D: Depth, S: Sink>(&self, node: &Node, met: &ElementPair<D>, sink: &mut S) -> bool {
         let pair = self.pair;
         let share = self.drop_share();
         let (feature, tan) = (&met.feature, met.tan);

@@ -26,10 +26,10 @@ pub(crate) struct Section<T> {
 }
 
 impl<T: Number> Section<T> {
-    /// From the centres' distances; in the `PLANE` c is known to be 0, and e to be positive.
+    /// From the centres' distances; in the `SYMMETRIC` c is known to be 0, and e to be positive.
     #[inline(always)]
-    pub fn new<const FMA: bool, const PLANE: bool>(radius: T, r: T, e: T, c: T) -> Self {
-        let (l, normal) = if PLANE {
+    pub fn new<const FMA: bool, const SYMMETRIC: bool>(radius: T, r: T, e: T, c: T) -> Self {
+        let (l, normal) = if SYMMETRIC {
             (e, (e.same(1.0), e.same(0.0)))
         } else {
             let l = e.mul_add::<FMA>(e, c * c).sqrt();

@@ -87,7 +87,7 @@ impl Pair {
                 Rolling::resting(distance)
             },
         };
-        contact.walk(&line, sink);
+        contact.slices(&line, sink);
     }
 }
 

@@ -143,7 +143,7 @@ const MOST_ENDS: usize = 16;
 
 impl Contact<'_> {
     /// Hands the forces of all slices to the sink.
-    pub(super) fn walk<S: Sink>(&self, line: &Line, sink: &mut S) {
+    pub(super) fn slices<S: Sink>(&self, line: &Line, sink: &mut S) {
         match &self.pair.slices {
             Slices::Fixed(count) => self.fixed(line, *count, sink),
             Slices::Fitted(rules) => self.fitted(line, rules, sink),
@@ -270,11 +270,11 @@ impl Contact<'_> {
             let u = low + step * k as f64;
             let now = at(u);
             if let (Some(a), Some(b)) = (&before, &now) {
-                let levels = if a.count == b.count { a.count } else { 0 };
-                for i in 0..levels {
+                let shared = if a.count == b.count { a.count } else { 0 };
+                for i in 0..shared {
                     if (a.values[i] > 0.0) != (b.values[i] > 0.0) && count < MOST_ENDS {
-                        let level = |u: f64| at(u).map_or(0.0, |found| found.values[i]);
-                        ends[count] = root(level, (u - step, a.values[i]), (u, b.values[i]));
+                        let penetration = |u: f64| at(u).map_or(0.0, |found| found.values[i]);
+                        ends[count] = root(penetration, (u - step, a.values[i]), (u, b.values[i]));
                         count += 1;
                     }
                 }

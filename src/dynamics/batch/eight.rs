@@ -1,7 +1,7 @@
 //! Eight contacts gathered from anywhere, and evaluated together.
 
 use super::Single;
-use crate::contact::{Constants, Motion, Octet, Press, Raise};
+use crate::contact::{BatchForces, Constants, EightContacts, Motion, Raise};
 use crate::forces::State;
 use crate::model::{Ball, BodyId, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
@@ -41,7 +41,7 @@ pub(super) struct Group {
     pub race: Race,
     pub contacts: [Touching; LANES],
     pub count: usize,
-    pub press: Press,
+    pub forces: BatchForces,
 }
 
 impl SideConstants {
@@ -56,37 +56,42 @@ impl SideConstants {
     }
 
     /// Eight contacts at a state.
-    // Compiled for the level that runs it.
+    // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
-    pub fn octet(&self, class: usize, contacts: &[Touching; LANES], state: &State) -> Octet {
+    pub fn eight(
+        &self,
+        class: usize,
+        contacts: &[Touching; LANES],
+        state: &State,
+    ) -> EightContacts {
         let ClassConstants { first, alike, wavy } = &self.classes[class];
         let State { q, v } = state;
         let (q, v) = (Dof::TRANSLATIONS.map(|dof| q.along(dof)), v.directions());
-        let mut octet = Octet {
+        let mut eight = EightContacts {
             constants: *first,
             wavy: *wavy,
-            ..Octet::default()
+            ..EightContacts::default()
         };
         for (lane, contact) in contacts.iter().enumerate() {
             let of = &self.balls[contact.ball];
             if *alike {
-                octet.constants.centre[lane] = of.centre;
+                eight.constants.centre[lane] = of.centre;
             } else {
-                octet.constants.set(lane, of);
+                eight.constants.set(lane, of);
             }
             if *wavy {
-                octet.raise.set(lane, contact.raise);
+                eight.raise.set(lane, contact.raise);
             }
             let body = BodyId::ball(contact.ball).index();
-            for (to, from) in octet.q.iter_mut().zip(q) {
+            for (to, from) in eight.q.iter_mut().zip(q) {
                 to[lane] = from[body];
             }
-            for (to, from) in octet.v.iter_mut().zip(v) {
+            for (to, from) in eight.v.iter_mut().zip(v) {
                 to[lane] = from[body];
             }
         }
-        octet
+        eight
     }
 }
 
@@ -108,12 +113,12 @@ impl ClassConstants {
     }
 }
 
-/// Leaves to themselves the contacts that were not simple.
+/// Leaves to themselves the contacts that were not regular.
 pub(super) fn leave(groups: &[Group], singles: &mut Vec<Single>) {
     for group in groups {
         let lanes = group
-            .press
-            .careful
+            .forces
+            .left_out
             .lanes()
             .filter(|lane| *lane < group.count);
         singles.extend(lanes.map(|lane| Single::new(group.race, group.contacts[lane].ball)));
@@ -124,7 +129,7 @@ pub(super) fn leave(groups: &[Group], singles: &mut Vec<Single>) {
 pub(super) struct Eight<'a> {
     pub group: &'a mut Group,
     pub constants: &'a [SideConstants; 2],
-    pub plane: bool,
+    pub symmetric: bool,
     pub model: &'a Model,
     pub state: &'a State,
     pub rings: &'a [Motion; 2],
@@ -133,23 +138,23 @@ pub(super) struct Eight<'a> {
 impl Task for Eight<'_> {
     type Output = ();
 
-    // Compiled for the level that runs it.
+    // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let group = self.group;
         let race = group.race;
-        let mut octet = self.constants[race].octet(group.class, &group.contacts, self.state);
+        let mut eight = self.constants[race].eight(group.class, &group.contacts, self.state);
         // Lanes left over must not count as pulling.
         for lane in group.count..LANES {
-            octet.constants.radius[lane] *= 0.5;
+            eight.constants.radius[lane] *= 0.5;
         }
         let pair = &self.model.rows[group.class].pairs[race];
         let (ring, skip) = (&self.rings[race], Mask::default());
-        group.press = if self.plane {
-            pair.press::<FMA, true>(&octet, ring, skip, None)
+        group.forces = if self.symmetric {
+            pair.forces::<FMA, true>(&eight, ring, skip, None)
         } else {
-            pair.press::<FMA, false>(&octet, ring, skip, None)
+            pair.forces::<FMA, false>(&eight, ring, skip, None)
         };
     }
 }

@@ -1,7 +1,7 @@
 //! The search: which balls touch which race, eight at a time.
 
 use super::{Batch, SideConstants, Single, Touching};
-use crate::contact::{Constants, Motion, Octet, Places, Raise};
+use crate::contact::{Constants, EightContacts, Motion, Places, Raise};
 use crate::forces::{State, Table};
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
@@ -44,7 +44,7 @@ impl Stretch {
     }
 
     /// Numbers of its balls along one direction; in lanes that are left, of whatever comes next.
-    // Into what is compiled for the level that runs it.
+    // Into what is compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn lanes(&self, of: &Table, dof: Dof) -> Lanes {
@@ -64,7 +64,7 @@ pub(super) struct Find<'a> {
 impl Task for Find<'_> {
     type Output = ();
 
-    // Compiled for the level that runs it.
+    // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
@@ -100,7 +100,7 @@ impl Task for Find<'_> {
                 let stiffness = batch.stiffness[stretch.row][race];
                 if let Some((stiffness, forces)) = stiffness.zip(forces.as_deref_mut()) {
                     let skip = faulted.or(touching.not());
-                    let octet = Octet {
+                    let eight = EightContacts {
                         constants: stretch.constants[race],
                         raise: near.raise,
                         wavy: !pair.waves.is_round(),
@@ -112,17 +112,17 @@ impl Task for Find<'_> {
                             Lanes::ZERO,
                         ],
                     };
-                    let press = pair.press::<FMA, false>(&octet, ring, skip, Some(stiffness));
-                    for (i, force) in press.ball.into_iter().take(3).enumerate() {
+                    let found = pair.forces::<FMA, false>(&eight, ring, skip, Some(stiffness));
+                    for (i, force) in found.ball.into_iter().take(3).enumerate() {
                         let dof = Dof::TRANSLATIONS[i];
                         forces.add_eight(BodyId::ball(stretch.first), dof, force);
                         on_rings[race][dof] = on_rings[race][dof] - force;
                     }
-                    on_rings[race][Dof::Theta] += press.ring[Dof::Theta];
-                    batch.pulls += press.pulls;
-                    let careful = press.careful.or(faulted).and(touching);
-                    if careful.any() {
-                        for lane in careful.lanes() {
+                    on_rings[race][Dof::Theta] += found.ring[Dof::Theta];
+                    batch.pulls += found.pulls;
+                    let left_out = found.left_out.or(faulted).and(touching);
+                    if left_out.any() {
+                        for lane in left_out.lanes() {
                             batch.singles.push(Single::new(race, stretch.first + lane));
                         }
                     }

@@ -6,9 +6,9 @@
 //! Eights may be evaluated by several threads; since their members depend on the state alone and they are added
 //! up in one order afterwards, the bits do not depend on the number of threads.
 
+mod axially_fixed;
 mod eight;
 mod find;
-mod level;
 
 use std::array::from_fn;
 use std::ops::Range;
@@ -17,16 +17,16 @@ use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use super::sums::Sum;
-use crate::contact::{self, InPlane, Motion, Press};
+use crate::contact::{self, BatchForces, InPlane, Motion};
 use crate::forces::{State, Table};
 use crate::model::{BodyId, DOFS, Degree, Dof, Model, Race};
 use crate::reduction::AxialPlaces;
 use crate::simd::{LANES, Lanes};
 
+use axially_fixed::{AxiallyFixedRow, AxiallyFixedSums, EvaluateAxiallyFixed};
 use eight::{Eight, Group, leave};
 pub(super) use eight::{SideConstants, Touching};
 use find::{Find, Stretch};
-use level::{EvaluateLevel, LevelRow, LevelSums};
 
 /// What a batch may take for granted.
 #[derive(Debug, Clone)]
@@ -34,9 +34,9 @@ pub(super) struct Kind {
     /// Rows whose contacts are evaluated.
     pub rows: Range<usize>,
     /// All bodies stay in the planes of their rows.
-    pub plane: bool,
+    pub symmetric: bool,
     /// Axial places of rings and rows that never change.
-    pub levels: Option<AxialPlaces>,
+    pub axial_places: Option<AxialPlaces>,
     /// The second row is an image of the first.
     pub mirrored: bool,
     /// Closed forms are used where there are any.
@@ -48,8 +48,8 @@ impl Kind {
     pub fn whole(model: &Model) -> Self {
         Self {
             rows: 0..model.rows.len(),
-            plane: false,
-            levels: None,
+            symmetric: false,
+            axial_places: None,
             mirrored: false,
             closed: false,
         }
@@ -57,14 +57,14 @@ impl Kind {
 
     /// Axial place of a row's balls from the centre of a groove, where it never changes.
     fn offset(&self, model: &Model, row: usize, race: Race) -> Option<f64> {
-        if self.plane {
+        if self.symmetric {
             return Some(0.0);
         }
         let compiled = &model.rows[row];
-        let levels = self.levels.as_ref()?;
+        let places = self.axial_places.as_ref()?;
         let held = |j: usize| model.bodies[BodyId::ball(j)].degrees[Dof::Z] == Degree::Fixed;
         let free = !compiled.balls().any(held);
-        free.then(|| levels.rows[row] - levels.rings[race] - compiled.pairs[race].race.centre)
+        free.then(|| places.rows[row] - places.rings[race] - compiled.pairs[race].race.centre)
     }
 }
 
@@ -73,7 +73,7 @@ impl Kind {
 pub(super) struct Batch {
     kind: Kind,
     /// Rows that are evaluated as they stand.
-    levels: Vec<LevelRow>,
+    fixed_rows: Vec<AxiallyFixedRow>,
     /// The balls of the other rows by eights, for the search.
     stretches: Vec<Stretch>,
     /// Hertz's stiffness where it is all there is to a contact, by row and race.
@@ -104,14 +104,14 @@ struct Single {
 impl Batch {
     pub fn new(model: &Model, kind: Kind) -> Self {
         let constants: [SideConstants; 2] = Race::BOTH.map(|race| SideConstants::new(model, race));
-        let levels: Vec<LevelRow> = kind
+        let fixed_rows: Vec<AxiallyFixedRow> = kind
             .rows
             .clone()
-            .filter_map(|row| LevelRow::new(model, row, &kind))
+            .filter_map(|row| AxiallyFixedRow::new(model, row, &kind))
             .collect();
         let mut stretches = Vec::new();
         for (row, compiled) in model.rows.iter().enumerate() {
-            if !kind.rows.contains(&row) || levels.iter().any(|level| level.row() == row) {
+            if !kind.rows.contains(&row) || fixed_rows.iter().any(|fixed| fixed.row() == row) {
                 continue;
             }
             for start in (0..compiled.count).step_by(LANES) {
@@ -128,12 +128,12 @@ impl Batch {
                 .iter()
                 .map(|row| {
                     row.pairs.each_ref().map(|pair| {
-                        let anywhere = kind.closed && !kind.plane;
+                        let anywhere = kind.closed && !kind.symmetric;
                         contact::hertz_stiffness(pair).filter(|_| anywhere)
                     })
                 })
                 .collect(),
-            levels,
+            fixed_rows,
             kind,
             stretches,
             constants,
@@ -170,7 +170,7 @@ impl Batch {
     ) {
         let rings = state.rings();
         self.find(Some(forces), model, state, &rings);
-        self.level(forces, model, state, &rings);
+        self.axially_fixed(forces, model, state, &rings);
         self.gather();
         if self.active > 0 || !self.singles.is_empty() {
             self.evaluate(model, state, &rings, pool);
@@ -185,12 +185,12 @@ impl Batch {
         rings: &[Motion; 2],
         pool: Option<&ThreadPool>,
     ) {
-        let (constants, plane) = (&self.constants, self.kind.plane);
+        let (constants, symmetric) = (&self.constants, self.kind.symmetric);
         let eight = |group: &mut Group| {
-            model.level.run(Eight {
+            model.instructions.run(Eight {
                 group,
                 constants,
-                plane,
+                symmetric,
                 model,
                 state,
                 rings,
@@ -222,18 +222,24 @@ impl Batch {
     }
 
     /// Evaluates the rows that stand as they are.
-    fn level(&mut self, forces: &mut Table, model: &Model, state: &State, rings: &[Motion; 2]) {
-        for row in &mut self.levels {
+    fn axially_fixed(
+        &mut self,
+        forces: &mut Table,
+        model: &Model,
+        state: &State,
+        rings: &[Motion; 2],
+    ) {
+        for row in &mut self.fixed_rows {
             if row.must_look() {
                 row.look(model, state, rings);
             }
-            model.level.run_wide(EvaluateLevel {
+            model.instructions.run_wide(EvaluateAxiallyFixed {
                 pairs: &model.rows[row.row()].pairs,
                 row,
                 state,
                 rings,
                 forces,
-                sums: LevelSums {
+                sums: AxiallyFixedSums {
                     rings: &mut self.rings,
                     singles: &mut self.singles,
                     pulls: &mut self.pulls,
@@ -259,7 +265,7 @@ impl Batch {
         if self.stretches.is_empty() {
             return;
         }
-        model.level.run(Find {
+        model.instructions.run(Find {
             batch: self,
             forces,
             model,
@@ -298,7 +304,7 @@ impl Batch {
         let mut rings = self.rings;
         for group in &self.groups[..self.active] {
             for (lane, contact) in group.contacts.iter().enumerate().take(group.count) {
-                let Press { ball, ring, .. } = &group.press;
+                let BatchForces { ball, ring, .. } = &group.forces;
                 let of =
                     |[x, y, z, theta]: &[Lanes; DOFS]| [x[lane], y[lane], z[lane], theta[lane]];
                 forces.add(BodyId::ball(contact.ball), &of(ball));
@@ -324,7 +330,7 @@ impl Batch {
     /// What the contacts of all rows are evaluated by, if that is a closed form everywhere and there is nothing else to
     /// look for.
     pub fn forms(&self) -> Option<Vec<(usize, [InPlane; 2])>> {
-        let forms = self.levels.iter().map(LevelRow::plain).collect();
+        let forms = self.fixed_rows.iter().map(AxiallyFixedRow::plain).collect();
         if self.stretches.is_empty() {
             forms
         } else {
@@ -350,12 +356,13 @@ impl Batch {
 
     /// Whether the contacts of a row with a race are evaluated in closed form.
     pub fn is_closed(&self, row: usize, race: Race) -> bool {
-        self.stiffness[row][race].is_some() || self.levels.iter().any(|level| level.row() == row)
+        self.stiffness[row][race].is_some()
+            || self.fixed_rows.iter().any(|fixed| fixed.row() == row)
     }
 
     /// Whether all bodies stay in the planes of their rows.
-    pub fn is_plane(&self) -> bool {
-        self.kind.plane
+    pub fn is_symmetric(&self) -> bool {
+        self.kind.symmetric
     }
 
     /// How many contacts one stands for.
@@ -367,7 +374,7 @@ impl Batch {
     pub fn pulls(&self) -> usize {
         let grouped: u32 = self.groups[..self.active]
             .iter()
-            .map(|group| group.press.pulls)
+            .map(|group| group.forces.pulls)
             .sum();
         let single: u32 = self.singles.iter().map(|single| single.sum.pulls).sum();
         (self.pulls + grouped + single) as usize * (1 + usize::from(self.kind.mirrored))

@@ -1,4 +1,4 @@
-//! One program for three levels of instructions.
+//! One program for three instruction set.
 
 use std::ffi::OsStr;
 use std::fmt;
@@ -13,11 +13,11 @@ use super::vector::{Vector, Wide};
 /// The environment variable that overrides the choice.
 const VARIABLE: &str = "BALLRACE_SIMD";
 
-/// A level of vector instructions, named as in the x86-64 psABI. Elsewhere only [`Level::Baseline`] exists.
+/// A instruction set, named as in the x86-64 psABI. Elsewhere only [`InstructionSet::Baseline`] exists.
 ///
 /// Results differ between levels by rounding: the upper two fuse products and sums.
 #[derive(Debug, Clone, Copy)]
-pub enum Level {
+pub enum InstructionSet {
     /// What every processor of the architecture has (SSE2, NEON).
     Baseline,
     /// AVX2 and FMA.
@@ -28,46 +28,46 @@ pub enum Level {
     V4(pulp::x86::V4),
 }
 
-/// A level that is not known or that this processor does not have.
+/// A instructions that is not known or that this processor does not have.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct UnknownLevel {
+pub struct UnknownInstructionSet {
     /// What was asked for.
     pub value: String,
     /// What there is.
     pub available: Vec<&'static str>,
 }
 
-/// A level that this processor says it has and that does not compute what it should; a narrower one is used instead.
+/// A instructions that this processor says it has and that does not compute what it should; a narrower one is used instead.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Distrust {
-    /// Name of the level.
-    pub level: &'static str,
+    /// Name of the instructions.
+    pub instructions: &'static str,
     /// The primitive that erred first; `contacts` where the primitives did not and contacts did.
     pub primitive: &'static str,
-    /// Name of the level that is used.
+    /// Name of the instructions that is used.
     pub used: &'static str,
 }
 
-/// The first level that errs nowhere, or the last, and what was wrong with the first.
+/// The first instructions that errs nowhere, or the last, and what was wrong with the first.
 fn trusted(
-    levels: Vec<Level>,
-    wrong: impl Fn(Level) -> Option<&'static str>,
-) -> (Level, Option<Distrust>) {
+    levels: Vec<InstructionSet>,
+    wrong: impl Fn(InstructionSet) -> Option<&'static str>,
+) -> (InstructionSet, Option<Distrust>) {
     let last = levels[levels.len() - 1];
     let (first, error) = (levels[0], wrong(levels[0]));
     let used = levels
         .into_iter()
-        .find(|level| wrong(*level).is_none())
+        .find(|instructions| wrong(*instructions).is_none())
         .unwrap_or(last);
     let distrust = error.map(|primitive| Distrust {
-        level: first.name(),
+        instructions: first.name(),
         primitive,
         used: used.name(),
     });
     (used, distrust)
 }
 
-/// Work that is compiled once a level.
+/// Work that is compiled once a instructions.
 pub(crate) trait Task {
     type Output;
 
@@ -75,7 +75,7 @@ pub(crate) trait Task {
     fn run<const FMA: bool>(self) -> Self::Output;
 }
 
-impl Level {
+impl InstructionSet {
     /// All levels of this processor, widest first.
     pub fn available() -> Vec<Self> {
         #[cfg(target_arch = "x86_64")]
@@ -99,16 +99,16 @@ impl Level {
         }
     }
 
-    /// The level that the environment variable `BALLRACE_SIMD` names, or the widest; a narrower one where that does not
-    /// compute what it should ([`Level::distrust`]).
+    /// The instructions that the environment variable `BALLRACE_SIMD` names, or the widest; a narrower one where that does not
+    /// compute what it should ([`InstructionSet::distrust`]).
     ///
     /// # Errors
-    /// [`UnknownLevel`] if the variable names none that this processor has.
-    pub fn chosen() -> Result<Self, UnknownLevel> {
-        Self::choice().clone().map(|(level, _)| level)
+    /// [`UnknownInstructionSet`] if the variable names none that this processor has.
+    pub fn chosen() -> Result<Self, UnknownInstructionSet> {
+        Self::choice().clone().map(|(instructions, _)| instructions)
     }
 
-    /// What was wrong with the level that this process would have used, if anything: its primitives are compared with
+    /// What was wrong with the instructions that this process would have used, if anything: its primitives are compared with
     /// the same on single numbers once, at first use.
     pub fn distrust() -> Option<Distrust> {
         Self::choice()
@@ -117,14 +117,15 @@ impl Level {
             .and_then(|(_, distrust)| distrust)
     }
 
-    /// The level of this process; the baseline if the environment names none of this processor.
+    /// The instructions of this process; the baseline if the environment names none of this processor.
     pub(crate) fn current() -> Self {
         Self::chosen().unwrap_or(Self::Baseline)
     }
 
     /// Made once, at first use.
-    fn choice() -> &'static Result<(Self, Option<Distrust>), UnknownLevel> {
-        static CHOICE: OnceLock<Result<(Level, Option<Distrust>), UnknownLevel>> = OnceLock::new();
+    fn choice() -> &'static Result<(Self, Option<Distrust>), UnknownInstructionSet> {
+        static CHOICE: OnceLock<Result<(InstructionSet, Option<Distrust>), UnknownInstructionSet>> =
+            OnceLock::new();
         CHOICE.get_or_init(|| {
             let asked = std::env::var_os(VARIABLE).filter(|value| !value.is_empty());
             let candidates = Self::from_asked(asked.as_deref())?;
@@ -132,15 +133,18 @@ impl Level {
         })
     }
 
-    /// The level that is asked for and those below it.
-    fn from_asked(asked: Option<&OsStr>) -> Result<Vec<Self>, UnknownLevel> {
+    /// The instructions that is asked for and those below it.
+    fn from_asked(asked: Option<&OsStr>) -> Result<Vec<Self>, UnknownInstructionSet> {
         let mut available = Self::available();
         let Some(value) = asked else {
             return Ok(available);
         };
-        match available.iter().position(|level| value == level.name()) {
+        match available
+            .iter()
+            .position(|instructions| value == instructions.name())
+        {
             Some(first) => Ok(available.split_off(first)),
-            None => Err(UnknownLevel {
+            None => Err(UnknownInstructionSet {
                 value: value.to_string_lossy().into_owned(),
                 available: available.iter().map(Self::name).collect(),
             }),
@@ -158,7 +162,7 @@ impl Level {
         }
     }
 
-    /// Does a task with the instructions of this level.
+    /// Does a task with the instructions of this instructions.
     #[inline]
     pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
         match self {
@@ -166,29 +170,29 @@ impl Level {
             Self::Baseline if cfg!(target_arch = "aarch64") => task.run::<true>(),
             Self::Baseline => task.run::<false>(),
             #[cfg(target_arch = "x86_64")]
-            Self::V3(level) => level.vectorize(Fused(task)),
+            Self::V3(instructions) => instructions.vectorize(Fused(task)),
             #[cfg(target_arch = "x86_64")]
-            Self::V4(level) => level.vectorize(Fused(task)),
+            Self::V4(instructions) => instructions.vectorize(Fused(task)),
         }
     }
 }
 
-impl Level {
+impl InstructionSet {
     /// Numbers in a register.
     fn lanes(self) -> usize {
         self.run_wide(CountLanes)
     }
 
-    /// This level, or one whose registers so many numbers fill.
+    /// This instructions, or one whose registers so many numbers fill.
     pub(crate) fn filled_by(self, count: usize) -> Option<Self> {
         let narrower = match self {
             #[cfg(target_arch = "x86_64")]
-            Self::V4(level) => Self::V3(*level),
+            Self::V4(instructions) => Self::V3(*instructions),
             other => other,
         };
         [self, narrower]
             .into_iter()
-            .find(|level| level.lanes() <= count)
+            .find(|instructions| instructions.lanes() <= count)
     }
 
     /// Does a task that is written for registers of any width.
@@ -197,9 +201,9 @@ impl Level {
         match self {
             Self::Baseline => Scalar256b.vectorize(task),
             #[cfg(target_arch = "x86_64")]
-            Self::V3(level) => Simd::vectorize(level, task),
+            Self::V3(instructions) => Simd::vectorize(instructions, task),
             #[cfg(target_arch = "x86_64")]
-            Self::V4(level) => Simd::vectorize(level, task),
+            Self::V4(instructions) => Simd::vectorize(instructions, task),
         }
     }
 }
@@ -214,7 +218,7 @@ impl Wide for CountLanes {
     }
 }
 
-/// A task on a level that fuses.
+/// A task on a instructions that fuses.
 #[cfg(target_arch = "x86_64")]
 struct Fused<T>(T);
 
@@ -222,7 +226,7 @@ struct Fused<T>(T);
 impl<T: Task> NullaryFnOnce for Fused<T> {
     type Output = T::Output;
 
-    // Into the function that pulp compiles for the level.
+    // Into the function that pulp compiles for the instructions.
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn call(self) -> T::Output {
@@ -230,13 +234,13 @@ impl<T: Task> NullaryFnOnce for Fused<T> {
     }
 }
 
-impl PartialEq for Level {
+impl PartialEq for InstructionSet {
     fn eq(&self, other: &Self) -> bool {
         self.name() == other.name()
     }
 }
 
-impl fmt::Display for Level {
+impl fmt::Display for InstructionSet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
@@ -249,33 +253,35 @@ mod tests {
     /// Analytic: what errs is not used, and it is told what was wrong with it.
     #[test]
     fn a_level_that_errs_gives_way_to_the_next() {
-        let all = Level::available();
+        let all = InstructionSet::available();
         assert_eq!(trusted(all.clone(), |_| None), (all[0], None));
         let widest = all[0];
-        let (used, distrust) = trusted(all.clone(), |level| (level == widest).then_some("any"));
-        assert_eq!(used, *all.get(1).unwrap_or(&Level::Baseline));
+        let (used, distrust) = trusted(all.clone(), |instructions| {
+            (instructions == widest).then_some("any")
+        });
+        assert_eq!(used, *all.get(1).unwrap_or(&InstructionSet::Baseline));
         let wanted = Distrust {
-            level: widest.name(),
+            instructions: widest.name(),
             primitive: "any",
             used: used.name(),
         };
         assert_eq!(distrust, Some(wanted));
-        assert_eq!(trusted(all, |_| Some("any")).0, Level::Baseline);
+        assert_eq!(trusted(all, |_| Some("any")).0, InstructionSet::Baseline);
     }
 
     /// Analytic: what the environment asks for is the widest that is tried.
     #[test]
     fn the_environment_chooses() {
         let names = |asked: &str| {
-            Level::from_asked(Some(OsStr::new(asked)))
-                .map(|levels| levels.iter().map(Level::name).collect::<Vec<_>>())
+            InstructionSet::from_asked(Some(OsStr::new(asked)))
+                .map(|levels| levels.iter().map(InstructionSet::name).collect::<Vec<_>>())
         };
         assert_eq!(names("baseline"), Ok(vec!["baseline"]));
         assert_eq!(names("mmx").unwrap_err().value, "mmx");
-        for (i, level) in Level::available().iter().enumerate() {
+        for (i, instructions) in InstructionSet::available().iter().enumerate() {
             assert_eq!(
-                names(level.name()).unwrap().len(),
-                Level::available().len() - i
+                names(instructions.name()).unwrap().len(),
+                InstructionSet::available().len() - i
             );
         }
     }
@@ -283,11 +289,11 @@ mod tests {
     /// Analytic: known levels and those at hand have the same names.
     #[test]
     fn levels_at_hand_are_known() {
-        let known = Level::known();
+        let known = InstructionSet::known();
         assert!(
-            Level::available()
+            InstructionSet::available()
                 .iter()
-                .all(|level| known.contains(&level.name()))
+                .all(|instructions| known.contains(&instructions.name()))
         );
     }
 }

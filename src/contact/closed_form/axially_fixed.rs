@@ -9,7 +9,7 @@ use crate::simd::{Choice, Simd, Vector};
 
 /// A race and how its ring moves.
 #[derive(Clone, Copy)]
-pub(crate) struct LevelRace<'a, S: Simd> {
+pub(crate) struct AxiallyFixedRace<'a, S: Simd> {
     law: &'a LawInPlane,
     /// Whether damping may pull.
     clamp: bool,
@@ -33,7 +33,7 @@ pub(crate) struct LevelRace<'a, S: Simd> {
 
 /// Balls in the plane of the scene.
 #[derive(Clone, Copy)]
-pub(crate) struct LevelBalls<S: Simd> {
+pub(crate) struct AxiallyFixedBalls<S: Simd> {
     pub x: Vector<S>,
     pub y: Vector<S>,
     pub vx: Vector<S>,
@@ -49,7 +49,7 @@ pub(crate) struct LevelBalls<S: Simd> {
 
 /// What a race puts on balls: the ring gets the opposite.
 #[derive(Clone, Copy)]
-pub(crate) struct LevelForces<S: Simd> {
+pub(crate) struct AxiallyFixedForces<S: Simd> {
     /// Along x and y \[N\].
     pub x: Vector<S>,
     pub y: Vector<S>,
@@ -58,13 +58,13 @@ pub(crate) struct LevelForces<S: Simd> {
     /// Which contacts wanted to pull.
     pub pulls: Choice<S>,
     /// Which touch but are left out here: the form does not hold, or they are not whole.
-    pub careful: Choice<S>,
+    pub left_out: Choice<S>,
     /// From the groove's centre to the ball's along their line; in the middle of the groove less than nothing beyond the
     /// centre \[m\].
     l: Vector<S>,
 }
 
-impl<'a, S: Simd> LevelRace<'a, S> {
+impl<'a, S: Simd> AxiallyFixedRace<'a, S> {
     #[inline(always)]
     pub fn new(simd: S, pair: &'a Pair, of: &'a InPlane, ring: &Motion) -> Self {
         let all = |x: f64| Vector::all(simd, x);
@@ -86,7 +86,10 @@ impl<'a, S: Simd> LevelRace<'a, S> {
 
     /// `MIDDLE` where the balls are in the middle of the groove: a branch in the loop would take the root all the same.
     #[inline(always)]
-    pub fn press<const MIDDLE: bool>(&self, balls: &LevelBalls<S>) -> LevelForces<S> {
+    pub fn forces<const MIDDLE: bool>(
+        &self,
+        balls: &AxiallyFixedBalls<S>,
+    ) -> AxiallyFixedForces<S> {
         let all = |x: f64| self.a.same(x);
         let (zero, one) = (all(0.0), all(1.0));
         let (x, y) = (balls.x - self.centre[0], balls.y - self.centre[1]);
@@ -115,11 +118,11 @@ impl<'a, S: Simd> LevelRace<'a, S> {
         let damped = elastic * rate.mul_add(self.damping, one);
         // What is not a number is not beyond and stays one.
         let beyond = self.limit.below(approach).or(e.below(zero));
-        let (elastic, damped, careful) = if let Some(whole) = balls.whole {
+        let (elastic, damped, left_out) = if let Some(whole) = balls.whole {
             let apart = zero.below(e).and(approach.below(zero));
-            let simple = beyond.not().and(whole);
-            let [elastic, damped] = [elastic, damped].map(|force| simple.choose(force, zero));
-            (elastic, damped, apart.or(simple).not())
+            let regular = beyond.not().and(whole);
+            let [elastic, damped] = [elastic, damped].map(|force| regular.choose(force, zero));
+            (elastic, damped, apart.or(regular).not())
         } else {
             (elastic, damped, beyond)
         };
@@ -139,20 +142,20 @@ impl<'a, S: Simd> LevelRace<'a, S> {
             force = (force.0 - across * n.1, force.1 + across * n.0);
             moment = turning * self.sigma;
         }
-        LevelForces {
+        AxiallyFixedForces {
             x: force.0,
             y: force.1,
             moment,
             pulls: damped.below(zero),
-            careful,
+            left_out,
             l,
         }
     }
 
     /// Which balls are lost, among those that need care.
     #[inline(always)]
-    pub fn lost(&self, forces: &LevelForces<S>) -> Choice<S> {
+    pub fn lost(&self, forces: &AxiallyFixedForces<S>) -> Choice<S> {
         let inside = forces.l.abs().below(self.farthest);
-        forces.careful.and(inside.not())
+        forces.left_out.and(inside.not())
     }
 }

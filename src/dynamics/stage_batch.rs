@@ -1,9 +1,12 @@
-//! Eight balls held still between both races, ready for any velocities.
+//! Eight balls held element between both races, ready for any velocities.
 
 use std::array::from_fn;
 
 use super::batch::{SideConstants, Touching};
-use crate::contact::{Held, Motion, Pack, Packing, Plane, Raise, Reaction, Still, in_contact};
+use crate::contact::{
+    Motion, PlaneVector, Raise, SlicePack, SlicePacking, StageContacts, StageElement, StageWrench,
+    in_contact,
+};
 use crate::forces::State;
 use crate::model::{BodyId, DOFS, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
@@ -21,7 +24,7 @@ pub(super) enum Meeting {
 
 /// Up to eight balls that touch something; the last one fills the lanes that are left.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Grip {
+pub(super) struct StageBatch {
     /// The class of their rows.
     class: usize,
     pub balls: [usize; LANES],
@@ -33,26 +36,26 @@ pub(super) struct Grip {
 /// Their contacts with one ring.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Side {
-    held: Held,
-    nodes: Vec<Still>,
+    held: StageContacts,
+    nodes: Vec<StageElement>,
     /// Slices of contacts that are evaluated alone, and the lanes of these.
-    packs: Vec<(usize, Pack)>,
+    packs: Vec<(usize, SlicePack)>,
     /// What does not depend on velocities beside the nodes, (x, y, z, about z) on the balls.
     aside: [Lanes; DOFS],
     /// Whether any touches.
     pub touches: bool,
     /// What they do, in (x, y, z, about z).
-    pub reaction: Reaction,
+    pub wrenches: StageWrench,
 }
 
 impl Side {
     /// From the ring's centre to the balls'.
-    pub fn apart(&self) -> Plane {
+    pub fn apart(&self) -> PlaneVector {
         self.held.apart
     }
 }
 
-impl Grip {
+impl StageBatch {
     /// Empties it, for balls of a class of rows.
     pub fn clear(&mut self, class: usize) {
         (self.class, self.count) = (class, 0);
@@ -69,7 +72,7 @@ impl Grip {
     }
 
     /// Finds the nodes of all contacts at the places of a state.
-    pub fn hold(
+    pub fn find_elements(
         &mut self,
         model: &Model,
         constants: &[SideConstants; 2],
@@ -83,11 +86,11 @@ impl Grip {
             side.packs.clear();
             side.touches = meetings.iter().any(|m| *m != Meeting::Nothing);
             if !side.touches {
-                side.reaction = Reaction::default();
+                side.wrenches = StageWrench::default();
                 continue;
             }
             let whole = |lane: usize| matches!(meetings[lane], Meeting::Whole(_));
-            side.held = model.level.run(Hold {
+            side.held = model.instructions.run(FindElements {
                 class: self.class,
                 nodes: &mut side.nodes,
                 race,
@@ -107,7 +110,7 @@ impl Grip {
             let [x, y] = side.held.aside;
             side.aside = [x, y, Lanes::ZERO, Lanes::ZERO];
             for (lane, ball) in self.balls[..self.count].iter().enumerate() {
-                if meetings[lane] != Meeting::Nothing && !side.held.simple.lane(lane) {
+                if meetings[lane] != Meeting::Nothing && !side.held.regular.lane(lane) {
                     side.single(lane, model, *ball, race, state, rings);
                 }
             }
@@ -115,19 +118,19 @@ impl Grip {
     }
 
     /// Finds what all contacts do at the velocities of a state.
-    pub fn react(&mut self, model: &Model, y: &[f64]) {
-        model.level.run(React::<false> {
-            grip: self,
+    pub fn forces(&mut self, model: &Model, y: &[f64]) {
+        model.instructions.run(StageForces::<false> {
+            batch: self,
             model,
             y,
             secant: false,
         });
     }
 
-    /// The same with the slopes; see [`crate::contact::Pair::react`].
-    pub fn react_and_slope(&mut self, model: &Model, y: &[f64], secant: bool) {
-        model.level.run(React::<true> {
-            grip: self,
+    /// The same with the slopes; see [`crate::contact::Pair::force`].
+    pub fn forces_and_slopes(&mut self, model: &Model, y: &[f64], secant: bool) {
+        model.instructions.run(StageForces::<true> {
+            batch: self,
             model,
             y,
             secant,
@@ -148,7 +151,7 @@ impl Side {
     ) {
         let compiled = &model.balls[ball];
         let pair = &model.rows[compiled.row].pairs[race];
-        let mut packing = Packing {
+        let mut packing = SlicePacking {
             lane,
             packs: &mut self.packs,
             radius: compiled.side.radius,
@@ -169,9 +172,9 @@ impl Side {
 }
 
 /// Finds the nodes of whole contacts.
-struct Hold<'a> {
+struct FindElements<'a> {
     class: usize,
-    nodes: &'a mut Vec<Still>,
+    nodes: &'a mut Vec<StageElement>,
     race: Race,
     contacts: &'a [Touching; LANES],
     whole: Mask,
@@ -181,55 +184,55 @@ struct Hold<'a> {
     rings: &'a [Motion; 2],
 }
 
-impl Task for Hold<'_> {
-    type Output = Held;
+impl Task for FindElements<'_> {
+    type Output = StageContacts;
 
-    // Compiled for the level that runs it.
+    // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
-    fn run<const FMA: bool>(self) -> Held {
-        let octet = self.constants[self.race].octet(self.class, self.contacts, self.state);
+    fn run<const FMA: bool>(self) -> StageContacts {
+        let eight = self.constants[self.race].eight(self.class, self.contacts, self.state);
         let pair = &self.model.rows[self.class].pairs[self.race];
-        pair.hold::<FMA>(&octet, &self.rings[self.race], self.whole, self.nodes)
+        pair.stage_elements::<FMA>(&eight, &self.rings[self.race], self.whole, self.nodes)
     }
 }
 
 /// Finds what the nodes do.
-struct React<'a, const SLOPE: bool> {
-    grip: &'a mut Grip,
+struct StageForces<'a, const SLOPE: bool> {
+    batch: &'a mut StageBatch,
     model: &'a Model,
     y: &'a [f64],
     secant: bool,
 }
 
-impl<const SLOPE: bool> Task for React<'_, SLOPE> {
+impl<const SLOPE: bool> Task for StageForces<'_, SLOPE> {
     type Output = ();
 
-    // Compiled for the level that runs it.
+    // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let Self {
-            grip,
+            batch,
             model,
             y,
             secant,
         } = self;
         let v = &y[y.len() / 2..];
         let (layout, mut of_balls) = (model.layout(), [Lanes::ZERO; DOFS]);
-        for (lane, ball) in grip.balls.iter().enumerate() {
+        for (lane, ball) in batch.balls.iter().enumerate() {
             let v = layout.of(v, BodyId::ball(*ball));
             for i in 0..DOFS {
                 of_balls[i][lane] = v[i];
             }
         }
         for race in Race::BOTH {
-            let side = &mut grip.sides[race];
+            let side = &mut batch.sides[race];
             if !side.touches {
                 continue;
             }
             let (n_e, apart) = (side.held.n_e, side.held.apart);
-            let pair = &model.rows[grip.class].pairs[race];
+            let pair = &model.rows[batch.class].pairs[race];
             let ring = layout.of(v, race.ring());
             // w = v_b − v_r − θ̇_r ẑ × a.
             let twist = [
@@ -239,13 +242,13 @@ impl<const SLOPE: bool> Task for React<'_, SLOPE> {
                 of_balls[3] - ring[3],
             ];
             let local = in_contact(&twist, n_e);
-            let sum = &mut side.reaction;
+            let sum = &mut side.wrenches;
             sum.wrench = [Lanes::ZERO; DOFS];
             if SLOPE {
                 sum.slope = [[Lanes::ZERO; DOFS]; DOFS];
             }
             for node in &side.nodes {
-                pair.react::<FMA, SLOPE>(node, &side.held.around, &local, secant, sum);
+                pair.force::<FMA, SLOPE>(node, &side.held.around, &local, secant, sum);
             }
             sum.turn::<SLOPE>(n_e);
             for (wrench, aside) in sum.wrench.iter_mut().zip(side.aside) {
@@ -256,10 +259,10 @@ impl<const SLOPE: bool> Task for React<'_, SLOPE> {
                 for w in &mut all {
                     *w = Lanes::all(w[*lane]);
                 }
-                let mut part = Reaction::default();
+                let mut part = StageWrench::default();
                 let local = in_contact(&all, pack.n_e);
                 let around = side.held.around.of(*lane);
-                pair.react::<FMA, SLOPE>(&pack.still, &around, &local, secant, &mut part);
+                pair.force::<FMA, SLOPE>(&pack.element, &around, &local, secant, &mut part);
                 part.turn::<SLOPE>(pack.n_e);
                 sum.gather::<SLOPE>(*lane, &part);
             }

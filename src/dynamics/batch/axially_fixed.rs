@@ -1,24 +1,24 @@
 //! Rows whose balls keep their axial places and touch both races in closed form: one loop along the balls.
 
 use super::{Kind, Single};
-use crate::contact::{InPlane, LevelBalls, LevelRace, Motion, Pair, Sight};
+use crate::contact::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, Motion, Pair, Sight};
 use crate::forces::{State, Table};
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Simd, Vector, Wide};
 
 /// A row and what its contacts need.
 #[derive(Debug, Clone)]
-pub(super) struct LevelRow {
+pub(super) struct AxiallyFixedRow {
     row: usize,
     /// Its first ball among all.
     first: usize,
     count: usize,
-    races: [LevelSide; 2],
+    races: [AxiallyFixedSide; 2],
     must_look: bool,
 }
 
 #[derive(Debug, Clone)]
-struct LevelSide {
+struct AxiallyFixedSide {
     form: InPlane,
     /// 1 where ball and race are whole; all are where there is nothing to look for.
     whole: Vec<f64>,
@@ -27,7 +27,7 @@ struct LevelSide {
     slope: Vec<f64>,
 }
 
-impl LevelRow {
+impl AxiallyFixedRow {
     /// None where a contact has no closed form.
     pub fn new(model: &Model, row: usize, kind: &Kind) -> Option<Self> {
         let compiled = &model.rows[row];
@@ -40,7 +40,7 @@ impl LevelRow {
         let padded = compiled.count.next_multiple_of(LANES);
         let side = |race: Race| {
             let offset = kind.offset(model, row, race)?;
-            Some(LevelSide {
+            Some(AxiallyFixedSide {
                 form: InPlane::new(&compiled.pairs[race], radius, offset)?,
                 whole: vec![1.0; padded],
                 raise: vec![0.0; padded],
@@ -109,7 +109,7 @@ impl LevelRow {
 }
 
 /// What the contacts of a row have told, besides the forces on the balls.
-pub(super) struct LevelSums<'a> {
+pub(super) struct AxiallyFixedSums<'a> {
     /// On the two rings.
     pub rings: &'a mut [[f64; DOFS]; 2],
     /// Contacts that are left to be evaluated one by one.
@@ -121,19 +121,19 @@ pub(super) struct LevelSums<'a> {
 }
 
 /// Evaluates a row.
-pub(super) struct EvaluateLevel<'a> {
-    pub row: &'a LevelRow,
+pub(super) struct EvaluateAxiallyFixed<'a> {
+    pub row: &'a AxiallyFixedRow,
     pub pairs: &'a [Pair; 2],
     pub state: &'a State,
     pub rings: &'a [Motion; 2],
     pub forces: &'a mut Table,
-    pub sums: LevelSums<'a>,
+    pub sums: AxiallyFixedSums<'a>,
 }
 
-impl Wide for EvaluateLevel<'_> {
+impl Wide for EvaluateAxiallyFixed<'_> {
     type Output = ();
 
-    // Compiled for the level that runs it.
+    // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
@@ -147,7 +147,7 @@ impl Wide for EvaluateLevel<'_> {
     }
 }
 
-impl EvaluateLevel<'_> {
+impl EvaluateAxiallyFixed<'_> {
     /// All balls; `LOOK` where one of their races is raised, or a surface not whole; `MIDDLE` where they are in the
     /// middle of both grooves.
     #[allow(clippy::inline_always)]
@@ -164,8 +164,8 @@ impl EvaluateLevel<'_> {
         let (zero, one) = (Vector::all(simd, 0.0), Vector::all(simd, 1.0));
         let [outer, inner] = &row.races;
         let races = [
-            LevelRace::new(simd, &pairs[0], &outer.form, &rings[0]),
-            LevelRace::new(simd, &pairs[1], &inner.form, &rings[1]),
+            AxiallyFixedRace::new(simd, &pairs[0], &outer.form, &rings[0]),
+            AxiallyFixedRace::new(simd, &pairs[1], &inner.form, &rings[1]),
         ];
         let mut on_rings = [[zero; 3]; 2];
         let mut pulls = [zero; 2];
@@ -175,7 +175,7 @@ impl EvaluateLevel<'_> {
         for at in (0..row.count).step_by(Vector::<S>::LANES) {
             let body = BodyId::ball(row.first + at).index();
             let there = Vector::count(simd).below(Vector::all(simd, (row.count - at) as f64));
-            let balls = LevelBalls {
+            let balls = AxiallyFixedBalls {
                 x: Vector::load(simd, &x[body..]),
                 y: Vector::load(simd, &y[body..]),
                 vx: Vector::load(simd, &vx[body..]),
@@ -194,8 +194,8 @@ impl EvaluateLevel<'_> {
                 }
             }
             let found = [
-                races[0].press::<MIDDLE>(&sides[0]),
-                races[1].press::<MIDDLE>(&sides[1]),
+                races[0].forces::<MIDDLE>(&sides[0]),
+                races[1].forces::<MIDDLE>(&sides[1]),
             ];
             let [outer, inner] = &found;
             for (along, force) in [(&mut *fx, outer.x + inner.x), (&mut *fy, outer.y + inner.y)] {
@@ -210,12 +210,12 @@ impl EvaluateLevel<'_> {
                 }
                 pulls[race] += found[race].pulls.choose(one, zero);
             }
-            if outer.careful.or(inner.careful).and(there).any() {
+            if outer.left_out.or(inner.left_out).and(there).any() {
                 let ball = |lane: usize| row.first + at + lane;
                 for race in Race::BOTH {
                     let of = &found[race];
-                    let careful = of.careful.and(there).lanes();
-                    let singles = careful.map(|lane| Single::new(race, ball(lane)));
+                    let left_out = of.left_out.and(there).lanes();
+                    let singles = left_out.map(|lane| Single::new(race, ball(lane)));
                     sums.singles.extend(singles);
                     let lost = races[race].lost(of).and(there).lanes().next();
                     *sums.lost = sums.lost.or(lost.map(ball));

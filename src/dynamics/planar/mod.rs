@@ -11,13 +11,13 @@ use crate::forces::{State, Table, load};
 use crate::model::{BodyId, BodyKind, Dof, Model, Race, Spring};
 use crate::reduction::Reduction;
 use crate::scene::Drive;
-use crate::simd::Level;
+use crate::simd::InstructionSet;
 
 pub(super) use rates::Rates;
 
 /// A model of this kind.
 #[derive(Debug)]
-pub(super) struct Plane {
+pub(super) struct Planar {
     rows: Vec<Balls>,
     /// Outer and inner ring along x and y.
     rings: [[Direction; 2]; 2],
@@ -63,11 +63,14 @@ pub(super) struct Ground<'a> {
     pub springs: &'a [Spring],
 }
 
-impl Plane {
+impl Planar {
     /// For rows whose contacts all have a closed form; none if there is more to the model.
     ///
-    /// Comes with the level that is to run it: its registers reach over the end of no row.
-    pub fn new(ground: &Ground<'_>, forms: &[(usize, [InPlane; 2])]) -> Option<(Level, Self)> {
+    /// Comes with the instructions that is to run it: its registers reach over the end of no row.
+    pub fn new(
+        ground: &Ground<'_>,
+        forms: &[(usize, [InPlane; 2])],
+    ) -> Option<(InstructionSet, Self)> {
         let Ground {
             model, reduction, ..
         } = ground;
@@ -77,7 +80,7 @@ impl Plane {
             || !reduction.felt().is_empty();
         let is_plane = reduction
             .degrees()
-            .all(|(_, dof)| Dof::PLANE.contains(&dof))
+            .all(|(_, dof)| Dof::SYMMETRIC.contains(&dof))
             && reduction.orbits().next().is_none()
             && ground
                 .springs
@@ -92,13 +95,13 @@ impl Plane {
             .map(|(row, forms)| Balls::new(ground, *row, forms));
         let rows: Vec<Balls> = rows.collect::<Option<_>>()?;
         let links = rows.iter().map(|row| row.count - 1).min()?;
-        let plane = Self {
+        let planar = Self {
             rows,
             rings: Race::BOTH
-                .map(|race| Dof::PLANE.map(|dof| Direction::new(ground, race.ring(), dof))),
+                .map(|race| Dof::SYMMETRIC.map(|dof| Direction::new(ground, race.ring(), dof))),
             times: if reduction.mirrored { 2.0 } else { 1.0 },
         };
-        Some((model.level.filled_by(links)?, plane))
+        Some((model.instructions.filled_by(links)?, planar))
     }
 }
 
@@ -113,7 +116,7 @@ impl Balls {
         let alike = |k: usize| {
             let body = first.after(k);
             [Dof::X, Dof::Y].map(|dof| at(body, dof)) == [Some(x + k), Some(y + k)]
-                && Dof::PLANE.iter().all(|dof| {
+                && Dof::SYMMETRIC.iter().all(|dof| {
                     steady(body, *dof) == steady(first, *dof)
                         && ground.model.mobility[body][*dof] == mobility
                 })
@@ -124,7 +127,7 @@ impl Balls {
             count,
             at: [x, y],
             forms: forms.clone(),
-            steady: Dof::PLANE.map(|dof| steady(first, dof)),
+            steady: Dof::SYMMETRIC.map(|dof| steady(first, dof)),
             mobility,
             links: [0, 1].map(|_| vec![0.0; count + 1]),
         })
@@ -230,8 +233,8 @@ mod tests {
     #[test]
     fn the_loop_and_the_tables_agree() {
         for (name, scene, most) in scenes() {
-            for level in Level::available() {
-                let model = compile(&scene).unwrap().with_level(level);
+            for instructions in InstructionSet::available() {
+                let model = compile(&scene).unwrap().with_instructions(instructions);
                 let y0 = start(&model, &Start::Equilibrium).unwrap();
                 let reduction = Reduction::of(&model, &y0).unwrap();
                 let mut dynamics = Dynamics::reduced(&model, reduction.clone(), &y0);
@@ -239,7 +242,7 @@ mod tests {
                 let super::super::Order::Kept(kept) = &mut tables.order else {
                     panic!("nothing was left out");
                 };
-                assert_eq!(kept.plane.take().is_some(), most > 0, "{name}");
+                assert_eq!(kept.planar.take().is_some(), most > 0, "{name}");
                 let y = dynamics.compress(&y0);
                 let [mut by_loop, mut by_tables] = [vec![f64::NAN; y.len()], y.clone()];
                 let mut done = 0;
@@ -260,11 +263,14 @@ mod tests {
                         .fold(0.0, |a: f64, b| a.max(b.abs()));
                     for i in 0..y.len() {
                         let apart = (by_loop[i] - by_tables[i]).abs();
-                        assert!(apart <= 1e-12 * largest, "{name}, {level}: state {i}");
+                        assert!(
+                            apart <= 1e-12 * largest,
+                            "{name}, {instructions}: state {i}"
+                        );
                     }
                 }
-                println!("{name}, {level}: {done} of 50");
-                assert_eq!(done > 40, most > 0, "{name}, {level}");
+                println!("{name}, {instructions}: {done} of 50");
+                assert_eq!(done > 40, most > 0, "{name}, {instructions}");
             }
         }
     }
@@ -279,7 +285,7 @@ mod tests {
         let y = dynamics.compress(&y0);
         let mut dy = y.clone();
         let half = y.len() / 2;
-        let places = Dof::PLANE.map(|dof| {
+        let places = Dof::SYMMETRIC.map(|dof| {
             let of = (BodyId::ball(0), dof);
             dynamics.degrees().iter().position(|d| *d == of).unwrap()
         });

@@ -3,8 +3,8 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::{Balls, Direction, Plane};
-use crate::contact::{InPlane, LevelBalls, LevelRace, Motion, Pair, V2};
+use super::{Balls, Direction, Planar};
+use crate::contact::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, Motion, Pair, V2};
 use crate::forces::cage::pull;
 use crate::forces::support::resistance;
 use crate::model::{Model, Race};
@@ -13,7 +13,7 @@ use crate::simd::{Simd, Vector, Wide};
 
 /// Finds the rates of a state; false where they are left to others.
 pub(in crate::dynamics) struct Rates<'a> {
-    pub plane: &'a mut Plane,
+    pub planar: &'a mut Planar,
     pub model: &'a Model,
     pub y: &'a [f64],
     pub dy: &'a mut [f64],
@@ -25,7 +25,7 @@ impl Wide for Rates<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> bool {
         let Self {
-            plane,
+            planar,
             model,
             y,
             dy,
@@ -34,11 +34,11 @@ impl Wide for Rates<'_> {
         let (rates, accelerations) = dy.split_at_mut(q.len());
         rates.copy_from_slice(v);
         let rings = [
-            plane.motion(Race::Outer, q, v),
-            plane.motion(Race::Inner, q, v),
+            planar.motion(Race::Outer, q, v),
+            planar.motion(Race::Inner, q, v),
         ];
         let mut on_rings = [[0.0; 2]; 2];
-        for row in &mut plane.rows {
+        for row in &mut planar.rows {
             let compiled = &model.rows[row.row];
             if let Some(cage) = &model.scene.cage {
                 row.link(simd, (cage, compiled.cage_distance), q, v);
@@ -46,24 +46,24 @@ impl Wide for Rates<'_> {
             let contacts = (&compiled.pairs, &rings);
             let states = (q, v, &mut *accelerations);
             let plain = if row.forms.iter().all(InPlane::is_middle) {
-                row.press::<S, true>(simd, contacts, states, &mut on_rings)
+                row.forces::<S, true>(simd, contacts, states, &mut on_rings)
             } else {
-                row.press::<S, false>(simd, contacts, states, &mut on_rings)
+                row.forces::<S, false>(simd, contacts, states, &mut on_rings)
             };
             if !plain {
                 return false;
             }
         }
-        for (ring, forces) in plane.rings.iter().zip(on_rings) {
+        for (ring, forces) in planar.rings.iter().zip(on_rings) {
             for (direction, force) in ring.iter().zip(forces) {
-                direction.accelerate(plane.times * force, (q, v, accelerations));
+                direction.accelerate(planar.times * force, (q, v, accelerations));
             }
         }
         true
     }
 }
 
-impl Plane {
+impl Planar {
     #[inline(always)]
     fn motion(&self, race: Race, q: &[f64], v: &[f64]) -> Motion {
         let [x, y] = &self.rings[race];
@@ -131,7 +131,7 @@ impl Balls {
 
     /// The contacts, and what all forces on the balls do; false where a contact is not plain.
     #[inline(always)]
-    fn press<S: Simd, const MIDDLE: bool>(
+    fn forces<S: Simd, const MIDDLE: bool>(
         &self,
         simd: S,
         (pairs, rings): (&[Pair; 2], &[Motion; 2]),
@@ -143,14 +143,14 @@ impl Balls {
         let steady = [all(self.steady[0]), all(self.steady[1])];
         let n = self.count;
         let races = [
-            LevelRace::new(simd, &pairs[0], &self.forms[0], &rings[0]),
-            LevelRace::new(simd, &pairs[1], &self.forms[1], &rings[1]),
+            AxiallyFixedRace::new(simd, &pairs[0], &self.forms[0], &rings[0]),
+            AxiallyFixedRace::new(simd, &pairs[1], &self.forms[1], &rings[1]),
         ];
         let [x, y, vx, vy] = [self.of(0, q), self.of(1, q), self.of(0, v), self.of(1, v)];
         let [ahead, behind] = [1, 0].map(|from| self.links.each_ref().map(|of| &of[from..][..n]));
         let mut sums = [[zero; 2]; 2];
         for (at, again) in Vector::<S>::cover(n) {
-            let balls = LevelBalls {
+            let balls = AxiallyFixedBalls {
                 x: Vector::load(simd, &x[at..]),
                 y: Vector::load(simd, &y[at..]),
                 vx: Vector::load(simd, &vx[at..]),
@@ -159,9 +159,9 @@ impl Balls {
                 slope: None,
                 whole: None,
             };
-            let outer = races[0].press::<MIDDLE>(&balls);
-            let inner = races[1].press::<MIDDLE>(&balls);
-            let odd = [outer, inner].map(|of| of.careful.or(of.pulls));
+            let outer = races[0].forces::<MIDDLE>(&balls);
+            let inner = races[1].forces::<MIDDLE>(&balls);
+            let odd = [outer, inner].map(|of| of.left_out.or(of.pulls));
             if odd[0].or(odd[1]).any() {
                 return false;
             }

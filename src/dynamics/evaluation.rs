@@ -49,7 +49,7 @@ impl Dynamics<'_> {
             Slices::Fixed(_) => "slices",
             Slices::Fitted(_) => "nodes",
         };
-        if self.contacts.is_plane() {
+        if self.contacts.is_symmetric() {
             let half = count.div_ceil(2);
             format!("{half} of {count} {slices} (mirror symmetry), {law}")
         } else {
