@@ -3,7 +3,7 @@
 use super::Single;
 use crate::contact::{Constants, Motion, Octet, Press, Raise};
 use crate::forces::State;
-use crate::model::{Ball, BodyId, Dof, Model, Race};
+use crate::model::{Ball, BodyId, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
 
 /// Constants of all contacts with one ring.
@@ -62,7 +62,8 @@ impl SideConstants {
     pub fn octet(&self, class: usize, contacts: &[Touching; LANES], state: &State) -> Octet {
         let ClassConstants { first, alike, wavy } = &self.classes[class];
         let State { q, v } = state;
-        let (q, v) = (Dof::TRANSLATIONS.map(|dof| q.along(dof)), v.directions());
+        let ([x, y, z, _], v) = (q.directions(), v.directions());
+        let q = [x, y, z];
         let mut octet = Octet {
             constants: *first,
             wavy: *wavy,
