@@ -3,7 +3,7 @@
 use super::Single;
 use crate::contact::{BatchForces, Constants, EightContacts, Motion, Raise};
 use crate::forces::State;
-use crate::model::{Ball, BodyId, Dof, Model, Race};
+use crate::model::{Ball, BodyId, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
 
 /// Constants of all contacts with one ring.
@@ -67,7 +67,8 @@ impl SideConstants {
     ) -> EightContacts {
         let ClassConstants { first, alike, wavy } = &self.classes[class];
         let State { q, v } = state;
-        let (q, v) = (Dof::TRANSLATIONS.map(|dof| q.along(dof)), v.directions());
+        let ([x, y, z, _], v) = (q.directions(), v.directions());
+        let q = [x, y, z];
         let mut eight = EightContacts {
             constants: *first,
             wavy: *wavy,
