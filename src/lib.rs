@@ -23,10 +23,10 @@
 //! scene  →  model  →  dynamics  →  integrate  →  signals
 //! ```
 //!
-//! * [`simd`] — eight numbers at once, or a register full, compiled for three levels of vector instructions.
+//! * [`simd`] — eight numbers at once, or a register full, compiled for three instruction sets.
 //! * [`scene`] — what a user says: names, numbers, defaults; a serde document that is only validated.
-//! * [`contact`] — laws of one ball on one race: races, slices, ISO and Hertz laws, damping, friction, fault
-//!   circles. Numbers in, numbers out; no indices, no state.
+//! * [`contact`] — one ball on one race: race profiles, elastic, damping and traction laws, quadrature, fault circles, and the
+//!   kernel, the one coding of an element's force, with its drivers. Numbers in, numbers out; no indices, no state.
 //! * `model` ([`Model`]) — the scene compiled: bodies, races and directions ([`BodyId`], [`Race`], [`Dof`]) with the one
 //!   place that turns them into offsets ([`Layout`]), arrays, scales. Never changed by a run.
 //! * `forces` — cage, supports, gravity, loads, unbalance, drive: one file each, with force, energy or power, rate for step
@@ -37,19 +37,14 @@
 //!   formula, summed in one order; smooth plane rows in one loop, without tables between; forces by origin.
 //! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
 //! * `equilibrium` ([`equilibrium()`], [`stiffness()`], [`load_distribution()`]) — the static solve and what follows
-//!   from it, the places of defects among it; `start` ([`start()`]) — how a run begins; `settle` — what is left of that
-//!   dies down before t = 0.
+//!   from it, the places of defects among it; `start` ([`start()`]) — how a run begins.
 //! * `touched` ([`Touched`]) — which defects balls met in a run, and what their contacts carried there.
 //! * `signals` ([`Signals`]) — probes read from the dense output on a uniform grid, through a low-pass ([`Bandwidth`]);
 //!   kept whole, or handed over in blocks ([`Block`]); reasons to look twice at them ([`Warning`]).
-//! * `residual`, `step_collapse`, `escape`, `orbit`, `runaway`, `ending` — whether a run can be
-//!   believed, who held it up, and what its error says.
-//! * `selftest` — whether this processor's vector instructions compute what they should, once a process.
-//! * `accuracy` ([`Accuracy`]) — nodes, tolerance and step cap for a requested accuracy.
-//! * `budget` — wall time and steps that a run may cost at most.
-//! * `method` — the method a run asked for, and the switch between two of them; `step_limit` — the largest step of each.
-//! * `run` ([`Run`]) — what a run is asked for; `follow` — steps over a stretch of time, and when to stop.
-//! * `simulate` ([`simulate()`], [`simulate_into()`]) — the run itself, the lines to read first.
+//! * `residual` — whether recorded accelerations belong to the recorded motion; `selftest` — whether this processor's vector
+//!   instructions compute what they should, once a process.
+//! * `run` ([`Run`], [`simulate()`], [`simulate_into()`]) — the run itself: its options, methods, tolerances, budgets and ends;
+//!   `run/simulate.rs` has the lines to read first.
 //! * `explain` ([`explain()`]) — what a scene is compiled to, what it costs, what would make it cheaper.
 //! * `features` ([`Feature`]) — the few numbers a signal is known by: moments, fault lines, contact loads.
 //! * `interrupt` ([`Interrupt`]), `memory` — what ends work from outside; what a run may set aside.
@@ -61,15 +56,15 @@
 //!
 //! | what | touch | prove |
 //! |---|---|---|
-//! | a normal law | a file in `contact/`, a variant in `scene/contact.rs` and in `contact/law.rs`, a node in `contact/press.rs`, its slope in `contact/tangent.rs` | doctest values, limits |
-//! | a friction law | `contact/friction.rs`, a variant in `scene/contact.rs` | dissipation ≥ 0 |
+//! | an elastic law | a file in `contact/laws/elastic/`, its variant in the `mod.rs` there, a variant in `scene/contact.rs` | doctest values, `tests/contact.rs` |
+//! | a traction law | a file in `contact/laws/traction/`, its variant in the `mod.rs` there, a variant in `scene/contact.rs` | dissipation ≥ 0, its slope |
 //! | a force | a file in `forces/`, its entry in `forces/mod.rs`, a line in `Dynamics::others` | `tests/energy.rs`, power balance |
 //! | a direction of a body | `Dof` and `Layout` in `model/layout.rs`, mass and mount in `model/body.rs`, its force where it acts | `model/layout.rs`, momentum |
 //! | what acts along z, or differs by row | `reduction/symmetry.rs`; what contacts share, `RowModel::is_like` | a hair of it in `tests/reduction.rs`, `tests/unlike_rows.rs` |
 //! | an approximation | `scene/approximations.rs`, grounds and a reason in `reduction/`, an offer in `explain/variants.rs` | `tests/approximations.rs`, a row in `benches/approximations.py` |
-//! | a race profile | `contact/race.rs`, `contact/press.rs` | gap against a closed form |
+//! | a race profile | `contact/profile/`; how it is cut, `contact/scalar/` and `contact/kernel.rs` | gap against a closed form |
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
-//! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `method.rs` and in `step_limit.rs` | row sums, order of convergence |
+//! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `run/method.rs` and in `run/step_limit.rs` | row sums, order of convergence |
 //! | a signal | a variant in `scene/probe.rs`, two arms in `signals/probes.rs` | unit, value at a known state; filtered or a reading of a state |
 //! | a doubt | a check in `scene/doubt/`, with its source | `tests/doubts.rs`: told, and no ordinary bearing is |
 //! | a feature | a file in `features/`, a line in its `mod.rs` | value of a synthetic signal |
@@ -83,44 +78,31 @@
 #[cfg(feature = "python")]
 mod python;
 
-mod accuracy;
-mod budget;
 mod campaign;
 pub mod contact;
 pub mod dynamics;
-mod ending;
 mod equilibrium;
 mod error;
-mod escape;
 mod explain;
 mod features;
-mod follow;
 mod forces;
 pub mod inspect;
 pub mod integrate;
 mod interrupt;
 mod memory;
-mod method;
 mod model;
-mod orbit;
 mod pool;
 mod reduction;
 mod residual;
 mod run;
-mod runaway;
 pub mod scene;
 mod selftest;
-mod settle;
 mod signals;
 pub mod simd;
-mod simulate;
 mod start;
-mod step_collapse;
-mod step_limit;
 mod told;
 mod touched;
 
-pub use accuracy::Accuracy;
 pub use campaign::{Case, Finished, Outcome, campaign, stream};
 pub use equilibrium::{
     BallEquilibrium, ContactEquilibrium, Equilibrium, EquivalentLoads, LoadDistribution, Placed,
@@ -132,9 +114,10 @@ pub use features::{Feature, FeatureOptions, feature_columns, features, signal_fe
 pub use interrupt::Interrupt;
 pub use model::{Body, BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Race, Scales};
 pub use reduction::{Obstacle, Omission, Reduction};
-pub use run::Run;
+pub use run::{Run, simulate, simulate_into};
 pub use scene::Scene;
-pub use signals::{Bandwidth, Block, Column, Provenance, Signals, SliceRow, Statistics, Warning};
-pub use simulate::{simulate, simulate_into};
+pub use signals::{
+    Accuracy, Bandwidth, Block, Column, Provenance, Signals, SliceRow, Statistics, Warning,
+};
 pub use start::{Start, start};
 pub use touched::Touched;

@@ -11,9 +11,9 @@ use crate::features::{
 };
 use crate::interrupt::Interrupt;
 use crate::run::Run;
+use crate::run::simulate;
 use crate::scene::Scene;
 use crate::signals::Signals;
-use crate::simulate::simulate;
 
 /// What to run.
 #[derive(Debug, Clone, PartialEq)]

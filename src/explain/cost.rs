@@ -8,12 +8,12 @@ use serde::Serialize;
 
 use crate::dynamics::Dynamics;
 use crate::error::Result;
-use crate::follow::{options, tolerance};
 use crate::integrate::{DenseStep, Statistics, System};
 use crate::interrupt;
-use crate::method::{self, Task};
 use crate::model::{BodyId, Dof, Model};
 use crate::reduction::Reduction;
+use crate::run::method::{self, Task};
+use crate::run::{options, tolerance};
 
 /// Places of the cage over a ball's pitch.
 const PLACES: usize = 8;

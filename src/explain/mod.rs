@@ -16,8 +16,8 @@ use crate::equilibrium::{Meeting, Placed, describe, place};
 use crate::error::Result;
 use crate::interrupt;
 use crate::model::{BodyId, Model, Race};
-use crate::orbit;
 use crate::reduction::{Obstacle, Omission, Reduction};
+use crate::run;
 use crate::scene::{Defect, Doubt, Scene, Surface};
 use crate::start::{Start, start};
 use crate::touched::{Touched, compiled, is_there};
@@ -120,7 +120,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         law: law::of(&model, &at_start),
         doubts: at_start.doubts,
         defects: defects(&scene, &placed)?,
-        notes: orbit::note(&model).into_iter().collect(),
+        notes: run::note(&model).into_iter().collect(),
     })
 }
 

@@ -27,6 +27,13 @@ pub enum Method {
     Auto,
 }
 
+impl Method {
+    /// Whether it has no error estimate and so wants a step.
+    pub(crate) fn is_fixed(self) -> bool {
+        matches!(self, Self::RungeKutta4 | Self::VelocityVerlet)
+    }
+}
+
 /// How the equations are integrated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]

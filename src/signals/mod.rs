@@ -9,6 +9,7 @@
 //!
 //! A record is kept whole, or it leaves in blocks (`blocks`) of samples that nothing changes any more.
 
+mod accuracy;
 mod blocks;
 mod decimate;
 mod demand;
@@ -20,12 +21,12 @@ mod warning;
 
 use serde::Serialize;
 
-use crate::accuracy::Accuracy;
 use crate::reduction::Omission;
 use crate::scene::{RingName, Scene};
 use crate::simd::Distrust;
 use crate::touched::Touched;
 
+pub use accuracy::Accuracy;
 pub use blocks::Block;
 pub(crate) use blocks::Sink;
 pub(crate) use demand::Demand;

@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use crate::method;
 use crate::scene::Doubt;
 use crate::signals::Signals;
 use crate::simd::Distrust;
@@ -208,7 +207,7 @@ impl Signals {
     /// ```
     pub fn warnings(&self) -> Vec<Warning> {
         let stats = &self.stats;
-        let fixed = method::is_fixed(self.scene.solver.method);
+        let fixed = self.scene.solver.method.is_fixed();
         let fixed_step = self.provenance.max_step.filter(|_| fixed);
         let limit = self.provenance.step_limit;
         let accelerations = stats

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::ops::ControlFlow;
 
+use super::step_limit;
 use crate::dynamics::Dynamics;
 use crate::integrate::{
     self, BOGACKI_SHAMPINE, Controller, DORMAND_PRINCE, DenseStep, Failure, ImplicitVelocity,
@@ -11,7 +12,6 @@ use crate::integrate::{
 };
 use crate::model::Model;
 use crate::scene::Method;
-use crate::step_limit;
 
 /// Stiffness quotients at which `auto` takes to implicit steps and back to explicit ones. At a quotient of 1
 /// friction begins to hold explicit steps below the cap, and at loose tolerance they report success with wrong
@@ -37,11 +37,6 @@ impl fmt::Display for Choice {
         let auto = if self.auto { "auto: " } else { "" };
         write!(f, "{auto}{}", self.names.join(", "))
     }
-}
-
-/// Whether a method has no error estimate and so wants a step.
-pub(crate) fn is_fixed(method: Method) -> bool {
-    matches!(method, Method::RungeKutta4 | Method::VelocityVerlet)
 }
 
 /// From where to where, and how well.

@@ -1,8 +1,8 @@
 //! How a ball left its groove, in words.
 
+use super::orbit;
 use crate::contact::{Section, Torus};
 use crate::model::{BodyId, Model, Race};
-use crate::orbit;
 use crate::told::length;
 
 /// Which race a ball has left in a state of all bodies, which way and how far, and what may be to blame; `finer` says how the

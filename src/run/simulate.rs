@@ -2,23 +2,23 @@
 
 use std::ops::ControlFlow;
 
-use crate::accuracy;
-use crate::budget;
+use super::Run;
+use super::accuracy;
+use super::budget;
+use super::follow::{Stretch, follow, options, threads};
+use super::settle;
+use super::step_limit;
 use crate::dynamics::Dynamics;
 use crate::equilibrium::compile;
 use crate::equilibrium::place;
 use crate::error::{Error, Result};
-use crate::follow::{Stretch, follow, options, threads};
 use crate::memory;
 use crate::pool::on;
 use crate::reduction::Reduction;
-use crate::run::Run;
 use crate::scene::{SCHEMA, Scene};
 use crate::selftest;
-use crate::settle;
 use crate::signals::{Bandwidth, Block, Demand, Provenance, Recorder, Sampling, Signals, Sink};
 use crate::start::{Start, start};
-use crate::step_limit;
 
 /// Simulates a scene. `progress` is told the share done, 0 to 1, about every 20 ms, and may stop the run.
 ///

@@ -5,31 +5,12 @@
 //! setting and with the next finer one, until the two agree to a third of the request: first for the tolerance, then
 //! for the nodes. The difference of neighbours is the error of the coarser, for the finer is several times better.
 
-use serde::Serialize;
-
 use crate::equilibrium::compile;
 use crate::error::{Error, Result};
 use crate::model::{Body, Dof, Model};
 use crate::scene::{Component, Contact, Method, Probe, Scene, Slices};
+use crate::signals::Accuracy;
 use crate::start::{Start, start};
-
-/// What a run with a requested accuracy chose, and what it expects of that.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Accuracy {
-    /// Relative error of the outer ring's vertical acceleration that was asked for, root mean square over the
-    /// predictable horizon of some milliseconds from a given state.
-    pub requested: f64,
-    /// Relative tolerance chosen.
-    pub rtol: f64,
-    /// Nodes or slices of a contact with the outer and with the inner race.
-    pub nodes: [usize; 2],
-    /// Difference to a pilot run of a tenth of the tolerance; of the tightest, to ten times its own.
-    pub integration_error: f64,
-    /// Difference to a pilot run on the next more nodes; absent with fixed slices, which are kept as they are.
-    pub node_error: Option<f64>,
-    /// Evaluations that the pilot runs took.
-    pub pilot_evaluations: usize,
-}
 
 /// Length of a pilot run \[s\]: the horizon.
 pub(crate) const HORIZON: f64 = 3e-3;

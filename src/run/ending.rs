@@ -1,12 +1,11 @@
 //! Why a run ended before its time, in the words of its error.
 
+use super::escape;
+use super::step_limit;
 use crate::error::Error;
-use crate::escape;
 use crate::inspect::{Element, stiffest};
 use crate::integrate::{Failure, FailureKind};
-use crate::method;
 use crate::model::{BodyId, Model};
-use crate::step_limit;
 use crate::told::duration;
 
 const CRAWLING: &str = "the step has collapsed to less than 1e-5 of the contacts' period and stays there; \
@@ -47,7 +46,7 @@ impl Halt {
 /// How a run is made more accurate: the one thing that a method of fixed steps has is its step.
 fn finer(model: &Model, step: f64) -> String {
     let method = model.scene.solver.method;
-    if !method::is_fixed(method) {
+    if !method.is_fixed() {
         return "use a smaller rtol".to_owned();
     }
     let limit = step_limit::largest(method, model);
@@ -67,7 +66,7 @@ pub(crate) fn broken(model: &Model, last: &[f64], begins: f64, failure: &Failure
     let reason = match failure.kind {
         FailureKind::NonFinite => {
             let what = "a force is not finite; check masses, stiffnesses and loads";
-            if method::is_fixed(model.scene.solver.method) {
+            if model.scene.solver.method.is_fixed() {
                 format!("{what}, or {}", finer(model, failure.step))
             } else {
                 what.to_owned()

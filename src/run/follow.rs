@@ -3,20 +3,20 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use crate::budget::StepBudget;
+use super::budget::StepBudget;
+use super::ending::{Halt, broken};
+use super::method::{self, Choice, Task};
+use super::orbit;
+use super::runaway;
+use super::step_collapse::StepCollapse;
+use super::step_limit;
 use crate::dynamics::Dynamics;
-use crate::ending::{Halt, broken};
 use crate::error::{Error, Result};
 use crate::inspect;
 use crate::integrate::{self, DenseStep, Options, Tolerance};
-use crate::method::{self, Choice, Task};
 use crate::model::{BodyId, DOFS, Model};
-use crate::orbit;
-use crate::runaway;
 use crate::scene::Drive;
 use crate::signals::{Recorder, Statistics};
-use crate::step_collapse::StepCollapse;
-use crate::step_limit;
 
 /// How often progress is told, and after how many steps the clock is asked: of a small model's step that would take a
 /// fiftieth. One of a large model is long enough to ask after each.
@@ -271,7 +271,7 @@ pub(crate) fn options(model: &Model) -> Result<Options> {
     breakpoints.extend(match &scene.drive {
         Drive::Speed(value) | Drive::Torque { value, .. } => value.breakpoints_apart(apart),
     });
-    let fixed = method::is_fixed(solver.method);
+    let fixed = solver.method.is_fixed();
     if fixed && max_step.is_infinite() {
         return Err(Error::scene(
             "solver.max_step",

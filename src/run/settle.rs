@@ -9,17 +9,17 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
+use super::Run;
+use super::follow::{Stretch, Watch, follow, options, threads};
 use crate::contact::Pair;
 use crate::dynamics::Dynamics;
 use crate::equilibrium::compile;
 use crate::error::Result;
-use crate::follow::{Stretch, Watch, follow, options, threads};
 use crate::inspect;
 use crate::integrate::{DenseStep, Options};
 use crate::model::{BodyId, Degree, Dof, Model, Race, RowModel};
 use crate::pool::on;
 use crate::reduction::Reduction;
-use crate::run::Run;
 use crate::scene::{Drive, RingName, Scene, Surface, TimeFunction};
 use crate::selftest;
 use crate::start::{Start, start};

@@ -1,0 +1,27 @@
+//! A run: scene → model → start → settle → integrate → signals. `simulate` has the lines to read first.
+//!
+//! * `options` ([`Run`]) — what a run is asked for; `accuracy` finds nodes, tolerance and step cap for a requested one.
+//! * `method` — the method, and the switch between two of them; `step_limit` — the largest step of each.
+//! * `settle` — what is left of the start dies down before t = 0; `follow` — steps over a stretch of time.
+//! * `budget`, `step_collapse`, `runaway`, `escape`, `orbit`, `ending` — when it stops, who held it up, and what its error
+//!   says.
+
+mod accuracy;
+mod budget;
+mod ending;
+mod escape;
+mod follow;
+pub(crate) mod method;
+mod options;
+mod orbit;
+mod runaway;
+mod settle;
+mod simulate;
+mod step_collapse;
+mod step_limit;
+
+pub(crate) use follow::{options, tolerance};
+pub use options::Run;
+pub(crate) use orbit::note;
+pub(crate) use simulate::check;
+pub use simulate::{simulate, simulate_into};

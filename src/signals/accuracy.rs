@@ -1,0 +1,21 @@
+//! What a run says of the accuracy that it was asked for.
+
+use serde::Serialize;
+
+/// What a run with a requested accuracy chose, and what it expects of that.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Accuracy {
+    /// Relative error of the outer ring's vertical acceleration that was asked for, root mean square over the
+    /// predictable horizon of some milliseconds from a given state.
+    pub requested: f64,
+    /// Relative tolerance chosen.
+    pub rtol: f64,
+    /// Nodes or slices of a contact with the outer and with the inner race.
+    pub nodes: [usize; 2],
+    /// Difference to a pilot run of a tenth of the tolerance; of the tightest, to ten times its own.
+    pub integration_error: f64,
+    /// Difference to a pilot run on the next more nodes; absent with fixed slices, which are kept as they are.
+    pub node_error: Option<f64>,
+    /// Evaluations that the pilot runs took.
+    pub pilot_evaluations: usize,
+}
