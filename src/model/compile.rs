@@ -8,7 +8,6 @@ use super::{
     demand, nodes,
 };
 use crate::contact::hertz::Hertz;
-use crate::contact::iso16281::Iso16281;
 use crate::contact::{
     BallSide, Damping, Elastic, Fault, Law, Pair, Rules, Slices, Torus, Traction, Waves,
 };
@@ -190,13 +189,7 @@ fn pair(scene: &Scene, (index, row): (usize, &Row), race: Race, hertz: Hertz) ->
         .map(|defect| race_fault(defect, row, &race))
         .collect();
     let contact = scene.contact_of(row);
-    let elastic = match contact.law {
-        NormalLaw::Iso16281 {
-            constant,
-            length_ratio,
-        } => Elastic::Iso16281(Iso16281::new(constant, length_ratio, row.ball_diameter)),
-        NormalLaw::Hertz => Elastic::Hertz(hertz),
-    };
+    let elastic = Elastic::new(&contact.law, row.ball_diameter, hertz);
     let exponent = elastic.exponent();
     let slices = match contact.slices {
         scene::Slices::Fixed(n) => Slices::Fixed(n),

@@ -13,6 +13,7 @@ mod power;
 pub(in crate::contact) use power::ten_ninths;
 
 use super::Cut;
+use crate::scene::NormalLaw;
 use crate::simd::Number;
 use hertz::Hertz;
 use iso16281::Iso16281;
@@ -43,6 +44,17 @@ pub enum Elastic {
 }
 
 impl Elastic {
+    /// The law of a scene for balls of a diameter \[m\], and Hertz's for their contact with the race.
+    pub(crate) fn new(law: &NormalLaw, ball_diameter: f64, hertz: Hertz) -> Self {
+        match *law {
+            NormalLaw::Iso16281 {
+                constant,
+                length_ratio,
+            } => Self::Iso16281(Iso16281::new(constant, length_ratio, ball_diameter)),
+            NormalLaw::Hertz => Self::Hertz(hertz),
+        }
+    }
+
     /// Power of the penetration that the force goes with.
     pub fn exponent(&self) -> f64 {
         match self {
