@@ -12,7 +12,7 @@ use crate::contact::{
     BallSide, Damping, Elastic, Fault, Law, Pair, Rules, Slices, Torus, Traction, Waves,
 };
 use crate::error::{Error, Result};
-use crate::scene::{self, Approximations, Defect, Drive, Mount, NormalLaw, Row, Scene, Surface};
+use crate::scene::{self, Approximations, Defect, Drive, Mount, Row, Scene, Surface};
 use crate::simd::InstructionSet;
 use crate::told::number;
 
