@@ -98,11 +98,12 @@ fn wheel_bearings_begin_as_they_go_on() {
 }
 
 /// Without friction, in the plane, loose balls rattle for ever; a light one at 15 000 rpm is loudest when all of them do.
+/// Passes of the first scene scatter from 3 to 15 m/s² as chance has it: it takes two dozen to know by how much.
 #[test]
 fn bearings_that_rattle_begin_as_they_go_on() {
     let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
     scene.friction = Friction::None;
-    begins_as_it_goes_on(&scene, 8, 1.5);
+    begins_as_it_goes_on(&scene, 24, 1.5);
     begins_as_it_goes_on(&presets::deep_groove_6205(100.0, 0.0, 15000.0), 20, 1.3);
 }
 

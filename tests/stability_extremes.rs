@@ -163,7 +163,7 @@ fn nan_infinite_and_absurd_input_is_refused_by_name() {
                 },
             ),
             (
-                "solver.rtol",
+                "rtol",
                 Run {
                     rtol: Some(bad),
                     ..short(1e-3)
@@ -206,9 +206,7 @@ fn absurd_tolerances() {
         assert!(out.warnings().is_empty());
     }
     for rtol in [0.0, -1e-6, 1e-13, 0.2, 1.0] {
-        assert!(
-            matches!(refused(&scene, &at(rtol)), Error::Scene { path, .. } if path == "solver.rtol")
-        );
+        assert!(matches!(refused(&scene, &at(rtol)), Error::Scene { path, .. } if path == "rtol"));
     }
 }
 

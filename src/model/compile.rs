@@ -205,7 +205,7 @@ fn pair(scene: &Scene, (index, row): (usize, &Row), race: Race, hertz: Hertz) ->
                 coefficient: contact.damping,
                 clamp_pull: contact.clamp_pull,
             },
-            traction: Traction::new(&scene.friction),
+            traction: Traction::new(scene.friction_of(row)),
             ..Law::elastic(elastic)
         },
         slices,
