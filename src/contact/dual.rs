@@ -148,9 +148,9 @@ impl<T: Number, const N: usize> Number for Dual<T, N> {
     #[inline(always)]
     fn mul_add<const FMA: bool>(self, b: Self, c: Self) -> Self {
         let mut slopes = c.slopes;
-        for i in 0..N {
-            let rest = self.value.mul_add::<FMA>(b.slopes[i], slopes[i]);
-            slopes[i] = self.slopes[i].mul_add::<FMA>(b.value, rest);
+        for (i, slope) in slopes.iter_mut().enumerate() {
+            let rest = self.value.mul_add::<FMA>(b.slopes[i], *slope);
+            *slope = self.slopes[i].mul_add::<FMA>(b.value, rest);
         }
         Self {
             value: self.value.mul_add::<FMA>(b.value, c.value),

@@ -47,7 +47,7 @@ impl Iso16281 {
     }
 
     /// Elastic energy per width \[J/m\] at a penetration ≥ 0 \[m\].
-    pub(super) fn energy(&self, depth: f64) -> f64 {
+    pub(super) fn energy(self, depth: f64) -> f64 {
         self.density * (9.0 / 19.0) * depth.powf(19.0 / 9.0)
     }
 }

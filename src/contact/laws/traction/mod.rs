@@ -117,7 +117,7 @@ impl Traction {
             } => Some(Self::Stribeck(Stribeck {
                 static_coefficient,
                 kinetic_coefficient,
-                stribeck_speed,
+                decay_speed: stribeck_speed,
                 slip_speed,
             })),
             Friction::Traction {

@@ -13,7 +13,7 @@ pub struct Stribeck {
     /// μ_k at large slip.
     pub kinetic_coefficient: f64,
     /// v_St \[m/s\].
-    pub stribeck_speed: f64,
+    pub decay_speed: f64,
     /// v_s, below which friction fades \[m/s\].
     pub slip_speed: f64,
 }
@@ -21,7 +21,7 @@ pub struct Stribeck {
 impl Stribeck {
     #[inline]
     pub(super) fn factor<T: Number>(&self, element: &Sliding<T>) -> T {
-        let fade = (element.squared * -self.stribeck_speed.powi(-2)).exp();
+        let fade = (element.squared * -self.decay_speed.powi(-2)).exp();
         let mu =
             fade * (self.static_coefficient - self.kinetic_coefficient) + self.kinetic_coefficient;
         mu * smoothed(element.squared, self.slip_speed)
