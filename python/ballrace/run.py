@@ -70,8 +70,8 @@ def simulate(
 ) -> Signals:
     """Run a scene and record its probes.
 
-    Other Python threads go on meanwhile, and Ctrl-C stops the run within half a second. A :class:`ballrace.Run` holds the
-    arguments as one document: ``br.simulate(scene, **run.to_dict())``.
+    Other Python threads go on meanwhile, and Ctrl-C stops the run within half a second. A :class:`ballrace.Run`
+    holds the arguments as one document: ``br.simulate(scene, **run.to_dict())``.
 
     Parameters
     ----------

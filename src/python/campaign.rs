@@ -10,7 +10,7 @@ use serde_json::json;
 use super::errors::{OrRaise, record};
 use super::features::options_from;
 use super::run::hand_over;
-use crate::{Case, Finished, Outcome, Run, Scene, features, memory, run};
+use crate::{Case, Finished, Outcome, Run, Scene, features, memory};
 
 /// Share of the memory for cases whose signals are kept: the rest is for those that wait to be written, and for the
 /// table they are written from.
@@ -71,7 +71,8 @@ pub(super) fn campaign(
 #[pyfunction]
 pub(super) fn check_run(py: Python<'_>, run: &str, options: &str) -> PyResult<()> {
     let checked = Run::from_json(run).and_then(|run| {
-        run::check(&run).and_then(|()| features::check(&options_from(options)?, &run))
+        run.validate()
+            .and_then(|()| features::check(&options_from(options)?, &run))
     });
     checked.or_raise(py)
 }

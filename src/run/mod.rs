@@ -23,5 +23,4 @@ mod step_limit;
 pub(crate) use follow::{options, tolerance};
 pub use options::Run;
 pub(crate) use orbit::note;
-pub(crate) use simulate::check;
 pub use simulate::{simulate, simulate_into};

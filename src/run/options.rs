@@ -100,7 +100,19 @@ impl Run {
         serde_json::to_string(self).expect("a run is a JSON document")
     }
 
-    /// Checks the ranges of its numbers.
+    /// Number of samples k / fs below the duration.
+    pub(crate) fn samples(&self) -> Result<usize> {
+        let count = (self.duration * self.fs).round();
+        if count < 1.0 {
+            let allowed = format!("at least one sample in {} s", self.duration);
+            return Err(Error::scene("fs", self.fs, allowed));
+        }
+        // At most 1e15 by the limits of duration and rate.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        Ok(count as usize)
+    }
+
+    /// Checks what can be said of it without its scene.
     ///
     /// # Errors
     /// [`Error::Scene`] names the field.
@@ -137,7 +149,11 @@ impl Run {
             let allowed = "at least 1 step, or absent for no limit";
             return Err(Error::scene("max_steps", 0, allowed));
         }
-        Ok(())
+        if let (Some(_), Some(rtol)) = (self.accuracy, self.rtol) {
+            let allowed = "absent where `accuracy` is given, which chooses it";
+            return Err(Error::scene("rtol", rtol, allowed));
+        }
+        self.samples().map(|_| ())
     }
 }
 

@@ -11,7 +11,7 @@ use super::step_limit;
 use crate::dynamics::Dynamics;
 use crate::equilibrium::compile;
 use crate::equilibrium::place;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::memory;
 use crate::pool::on;
 use crate::reduction::Reduction;
@@ -31,9 +31,9 @@ use crate::start::{Start, start};
 /// ```
 ///
 /// # Errors
-/// [`Error::Scene`] for bad input, [`Error::Memory`] for more samples than fit, [`Error::Equilibrium`] from the
-/// start, [`Error::Integration`] where the integration cannot go on, [`Error::Budget`] where it costs more than the run
-/// allows, [`Error::Interrupted`] if `progress` broke off.
+/// [`Error::Scene`](crate::Error::Scene) for bad input, [`Error::Memory`](crate::Error::Memory) for more samples than fit, [`Error::Equilibrium`](crate::Error::Equilibrium) from the
+/// start, [`Error::Integration`](crate::Error::Integration) where the integration cannot go on, [`Error::Budget`](crate::Error::Budget) where it costs more than the run
+/// allows, [`Error::Interrupted`](crate::Error::Interrupted) if `progress` broke off.
 pub fn simulate(
     scene: &Scene,
     run: &Run,
@@ -67,7 +67,7 @@ pub fn simulate(
 /// columns, which are empty.
 ///
 /// # Errors
-/// As [`simulate`]; [`Error::Memory`] where a block does not fit, [`Error::Interrupted`] also if `sink` broke off.
+/// As [`simulate`]; [`Error::Memory`](crate::Error::Memory) where a block does not fit, [`Error::Interrupted`](crate::Error::Interrupted) also if `sink` broke off.
 pub fn simulate_into<'a>(
     scene: &Scene,
     run: &Run,
@@ -84,21 +84,10 @@ fn limited(
     sink: Option<Sink<'_>>,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Signals> {
-    check(run)?;
+    run.validate()?;
     budget::within(run.time_limit, progress, |progress| {
         unlimited(scene, run, sink, progress)
     })
-}
-
-/// Checks what can be said of a run without its scene.
-pub(crate) fn check(run: &Run) -> Result<()> {
-    run.validate()?;
-    samples(run)?;
-    if let (Some(_), Some(rtol)) = (run.accuracy, run.rtol) {
-        let allowed = "absent where `accuracy` is given, which chooses it";
-        return Err(Error::scene("rtol", rtol, allowed));
-    }
-    Ok(())
 }
 
 /// Simulates for as long as it takes.
@@ -115,7 +104,7 @@ fn unlimited(
     if run.accuracy.is_some() {
         accuracy::check(&scene)?;
     }
-    let count = samples(run)?;
+    let count = run.samples()?;
     // Before anything is computed; once more when it is known how fine signals are read.
     let in_blocks = sink.is_some();
     check_memory(&scene, run, (count, 1), in_blocks)?;
@@ -205,21 +194,6 @@ fn pilot(
     };
     let mut out = simulate(scene, &first, &mut |_| progress(0.0))?;
     Ok((out.columns.remove(0).values, out.stats.nfev))
-}
-
-/// Number of samples k / fs below the duration.
-fn samples(run: &Run) -> Result<usize> {
-    let count = (run.duration * run.fs).round();
-    if count < 1.0 {
-        return Err(Error::scene(
-            "fs",
-            run.fs,
-            format!("at least one sample in {} s", run.duration),
-        ));
-    }
-    // At most 1e15 by the limits of duration and rate.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    Ok(count as usize)
 }
 
 /// Refuses what does not fit into memory: for so many samples, read so many times as fine, kept or leaving in blocks.

@@ -1,6 +1,6 @@
 //! The laws of a contact: where it is cut, what an element bears, how it is damped, how it rubs.
 //!
-//! Each law is written once, for any [`Number`]: for one contact, for eight side by side, and with derivatives.
+//! Each law is written once, for any kind of number: for one contact, for eight side by side, and with derivatives.
 
 pub mod cut;
 pub mod damping;
