@@ -1,5 +1,5 @@
-//! One benchmark a layer: the power, a contact, a right-hand side by nodes, slices, balls, threads and instructions of
-//! instructions, the integrator alone, a run, the static solve. `cargo bench --bench layers`.
+//! One benchmark a layer: the power, a contact, a right-hand side by nodes, slices, balls, threads and
+//! instruction set, the integrator alone, a run, the static solve. `cargo bench --bench layers`.
 
 use std::hint::black_box;
 use std::ops::ControlFlow;

@@ -1,4 +1,4 @@
-//! Whether contacts evaluated at a instruction set agree with the same contacts one by one, on numbers that a
+//! Whether contacts evaluated at an instruction set agree with the same contacts one by one, on numbers that a
 //! processor has not been seen to compute before.
 
 use std::sync::OnceLock;
@@ -20,9 +20,9 @@ const TOLERANCE: f64 = 1e-9;
 /// What evaluates the contacts of a body, as [`Distrust`] names it.
 const CONTACTS: &str = "contacts";
 
-/// The model at its instructions, or at the next narrower one where contacts do not agree, and what was wrong if anything was.
+/// The model with its instruction set, or with the next narrower one where contacts do not agree, and what was wrong if anything was.
 ///
-/// A instructions is tried once a process, in less than a millisecond.
+/// An instruction set is tried once a process, in less than a millisecond.
 pub(crate) fn trusted(model: Model) -> (Model, Option<Distrust>) {
     let instructions = model.instructions();
     let below = InstructionSet::available()
@@ -41,7 +41,7 @@ pub(crate) fn trusted(model: Model) -> (Model, Option<Distrust>) {
     )
 }
 
-/// Whether contacts agree at a instructions; found out once.
+/// Whether contacts agree at an instruction set; found out once.
 fn agrees(instructions: InstructionSet) -> bool {
     static FOUND: [OnceLock<bool>; 3] = [const { OnceLock::new() }; 3];
     let known = InstructionSet::known()
@@ -121,7 +121,7 @@ fn one_by_one(model: &Model, y: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Analytic: one law, evaluated in two ways, in every way that runs have; a instructions that loses contacts is seen.
+    /// Analytic: one law, evaluated in two ways, in every way that runs have; an instruction set that loses contacts is seen.
     #[test]
     fn levels_of_this_machine_agree() {
         for instructions in InstructionSet::available() {

@@ -1,4 +1,4 @@
-//! The same scene at every instruction set that this machine has: whole runs, each instructions in a process of its
+//! The same scene at every instruction set that this machine has: whole runs, each set in a process of its
 //! own, as users choose it.
 
 mod common;
@@ -127,7 +127,7 @@ fn signals() -> Vec<Vec<f64>> {
 const CHILD: &str = "print_signals_of_this_level";
 
 #[test]
-#[ignore = "a part of levels_agree_over_whole_runs, which runs it once a instructions"]
+#[ignore = "a part of levels_agree_over_whole_runs, which runs it once an instruction set"]
 fn print_signals_of_this_level() {
     for signal in signals() {
         let bits: Vec<String> = signal.iter().map(|x| x.to_bits().to_string()).collect();
@@ -151,7 +151,7 @@ fn signals_at(instructions: &str) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Analytic: levels differ by rounding, which grows by a factor of e a millisecond; contacts that a instructions loses differ by
+/// Analytic: levels differ by rounding, which grows by a factor of e a millisecond; contacts that an instruction set loses differ by
 /// all.
 #[test]
 fn levels_agree_over_whole_runs() {

@@ -1,4 +1,4 @@
-//! Contacts held element: what of their nodes does not depend on velocities, ready for any of them.
+//! Contacts of an implicit stage: what of their elements does not depend on velocities, ready for any of them.
 //!
 //! With all of a node's force at one point, slip and approach depend only on the relative twist
 //! w = (v_b − v_r − θ̇_r ẑ × a, θ̇_b − θ̇_r), where a leads from the ring's centre to the ball's: four numbers a
@@ -43,14 +43,16 @@ impl Around {
     /// That of the contact in one lane, in all lanes.
     #[inline(always)]
     pub fn of(&self, lane: usize) -> Self {
-        let all = |of: &Lanes| Lanes::all(of[lane]);
-        let [ball, ring] = &self.rolling.turns;
+        let Self {
+            rolling: Rolling { turns, d },
+            radii,
+        } = self;
         Self {
             rolling: Rolling {
-                turns: [all(ball), all(ring)],
-                d: all(&self.rolling.d),
+                turns: [Lanes::all(turns[0][lane]), Lanes::all(turns[1][lane])],
+                d: Lanes::all(d[lane]),
             },
-            radii: [all(&self.radii[0]), all(&self.radii[1])],
+            radii: [Lanes::all(radii[0][lane]), Lanes::all(radii[1][lane])],
         }
     }
 }
@@ -63,7 +65,7 @@ pub(crate) struct StageWrench {
     pub slope: [[Lanes; 4]; 4],
 }
 
-/// Where eight contacts are held.
+/// Where eight contacts of a stage are.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct StageContacts {
     /// Unit vector out of the ball at the contact.
@@ -78,7 +80,7 @@ pub(crate) struct StageContacts {
 }
 
 impl Pair {
-    /// Holds eight contacts element, those of `whole` with their nodes.
+    /// Finds eight contacts of a stage, those of `whole` with their elements.
     #[inline(always)]
     pub(crate) fn stage_elements<const FMA: bool>(
         &self,
@@ -125,8 +127,11 @@ impl Pair {
         to: &mut StageWrench,
     ) {
         let levers = element.levers;
-        let along = |i: usize| twist[3].mul_add::<FMA>(levers[i], twist[i]);
-        let velocity = [along(0), along(1), twist[2]];
+        let velocity = [
+            twist[3].mul_add::<FMA>(levers[0], twist[0]),
+            twist[3].mul_add::<FMA>(levers[1], twist[1]),
+            twist[2],
+        ];
         let state = State {
             elastic: element.elastic,
             share: element.share,

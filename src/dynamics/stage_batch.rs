@@ -1,4 +1,4 @@
-//! Eight balls held element between both races, ready for any velocities.
+//! Eight balls of an implicit stage between both races, ready for any velocities.
 
 use std::array::from_fn;
 

@@ -199,7 +199,7 @@ impl Model {
         rows.map(|row| row.count).sum::<usize>().div_ceil(LANES)
     }
 
-    /// InstructionSet of vector instructions that evaluations use.
+    /// The instruction set that evaluations use.
     pub fn instructions(&self) -> InstructionSet {
         self.instructions
     }

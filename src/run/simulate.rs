@@ -31,9 +31,16 @@ use crate::start::{Start, start};
 /// ```
 ///
 /// # Errors
-/// [`Error::Scene`](crate::Error::Scene) for bad input, [`Error::Memory`](crate::Error::Memory) for more samples than fit, [`Error::Equilibrium`](crate::Error::Equilibrium) from the
-/// start, [`Error::Integration`](crate::Error::Integration) where the integration cannot go on, [`Error::Budget`](crate::Error::Budget) where it costs more than the run
-/// allows, [`Error::Interrupted`](crate::Error::Interrupted) if `progress` broke off.
+/// [`Error::Scene`] for bad input, [`Error::Memory`] for more samples than fit, [`Error::Equilibrium`] from the
+/// start, [`Error::Integration`] where the integration cannot go on, [`Error::Budget`] where it costs more than the run
+/// allows, [`Error::Interrupted`] if `progress` broke off.
+///
+/// [`Error::Scene`]: crate::Error::Scene
+/// [`Error::Memory`]: crate::Error::Memory
+/// [`Error::Equilibrium`]: crate::Error::Equilibrium
+/// [`Error::Integration`]: crate::Error::Integration
+/// [`Error::Budget`]: crate::Error::Budget
+/// [`Error::Interrupted`]: crate::Error::Interrupted
 pub fn simulate(
     scene: &Scene,
     run: &Run,
@@ -67,7 +74,10 @@ pub fn simulate(
 /// columns, which are empty.
 ///
 /// # Errors
-/// As [`simulate`]; [`Error::Memory`](crate::Error::Memory) where a block does not fit, [`Error::Interrupted`](crate::Error::Interrupted) also if `sink` broke off.
+/// As [`simulate`]; [`Error::Memory`] where a block does not fit, [`Error::Interrupted`] also if `sink` broke off.
+///
+/// [`Error::Memory`]: crate::Error::Memory
+/// [`Error::Interrupted`]: crate::Error::Interrupted
 pub fn simulate_into<'a>(
     scene: &Scene,
     run: &Run,

@@ -140,9 +140,9 @@ pub struct Provenance {
     pub states: usize,
     /// What was left out since it does not change the motion.
     pub left_out: Vec<Omission>,
-    /// InstructionSet of vector instructions.
+    /// The instruction set.
     pub simd: &'static str,
-    /// What was wrong with the instructions that would have been used; absent where nothing was.
+    /// What was wrong with the instruction set that would have been used; absent where nothing was.
     pub distrust: Option<Distrust>,
     /// Processor architecture.
     pub architecture: &'static str,

@@ -41,7 +41,7 @@ pub enum Warning {
         /// Accepted steps.
         steps: usize,
     },
-    /// This processor computes wrongly at a instruction set that it says it has; a narrower one was used.
+    /// This processor computes wrongly at an instruction set that it says it has; a narrower one was used.
     Instructions(Distrust),
     /// The line of a defect lies above half the sampling rate.
     SamplingRate {
@@ -149,7 +149,7 @@ impl std::fmt::Display for Warning {
                 used,
             }) => write!(
                 f,
-                "this processor offers vector instructions of instructions {instructions}, but its `{primitive}` gives wrong \
+                "this processor offers the instruction set {instructions}, but its `{primitive}` gives wrong \
                  results; the run used {used}. Please report it, with the processor's name"
             ),
             Self::SamplingRate { fs, defect, line } => write!(

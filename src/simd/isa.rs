@@ -1,4 +1,4 @@
-//! One program for three instruction set.
+//! One program for three instruction sets.
 
 use std::ffi::OsStr;
 use std::fmt;
@@ -13,7 +13,7 @@ use super::vector::{Vector, Wide};
 /// The environment variable that overrides the choice.
 const VARIABLE: &str = "BALLRACE_SIMD";
 
-/// A instruction set, named as in the x86-64 psABI. Elsewhere only [`InstructionSet::Baseline`] exists.
+/// An instruction set, named as in the x86-64 psABI. Elsewhere only [`InstructionSet::Baseline`] exists.
 ///
 /// Results differ between levels by rounding: the upper two fuse products and sums.
 #[derive(Debug, Clone, Copy)]
@@ -28,7 +28,7 @@ pub enum InstructionSet {
     V4(pulp::x86::V4),
 }
 
-/// A instructions that is not known or that this processor does not have.
+/// An instruction set that is not known or that this processor does not have.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnknownInstructionSet {
     /// What was asked for.
@@ -37,18 +37,18 @@ pub struct UnknownInstructionSet {
     pub available: Vec<&'static str>,
 }
 
-/// A instructions that this processor says it has and that does not compute what it should; a narrower one is used instead.
+/// An instruction set that this processor says it has and that does not compute what it should; a narrower one is used instead.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Distrust {
-    /// Name of the instructions.
+    /// Name of the instruction set.
     pub instructions: &'static str,
     /// The primitive that erred first; `contacts` where the primitives did not and contacts did.
     pub primitive: &'static str,
-    /// Name of the instructions that is used.
+    /// Name of the instruction set that is used.
     pub used: &'static str,
 }
 
-/// The first instructions that errs nowhere, or the last, and what was wrong with the first.
+/// The first instruction set that errs nowhere, or the last, and what was wrong with the first.
 fn trusted(
     levels: Vec<InstructionSet>,
     wrong: impl Fn(InstructionSet) -> Option<&'static str>,
@@ -67,7 +67,7 @@ fn trusted(
     (used, distrust)
 }
 
-/// Work that is compiled once a instructions.
+/// Work that is compiled once an instruction set.
 pub(crate) trait Task {
     type Output;
 
@@ -99,7 +99,7 @@ impl InstructionSet {
         }
     }
 
-    /// The instructions that the environment variable `BALLRACE_SIMD` names, or the widest; a narrower one where that does not
+    /// The instruction set that the environment variable `BALLRACE_SIMD` names, or the widest; a narrower one where that does not
     /// compute what it should ([`InstructionSet::distrust`]).
     ///
     /// # Errors
@@ -108,7 +108,7 @@ impl InstructionSet {
         Self::choice().clone().map(|(instructions, _)| instructions)
     }
 
-    /// What was wrong with the instructions that this process would have used, if anything: its primitives are compared with
+    /// What was wrong with the instruction set that this process would have used, if anything: its primitives are compared with
     /// the same on single numbers once, at first use.
     pub fn distrust() -> Option<Distrust> {
         Self::choice()
@@ -117,7 +117,7 @@ impl InstructionSet {
             .and_then(|(_, distrust)| distrust)
     }
 
-    /// The instructions of this process; the baseline if the environment names none of this processor.
+    /// The instruction set of this process; the baseline if the environment names none of this processor.
     pub(crate) fn current() -> Self {
         Self::chosen().unwrap_or(Self::Baseline)
     }
@@ -133,7 +133,7 @@ impl InstructionSet {
         })
     }
 
-    /// The instructions that is asked for and those below it.
+    /// The instruction set that is asked for and those below it.
     fn from_asked(asked: Option<&OsStr>) -> Result<Vec<Self>, UnknownInstructionSet> {
         let mut available = Self::available();
         let Some(value) = asked else {
@@ -162,7 +162,7 @@ impl InstructionSet {
         }
     }
 
-    /// Does a task with the instructions of this instructions.
+    /// Does a task with the instructions of this set.
     #[inline]
     pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
         match self {
@@ -183,7 +183,7 @@ impl InstructionSet {
         self.run_wide(CountLanes)
     }
 
-    /// This instructions, or one whose registers so many numbers fill.
+    /// This set, or one whose registers so many numbers fill.
     pub(crate) fn filled_by(self, count: usize) -> Option<Self> {
         let narrower = match self {
             #[cfg(target_arch = "x86_64")]
@@ -218,7 +218,7 @@ impl Wide for CountLanes {
     }
 }
 
-/// A task on a instructions that fuses.
+/// A task on an instruction set that fuses.
 #[cfg(target_arch = "x86_64")]
 struct Fused<T>(T);
 

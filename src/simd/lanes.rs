@@ -221,7 +221,7 @@ impl Mask {
     }
 }
 
-/// Eight numbers of yes.
+/// Counts, lane by lane, how often something was so.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Counters(Lanes);
 

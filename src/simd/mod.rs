@@ -1,8 +1,8 @@
 //! Eight numbers at once, and the widest instructions that the processor has for them.
 //!
-//! `Lanes` are plain arrays with arithmetic; the compiler turns them into vector instructions of whatever
-//! instructions the code around them is compiled for. `Vector`s are the registers themselves. [`InstructionSet`] compiles a task for
-//! three levels into one program and picks one at run time.
+//! `Lanes` are plain arrays with arithmetic; the compiler turns them into vector instructions of whatever set the code
+//! around them is compiled for. `Vector`s are the registers themselves. [`InstructionSet`] compiles a task for three sets
+//! into one program and picks one at run time.
 
 mod isa;
 mod lanes;

@@ -1,7 +1,7 @@
-//! Whether a instructions's instructions do what their names say. Run once a process before a instructions is used, and by the tests at
-//! every instructions that the machine has.
+//! Whether the instructions of a set do what their names say. Run once a process before a set is used, and by the tests at
+//! every set that the machine has.
 
-// Everything here must be compiled for the instructions that it tries.
+// Everything here must be compiled for the instruction set that it tries.
 #![allow(clippy::inline_always)]
 
 use std::hint::black_box;
@@ -18,7 +18,7 @@ const C: [f64; LANES] = [-3.0, 5.0, 0.75, 9.0, -2.0, 1.25, 0.5, -6.0];
 /// A primitive and whether it was right.
 type Verdict = (&'static str, bool);
 
-/// The first primitive that errs at a instructions, if any.
+/// The first primitive that errs at an instruction set, if any.
 pub(super) fn wrong_primitive(instructions: InstructionSet) -> Option<&'static str> {
     let first = |verdicts: &[Verdict]| {
         let wrong = verdicts.iter().find(|(_, right)| !right);
@@ -165,7 +165,7 @@ fn choices<S: Simd>(simd: S) -> Vec<Verdict> {
     ]
 }
 
-/// Primitives of [`Lanes`] and [`Mask`], compiled for a instructions.
+/// Primitives of [`Lanes`] and [`Mask`], compiled for an instruction set.
 struct Eights;
 
 impl Task for Eights {
@@ -245,7 +245,7 @@ fn masks(a: Lanes, b: Lanes) -> [Verdict; 8] {
 mod tests {
     use super::*;
 
-    /// Analytic: every primitive against the same on single numbers, masks of every pattern, at every instructions of this
+    /// Analytic: every primitive against the same on single numbers, masks of every pattern, at every instruction set of this
     /// machine. `tests/levels.rs` tells which levels there are not.
     #[test]
     fn every_primitive_at_every_level() {

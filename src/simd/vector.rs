@@ -1,4 +1,4 @@
-//! As many numbers as a register of the instructions holds: for loops along tables, where eight at a time would leave half of
+//! As many numbers as a register of the instruction set holds: for loops along tables, where eight at a time would leave half of
 //! them idle or spill.
 
 // Everything here must end up in the loop that uses it, compiled for that loop's instructions.

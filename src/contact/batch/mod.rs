@@ -1,7 +1,7 @@
 //! Forces of eight contacts at once.
 //!
 //! The same contacts as [`Pair::evaluate`] takes one by one, wherever ball and race are whole and the zone ends in the
-//! groove: then the contacts lie side by side in [`Lanes`]. Whatever is not so regular (a shoulder, a ball that is not in
+//! groove: then the contacts lie side by side in [`Lanes`]. Whatever is not so (a shoulder, a ball that is not in
 //! front of its groove) is told, and left to it.
 
 // Everything here must be compiled for the instructions of its caller.

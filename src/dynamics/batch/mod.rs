@@ -338,7 +338,7 @@ impl Batch {
         }
     }
 
-    /// Takes over that others have found nothing in their way.
+    /// Forgets what was found last: the loop along the balls has evaluated all contacts, none of which needed care.
     pub fn settle(&mut self) {
         self.singles.clear();
         (self.active, self.lost, self.pulls) = (0, None, 0);

@@ -66,7 +66,7 @@ pub(super) struct Ground<'a> {
 impl Planar {
     /// For rows whose contacts all have a closed form; none if there is more to the model.
     ///
-    /// Comes with the instructions that is to run it: its registers reach over the end of no row.
+    /// Comes with the instruction set that is to run it: its registers reach over the end of no row.
     pub fn new(
         ground: &Ground<'_>,
         forms: &[(usize, [InPlane; 2])],
