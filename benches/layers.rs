@@ -2,7 +2,6 @@
 //! instruction set, the integrator alone, a run, the static solve. `cargo bench --bench layers`.
 
 use std::hint::black_box;
-use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -179,7 +178,7 @@ fn run(c: &mut Criterion) {
             ..Run::default()
         };
         group.bench_function(format!("10 ms of the wheel bearing, {name}"), |b| {
-            b.iter(|| simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap());
+            b.iter(|| simulate(&scene, &run).unwrap());
         });
     }
     group.finish();

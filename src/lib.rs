@@ -4,16 +4,19 @@
 //! (Otto-von-Guericke-Universität Magdeburg); equation numbers in brackets are that paper's.
 //!
 //! ```
-//! use std::ops::ControlFlow;
 //! use ballrace::{Run, scene::presets, simulate};
 //!
 //! let scene = presets::wheel_bearing(3000.0);
 //! let run = Run { duration: 1e-3, ..Run::default() };
-//! let out = simulate(&scene, &run, &mut |_share| ControlFlow::Continue(()))?;
+//! let out = simulate(&scene, &run)?;
 //! let ay = out.get("outer.ay").unwrap(); // m/s², 50 kHz
 //! assert_eq!(ay.len(), 50);
 //! # Ok::<(), ballrace::Error>(())
 //! ```
+//!
+//! A [`Scene`] says what is simulated, a [`Run`] for how long and how well, and [`Signals`] are what comes of it;
+//! [`simulate_into()`] hands a long record over in blocks, [`simulate_with_progress()`] may be stopped. [`equilibrium()`],
+//! [`stiffness()`] and [`load_distribution()`] are static, [`explain()`] tells what a scene costs, [`campaign()`] runs many.
 //!
 //! # The rooms
 //!
@@ -43,7 +46,7 @@
 //!   kept whole, or handed over in blocks ([`Block`]); reasons to look twice at them ([`Warning`]).
 //! * `residual` — whether recorded accelerations belong to the recorded motion; `selftest` — whether this processor's vector
 //!   instructions compute what they should, once a process.
-//! * `run` ([`Run`], [`simulate()`], [`simulate_into()`]) — the run itself: its options, methods, tolerances, budgets and ends;
+//! * `run` ([`Run`], [`simulate()`]) — the run itself: its options, methods, tolerances, budgets and ends;
 //!   `run/simulate.rs` has the lines to read first.
 //! * `explain` ([`explain()`]) — what a scene is compiled to, what it costs, what would make it cheaper.
 //! * `features` ([`Feature`]) — the few numbers a signal is known by: moments, fault lines, contact loads.
@@ -114,7 +117,7 @@ pub use features::{Feature, FeatureOptions, feature_columns, features, signal_fe
 pub use interrupt::Interrupt;
 pub use model::{Body, BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Race, Scales};
 pub use reduction::{Obstacle, Omission, Reduction};
-pub use run::{Run, simulate, simulate_into};
+pub use run::{Run, simulate, simulate_into, simulate_with_progress};
 pub use scene::Scene;
 pub use signals::{
     Accuracy, Bandwidth, Block, Column, Provenance, Signals, SliceRow, Statistics, Warning,

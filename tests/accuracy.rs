@@ -177,11 +177,10 @@ fn the_choice_is_told() {
 #[test]
 fn what_cannot_be_asked_is_refused() {
     let scene = presets::wheel_bearing(0.0);
-    let refused =
-        |run: &Run| match simulate(&scene, run, &mut |_| std::ops::ControlFlow::Continue(())) {
-            Err(Error::Scene { path, .. }) => path,
-            other => panic!("{other:?}"),
-        };
+    let refused = |run: &Run| match simulate(&scene, run) {
+        Err(Error::Scene { path, .. }) => path,
+        other => panic!("{other:?}"),
+    };
     for accuracy in [0.0, -1.0, 1e-5, 0.5, f64::NAN] {
         let run = Run {
             accuracy: Some(accuracy),

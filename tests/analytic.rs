@@ -1,7 +1,6 @@
 //! Truths that need no other program: conservation, symmetry, closed forms and limits.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
-use std::ops::ControlFlow;
 
 use ballrace::compile;
 use ballrace::dynamics::contributions;
@@ -33,7 +32,7 @@ fn spall(on: Surface, width: f64) -> Defect {
 }
 
 fn run(scene: &Scene, run: &Run) -> Signals {
-    simulate(scene, run, &mut |_| ControlFlow::Continue(())).unwrap()
+    simulate(scene, run).unwrap()
 }
 
 fn rms(x: &[f64]) -> f64 {

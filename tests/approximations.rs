@@ -4,7 +4,6 @@
 mod common;
 
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 use ballrace::Reduction;
 use ballrace::compile;
@@ -403,7 +402,7 @@ fn a_run_tells_what_it_gave_up() {
         settle: Some(0.0),
         ..Run::default()
     };
-    let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
+    let out = simulate(&scene, &run).unwrap();
     let told = out.provenance.left_out.iter();
     let given_up = told.filter(|o| o.reason.starts_with("by request")).count();
     assert_eq!((out.provenance.states, given_up), (2 * (26 + 4), 2));

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow::{self, Break, Continue};
 
 use ballrace::scene::{Probe, Scene, presets};
-use ballrace::{Block, Error, Run, Signals, simulate, simulate_into};
+use ballrace::{Block, Error, Run, Signals, simulate, simulate_into, simulate_with_progress};
 
 /// So many columns that a block has some hundred samples: filtered motion, and points of contacts.
 fn scene() -> Scene {
@@ -35,7 +35,7 @@ fn go_on(_: f64) -> ControlFlow<()> {
 /// Truth: the record that [`simulate`] keeps.
 #[test]
 fn blocks_are_the_record_that_is_kept() {
-    let kept = simulate(&scene(), &run(), &mut go_on).unwrap();
+    let kept = simulate(&scene(), &run()).unwrap();
     assert!(kept.provenance.oversampling > 1, "nothing is filtered");
     let (mut at, mut blocks) = (0, 0);
     let mut sink = |block: Block| {
@@ -99,7 +99,7 @@ fn a_long_record_counts_as_a_block() {
         fs: 1e6,
         ..run()
     };
-    let kept = simulate(&scene(), &long, &mut |_| Break(()));
+    let kept = simulate_with_progress(&scene(), &long, &mut |_| Break(()));
     assert!(matches!(kept, Err(Error::Memory { .. })), "{kept:?}");
     let streamed = simulate_into(&scene(), &long, &mut |_| Continue(()), &mut |_| Break(()));
     assert!(

@@ -64,7 +64,7 @@ fn threads_do_not_change_a_bit() {
         assert_eq!(bits(a), bits(b));
     }
     let case = &cases()[0];
-    let alone = simulate(&case.scene, &case.run, &mut |_| ControlFlow::Continue(())).unwrap();
+    let alone = simulate(&case.scene, &case.run).unwrap();
     let among = &three[0].result.as_ref().unwrap().signals;
     assert_eq!(alone.columns, among.columns);
     assert_eq!(alone.scene, among.scene);

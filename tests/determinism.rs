@@ -1,7 +1,5 @@
 //! The same bits for any number of threads, and effort that does not drift unseen.
 
-use std::ops::ControlFlow;
-
 use ballrace::scene::{Slices, presets};
 use ballrace::{Run, simulate};
 
@@ -14,7 +12,7 @@ fn bits(threads: usize) -> Vec<u64> {
         settle: Some(0.0),
         ..Run::default()
     };
-    let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
+    let out = simulate(&scene, &run).unwrap();
     out.columns
         .iter()
         .flat_map(|column| column.values.iter().map(|x| x.to_bits()))
@@ -43,7 +41,7 @@ fn effort_is_pinned() {
         (presets::wheel_bearing(3000.0), (150, 1)),
         (presets::deep_groove_6205(500.0, 0.0, 1800.0), (300, 1)),
     ] {
-        let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
+        let out = simulate(&scene, &run).unwrap();
         let stats = out.stats;
         println!("{}: {stats:?}", scene.name);
         assert_eq!((stats.accepted, stats.rejected), steps, "{}", scene.name);

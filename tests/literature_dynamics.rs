@@ -13,7 +13,6 @@
 mod common;
 
 use std::f64::consts::{PI, TAU};
-use std::ops::ControlFlow;
 
 use ballrace::compile;
 use ballrace::contact::hertz::Hertz;
@@ -25,7 +24,7 @@ use ballrace::{Bandwidth, Run, Signals, Start, simulate, start};
 use common::meets;
 
 fn run(scene: &Scene, run: &Run) -> Signals {
-    simulate(scene, run, &mut |_| ControlFlow::Continue(())).unwrap()
+    simulate(scene, run).unwrap()
 }
 
 fn motion(body: &str, components: &[Component]) -> Probe {

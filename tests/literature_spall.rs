@@ -6,14 +6,13 @@
 mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::ops::ControlFlow;
 
 use ballrace::scene::{ContactQuantity, Defect, Probe, Row, Scene, Support, Surface, presets};
 use ballrace::{Run, Signals, simulate};
 use common::meets;
 
 fn run(scene: &Scene, run: &Run) -> Signals {
-    simulate(scene, run, &mut |_| ControlFlow::Continue(())).unwrap()
+    simulate(scene, run).unwrap()
 }
 
 /// A ball of a Koyo 1205 (one row, no clearance, no cage) at the load line comes to a spall of a width \[m\] on a

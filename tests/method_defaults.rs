@@ -8,7 +8,6 @@
 mod common;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
-use std::ops::ControlFlow;
 
 use ballrace::compile;
 use ballrace::scene::{Defect, Drive, Friction, Method, Scene, Surface, presets};
@@ -185,7 +184,7 @@ fn run(
         method: Some(method),
         ..short(DURATION)
     };
-    simulate(&scene, &run, &mut |_| ControlFlow::Continue(()))
+    simulate(&scene, &run)
 }
 
 /// Accelerations of the outer ring along x, y, z, one after the other.
@@ -324,7 +323,7 @@ fn with_step(method: Method, step: f64) -> Result<Signals, Error> {
         method: Some(method),
         ..short(2e-3)
     };
-    simulate(&scene, &run, &mut |_| ControlFlow::Continue(()))
+    simulate(&scene, &run)
 }
 
 /// Beyond its limit Verlet loses a ball; a fixed step has no rtol to be blamed.
@@ -368,7 +367,7 @@ fn what_leaves_reality_ends_the_run() {
                 start: Start::Rolling,
                 ..short(1e-3)
             };
-            match simulate(&scene, &run, &mut |_| ControlFlow::Continue(())) {
+            match simulate(&scene, &run) {
                 Err(Error::Integration { body, reason, .. }) => {
                     assert_eq!(body, "inner", "{method:?}: {reason}");
                     assert!(reason.contains("the body spins at"), "{method:?}: {reason}");

@@ -341,7 +341,7 @@ fn run(scene: &Scene, method: Method, rtol: f64) -> Signals {
         settle: Some(0.0),
         ..Run::default()
     };
-    simulate(scene, &run, &mut |_| ControlFlow::Continue(())).unwrap()
+    simulate(scene, &run).unwrap()
 }
 
 /// Relative L2 error of the outer ring's acceleration.
@@ -457,7 +457,7 @@ fn auto_switches_within_a_run() {
         settle: Some(0.0),
         ..Run::default()
     };
-    let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
+    let out = simulate(&scene, &run).unwrap();
     let (explicit, implicit) = (DORMAND_PRINCE.name, KENNEDY_CARPENTER.explicit.name);
     let switched = format!("auto: {explicit}, {implicit}");
     assert!(
@@ -479,7 +479,7 @@ fn a_fixed_step_must_come_from_somewhere() {
         settle: Some(0.0),
         ..Run::default()
     };
-    let go = |scene: &Scene| simulate(scene, &run, &mut |_| ControlFlow::Continue(()));
+    let go = |scene: &Scene| simulate(scene, &run);
     let message = go(&scene).unwrap_err().to_string();
     assert!(message.contains("solver.max_step"), "{message}");
     scene.solver.max_step = Some(1e-6);
@@ -499,9 +499,7 @@ fn implicit_steps_do_not_depend_on_threads() {
             settle: Some(0.0),
             ..Run::default()
         };
-        simulate(&scene, &run, &mut |_| ControlFlow::Continue(()))
-            .unwrap()
-            .columns
+        simulate(&scene, &run).unwrap().columns
     });
     assert_eq!(columns[0], columns[1]);
 }

@@ -3,7 +3,6 @@
 mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::ops::ControlFlow;
 
 use ballrace::compile;
 use ballrace::dynamics::Dynamics;
@@ -289,7 +288,7 @@ fn signal(scene: &Scene, reduce: bool, y0: &[f64]) -> [Vec<f64>; 2] {
         bandwidth: Bandwidth::Raw,
         ..Run::default()
     };
-    let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
+    let out = simulate(&scene, &run).unwrap();
     ["outer.ax", "outer.ay"].map(|name| out.get(name).unwrap().to_vec())
 }
 
@@ -419,7 +418,7 @@ fn nothing_is_left_out_on_request() {
             settle: Some(0.0),
             ..Run::default()
         };
-        let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
+        let out = simulate(&scene, &run).unwrap();
         assert_eq!(out.provenance.states, states);
         assert_eq!(out.provenance.left_out.is_empty(), !reduce);
     }

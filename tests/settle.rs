@@ -222,8 +222,7 @@ fn nonsense_is_refused() {
             ..Run::default()
         };
         let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
-        let refused =
-            ballrace::simulate(&scene, &asked, &mut |_| std::ops::ControlFlow::Continue(()));
+        let refused = ballrace::simulate(&scene, &asked);
         let told = refused.unwrap_err().to_string();
         assert!(
             told.contains("settle") && told.contains("0 to switch"),

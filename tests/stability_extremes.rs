@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use ballrace::compile;
 use ballrace::inspect;
 use ballrace::scene::{Drive, Friction, Mount, Profile, Scene, TimeFunction, presets};
-use ballrace::{Error, Race, Run, Signals, Start, simulate, start};
+use ballrace::{Error, Race, Run, Signals, Start, simulate_with_progress, start};
 use common::{rms, run, short, soon_over_the_spall};
 
 /// The error of a run that must not come to its end, nor go on for ever.
@@ -24,7 +24,7 @@ fn refused(scene: &Scene, run: &Run) -> Error {
             ControlFlow::Break(())
         }
     };
-    simulate(scene, run, &mut patience)
+    simulate_with_progress(scene, run, &mut patience)
         .map(|out| out.stats)
         .expect_err(&scene.name)
 }

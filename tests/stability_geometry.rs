@@ -348,7 +348,7 @@ fn a_ball_that_leaves_its_groove_ends_the_run() {
         start: Start::State(y),
         ..short(2e-3)
     };
-    let out = simulate(&scene, &run, &mut |_| std::ops::ControlFlow::Continue(()));
+    let out = simulate(&scene, &run);
     let error = out.map(|out| out.stats).unwrap_err();
     println!("{error}");
     let Error::Integration {

@@ -14,7 +14,7 @@ use ballrace::scene::{
 };
 use ballrace::{
     BallEquilibrium, Error, Placed, Run, Signals, Start, Touched, Warning, equilibrium, explain,
-    load_distribution, simulate,
+    load_distribution, simulate_with_progress,
 };
 use common::{rms, run, short};
 
@@ -553,7 +553,7 @@ fn loads_on_the_outer_ring_place_as_well() {
     // The inner ring is held, and the outer one pushed onto it.
     std::mem::swap(&mut scene.outer_ring.support, &mut scene.inner_ring.support);
     let stop = |_: f64| std::ops::ControlFlow::Continue(());
-    let out = simulate(&scene, &short(1e-5), &mut { stop }).unwrap();
+    let out = simulate_with_progress(&scene, &short(1e-5), &mut { stop }).unwrap();
     assert_eq!(told(&out).placed, Placed::Contact);
     assert!(number(&out.scene) < -2e-3);
 }

@@ -3,8 +3,6 @@
 //! Analytic: rows share nothing but the rings, so the forces of a bearing are those of its rows alone, and on the rings their
 //! sum.
 
-use std::ops::ControlFlow;
-
 use ballrace::Reduction;
 use ballrace::compile;
 use ballrace::dynamics::Dynamics;
@@ -209,7 +207,7 @@ fn unlike_rows_carry_a_load_and_run() {
                 duration: 1e-3,
                 ..Run::default()
             };
-            let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
+            let out = simulate(&scene, &run).unwrap();
             let moved = out.get("inner.ay").unwrap();
             assert!(
                 moved.iter().all(|a| a.is_finite()),

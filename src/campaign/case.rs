@@ -11,7 +11,7 @@ use crate::features::{
 };
 use crate::interrupt::Interrupt;
 use crate::run::Run;
-use crate::run::simulate;
+use crate::run::simulate_with_progress;
 use crate::scene::Scene;
 use crate::signals::Signals;
 
@@ -77,11 +77,11 @@ impl Case {
             }
         };
         if !options.contact_loads {
-            let signals = simulate(&self.scene, &run, &mut progress)?;
+            let signals = simulate_with_progress(&self.scene, &run, &mut progress)?;
             let features = features_of(&Recorded::from(&signals), &columns, options);
             return Ok(Finished { features, signals });
         }
-        let signals = simulate(&with_load_probes(&self.scene), &run, &mut progress)?;
+        let signals = simulate_with_progress(&with_load_probes(&self.scene), &run, &mut progress)?;
         let features = features_of(&Recorded::from(&signals), &columns, options);
         let signals = without_load_probes(signals, &self.scene);
         Ok(Finished { features, signals })

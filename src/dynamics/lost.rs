@@ -1,7 +1,6 @@
 //! A ball that has left its groove is noticed, whatever path an evaluation takes and by whatever instructions.
 
 use std::f64::consts::FRAC_PI_2;
-use std::ops::ControlFlow;
 
 use super::{Dynamics, Order};
 use crate::equilibrium::compile;
@@ -218,7 +217,7 @@ fn ends(name: &str, scene: &Scene, begin: Start, duration: f64) -> (String, Stri
         start: begin,
         ..Run::default()
     };
-    match simulate(scene, &run, &mut |_| ControlFlow::Continue(())) {
+    match simulate(scene, &run) {
         Err(Error::Integration {
             body, reason, time, ..
         }) => (body, reason, time),

@@ -109,12 +109,11 @@ fn check_record(options: &FeatureOptions, duration: f64, fs: f64) -> Result<()> 
 /// The features of a run: of its columns, of the contact loads if they were asked for, and the largest pressure.
 ///
 /// ```
-/// use std::ops::ControlFlow;
-/// use ballrace::{FeatureOptions, Run, features, scene::presets, simulate};
+/// /// use ballrace::{FeatureOptions, Run, features, scene::presets, simulate};
 ///
 /// let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
 /// let run = Run { duration: 2e-3, ..Run::default() };
-/// let out = simulate(&scene, &run, &mut |_share| ControlFlow::Continue(()))?;
+/// let out = simulate(&scene, &run)?;
 /// let found = features(&out, &FeatureOptions::default())?;
 /// assert!(found.iter().any(|feature| feature.name == "outer.ay.rms"));
 /// # Ok::<(), ballrace::Error>(())

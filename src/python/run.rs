@@ -145,7 +145,7 @@ pub(super) fn simulate<'py>(
         if in_blocks {
             crate::simulate_into(&scene, &run, sink, told)
         } else {
-            crate::simulate(&scene, &run, told)
+            crate::simulate_with_progress(&scene, &run, told)
         }
     })?;
     if let Some(callback) = progress {

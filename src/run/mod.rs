@@ -23,4 +23,4 @@ mod step_limit;
 pub(crate) use follow::{options, tolerance};
 pub use options::Run;
 pub(crate) use orbit::note;
-pub use simulate::{simulate, simulate_into};
+pub use simulate::{simulate, simulate_into, simulate_with_progress};

@@ -20,28 +20,38 @@ use crate::selftest;
 use crate::signals::{Bandwidth, Block, Demand, Provenance, Recorder, Sampling, Signals, Sink};
 use crate::start::{Start, start};
 
-/// Simulates a scene. `progress` is told the share done, 0 to 1, about every 20 ms, and may stop the run.
+/// Simulates a scene.
 ///
 /// ```
 /// use ballrace::{Run, scene::presets, simulate};
 /// let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
 /// let run = Run { duration: 1e-3, ..Run::default() };
-/// let out = simulate(&scene, &run, &mut |_| std::ops::ControlFlow::Continue(())).unwrap();
+/// let out = simulate(&scene, &run).unwrap();
 /// assert_eq!(out.get("outer.ay").unwrap().len(), 50);
 /// ```
 ///
 /// # Errors
 /// [`Error::Scene`] for bad input, [`Error::Memory`] for more samples than fit, [`Error::Equilibrium`] from the
 /// start, [`Error::Integration`] where the integration cannot go on, [`Error::Budget`] where it costs more than the run
-/// allows, [`Error::Interrupted`] if `progress` broke off.
+/// allows.
 ///
 /// [`Error::Scene`]: crate::Error::Scene
 /// [`Error::Memory`]: crate::Error::Memory
 /// [`Error::Equilibrium`]: crate::Error::Equilibrium
 /// [`Error::Integration`]: crate::Error::Integration
 /// [`Error::Budget`]: crate::Error::Budget
+pub fn simulate(scene: &Scene, run: &Run) -> Result<Signals> {
+    simulate_with_progress(scene, run, &mut |_| ControlFlow::Continue(()))
+}
+
+/// Simulates a scene as [`simulate`] does. `progress` is told the share done, 0 to 1, about every 20 ms, and may stop the
+/// run.
+///
+/// # Errors
+/// As [`simulate`]; [`Error::Interrupted`] if `progress` broke off.
+///
 /// [`Error::Interrupted`]: crate::Error::Interrupted
-pub fn simulate(
+pub fn simulate_with_progress(
     scene: &Scene,
     run: &Run,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
@@ -202,7 +212,7 @@ fn pilot(
         time_limit: None,
         ..run.clone()
     };
-    let mut out = simulate(scene, &first, &mut |_| progress(0.0))?;
+    let mut out = simulate_with_progress(scene, &first, &mut |_| progress(0.0))?;
     Ok((out.columns.remove(0).values, out.stats.nfev))
 }
 

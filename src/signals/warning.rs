@@ -197,12 +197,11 @@ impl Signals {
     /// Reasons to look twice; usually none.
     ///
     /// ```
-    /// use std::ops::ControlFlow;
-    /// use ballrace::{Run, scene::presets, simulate};
+    ///     /// use ballrace::{Run, scene::presets, simulate};
     /// let mut scene = presets::wheel_bearing(3000.0);
     /// scene.contact.damping = 5.0;
     /// let run = Run { duration: 1e-3, rtol: Some(1e-3), settle: Some(0.0), ..Run::default() };
-    /// let out = simulate(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
+    /// let out = simulate(&scene, &run).unwrap();
     /// assert!(out.warnings()[0].to_string().starts_with("accelerations are uncertain"));
     /// ```
     pub fn warnings(&self) -> Vec<Warning> {

@@ -4,7 +4,6 @@
 #![allow(dead_code)]
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::ops::ControlFlow;
 
 use ballrace::scene::{Friction, Mount, Probe, Scene, Support, presets};
 use ballrace::{Bandwidth, Run, Signals, simulate};
@@ -47,8 +46,7 @@ pub fn meets(case: &str, published: f64, ours: f64, tolerance: f64) {
 
 /// A run that must come to its end.
 pub fn run(scene: &Scene, run: &Run) -> Signals {
-    simulate(scene, run, &mut |_| ControlFlow::Continue(()))
-        .unwrap_or_else(|error| panic!("{}: {error}", scene.name))
+    simulate(scene, run).unwrap_or_else(|error| panic!("{}: {error}", scene.name))
 }
 
 /// A run of some duration from equilibrium, point samples at 200 kHz, on one thread.

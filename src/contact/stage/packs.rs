@@ -1,0 +1,64 @@
+//! Slices of contacts that are evaluated alone, in packs of eight.
+
+use super::{PlaneVector, StageElement};
+use crate::contact::{Aside, Sink, Touch, cross, turned};
+use crate::simd::LANES;
+
+/// Eight slices of one contact, each with its own direction.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct SlicePack {
+    pub n_e: PlaneVector,
+    pub element: StageElement,
+}
+
+/// Collects the slices of a contact in packs of some lane.
+pub(crate) struct SlicePacking<'a> {
+    pub packs: &'a mut Vec<(usize, SlicePack)>,
+    pub lane: usize,
+    /// Ball radius \[m\].
+    pub radius: f64,
+    /// Whether all slices press along the common normal.
+    pub flat: bool,
+    /// Sum of forces beside those of slices: x, y, z and about the ball's centre.
+    pub aside: [f64; 4],
+    /// Slices so far.
+    pub count: usize,
+}
+
+impl Sink for SlicePacking<'_> {
+    fn touch(&mut self, touch: &Touch) {
+        let lane = self.count % LANES;
+        if lane == 0 {
+            self.packs.push((self.lane, SlicePack::default()));
+        }
+        self.count += 1;
+        let Some((_, SlicePack { n_e, element })) = self.packs.last_mut() else {
+            return;
+        };
+        // α of the slice: that of the place on the ball (flat contact), or of the force's direction.
+        let (sin, cos) = if self.flat {
+            let sin = touch.zeta / self.radius;
+            (sin, (1.0 - sin * sin).sqrt())
+        } else {
+            let tan = touch.share.1 / touch.share.0;
+            let cos = 1.0 / (1.0 + tan * tan).sqrt();
+            (tan * cos, cos)
+        };
+        let (out, arm) = (touch.n_e, touch.arm_ball);
+        (n_e[0][lane], n_e[1][lane]) = (out.x, out.y);
+        element.elastic[lane] = touch.elastic;
+        (element.share.0[lane], element.share.1[lane]) = touch.share;
+        (element.slope.0[lane], element.slope.1[lane]) = (sin, cos);
+        element.load[lane] = touch.elastic / touch.width;
+        element.depth[lane] = touch.depth;
+        element.levers[0][lane] = cross(arm, out);
+        element.levers[1][lane] = cross(arm, turned(out));
+    }
+
+    fn aside(&mut self, force: &Aside) {
+        let (on_ball, _) = force.wrenches();
+        for (sum, part) in self.aside.iter_mut().zip(on_ball) {
+            *sum += part;
+        }
+    }
+}
