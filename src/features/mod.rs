@@ -109,7 +109,7 @@ fn check_record(options: &FeatureOptions, duration: f64, fs: f64) -> Result<()> 
 /// The features of a run: of its columns, of the contact loads if they were asked for, and the largest pressure.
 ///
 /// ```
-/// /// use ballrace::{FeatureOptions, Run, features, scene::presets, simulate};
+/// use ballrace::{FeatureOptions, Run, features, scene::presets, simulate};
 ///
 /// let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
 /// let run = Run { duration: 2e-3, ..Run::default() };

@@ -197,7 +197,7 @@ impl Signals {
     /// Reasons to look twice; usually none.
     ///
     /// ```
-    ///     /// use ballrace::{Run, scene::presets, simulate};
+    /// use ballrace::{Run, scene::presets, simulate};
     /// let mut scene = presets::wheel_bearing(3000.0);
     /// scene.contact.damping = 5.0;
     /// let run = Run { duration: 1e-3, rtol: Some(1e-3), settle: Some(0.0), ..Run::default() };
