@@ -176,9 +176,12 @@ def test_campaigns_filter_unless_told(spalled: br.Scene, tmp_path: Path) -> None
         cases, tmp_path / "runs", scene=spalled, duration=DURATION, fs=FS, progress=False
     )
     filtered, points = done.manifest["outer.ay.rms"]
-    out = br.simulate(spalled, duration=DURATION, fs=FS, threads=1)
-    assert filtered == pytest.approx(float(out["outer.ay"].std()), rel=0.05)
-    assert points > 2.0 * filtered
+    asked: list[tuple[float, Literal["auto"] | None]] = [(filtered, "auto"), (points, None)]
+    for found, bandwidth in asked:
+        out = br.simulate(spalled, duration=DURATION, fs=FS, threads=1, bandwidth=bandwidth)
+        assert found == pytest.approx(float(out["outer.ay"].std()), rel=0.05)
+    # 1.7 to 2.1, as starts a nanometre apart have it.
+    assert points > 1.5 * filtered
     wide: Any = "wide"
     with pytest.raises(br.SceneError, match="bandwidth"):
         br.campaign(cases, tmp_path / "bad", scene=spalled, bandwidth=wide, progress=False)
