@@ -127,7 +127,7 @@ fn signals() -> Vec<Vec<f64>> {
 const CHILD: &str = "print_signals_of_this_level";
 
 #[test]
-#[ignore = "a part of levels_agree_over_whole_runs, which runs it once an instruction set"]
+#[ignore = "a part of levels_agree_over_whole_runs, which starts it in a process of its own for every instruction set"]
 fn print_signals_of_this_level() {
     for signal in signals() {
         let bits: Vec<String> = signal.iter().map(|x| x.to_bits().to_string()).collect();

@@ -62,7 +62,7 @@ pub(super) fn zone<T: Number>(cut: &Cut, section: &Section<T>, half_curvature: T
     }
 }
 
-/// Hands all elements of a whole contact to their receiver. In the `SYMMETRIC` the zone is symmetric, and half of it stands
+/// Hands all elements of a whole contact to their receiver. `SYMMETRIC` says that the zone is, so that half of it stands
 /// for the whole.
 #[inline(always)]
 pub(super) fn elements<T: Number, const FMA: bool, const SYMMETRIC: bool>(
@@ -304,7 +304,7 @@ pub(super) struct Force<T> {
     pub bend: T,
 }
 
-/// Elastic force, damping and friction of an element, and how friction bends if asked. In the `SYMMETRIC` nothing moves along
+/// Elastic force, damping and friction of an element, and how friction bends if asked. Where it is `SYMMETRIC` nothing moves along
 /// z and all presses in the plane.
 #[inline(always)]
 pub(super) fn force<T: Number, const FMA: bool, const SYMMETRIC: bool, const BEND: bool>(
@@ -350,7 +350,8 @@ pub(super) fn force<T: Number, const FMA: bool, const SYMMETRIC: bool, const BEN
     } else {
         [normal * in_plane, zero, normal * axial]
     };
-    // Differences, not fused products: with those the compiler no longer fills whole registers, at a third of the speed.
+    // Differences, not fused products: with those the compiler no longer fills whole registers, and a right-hand
+    // side of the wheel bearing takes half as long again.
     let on_ring = [
         pressing[0] - friction[0],
         pressing[1] - friction[1],

@@ -36,7 +36,7 @@ impl Dynamics<'_> {
         self.read(t, y);
         self.forces.copy_from(&self.constant);
         work.add_to(&mut self.forces);
-        self.others(t);
+        self.add_applied_forces(t);
         let (bases, velocities) = (Layout::each(base), Layout::each(&y[y.len() / 2..]));
         let bodies = bases.iter().zip(velocities).enumerate();
         for (residual, (b, (base, v))) in work.residual.iter_mut().zip(bodies) {

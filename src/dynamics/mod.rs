@@ -258,7 +258,7 @@ impl<'m> Dynamics<'m> {
     fn sum(&mut self, t: f64) {
         self.forces.copy_from(&self.constant);
         self.evaluate_contacts();
-        self.others(t);
+        self.add_applied_forces(t);
     }
 
     /// Adds the forces of the contacts at the state last read.
@@ -278,7 +278,7 @@ impl<'m> Dynamics<'m> {
     }
 
     /// Adds the forces that are neither contacts nor constant.
-    fn others(&mut self, t: f64) {
+    fn add_applied_forces(&mut self, t: f64) {
         self.evaluate_cage();
         let (state, forces) = (&self.state, &mut self.forces);
         support::add(&self.springs, state, forces);

@@ -1,7 +1,7 @@
 //! What the gradient of the elastic energy has beside forces along normals: forces through the ball's centre.
 //!
-//! A contact's energy is U = Σ ± ∫ u(p) over its terms (see `feature`), u' the law. Forces are conservative if they are
-//! −∂U/∂q. With e and dz the ball's place in the meridional plane (`Meridian`: e = σ (d − a − R̃(φ)), R̃ the waves), l and
+//! A contact's energy is U = Σ ± ∫ u(p) over its terms (see `elements`), u' the law. Forces are conservative if they are
+//! −∂U/∂q. With e and dz the ball's place in the meridional plane ([`Section`](crate::contact::Section): e = σ (d − a − R̃(φ)), R̃ the waves), l and
 //! α' its polar coordinates there, C = cos α' and S = sin α':
 //!
 //! **Waves.** At a fixed place on the race −∂U/∂φ = −∂U/∂e · ∂e/∂φ = σ R̃'(φ) ∂U/∂e: a moment about the ring's centre, which

@@ -317,8 +317,8 @@ mod tests {
     use super::*;
     use crate::contact::dual::Dual;
     use crate::contact::iso16281::Iso16281;
-    use crate::contact::{Damping, Elastic, Law, Slices, Torus, Traction, Waves};
-    use crate::scene::Friction;
+    use crate::contact::laws::traction::tests::laws;
+    use crate::contact::{Damping, Elastic, Law, Slices, Torus, Waves};
 
     fn state<T: crate::simd::Number>(of: impl Fn(f64) -> T, velocity: [T; 3]) -> State<T> {
         State {
@@ -334,34 +334,10 @@ mod tests {
         }
     }
 
-    fn laws() -> Vec<Option<Traction>> {
-        let frictions = [
-            Friction::None,
-            Friction::Coulomb {
-                coefficient: 0.1,
-                slip_speed: 0.1,
-            },
-            Friction::Stribeck {
-                static_coefficient: 0.12,
-                kinetic_coefficient: 0.05,
-                stribeck_speed: 0.3,
-                slip_speed: 0.05,
-            },
-            Friction::Traction {
-                a: -0.02,
-                b: 0.1,
-                c: 1.5,
-                d: 0.03,
-                slip_speed: 0.02,
-            },
-        ];
-        frictions.iter().map(Traction::new).collect()
-    }
-
     /// Truth: the kernel, differentiated by itself, against the slope that is written out; pressed and pulling.
     #[test]
     fn the_slope_is_the_kernels() {
-        for traction in laws() {
+        for traction in laws().into_iter().map(Some).chain([None]) {
             for (clamp_pull, velocity) in [
                 (true, [0.2, -0.05, 0.3]),
                 (true, [-30.0, 0.4, 0.1]),

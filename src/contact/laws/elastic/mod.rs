@@ -18,7 +18,7 @@ use crate::simd::Number;
 use hertz::Hertz;
 use iso16281::Iso16281;
 
-/// An elastic law as loops over elements are compiled for it: a choice within them would cost a third of their speed.
+/// An elastic law as loops over elements are compiled for it, so that no choice of a law stands in them.
 pub(in crate::contact) trait Load: Copy {
     /// Whether elements lie on the common tangent and press along the common normal ([`Cut::CommonTangent`]); else they
     /// are slices of the ball's surface.

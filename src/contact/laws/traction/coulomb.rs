@@ -21,8 +21,8 @@ impl Coulomb {
         smoothed(element.squared, self.slip_speed) * self.coefficient
     }
 
-    /// φ, and φ'(u)/u = −φ/(u² + v_s²): by hand, as it costs half of what differentiating takes, and implicit methods
-    /// ask for it most.
+    /// φ, and φ'(u)/u = −φ/(u² + v_s²): by hand with one division and one root, where differentiating takes two
+    /// divisions more; implicit methods ask for it most.
     #[inline(always)]
     pub(super) fn factor_and_bend<T: Number>(&self, element: &Sliding<T>) -> (T, T) {
         let one = element.squared.same(1.0);

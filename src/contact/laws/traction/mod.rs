@@ -220,7 +220,7 @@ fn smoothed<T: Number>(squared: T, slip_speed: f64) -> T {
 }
 
 #[cfg(test)]
-mod tests {
+pub(in crate::contact) mod tests {
     use super::*;
 
     /// Truth: the kinematics of a ball that rolls between a ring at rest and its own centre going round: with ω_b and ω_r
@@ -245,10 +245,9 @@ mod tests {
         assert!((ring + orbit * (d + arm)).abs() < 1e-12, "{ring}");
     }
 
-    /// Analytic: the slope of every law, φ'(u)/u, against central differences.
-    #[test]
-    fn laws_differentiate_themselves() {
-        let laws = [
+    /// One of every law.
+    pub(in crate::contact) fn laws() -> Vec<Traction> {
+        let frictions = [
             Friction::Coulomb {
                 coefficient: 0.1,
                 slip_speed: 0.1,
@@ -267,7 +266,13 @@ mod tests {
                 slip_speed: 0.02,
             },
         ];
-        for law in laws.map(|law| Traction::new(&law).unwrap()) {
+        frictions.iter().filter_map(Traction::new).collect()
+    }
+
+    /// Analytic: the slope of every law, φ'(u)/u, against central differences.
+    #[test]
+    fn laws_differentiate_themselves() {
+        for law in laws() {
             for u in [0.02, 0.3, 2.0] {
                 let sliding = Sliding {
                     squared: u * u,
