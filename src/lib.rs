@@ -38,6 +38,8 @@
 //! * `reduction` ([`Reduction`]) — what a run leaves out, and why.
 //! * [`dynamics`] — the right-hand side: touching contacts by eights of one class of rows, or whole rows where each is one
 //!   formula, summed in one order; smooth plane rows in one loop, without tables between; forces by origin.
+//! * [`implicit`] — velocities solved for at held places, where friction is too stiff for explicit steps: the contacts of a stage,
+//!   their slopes, Newton's method on an arrow of a matrix.
 //! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
 //! * `equilibrium` ([`equilibrium()`], [`stiffness()`], [`load_distribution()`]) — the static solve and what follows
 //!   from it, the places of defects among it; `start` ([`start()`]) — how a run begins.
@@ -89,6 +91,7 @@ mod error;
 mod explain;
 mod features;
 mod forces;
+pub mod implicit;
 pub mod inspect;
 pub mod integrate;
 mod interrupt;

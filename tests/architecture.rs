@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 25] = [
+const ORDER: [&str; 26] = [
     "told",
     "error",
     "memory",
@@ -20,6 +20,7 @@ const ORDER: [&str; 25] = [
     "inspect",
     "reduction",
     "dynamics",
+    "implicit",
     "equilibrium",
     "start",
     "pool",

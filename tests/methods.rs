@@ -74,10 +74,6 @@ impl ImplicitVelocity for Rubbed {
             iterations: 50,
         })
     }
-
-    fn fastest_rate(&mut self, _t: f64, _y: &[f64]) -> f64 {
-        self.rate
-    }
 }
 
 fn fixed(h: f64) -> Options {

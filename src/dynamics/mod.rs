@@ -1,17 +1,13 @@
 //! The right-hand side: contacts, evaluated by eights, and all other forces, in one order.
 
-mod arrow;
 mod batch;
 mod contributions;
 mod evaluation;
-mod implicit;
 mod kept;
 #[cfg(test)]
 mod lost;
 mod planar;
 mod rolling;
-mod stage;
-mod stage_batch;
 mod sums;
 
 use std::sync::Arc;
@@ -23,13 +19,12 @@ use crate::integrate::System;
 use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Spring};
 use crate::reduction::Reduction;
 
+pub(crate) use batch::{Batch, Kind, SideConstants, Touching};
 pub use contributions::{CONTRIBUTIONS, contributions};
 
-use batch::{Batch, Kind};
 use kept::Kept;
 use planar::{Ground, Planar};
 use rolling::Rolling;
-use stage::Stage;
 
 /// A model with the memory that evaluating it needs. One a thread of control.
 #[derive(Debug)]
@@ -47,8 +42,6 @@ pub struct Dynamics<'m> {
     /// One over the mass where a direction is free, 0 where it is not.
     mobility: Table,
     pool: Option<Arc<ThreadPool>>,
-    /// Memory of implicit stages, once there was one.
-    implicit: Option<Box<Stage>>,
 }
 
 /// What a state vector holds.
@@ -142,7 +135,6 @@ impl<'m> Dynamics<'m> {
             springs: model.springs.clone(),
             mobility,
             pool: None,
-            implicit: None,
         }
     }
 
@@ -158,6 +150,16 @@ impl<'m> Dynamics<'m> {
     /// The model.
     pub fn model(&self) -> &'m Model {
         self.model
+    }
+
+    /// The state that was read last.
+    pub(crate) fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The threads that share an evaluation, if there are more than one.
+    pub(crate) fn pool(&self) -> Option<&ThreadPool> {
+        self.pool.as_deref()
     }
 
     /// Slices whose damping wanted to pull in the last evaluation.
@@ -235,7 +237,7 @@ impl<'m> Dynamics<'m> {
     }
 
     /// Takes over a state vector.
-    fn read(&mut self, t: f64, y: &[f64]) {
+    pub(crate) fn read(&mut self, t: f64, y: &[f64]) {
         match &mut self.order {
             Order::Bodies => self.state.read(y),
             Order::Kept(kept) => kept.read(t, y, &mut self.state),
@@ -258,6 +260,14 @@ impl<'m> Dynamics<'m> {
     fn sum(&mut self, t: f64) {
         self.forces.copy_from(&self.constant);
         self.evaluate_contacts();
+        self.add_applied_forces(t);
+    }
+
+    /// Sums the forces at a state with those of the contacts as `add_contacts` adds them.
+    pub(crate) fn sum_with(&mut self, t: f64, y: &[f64], add_contacts: impl FnOnce(&mut Table)) {
+        self.read(t, y);
+        self.forces.copy_from(&self.constant);
+        add_contacts(&mut self.forces);
         self.add_applied_forces(t);
     }
 
@@ -289,7 +299,7 @@ impl<'m> Dynamics<'m> {
 
     /// M⁻¹ F of a body. Directions that are fixed do not accelerate; the driven ring's rotation accelerates as
     /// prescribed.
-    fn acceleration(&self, t: f64, body: BodyId) -> [f64; DOFS] {
+    pub(crate) fn acceleration(&self, t: f64, body: BodyId) -> [f64; DOFS] {
         let (force, mobility) = (self.forces.of(body), &self.model.mobility[body]);
         let mut acceleration = std::array::from_fn(|i| force[i] * mobility[i]);
         if body == BodyId::INNER

@@ -25,9 +25,6 @@ pub trait ImplicitVelocity: System {
         base: &[f64],
         gamma_h: f64,
     ) -> Result<usize, Stuck>;
-
-    /// The fastest rate \[1/time\] at which velocities decay at `(t, y)`, or a bound not far above it.
-    fn fastest_rate(&mut self, t: f64, y: &[f64]) -> f64;
 }
 
 /// An implicit stage without a solution.

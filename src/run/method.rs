@@ -5,10 +5,11 @@ use std::ops::ControlFlow;
 
 use super::step_limit;
 use crate::dynamics::Dynamics;
+use crate::implicit::ImplicitDynamics;
 use crate::integrate::{
-    self, BOGACKI_SHAMPINE, Controller, DORMAND_PRINCE, DenseStep, Failure, ImplicitVelocity,
-    KENNEDY_CARPENTER, Observer, Options, RUNGE_KUTTA_4, Solution, Statistics, TSITOURAS,
-    Tolerance, VERNER, VelocityVerlet, integrate,
+    self, BOGACKI_SHAMPINE, Controller, DORMAND_PRINCE, DenseStep, Failure, KENNEDY_CARPENTER,
+    Observer, Options, RUNGE_KUTTA_4, Solution, Statistics, System, TSITOURAS, Tolerance, VERNER,
+    VelocityVerlet, integrate,
 };
 use crate::model::Model;
 use crate::scene::Method;
@@ -62,7 +63,9 @@ pub(crate) fn run<'m, O: Observer<Dynamics<'m>>>(
         Method::RungeKutta4 => by(&RUNGE_KUTTA_4, dynamics, task, observer),
         Method::VelocityVerlet => by(&VelocityVerlet, dynamics, task, observer),
         Method::ImplicitFriction => {
-            let (solution, mut choice) = by(&KENNEDY_CARPENTER, dynamics, task, observer)?;
+            let mut implicit = ImplicitDynamics::new(dynamics);
+            let observer = &mut Through(observer);
+            let (solution, mut choice) = by(&KENNEDY_CARPENTER, &mut implicit, task, observer)?;
             choice.implicit = solution.stats.accepted;
             Ok((solution, choice))
         }
@@ -71,15 +74,16 @@ pub(crate) fn run<'m, O: Observer<Dynamics<'m>>>(
 }
 
 /// Integrates by one method.
-fn by<'m, M, O>(
+fn by<S, M, O>(
     method: &M,
-    dynamics: &mut Dynamics<'m>,
+    system: &mut S,
     task: Task<'_>,
     observer: &mut O,
 ) -> Result<(Solution, Choice), Failure>
 where
-    M: integrate::Method<Dynamics<'m>>,
-    O: Observer<Dynamics<'m>>,
+    S: System,
+    M: integrate::Method<S>,
+    O: Observer<S>,
 {
     let Task {
         span,
@@ -96,7 +100,7 @@ where
         names: vec![tableau.name],
         ..Choice::default()
     };
-    let solution = integrate(dynamics, method, span, y0, tolerance, &options, observer)?;
+    let solution = integrate(system, method, span, y0, tolerance, &options, observer)?;
     Ok((solution, choice))
 }
 
@@ -106,11 +110,10 @@ fn choose<'m, O: Observer<Dynamics<'m>>>(
     task: Task<'_>,
     observer: &mut O,
 ) -> Result<(Solution, Choice), Failure> {
-    let step = task
-        .options
-        .max_step
-        .min(1.0 / dynamics.model().scales().frequency);
-    let first = quotient(dynamics, task.span.0, task.y0, step);
+    let model = dynamics.model();
+    let step = task.options.max_step.min(1.0 / model.scales().frequency);
+    let mut system = ImplicitDynamics::new(dynamics);
+    let first = quotient(&mut system, task.span.0, task.y0, step);
     let mut watch = Watch {
         observer,
         step,
@@ -137,12 +140,12 @@ fn choose<'m, O: Observer<Dynamics<'m>>>(
         };
         let (mut solution, done) = if watch.implicit {
             let part = Task {
-                options: &implicit_options(&options, dynamics.model()),
+                options: &implicit_options(&options, model),
                 ..part
             };
-            by(&KENNEDY_CARPENTER, dynamics, part, &mut watch)?
+            by(&KENNEDY_CARPENTER, &mut system, part, &mut watch)?
         } else {
-            by(&DORMAND_PRINCE, dynamics, part, &mut watch)?
+            by(&DORMAND_PRINCE, &mut system, part, &mut watch)?
         };
         choice.names.extend(done.names);
         if watch.implicit {
@@ -174,6 +177,20 @@ fn implicit_options(options: &Options, model: &Model) -> Options {
     options
 }
 
+/// Lets an observer of the right-hand side see implicit steps.
+struct Through<'o, O>(&'o mut O);
+
+impl<'m, O: Observer<Dynamics<'m>>> Observer<ImplicitDynamics<'_, 'm>> for Through<'_, O> {
+    fn accepted(
+        &mut self,
+        system: &mut ImplicitDynamics<'_, 'm>,
+        step: &DenseStep<'_>,
+        stats: &Statistics,
+    ) -> ControlFlow<()> {
+        self.0.accepted(system.dynamics, step, stats)
+    }
+}
+
 /// Looks at the stiffness now and then, and ends the integration where the other method should go on.
 struct Watch<'o, O> {
     observer: &'o mut O,
@@ -186,16 +203,16 @@ struct Watch<'o, O> {
     last: f64,
 }
 
-impl<'m, O: Observer<Dynamics<'m>>> Observer<Dynamics<'m>> for Watch<'_, O> {
+impl<'m, O: Observer<Dynamics<'m>>> Observer<ImplicitDynamics<'_, 'm>> for Watch<'_, O> {
     fn accepted(
         &mut self,
-        dynamics: &mut Dynamics<'m>,
+        system: &mut ImplicitDynamics<'_, 'm>,
         step: &DenseStep<'_>,
         stats: &Statistics,
     ) -> ControlFlow<()> {
-        self.observer.accepted(dynamics, step, stats)?;
+        self.observer.accepted(system.dynamics, step, stats)?;
         if stats.accepted.is_multiple_of(LOOK_EVERY) {
-            let quotient = quotient(dynamics, step.t1(), step.y1(), self.step);
+            let quotient = quotient(system, step.t1(), step.y1(), self.step);
             self.quotient = self.quotient.max(quotient);
             self.last = step.h();
             self.switch = if self.implicit {
@@ -212,6 +229,6 @@ impl<'m, O: Observer<Dynamics<'m>>> Observer<Dynamics<'m>> for Watch<'_, O> {
 }
 
 /// Rate of friction times a step, over what Dormand–Prince bears.
-fn quotient(dynamics: &mut Dynamics<'_>, t: f64, y: &[f64], step: f64) -> f64 {
-    dynamics.fastest_rate(t, y) * step / DORMAND_PRINCE.stability_limit
+fn quotient(system: &mut ImplicitDynamics<'_, '_>, t: f64, y: &[f64], step: f64) -> f64 {
+    system.fastest_rate(t, y) * step / DORMAND_PRINCE.stability_limit
 }

@@ -2,6 +2,7 @@
 //!
 //! * `options` ([`Run`]) — what a run is asked for; `accuracy` finds nodes, tolerance and step cap for a requested one.
 //! * `method` — the method, and the switch between two of them; `step_limit` — the largest step of each.
+//! * `prepare` — what comes before: the scene as the run has it, memory, start; `provenance` — what is told of it after.
 //! * `settle` — what is left of the start dies down before t = 0; `follow` — steps over a stretch of time.
 //! * `budget`, `step_collapse`, `runaway`, `escape`, `orbit`, `ending` — when it stops, who held it up, and what its error
 //!   says.
@@ -14,6 +15,8 @@ mod follow;
 pub(crate) mod method;
 mod options;
 mod orbit;
+mod prepare;
+mod provenance;
 mod runaway;
 mod settle;
 mod simulate;

@@ -3,22 +3,19 @@
 use std::ops::ControlFlow;
 
 use super::Run;
-use super::accuracy;
 use super::budget;
 use super::follow::{Stretch, follow, options, threads};
-use super::settle;
-use super::step_limit;
+use super::prepare::{Prepared, check_memory, prepare};
+use super::provenance::{Done, provenance};
 use crate::dynamics::Dynamics;
 use crate::equilibrium::compile;
-use crate::equilibrium::place;
 use crate::error::Result;
-use crate::memory;
 use crate::pool::on;
 use crate::reduction::Reduction;
-use crate::scene::{SCHEMA, Scene};
+use crate::scene::Scene;
 use crate::selftest;
-use crate::signals::{Bandwidth, Block, Demand, Provenance, Recorder, Sampling, Signals, Sink};
-use crate::start::{Start, start};
+use crate::signals::{Block, Recorder, Sampling, Signals, Sink};
+use crate::start::start;
 
 /// Simulates a scene.
 ///
@@ -117,50 +114,45 @@ fn unlimited(
     sink: Option<Sink<'_>>,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Signals> {
-    let (scene, placed) = place(scene)?;
-    let mut scene = scene.into_owned();
-    scene.solver.rtol = run.rtol.unwrap_or(scene.solver.rtol);
-    scene.solver.method = run.method.unwrap_or(scene.solver.method);
-    if run.accuracy.is_some() {
-        accuracy::check(&scene)?;
-    }
-    let count = run.samples()?;
-    // Before anything is computed; once more when it is known how fine signals are read.
     let in_blocks = sink.is_some();
-    check_memory(&scene, run, (count, 1), in_blocks)?;
-    let settled = settle::settle(&scene, run, progress)?;
-    let before = settled.seconds;
-    let accuracy = run.accuracy.map(|requested| {
-        let pilot = &mut |scene: &Scene, from: &Start| pilot(scene, from, run, progress);
-        accuracy::choose(requested, &mut scene, &settled.from, pilot)
-    });
-    let accuracy = accuracy.transpose()?;
-    let (model, distrust) = selftest::trusted(compile(&scene)?);
-    let sampling = Sampling::new(run.bandwidth, run.fs, model.scales.frequency)?;
-    check_memory(&scene, run, (count, sampling.oversampling), in_blocks)?;
-    let mut recorder = Recorder::new(&model, sampling, count, sink);
-    let threads = threads(&model, run.threads)?;
-    let options = options(&model)?;
+    let prepared = prepare(scene, run, in_blocks, progress)?;
+    let Prepared { scene, settled, .. } = &prepared;
+    let (model, distrust) = selftest::trusted(compile(scene)?);
     let y0 = start(&model, &settled.from)?;
     let reduction = Reduction::of(&model, &y0);
     let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);
+
+    let sampling = Sampling::new(run.bandwidth, run.fs, model.scales.frequency)?;
+    let samples = (run.samples()?, sampling.oversampling);
+    check_memory(scene, run, samples, in_blocks)?;
+    let mut recorder = Recorder::new(&model, sampling, samples.0, sink);
     recorder.prepare(&dynamics, &y0)?;
-    let mut progress =
-        |share: f64| progress((before + share * run.duration) / (before + run.duration));
+
+    let threads = threads(&model, run.threads)?;
+    let options = options(&model)?;
     let stretch = Stretch {
         begins: 0.0,
         length: run.duration,
         max_steps: run.max_steps,
     };
+    let whole = settled.seconds + run.duration;
+    let mut progress = |share: f64| progress((settled.seconds + share * run.duration) / whole);
     let (_, mut stats, choice) = on(threads, dynamics, &mut progress, |dynamics, progress| {
         follow(dynamics, &mut recorder, &y0, stretch, &options, progress)
     })?;
+
     stats.acceleration_residual = recorder.residual.value();
     (stats.settling_accepted, stats.settling_nfev) = (settled.accepted, settled.nfev);
-    let start = match run.start {
-        Start::Equilibrium => "equilibrium",
-        Start::Rolling => "rolling",
-        Start::State(_) => "state",
+    let done = Done {
+        prepared: &prepared,
+        model: &model,
+        distrust,
+        sampling,
+        threads,
+        options: &options,
+        reduction,
+        choice,
+        defects: recorder.watch.told(&model, &prepared.placed),
     };
     Ok(Signals {
         fs: run.fs,
@@ -168,76 +160,7 @@ fn unlimited(
         columns: recorder.held.columns,
         slices: recorder.slices,
         stats,
-        provenance: Provenance {
-            version: env!("CARGO_PKG_VERSION"),
-            schema: SCHEMA,
-            method: choice.to_string(),
-            stiffness: choice.stiffness,
-            rtol: scene.solver.rtol,
-            accuracy,
-            max_step: Some(options.max_step).filter(|h| h.is_finite()),
-            start,
-            duration: run.duration,
-            threads,
-            states: reduction.as_ref().map_or(model.dim(), Reduction::dim),
-            left_out: reduction.map_or_else(Vec::new, |r| r.omissions().to_vec()),
-            simd: model.instructions().name(),
-            distrust,
-            architecture: std::env::consts::ARCH,
-            bandwidth: sampling.bandwidth,
-            oversampling: sampling.oversampling,
-            settled: before,
-            defects: recorder.watch.told(&model, &placed),
-            step_limit: step_limit::largest(scene.solver.method, &model),
-        },
-        scene,
-    })
-}
-
-/// The first milliseconds of a run: samples of its first column, and the evaluations.
-fn pilot(
-    scene: &Scene,
-    from: &Start,
-    run: &Run,
-    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<(Vec<f64>, usize)> {
-    let first = Run {
-        duration: run.duration.min(accuracy::HORIZON),
-        fs: accuracy::FS,
-        start: from.clone(),
-        accuracy: None,
-        bandwidth: Bandwidth::Raw,
-        settle: Some(0.0),
-        // The clock of the run goes on.
-        time_limit: None,
-        ..run.clone()
-    };
-    let mut out = simulate_with_progress(scene, &first, &mut |_| progress(0.0))?;
-    Ok((out.columns.remove(0).values, out.stats.nfev))
-}
-
-/// Refuses what does not fit into memory: for so many samples, read so many times as fine, kept or leaving in blocks.
-fn check_memory(
-    scene: &Scene,
-    run: &Run,
-    (count, oversampling): (usize, usize),
-    in_blocks: bool,
-) -> Result<()> {
-    let demand = Demand::of(scene);
-    let rows = demand.rows(count, in_blocks);
-    memory::check(demand.bytes(rows, oversampling), || {
-        let less = if in_blocks {
-            "record fewer probes".to_owned()
-        } else {
-            format!(
-                "shorten duration = {} s, lower fs, record fewer probes, or let a single run write its record to a file \
-                 as it goes on (out)",
-                run.duration
-            )
-        };
-        format!(
-            "{rows} samples of {} signals, and {} forces of slices; {less}",
-            demand.columns, demand.slices
-        )
+        provenance: provenance(run, done),
+        scene: prepared.scene,
     })
 }

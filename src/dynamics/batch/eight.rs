@@ -8,7 +8,7 @@ use crate::simd::{LANES, Lanes, Mask, Task};
 
 /// Constants of all contacts with one ring.
 #[derive(Debug, Clone)]
-pub(in crate::dynamics) struct SideConstants {
+pub(crate) struct SideConstants {
     /// Those of every ball.
     pub balls: Vec<Constants<f64>>,
     /// What the balls of a class of rows share, by class.
@@ -27,7 +27,7 @@ struct ClassConstants {
 }
 
 #[derive(Debug, Clone, Copy, Default)]
-pub(in crate::dynamics) struct Touching {
+pub(crate) struct Touching {
     pub ball: usize,
     /// Of the race there.
     pub raise: Raise<f64>,

@@ -25,12 +25,12 @@ use crate::simd::{LANES, Lanes};
 
 use axially_fixed::{AxiallyFixedRow, AxiallyFixedSums, EvaluateAxiallyFixed};
 use eight::{Eight, Group, leave};
-pub(super) use eight::{SideConstants, Touching};
+pub(crate) use eight::{SideConstants, Touching};
 use find::{Find, Stretch};
 
 /// What a batch may take for granted.
 #[derive(Debug, Clone)]
-pub(super) struct Kind {
+pub(crate) struct Kind {
     /// Rows whose contacts are evaluated.
     pub rows: Range<usize>,
     /// All bodies stay in the planes of their rows.
@@ -70,7 +70,7 @@ impl Kind {
 
 /// The memory for all contacts of a model, and their sums after an evaluation.
 #[derive(Debug, Clone)]
-pub(super) struct Batch {
+pub(crate) struct Batch {
     kind: Kind,
     /// Rows that are evaluated as they stand.
     fixed_rows: Vec<AxiallyFixedRow>,

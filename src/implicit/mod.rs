@@ -7,12 +7,17 @@
 //! the matrix: their damping is slow and converges by itself. A matrix serves as many stages and steps as
 //! corrections by it shrink fast, which at a steady roll are many.
 
+mod arrow;
+mod stage;
+mod stage_batch;
+
 use nalgebra::{Matrix4, Vector4};
 
-use super::Dynamics;
-use super::stage::{Largest, Stage};
-use crate::integrate::{ImplicitVelocity, Stuck};
+use crate::dynamics::Dynamics;
+use crate::integrate::{ImplicitVelocity, Stuck, System};
 use crate::model::{BodyId, DOFS, Layout, Race};
+
+use stage::{Largest, Stage};
 
 /// Iterations before a stage is given up and the step tried again smaller.
 const MOST_ITERATIONS: usize = 20;
@@ -30,17 +35,59 @@ const DIVERGING: f64 = 0.7;
 /// tolerances show in the accelerations; a correction more where they would costs less than steps.
 const RESIDUAL_SHARE: f64 = 0.002;
 
-impl Dynamics<'_> {
+/// A right-hand side whose velocities can be solved for, with the memory that takes.
+#[derive(Debug)]
+pub struct ImplicitDynamics<'d, 'm> {
+    /// The right-hand side, of states of all bodies.
+    pub dynamics: &'d mut Dynamics<'m>,
+    stage: Stage,
+}
+
+impl<'d, 'm> ImplicitDynamics<'d, 'm> {
+    /// For the states of all bodies that `dynamics` takes.
+    pub fn new(dynamics: &'d mut Dynamics<'m>) -> Self {
+        let stage = Stage::new(dynamics.model());
+        Self { dynamics, stage }
+    }
+
+    /// The fastest rate \[1/s\] at which friction and damping let velocities decay, or a bound not far above it.
+    pub(crate) fn fastest_rate(&mut self, t: f64, y: &[f64]) -> f64 {
+        self.find_elements(t, y);
+        self.stage.secant = false;
+        self.stage.forces(self.dynamics, y, true);
+        let mobility = &self.dynamics.model().mobility;
+        let mut fastest: f64 = 0.0;
+        for batch in self.stage.batches() {
+            for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
+                let mobility = Vector4::from(mobility[BodyId::ball(*ball)]);
+                let root = Matrix4::from_diagonal(&mobility.map(f64::sqrt));
+                let slope = |i: usize, j: usize| {
+                    let of = |race: Race| batch.sides[race].wrenches.slope[i][j][lane];
+                    of(Race::Outer) + of(Race::Inner)
+                };
+                let block = root * Matrix4::from_fn(slope) * root;
+                // Friction's part is symmetric, damping's nearly: the spectral norm of the symmetric part.
+                let symmetric = (block + block.transpose()) / 2.0;
+                fastest = fastest.max(symmetric.symmetric_eigenvalues().amax());
+            }
+        }
+        fastest
+    }
+
+    /// Finds the nodes of all contacts at the places of a state.
+    fn find_elements(&mut self, t: f64, y: &[f64]) {
+        self.dynamics.read(t, y);
+        self.stage.find_elements(self.dynamics);
+    }
+
     /// The residual base + γh a − v with the last reactions of the contacts.
-    fn residual(&mut self, t: f64, y: &[f64], base: &[f64], gamma_h: f64, work: &mut Stage) {
-        self.read(t, y);
-        self.forces.copy_from(&self.constant);
-        work.add_to(&mut self.forces);
-        self.add_applied_forces(t);
+    fn residual(&mut self, t: f64, y: &[f64], base: &[f64], gamma_h: f64) {
+        let Self { dynamics, stage } = self;
+        dynamics.sum_with(t, y, |forces| stage.add_to(forces));
         let (bases, velocities) = (Layout::each(base), Layout::each(&y[y.len() / 2..]));
         let bodies = bases.iter().zip(velocities).enumerate();
-        for (residual, (b, (base, v))) in work.residual.iter_mut().zip(bodies) {
-            let acceleration = self.acceleration(t, BodyId::new(b));
+        for (residual, (b, (base, v))) in stage.residual.iter_mut().zip(bodies) {
+            let acceleration = dynamics.acceleration(t, BodyId::new(b));
             for i in 0..DOFS {
                 residual[i] = base[i] + acceleration[i] * gamma_h - v[i];
             }
@@ -53,57 +100,62 @@ impl Dynamics<'_> {
         y: &mut [f64],
         base: &[f64],
         gamma_h: f64,
-        work: &mut Stage,
     ) -> Result<usize, Stuck> {
+        let model = self.dynamics.model();
         let limit = self.velocity_limit();
         let half = y.len() / 2;
         let mut worst = Largest::default();
         // Not a number: comparisons with it are false.
         let mut before = f64::NAN;
-        let mut anew = !work.is_kept(gamma_h);
-        work.secant = false;
+        let mut anew = !self.stage.is_kept(gamma_h);
+        self.stage.secant = false;
         for iteration in 1..=MOST_ITERATIONS {
-            work.forces(self, y, anew);
-            self.residual(t, y, base, gamma_h, work);
+            self.stage.forces(self.dynamics, y, anew);
+            self.residual(t, y, base, gamma_h);
             if anew {
-                work.factorise(self.model, gamma_h);
+                self.stage.factorise(model, gamma_h);
             }
-            if !work.correct(self.model) {
+            if !self.stage.correct(model) {
                 break;
             }
-            worst = work.apply(&mut y[half..]);
+            worst = self.stage.apply(&mut y[half..]);
             // What is left after a correction, by the rate at which they shrink (Hairer & Wanner II, IV.8).
             let (size, rate) = (worst.size, worst.size / before);
             if size <= limit || rate < 1.0 && size * rate / (1.0 - rate) <= limit {
                 if rate > WORN {
-                    work.kept = None;
+                    self.stage.kept = None;
                 }
                 return Ok(iteration);
             }
-            (anew, work.secant) = (rate > SLOW, rate > DIVERGING);
+            (anew, self.stage.secant) = (rate > SLOW, rate > DIVERGING);
             before = size;
         }
-        work.kept = None;
+        self.stage.kept = None;
         Err(Stuck {
             state: half + worst.velocity,
             iterations: MOST_ITERATIONS,
         })
     }
 
-    fn implicit_memory(&mut self) -> Box<Stage> {
-        self.implicit
-            .take()
-            .unwrap_or_else(|| Box::new(Stage::new(self.model)))
-    }
-
     /// The change of a velocity \[m/s\] below which an iteration is over.
     fn velocity_limit(&self) -> f64 {
-        let scales = &self.model.scales;
-        RESIDUAL_SHARE * self.model.scene.solver.rtol * scales.approach * scales.frequency
+        let model = self.dynamics.model();
+        let scales = &model.scales;
+        RESIDUAL_SHARE * model.scene.solver.rtol * scales.approach * scales.frequency
     }
 }
 
-impl ImplicitVelocity for Dynamics<'_> {
+impl System for ImplicitDynamics<'_, '_> {
+    fn dim(&self) -> usize {
+        self.dynamics.dim()
+    }
+
+    fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        self.dynamics.rhs(t, y, dy);
+    }
+}
+
+impl ImplicitVelocity for ImplicitDynamics<'_, '_> {
     fn solve_velocity(
         &mut self,
         t: f64,
@@ -111,37 +163,8 @@ impl ImplicitVelocity for Dynamics<'_> {
         base: &[f64],
         gamma_h: f64,
     ) -> Result<usize, Stuck> {
-        let mut work = self.implicit_memory();
-        self.read(t, y);
-        work.find_elements(self);
-        let result = self.iterate(t, y, base, gamma_h, &mut work);
-        self.implicit = Some(work);
-        result
-    }
-
-    fn fastest_rate(&mut self, t: f64, y: &[f64]) -> f64 {
-        let mut work = self.implicit_memory();
-        self.read(t, y);
-        work.find_elements(self);
-        work.secant = false;
-        work.forces(self, y, true);
-        let mut fastest: f64 = 0.0;
-        for batch in work.batches() {
-            for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
-                let mobility = Vector4::from(self.model.mobility[BodyId::ball(*ball)]);
-                let root = Matrix4::from_diagonal(&mobility.map(f64::sqrt));
-                let slope = |i: usize, j: usize| {
-                    let of = |race: Race| batch.sides[race].wrenches.slope[i][j][lane];
-                    of(Race::Outer) + of(Race::Inner)
-                };
-                let block = root * Matrix4::from_fn(slope) * root;
-                // Friction's part is symmetric, damping's nearly: the spectral norm of the symmetric part.
-                let symmetric = (block + block.transpose()) / 2.0;
-                fastest = fastest.max(symmetric.symmetric_eigenvalues().amax());
-            }
-        }
-        self.implicit = Some(work);
-        fastest
+        self.find_elements(t, y);
+        self.iterate(t, y, base, gamma_h)
     }
 }
 
@@ -150,7 +173,6 @@ impl ImplicitVelocity for Dynamics<'_> {
 mod tests {
     use super::*;
     use crate::equilibrium::compile;
-    use crate::integrate::System;
     use crate::scene::{Friction, NormalLaw, Slices, Waviness, presets};
     use crate::{Model, Scene, Start, start};
 
@@ -221,10 +243,13 @@ mod tests {
             let y = state(&model);
             let half = y.len() / 2;
             let mut dynamics = Dynamics::new(&model);
-            let mut work = dynamics.implicit_memory();
-            dynamics.read(0.0, &y);
-            work.find_elements(&dynamics);
-            work.forces(&dynamics, &y, true);
+            let mut implicit = ImplicitDynamics::new(&mut dynamics);
+            implicit.find_elements(0.0, &y);
+            let ImplicitDynamics {
+                dynamics,
+                stage: mut work,
+            } = implicit;
+            work.forces(dynamics, &y, true);
             let residual: Vec<f64> = (0..half).map(|i| (1.0 + i as f64).sin()).collect();
             work.residual.copy_from_slice(Layout::each(&residual));
             let gamma_h = 1e-6;
@@ -261,6 +286,7 @@ mod tests {
             let mut y = state(&model);
             let half = y.len() / 2;
             let mut dynamics = Dynamics::new(&model);
+            let mut dynamics = ImplicitDynamics::new(&mut dynamics);
             // A fiftieth of what the tolerance sees.
             let limit = 0.02 / RESIDUAL_SHARE * dynamics.velocity_limit();
             for gamma_h in [2e-6, 1.9e-6] {

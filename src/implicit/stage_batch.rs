@@ -2,11 +2,11 @@
 
 use std::array::from_fn;
 
-use super::batch::{SideConstants, Touching};
 use crate::contact::{
     Motion, PlaneVector, Raise, SlicePack, SlicePacking, StageContacts, StageElement, StageWrench,
     in_contact,
 };
+use crate::dynamics::{SideConstants, Touching};
 use crate::forces::State;
 use crate::model::{BodyId, DOFS, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};

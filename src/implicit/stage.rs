@@ -3,10 +3,9 @@
 use nalgebra::SVector;
 use rayon::prelude::*;
 
-use super::Dynamics;
 use super::arrow::Arrow;
-use super::batch::{Batch, Kind};
 use super::stage_batch::{Meeting, StageBatch};
+use crate::dynamics::{Batch, Dynamics, Kind};
 use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Race};
 use crate::simd::{LANES, Lanes, Task};
@@ -57,14 +56,14 @@ impl Stage {
 
     /// Finds the nodes of all contacts at the state that was read last.
     pub fn find_elements(&mut self, dynamics: &Dynamics<'_>) {
-        let (model, state) = (dynamics.model, &dynamics.state);
+        let (model, state) = (dynamics.model(), dynamics.state());
         let rings = state.rings();
         self.search.find(None, model, state, &rings);
         self.gather(model);
         let constants = &self.search.constants;
         let find = |batch: &mut StageBatch| batch.find_elements(model, constants, state, &rings);
         let batches = &mut self.batches[..self.active];
-        match &dynamics.pool {
+        match dynamics.pool() {
             Some(pool) => pool.install(|| batches.par_iter_mut().for_each(find)),
             None => batches.iter_mut().for_each(find),
         }
@@ -106,7 +105,7 @@ impl Stage {
 
     /// Finds what the contacts do at the velocities of `y`, with slopes or without.
     pub fn forces(&mut self, dynamics: &Dynamics<'_>, y: &[f64], slopes: bool) {
-        let (model, secant) = (dynamics.model, self.secant);
+        let (model, secant) = (dynamics.model(), self.secant);
         let find = |batch: &mut StageBatch| {
             if slopes {
                 batch.forces_and_slopes(model, y, secant);
@@ -115,7 +114,7 @@ impl Stage {
             }
         };
         let batches = &mut self.batches[..self.active];
-        match &dynamics.pool {
+        match dynamics.pool() {
             Some(pool) => pool.install(|| batches.par_iter_mut().for_each(find)),
             None => batches.iter_mut().for_each(find),
         }

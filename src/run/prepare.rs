@@ -1,0 +1,102 @@
+//! What comes before a run: its own settings in the scene, room for its record, a settled start, nodes and tolerance.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+use super::Run;
+use super::accuracy;
+use super::settle::{self, Settled};
+use super::simulate::simulate_with_progress;
+use crate::equilibrium::{Placed, place};
+use crate::error::Result;
+use crate::memory;
+use crate::scene::Scene;
+use crate::signals::{Accuracy, Bandwidth, Demand};
+use crate::start::Start;
+
+/// A scene as it will run.
+pub(super) struct Prepared {
+    pub scene: Scene,
+    /// The defects by name, and where the contact runs that they were placed by.
+    pub placed: BTreeMap<String, Placed>,
+    pub settled: Settled,
+    /// What a requested accuracy chose.
+    pub accuracy: Option<Accuracy>,
+}
+
+/// Prepares a run, whose record stays or leaves in blocks.
+pub(super) fn prepare(
+    scene: &Scene,
+    run: &Run,
+    in_blocks: bool,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Prepared> {
+    let (scene, placed) = place(scene)?;
+    let mut scene = scene.into_owned();
+    scene.solver.rtol = run.rtol.unwrap_or(scene.solver.rtol);
+    scene.solver.method = run.method.unwrap_or(scene.solver.method);
+    if run.accuracy.is_some() {
+        accuracy::check(&scene)?;
+    }
+    // Before anything is computed; once more when it is known how fine signals are read.
+    check_memory(&scene, run, (run.samples()?, 1), in_blocks)?;
+    let settled = settle::settle(&scene, run, progress)?;
+    let accuracy = run.accuracy.map(|requested| {
+        let pilot = &mut |scene: &Scene, from: &Start| pilot(scene, from, run, progress);
+        accuracy::choose(requested, &mut scene, &settled.from, pilot)
+    });
+    Ok(Prepared {
+        accuracy: accuracy.transpose()?,
+        scene,
+        placed,
+        settled,
+    })
+}
+
+/// The first milliseconds of a run: samples of its first column, and the evaluations.
+fn pilot(
+    scene: &Scene,
+    from: &Start,
+    run: &Run,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<(Vec<f64>, usize)> {
+    let first = Run {
+        duration: run.duration.min(accuracy::HORIZON),
+        fs: accuracy::FS,
+        start: from.clone(),
+        accuracy: None,
+        bandwidth: Bandwidth::Raw,
+        settle: Some(0.0),
+        // The clock of the run goes on.
+        time_limit: None,
+        ..run.clone()
+    };
+    let mut out = simulate_with_progress(scene, &first, &mut |_| progress(0.0))?;
+    Ok((out.columns.remove(0).values, out.stats.nfev))
+}
+
+/// Refuses what does not fit into memory: for so many samples, read so many times as fine, kept or leaving in blocks.
+pub(super) fn check_memory(
+    scene: &Scene,
+    run: &Run,
+    (count, oversampling): (usize, usize),
+    in_blocks: bool,
+) -> Result<()> {
+    let demand = Demand::of(scene);
+    let rows = demand.rows(count, in_blocks);
+    memory::check(demand.bytes(rows, oversampling), || {
+        let less = if in_blocks {
+            "record fewer probes".to_owned()
+        } else {
+            format!(
+                "shorten duration = {} s, lower fs, record fewer probes, or let a single run write its record to a file \
+                 as it goes on (out)",
+                run.duration
+            )
+        };
+        format!(
+            "{rows} samples of {} signals, and {} forces of slices; {less}",
+            demand.columns, demand.slices
+        )
+    })
+}

@@ -1,0 +1,61 @@
+//! What a run says of how its signals came about.
+
+use super::Run;
+use super::method::Choice;
+use super::prepare::Prepared;
+use super::step_limit;
+use crate::integrate::Options;
+use crate::model::Model;
+use crate::reduction::Reduction;
+use crate::scene::SCHEMA;
+use crate::signals::{Provenance, Sampling};
+use crate::simd::Distrust;
+use crate::start::Start;
+use crate::touched::Touched;
+
+/// A run that is done.
+pub(super) struct Done<'a> {
+    pub prepared: &'a Prepared,
+    pub model: &'a Model,
+    pub distrust: Option<Distrust>,
+    pub sampling: Sampling,
+    pub threads: usize,
+    pub options: &'a Options,
+    pub reduction: Option<Reduction>,
+    pub choice: Choice,
+    pub defects: Vec<Touched>,
+}
+
+/// What is to be told of it.
+pub(super) fn provenance(run: &Run, done: Done<'_>) -> Provenance {
+    let (model, solver) = (done.model, &done.prepared.scene.solver);
+    let start = match run.start {
+        Start::Equilibrium => "equilibrium",
+        Start::Rolling => "rolling",
+        Start::State(_) => "state",
+    };
+    Provenance {
+        version: env!("CARGO_PKG_VERSION"),
+        schema: SCHEMA,
+        method: done.choice.to_string(),
+        stiffness: done.choice.stiffness,
+        rtol: solver.rtol,
+        accuracy: done.prepared.accuracy,
+        max_step: Some(done.options.max_step).filter(|h| h.is_finite()),
+        start,
+        duration: run.duration,
+        threads: done.threads,
+        states: done.reduction.as_ref().map_or(model.dim(), Reduction::dim),
+        left_out: done
+            .reduction
+            .map_or_else(Vec::new, |reduction| reduction.omissions().to_vec()),
+        simd: model.instructions().name(),
+        distrust: done.distrust,
+        architecture: std::env::consts::ARCH,
+        bandwidth: done.sampling.bandwidth,
+        oversampling: done.sampling.oversampling,
+        settled: done.prepared.settled.seconds,
+        defects: done.defects,
+        step_limit: step_limit::largest(solver.method, model),
+    }
+}
