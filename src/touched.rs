@@ -312,12 +312,10 @@ impl Eye {
     /// How far the direction of the contact is from the defect's \[rad\], and how fast that changes \[rad/s\].
     fn look(&self, layout: Layout, y: &[f64], fault: &Fault, on: Surface) -> (f64, f64) {
         let (ball, ring) = self.motions(layout, y);
-        let (apart, speed) = (ball.centre - ring.centre, ball.velocity - ring.velocity);
-        let direction = apart.y.atan2(apart.x);
-        let orbit = (apart.x * speed.y - apart.y * speed.x) / apart.norm_squared();
-        let (turned, omega) = match on {
-            Surface::Ball => (ball.theta, ball.omega),
-            _ => (ring.theta, ring.omega),
+        let seen = ball.seen_from(&ring);
+        let body = match on {
+            Surface::Ball => ball,
+            _ => ring,
         };
         // The inner race is met on the ball's inner side.
         let opposite = if on == Surface::Ball && self.race == Race::Inner {
@@ -325,7 +323,7 @@ impl Eye {
         } else {
             0.0
         };
-        let aside = wrapped(direction + opposite - turned - fault.angle);
-        (aside, orbit - omega)
+        let aside = wrapped(body.angle_of(seen.direction() + opposite) - fault.angle);
+        (aside, seen.orbit_speed() - body.omega)
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! `profile` has the races and the zone where a ball touches one (model sections 2 and 3), `laws` what an element of
 //! the zone bears (sections 4 and 5), `quadrature` where the elements lie (section 10), `kernel` puts these together:
-//! the force of an element, and the elements of a whole contact. Its drivers:
+//! the force of an element, and the elements of a whole contact. `frames` says where a ball is as its ring sees it.
+//! The drivers:
 //!
 //! * `scalar` — [`Pair::evaluate`]: one contact with whatever cuts its zone, every single force to a [`Sink`];
 //! * `batch` — eight whole contacts at once;
@@ -17,6 +18,7 @@ mod batch;
 mod closed_form;
 mod dual;
 mod fault;
+mod frames;
 mod kernel;
 pub mod laws;
 mod profile;
@@ -31,6 +33,8 @@ pub(crate) use batch::{BatchForces, Constants, EightContacts, Places};
 pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz_stiffness};
 pub use fault::Fault;
 pub(crate) use fault::{Sight, Sighted};
+pub use frames::Motion;
+pub(crate) use frames::centrifugal;
 pub use laws::elastic::{elliptic, hertz, iso16281};
 pub use laws::{Cut, Damping, Elastic, Law, Traction};
 pub(crate) use profile::{Raise, Section};
@@ -58,37 +62,6 @@ pub fn cross(a: V2, b: V2) -> f64 {
 /// Angle brought into −π … π.
 pub fn wrapped(angle: f64) -> f64 {
     angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
-}
-
-/// Where a body is and how it moves.
-#[derive(Debug, Clone, Copy)]
-pub struct Motion {
-    /// Centre in the plane \[m\].
-    pub centre: V2,
-    /// Axial place \[m\].
-    pub z: f64,
-    /// Angle about z \[rad\].
-    pub theta: f64,
-    /// Velocity in the plane \[m/s\].
-    pub velocity: V2,
-    /// Axial velocity \[m/s\].
-    pub vz: f64,
-    /// Angular speed about z \[rad/s\].
-    pub omega: f64,
-}
-
-impl Motion {
-    /// From the four positions and the four velocities of a body.
-    pub fn new(q: &[f64], v: &[f64]) -> Self {
-        Self {
-            centre: V2::new(q[0], q[1]),
-            z: q[2],
-            theta: q[3],
-            velocity: V2::new(v[0], v[1]),
-            vz: v[2],
-            omega: v[3],
-        }
-    }
 }
 
 /// One force between ball and ring: a slice on the race or on a fault circle.

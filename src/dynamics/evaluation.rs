@@ -6,7 +6,7 @@ use crate::forces::{self, Use};
 use crate::model::Race;
 
 impl Dynamics<'_> {
-    /// The forces by name and what becomes of them.
+    /// All forces by name, and what becomes of each in a run.
     pub(crate) fn uses(&self) -> Vec<(&'static str, Use)> {
         let model = self.model;
         let any = |of: fn(&Pair) -> bool| {
@@ -29,7 +29,7 @@ impl Dynamics<'_> {
         self.contacts.rows().contains(&row) || self.contacts.is_mirrored()
     }
 
-    /// How the contacts of a row with a race are evaluated where nothing is in their way.
+    /// How the contacts of a row with a race are evaluated where no defect is in reach.
     pub(crate) fn evaluation(&self, row: usize, race: Race) -> String {
         if !self.contacts.rows().contains(&row) {
             let instead = if self.contacts.is_mirrored() {

@@ -14,7 +14,7 @@ pub(super) struct Kept {
     /// Place of the driven rotation, if it is among the states.
     pub driven: Option<usize>,
     pub rolling: Rolling,
-    /// Where one loop is all.
+    /// The planar right-hand side, where the scene has one.
     pub planar: Option<(InstructionSet, Planar)>,
 }
 
@@ -35,7 +35,7 @@ impl Kept {
         self.rolling.place(&self.reduction, t, state);
     }
 
-    /// The rates by one loop, where that is all.
+    /// Computes the rates by the planar right-hand side, where there is one that serves; whether it did.
     pub fn in_plane(&mut self, model: &Model, y: &[f64], dy: &mut [f64]) -> bool {
         let Some((instructions, planar)) = &mut self.planar else {
             return false;
@@ -48,7 +48,7 @@ impl Kept {
         })
     }
 
-    /// M⁻¹ F, but for a driven rotation.
+    /// M⁻¹ F of what is kept; the acceleration of a driven rotation is left to the caller.
     pub fn accelerate(&self, (forces, mobility): (&Table, &Table), accelerations: &mut [f64]) {
         for s in self.reduction.stretches() {
             let force = &forces.along(s.dof)[s.bodies()];

@@ -32,7 +32,7 @@ struct Path {
     name: &'static str,
     scene: Scene,
     ways: &'static [Way],
-    /// Whether one loop does all at the start.
+    /// Whether the planar right-hand side serves at the start.
     is_loop: bool,
 }
 

@@ -26,7 +26,7 @@ use kept::Kept;
 use planar::{Ground, Planar};
 use rolling::Rolling;
 
-/// A model with the memory that evaluating it needs. One a thread of control.
+/// The right-hand side of a model, with the memory that evaluating it needs. Each run has its own.
 #[derive(Debug)]
 pub struct Dynamics<'m> {
     model: &'m Model,
@@ -37,7 +37,7 @@ pub struct Dynamics<'m> {
     forces: Table,
     /// Gravity and loads that stay the same.
     constant: Table,
-    /// Supports of the directions that are integrated: what is left out does not strain its own.
+    /// Supports of the directions that are integrated; the other directions never strain theirs.
     springs: Vec<Spring>,
     /// One over the mass where a direction is free, 0 where it is not.
     mobility: Table,
@@ -244,7 +244,7 @@ impl<'m> Dynamics<'m> {
         }
     }
 
-    /// The rates by one loop, where that is all.
+    /// Computes the rates by the planar right-hand side, where there is one that serves; whether it did.
     fn in_plane(&mut self, y: &[f64], dy: &mut [f64]) -> bool {
         let done = match &mut self.order {
             Order::Bodies => false,

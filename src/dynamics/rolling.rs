@@ -29,7 +29,7 @@ impl Rolling {
         }
     }
 
-    /// Puts balls whose radii stand for x where they are.
+    /// Computes the places and speeds of balls whose radii are states in place of x.
     pub fn place(&mut self, reduction: &Reduction, t: f64, state: &mut State) {
         let mut balls = self.balls.iter_mut();
         for (orbit, _) in reduction.orbits() {

@@ -32,7 +32,7 @@ impl Sink for Sum {
     }
 }
 
-/// The same apart: elastic, damping, friction.
+/// Force and moment on ball and ring, with the parts of elastic force, damping and friction apart.
 #[derive(Default)]
 pub(super) struct Named {
     ball: [[f64; DOFS]; 3],

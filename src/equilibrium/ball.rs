@@ -14,9 +14,9 @@ use crate::told;
 
 /// Newton iterations of a ball before giving up.
 const BALL_ITERATIONS: usize = 100;
-/// Step over the approach that needs no look at the force any more.
+/// Step of Newton's method, over the approach, after which the force is not evaluated again.
 const LAST: f64 = 1e-2;
-/// Residual of a ball over what presses it above which it has not settled, however little that is of the whole load.
+/// Residual of a ball, over the forces that press it, above which it has not settled, however small it is against the load.
 const ROUGH: f64 = 0.1;
 /// The highest precision that is asked for.
 const FINEST: f64 = FINE * TOLERANCE;
@@ -167,7 +167,7 @@ impl Problem<'_> {
         self.magnitude / self.model.balls.len() as f64
     }
 
-    /// The step that a settled ball still has to go, by the inverse of its stiffness; what it leaves is of second order.
+    /// The last step of a settled ball, by the inverse of its stiffness: the error left is of second order.
     pub(super) fn last_step(&self, state: &BallState, inverse: &Matrix2<f64>) -> Vector2<f64> {
         let step = inverse * state.force;
         if step.norm() <= LAST * self.model.scales.approach {
@@ -210,7 +210,7 @@ impl Problem<'_> {
                 break;
             };
             let mut step = inverse * state.force;
-            // Or places have no more digits.
+            // Or the places cannot be told apart in double precision.
             if step.norm() <= 4.0 * f64::EPSILON * state.place.norm() {
                 break;
             }

@@ -69,7 +69,7 @@ struct ChainBall {
     load: f64,
     pull: f64,
     hold: Hold,
-    /// How far a race follows it at most.
+    /// The furthest that it moves while a race still presses it.
     most: f64,
 }
 
@@ -210,7 +210,7 @@ impl Problem<'_> {
             let tension = chain.tension(cage, tension, TENSION * self.magnitude);
             let radii = chain.hang(tension);
             for (k, &radius) in radii.iter().enumerate() {
-                // What the row's cage has against all balls moving out together.
+                // The stiffness of the row's cage against all balls moving out together.
                 let chord = row.cage_distance / radius;
                 let together = cage.stiffness * chain.links * chord * chord;
                 let share = self.cage_share.max(1.0 / row.count as f64);

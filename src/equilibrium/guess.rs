@@ -14,7 +14,7 @@ use crate::model::{Model, Race, RowModel};
 const ITERATIONS: usize = 40;
 const GOOD: f64 = 1e-3;
 
-/// How far the contacts of a row's balls give: a power law through the force at the scene's typical approach.
+/// The approach of both contacts of a row's balls by the force: a power law through the force at the scene's typical approach.
 pub(super) struct RowSpring {
     /// Approach at the outer and at the inner race over the force to the power 1/exponent.
     give: [f64; 2],

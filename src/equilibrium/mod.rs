@@ -43,7 +43,7 @@ use unknowns::{RingStiffness, Rings};
 
 /// Residual over the sum of the acting forces that counts as zero.
 const TOLERANCE: f64 = 1e-10;
-/// The same as long as the cage's pull is not yet known.
+/// The same, while the cage's pull is not yet known.
 const ON_THE_WAY: f64 = 1e-5;
 /// Precision of the balls over that of the rings.
 const FINE: f64 = 1e-2;

@@ -5,7 +5,7 @@ use nalgebra::{DVector, Matrix2, Matrix3, SMatrix, Vector2, Vector3};
 use super::cage::CageSpring;
 use super::guess::RowSpring;
 use super::unknowns::{self, OF_RINGS, Rings};
-use crate::contact::{Tangent, V2};
+use crate::contact::{Tangent, V2, centrifugal};
 use crate::forces::{gravity, load, support, unbalance};
 use crate::model::{BodyId, Dof, Model, Race};
 use crate::reduction::AxialPlaces;
@@ -13,7 +13,7 @@ use crate::reduction::AxialPlaces;
 pub(super) struct Problem<'m> {
     pub(super) model: &'m Model,
     /// m ω_c² of each ball: its centrifugal force over its radius \[N/m\].
-    centrifugal: Vec<f64>,
+    outwards: Vec<f64>,
     pub(super) directions: Vec<V2>,
     /// The cage's hold on each ball.
     pub(super) cage_spring: Vec<CageSpring>,
@@ -34,7 +34,7 @@ pub(super) struct Problem<'m> {
 
 impl<'m> Problem<'m> {
     pub(super) fn new(model: &'m Model) -> Self {
-        let mut centrifugal = Vec::new();
+        let mut outwards = Vec::new();
         let mut directions = Vec::new();
         let mut magnitude = 0.0;
         for (j, ball) in model.balls.iter().enumerate() {
@@ -43,9 +43,9 @@ impl<'m> Problem<'m> {
             let direction = place.normalize();
             let orbit = model.rolling_speeds(ball.row).0;
             let weight = gravity::along(model, BodyId::ball(j), direction.into());
-            centrifugal.push(body.mass[Dof::X] * orbit * orbit);
+            outwards.push(centrifugal(body.mass[Dof::X], orbit));
             directions.push(direction);
-            magnitude += centrifugal[j] * place.norm() + weight.abs();
+            magnitude += outwards[j] * place.norm() + weight.abs();
         }
         let mut loads = Rings::zeros();
         for load in &model.loads {
@@ -68,7 +68,7 @@ impl<'m> Problem<'m> {
         magnitude = magnitude.max(1e-6 * model.scales.load).max(1e-12);
         Self {
             model,
-            centrifugal,
+            outwards,
             cage_spring: vec![CageSpring::default(); directions.len()],
             cage_share: 0.0,
             directions,
@@ -120,7 +120,7 @@ impl<'m> Problem<'m> {
         let ball = BodyId::ball(j);
         let weight = gravity::along(self.model, ball, self.directions[j].into());
         let [_, _, axial] = gravity::on(self.model, ball);
-        Vector2::new(self.centrifugal[j] * radius + weight, axial)
+        Vector2::new(self.outwards[j] * radius + weight, axial)
     }
 
     /// A ball at a radius and an axial place between the rings: what acts on it there.
@@ -182,7 +182,7 @@ impl<'m> Problem<'m> {
         radial += degrees[Dof::Y].stiffness() * (y * y);
         axial += degrees[Dof::Z].stiffness();
         // The centrifugal force grows with the radius.
-        radial += self.cage_spring[j].stiffness() - self.centrifugal[j];
+        radial += self.cage_spring[j].stiffness() - self.outwards[j];
         if self.axial_place(j).is_some() {
             return Matrix2::from_diagonal(&Vector2::new(radial, self.stiffness()));
         }

@@ -37,7 +37,7 @@ pub(crate) fn on(
     }
     let motion = state.motion(ring.ring());
     let square = motion.omega * motion.omega;
-    let direction = |u: &UnbalanceModel| (motion.theta + u.angle).sin_cos();
+    let direction = |u: &UnbalanceModel| motion.direction_of(u.angle).sin_cos();
     let mut whole = V2::zeros();
     for unbalance in of_ring.clone() {
         let (sin, cos) = direction(unbalance);
@@ -95,7 +95,7 @@ pub(crate) fn energies(model: &Model, y: &[f64]) -> [f64; 2] {
     let [gx, gy, _] = model.scene.gravity;
     for unbalance in &model.unbalances {
         let ring = model.layout().motion(y, unbalance.ring.ring());
-        let (sin, cos) = (ring.theta + unbalance.angle).sin_cos();
+        let (sin, cos) = ring.direction_of(unbalance.angle).sin_cos();
         let along = ring.velocity.y * cos - ring.velocity.x * sin;
         energies[0] += unbalance.moment * ring.omega * along;
         energies[1] -= unbalance.moment * (gx * cos + gy * sin);

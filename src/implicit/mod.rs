@@ -22,17 +22,17 @@ use stage::{Largest, Stage};
 /// Iterations before a stage is given up and the step tried again smaller.
 const MOST_ITERATIONS: usize = 20;
 
-/// Ratio of one correction to that before it, above which the next stage gets a matrix of its own.
+/// Size of a correction over that of the one before it, above which the next stage gets a new matrix.
 const WORN: f64 = 0.1;
 
-/// The same, above which already the next correction does.
+/// The same ratio, above which the next correction of this stage gets a new matrix.
 const SLOW: f64 = 0.3;
 
-/// The same, above which that matrix is one of secants.
+/// The same ratio, above which that new matrix is made of secants.
 const DIVERGING: f64 = 0.7;
 
-/// Residual of a velocity over what the tolerance sees of it. At ten times as much the residuals of loose
-/// tolerances show in the accelerations; a correction more where they would costs less than steps.
+/// Error of a velocity at which corrections end, over the one that the tolerance allows. With ten times as much, the
+/// accelerations show it at loose tolerances; one more correction costs less than smaller steps.
 const RESIDUAL_SHARE: f64 = 0.002;
 
 /// A right-hand side whose velocities can be solved for, with the memory that takes.

@@ -16,7 +16,7 @@ use crate::simd::{LANES, Lanes, Mask, Task};
 pub(super) enum Meeting {
     #[default]
     Nothing,
-    /// A whole race, raised by so much.
+    /// A race without a defect in reach, raised by its waves.
     Whole(Raise<f64>),
     /// Perhaps a defect: evaluated alone.
     Faulted,
@@ -40,11 +40,11 @@ pub(super) struct Side {
     nodes: Vec<StageElement>,
     /// Slices of contacts that are evaluated alone, and the lanes of these.
     packs: Vec<(usize, SlicePack)>,
-    /// What does not depend on velocities beside the nodes, (x, y, z, about z) on the balls.
+    /// Forces on the balls that do not depend on velocities, of waves and of the ends of defects: (x, y, z, about z).
     aside: [Lanes; DOFS],
     /// Whether any touches.
     pub touches: bool,
-    /// What they do, in (x, y, z, about z).
+    /// Force and moment on the balls, in (x, y, z, about z), with slopes.
     pub wrenches: StageWrench,
 }
 

@@ -40,7 +40,7 @@ fn bytes(scene: &Scene) -> f64 {
                 .sum::<f64>()
 }
 
-/// Numbers in the lists of a scene, which may be as long as one likes.
+/// Numbers in the lists of a scene, whose lengths have no limit.
 fn numbers(scene: &Scene) -> usize {
     let (Drive::Speed(drive) | Drive::Torque { value: drive, .. }) = &scene.drive;
     let loads = scene.loads.values().map(|load| in_time(&load.force));

@@ -14,7 +14,7 @@ use std::mem::discriminant;
 use std::ops::Range;
 
 use crate::contact::hertz::Hertz;
-use crate::contact::{BallSide, Pair, Slices, cross};
+use crate::contact::{BallSide, Pair, Slices};
 use crate::scene::{Component, Scene, TimeFunction};
 use crate::simd::{InstructionSet, LANES};
 
@@ -258,8 +258,7 @@ impl Model {
         let mut speed = 0.0;
         for ball in row.balls() {
             let ball = self.layout().motion(y, BodyId::ball(ball));
-            let orbit = cross(ball.centre, ball.velocity) / ball.centre.norm_squared();
-            speed += orbit / row.count as f64;
+            speed += ball.orbit_speed() / row.count as f64;
         }
         speed
     }

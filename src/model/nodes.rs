@@ -24,7 +24,7 @@ pub(super) fn fewest(model: &Model, rows: &[usize], race: Race, accuracy: f64) -
     };
     let mut before = error(FEWEST);
     for m in FEWEST..MOST {
-        // The error swings from one number to the next: both must do.
+        // The error does not fall evenly from one number of nodes to the next: two in a row must be accurate enough.
         let next = error(m + 1);
         if before.max(next) <= accuracy {
             return rules(m);

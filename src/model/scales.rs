@@ -1,7 +1,7 @@
 //! The scene's own scales: a typical approach, the highest contact frequency, and what follows from them.
 
 use super::{Degree, Dof, Model, Race};
-use crate::contact::{BallSide, Law, Motion, Pair, Sink, Touch, V2};
+use crate::contact::{BallSide, Law, Motion, Pair, Sink, Touch, V2, centrifugal};
 use crate::scene::Drive;
 
 /// Scales that tolerances and the step cap follow.
@@ -47,16 +47,16 @@ impl Scales {
             let external =
                 5.0 * radial / (model.balls.len() as f64 * cos) + axial / (row.count as f64 * sin);
             let orbit = 0.4 * speed;
-            let centrifugal = body.mass[Dof::X] * orbit * orbit * geometry.pitch_diameter / 2.0;
+            let outwards = centrifugal(body.mass[Dof::X], orbit) * geometry.pitch_diameter / 2.0;
             let squeeze = (-geometry.clearance / 4.0 * cos).max(0.0)
                 + (geometry.axial_preload / 2.0 * sin).max(0.0);
             let bottoms = row
                 .pairs
                 .each_ref()
                 .map(|pair| Bottom::new(pair, &ball.side));
-            // Where nothing acts, a touch of a hundred-thousandth of the ball.
+            // Where no load acts: the force at an approach of 2e-5 of the ball's radius.
             let touch = bottoms[0].force(2e-5 * ball.side.radius);
-            let mut load = (external + centrifugal).max(touch);
+            let mut load = (external + outwards).max(touch);
             for bottom in &bottoms {
                 load = load.max(bottom.force(squeeze) + external);
             }

@@ -18,7 +18,7 @@ struct Driven {
     share: f64,
     speed: TimeFunction,
     turned: Antiderivative,
-    /// What of the speed is not the drive's.
+    /// The part of the speed that does not follow the drive.
     extra: f64,
 }
 

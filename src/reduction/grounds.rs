@@ -1,4 +1,4 @@
-//! Who is left out, for which reason, and how it moves all the same.
+//! Which directions are left out, for which reason, and how they move all the same.
 
 use super::AxialPlaces;
 use super::course::{Course, Prescribed};
@@ -50,10 +50,10 @@ impl Reason {
     }
 }
 
-/// What may go, found before it is sorted out who goes.
+/// What a scene allows to be left out, found before the choice is made.
 #[derive(Default)]
 pub(super) struct Grounds {
-    /// Whether what changes nothing goes.
+    /// Whether directions that do not change the motion are left out.
     pub exact: bool,
     pub plane: bool,
     pub mirrored: bool,
@@ -95,7 +95,7 @@ impl Grounds {
         }
     }
 
-    /// How what is left out moves by itself, from a start; none where others tell.
+    /// How a direction that is left out moves, from a start; none where those that are kept determine it.
     pub fn course(
         &self,
         model: &Model,

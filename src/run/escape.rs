@@ -14,8 +14,8 @@ pub(crate) fn reason(model: &Model, y: &[f64], j: usize, finer: &str) -> String 
     let races = model.rows[ball.row].pairs.each_ref().map(|pair| pair.race);
     let ways = Race::BOTH.map(|race| {
         let ring = model.layout().motion(y, race.ring());
-        let distance = (at.centre - ring.centre).norm();
-        races[race].section(radius, distance, at.z - ring.z, 0.0)
+        let seen = at.seen_from(&ring);
+        races[race].section(radius, seen.centre.norm(), seen.z, 0.0)
     });
     let beyond = |race: Race| ways[race].l - races[race].farthest(radius);
     let race = if beyond(Race::Inner) > beyond(Race::Outer) {

@@ -43,10 +43,7 @@ fn loose_balls(model: &Model) -> impl Iterator<Item = usize> + Clone {
 
 /// Mean rate about the axis of the balls that no friction drives \[rad/s\].
 fn rate(model: &Model, y: &[f64]) -> f64 {
-    let of = |j: usize| {
-        let ball = model.layout().motion(y, BodyId::ball(j));
-        crate::contact::cross(ball.centre, ball.velocity) / ball.centre.norm_squared()
-    };
+    let of = |j: usize| model.layout().motion(y, BodyId::ball(j)).orbit_speed();
     let balls = loose_balls(model);
     balls.clone().map(of).sum::<f64>() / balls.count() as f64
 }

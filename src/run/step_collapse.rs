@@ -8,7 +8,7 @@ const PATIENCE: usize = 1000;
 /// millisecond takes more than ten million steps.
 const HOPELESS: f64 = 1e-5;
 
-/// Counts hopelessly small steps.
+/// Counts steps that are too small for the run to end in a useful time.
 pub(crate) struct StepCollapse {
     limit: f64,
     steps: usize,

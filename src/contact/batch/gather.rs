@@ -95,15 +95,15 @@ impl Pair {
     #[inline(always)]
     pub(crate) fn near<const FMA: bool>(&self, balls: &Places, ring: &Motion) -> Near {
         let race = &self.race;
-        let (x, y) = (balls.q[0] - ring.centre.x, balls.q[1] - ring.centre.y);
+        let [x, y, z] = ring.place_from([balls.q[0], balls.q[1], balls.q[2]]);
         let d = x.mul_add::<FMA>(x, y * y).sqrt();
         let raise = if self.waves.is_round() {
             Raise::default()
         } else {
-            Raise::each(|i| self.waves.raise(y[i].atan2(x[i]) - ring.theta))
+            Raise::each(|i| self.waves.raise(ring.angle_of(y[i].atan2(x[i]))))
         };
         let e = (d - raise.height - race.a) * race.sigma;
-        let c = balls.q[2] - (race.centre + ring.z);
+        let c = Lanes::all(race.centre) - z;
         let section = Section::new::<FMA, false>(balls.radius, Lanes::all(race.r), e, c);
         let touching = section.is_clear().not();
         let mut faulted = Mask::default();

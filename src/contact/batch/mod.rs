@@ -120,17 +120,13 @@ impl Pair {
         let of = &eight.constants;
         let sigma = self.race.sigma;
         let (zero, one) = (Lanes::ZERO, Lanes::all(1.0));
-        let (dx, dy) = (eight.q[0] - ring.centre.x, eight.q[1] - ring.centre.y);
+        let [dx, dy, dz] = ring.place_from([eight.q[0], eight.q[1], eight.q[2]]);
         let d = dx.mul_add::<FMA>(dx, dy * dy).sqrt();
         let over = one / d;
         let n = (dx * over, dy * over);
         let raised = of.a + eight.raise.height;
         let e = (d - raised) * sigma;
-        let c = if SYMMETRIC {
-            zero
-        } else {
-            of.centre + ring.z - eight.q[2]
-        };
+        let c = if SYMMETRIC { zero } else { of.centre - dz };
         let section = Section::new::<FMA, SYMMETRIC>(of.radius, of.r, e, c);
         let zone = kernel::zone(&self.law.cut(), &section, of.half_curvature);
         let ends = if SYMMETRIC {
@@ -158,12 +154,8 @@ impl Pair {
             strength: of.strength,
             half_curvature: of.half_curvature,
         };
-        let v_z = if SYMMETRIC {
-            zero
-        } else {
-            eight.v[2] - ring.vz
-        };
-        let v = [eight.v[0] - ring.velocity.x, eight.v[1] - ring.velocity.y];
+        let v = ring.velocity_from([eight.v[0], eight.v[1], eight.v[2]]);
+        let v_z = if SYMMETRIC { zero } else { v[2] };
         let across = v[1] * n.0 - v[0] * n.1;
         let moves = Moves {
             v_e: (v[0] * n.0 + v[1] * n.1) * sigma,

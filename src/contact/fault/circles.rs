@@ -88,7 +88,7 @@ impl Contact<'_> {
         let raise = if waves.is_round() {
             Raise::default()
         } else {
-            waves.raise(m.y.atan2(m.x) - self.r.theta)
+            waves.raise(self.r.angle_of(m.y.atan2(m.x)))
         };
         let radius = node.torus_radius + raise.height;
         let sigma = self.pair.race.sigma;

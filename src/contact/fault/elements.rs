@@ -129,7 +129,7 @@ impl Contact<'_> {
         if !self.ball_open {
             return None;
         }
-        let angle = direction.y.atan2(direction.x) - self.b.theta;
+        let angle = self.b.angle_of(direction.y.atan2(direction.x));
         absent(&self.ball.faults, &node.on_ball(), angle)
     }
 
@@ -224,7 +224,7 @@ impl Contact<'_> {
             ball_drops,
             ..ElementPair::smooth(*feature, node)
         });
-        let angle = feature.n_e.y.atan2(feature.n_e.x) - self.b.theta;
+        let angle = self.b.angle_of(feature.n_e.y.atan2(feature.n_e.x));
         for (edge, depth) in floors(&self.ball.faults, node.on_ball(), angle, &arc) {
             let (drop, circle, tan) = meet(&edge, depth);
             visit(&ElementPair {

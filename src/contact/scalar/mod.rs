@@ -35,7 +35,8 @@ pub struct BallSide {
 impl Pair {
     /// All forces between a ball and the race of its ring.
     pub fn evaluate<S: Sink>(&self, ball: &BallSide, b: &Motion, r: &Motion, sink: &mut S) {
-        let apart = b.centre - r.centre;
+        let seen = b.seen_from(r);
+        let apart = seen.centre;
         let distance = apart.norm();
         if distance == 0.0 {
             return;
@@ -44,20 +45,20 @@ impl Pair {
         let sigma = self.race.sigma;
         let needs_angle =
             !(self.waves.is_round() && self.faults.is_empty() && ball.faults.is_empty());
-        let angle = if needs_angle { n.y.atan2(n.x) } else { 0.0 };
-        let on_ring = angle - r.theta;
+        let angle = if needs_angle { seen.direction() } else { 0.0 };
+        let on_ring = r.angle_of(angle);
         let raise = self.waves.raise(on_ring);
         let section = self
             .race
-            .section(ball.radius, distance, b.z - r.z, raise.height);
+            .section(ball.radius, distance, seen.z, raise.height);
         if section.is_clear() {
             return;
         }
-        let on_ball = if sigma > 0.0 {
+        let on_ball = b.angle_of(if sigma > 0.0 {
             angle
         } else {
             angle + std::f64::consts::PI
-        } - b.theta;
+        });
         let ring_open = self.faults.iter().any(|fault| fault.in_reach(on_ring));
         let ball_near = ball.faults.iter().any(|fault| fault.in_reach(on_ball));
         let line = match self.law.cut() {
@@ -65,7 +66,7 @@ impl Pair {
             Cut::CommonTangent { curvature } => Line::along_tangent(curvature, &section),
         };
         let Some(line) = line else { return };
-        let across = (b.velocity - r.velocity).dot(&turned(n));
+        let across = seen.velocity.dot(&turned(n));
         let reads_rolling = self.law.traction.is_some_and(|law| law.reads_rolling());
         let contact = Contact {
             pair: self,

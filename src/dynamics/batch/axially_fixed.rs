@@ -20,9 +20,9 @@ pub(super) struct AxiallyFixedRow {
 #[derive(Debug, Clone)]
 struct AxiallyFixedSide {
     form: InPlane,
-    /// 1 where ball and race are whole; all are where there is nothing to look for.
+    /// 1 for each ball whose contact no defect can reach, 0 for the others.
     whole: Vec<f64>,
-    /// Raise of the race under the balls and its slope R'(φ) \[m\], likewise.
+    /// Height of the race's waves under each ball, and their slope R'(φ) \[m\].
     raise: Vec<f64>,
     slope: Vec<f64>,
 }
@@ -78,19 +78,19 @@ impl AxiallyFixedRow {
     }
 
     /// Notes where waves raise the races and where defects may be seen.
-    // Taken into the evaluation it would burden those that do without.
+    // Inlined into the evaluation it would slow down rows without waves and defects.
     #[inline(never)]
     pub fn look(&mut self, model: &Model, state: &State, rings: &[Motion; 2]) {
         let row = &model.rows[self.row];
         for ((side, pair), ring) in self.races.iter_mut().zip(&row.pairs).zip(rings) {
             let balls = row.balls();
-            let apart = |j: usize| state.motion(BodyId::ball(j)).centre - ring.centre;
+            let seen = |j: usize| state.motion(BodyId::ball(j)).seen_from(ring);
             for (j, whole) in balls.clone().zip(&mut side.whole) {
                 *whole = f64::from(model.balls[j].side.faults.is_empty());
             }
             if !pair.waves.is_round() {
                 for (j, (height, slope)) in balls.zip(side.raise.iter_mut().zip(&mut side.slope)) {
-                    let raise = pair.waves.raise(apart(j).y.atan2(apart(j).x) - ring.theta);
+                    let raise = pair.waves.raise(ring.angle_of(seen(j).direction()));
                     (*height, *slope) = (raise.height, raise.slope);
                 }
             }
@@ -98,7 +98,7 @@ impl AxiallyFixedRow {
                 let Sight { middle, bound } = fault.sight(ring.theta);
                 let balls = row.balls();
                 for (j, whole) in balls.zip(&mut side.whole) {
-                    let apart = apart(j);
+                    let apart = seen(j).centre;
                     if apart.x * middle[0] + apart.y * middle[1] > bound * apart.norm() {
                         *whole = 0.0;
                     }
@@ -108,7 +108,7 @@ impl AxiallyFixedRow {
     }
 }
 
-/// What the contacts of a row have told, besides the forces on the balls.
+/// What the evaluation of a row yields besides the forces on its balls.
 pub(super) struct AxiallyFixedSums<'a> {
     /// On the two rings.
     pub rings: &'a mut [[f64; DOFS]; 2],

@@ -9,7 +9,7 @@ use crate::simd::{LANES, Lanes, Mask, Task};
 /// Constants of all contacts with one ring.
 #[derive(Debug, Clone)]
 pub(crate) struct SideConstants {
-    /// Those of every ball.
+    /// Those of each ball, by its number among all.
     pub balls: Vec<Constants<f64>>,
     /// What the balls of a class of rows share, by class.
     classes: Vec<ClassConstants>,
@@ -29,7 +29,7 @@ struct ClassConstants {
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Touching {
     pub ball: usize,
-    /// Of the race there.
+    /// Height and slope of the race's waves under the ball.
     pub raise: Raise<f64>,
 }
 
@@ -114,7 +114,7 @@ impl ClassConstants {
     }
 }
 
-/// Leaves to themselves the contacts that were not regular.
+/// Hands over the contacts that were not regular, to be evaluated one by one.
 pub(super) fn leave(groups: &[Group], singles: &mut Vec<Single>) {
     for group in groups {
         let lanes = group

@@ -28,7 +28,7 @@ use eight::{Eight, Group, leave};
 pub(crate) use eight::{SideConstants, Touching};
 use find::{Find, Stretch};
 
-/// What a batch may take for granted.
+/// What a reduction guarantees, so that a batch may use it.
 #[derive(Debug, Clone)]
 pub(crate) struct Kind {
     /// Rows whose contacts are evaluated.
@@ -72,7 +72,7 @@ impl Kind {
 #[derive(Debug, Clone)]
 pub(crate) struct Batch {
     kind: Kind,
-    /// Rows that are evaluated as they stand.
+    /// Rows whose balls keep their axial places: evaluated ball by ball without a search.
     fixed_rows: Vec<AxiallyFixedRow>,
     /// The balls of the other rows by eights, for the search.
     stretches: Vec<Stretch>,
@@ -208,7 +208,7 @@ impl Batch {
         };
         let (groups, singles) = (&mut self.groups[..self.active], &mut self.singles);
         if let Some(pool) = pool {
-            // From inside the pool, where a run lives, this is a plain call.
+            // A run already lives inside the pool, where this costs no more than a call.
             pool.install(|| {
                 groups.par_iter_mut().for_each(eight);
                 leave(groups, singles);
@@ -221,7 +221,7 @@ impl Batch {
         }
     }
 
-    /// Evaluates the rows that stand as they are.
+    /// Evaluates the rows whose balls keep their axial places.
     fn axially_fixed(
         &mut self,
         forces: &mut Table,
@@ -249,7 +249,7 @@ impl Batch {
         }
     }
 
-    /// Finds what touches; what has a closed form puts its forces where it is told.
+    /// Finds the contacts that touch. Those with a closed form are evaluated at once, where `forces` is given.
     pub fn find(
         &mut self,
         forces: Option<&mut Table>,
@@ -318,7 +318,7 @@ impl Batch {
         for race in Race::BOTH {
             let mut sum = rings[race];
             if self.kind.mirrored {
-                // What the image adds; along z it takes all.
+                // The mirror image adds the same in the plane, and the opposite along z.
                 sum = sum.map(|part| 2.0 * part);
                 sum[Dof::Z] = 0.0;
             }
@@ -327,8 +327,7 @@ impl Batch {
         rings.map(|sum| sum[Dof::Theta] * self.times())
     }
 
-    /// What the contacts of all rows are evaluated by, if that is a closed form everywhere and there is nothing else to
-    /// look for.
+    /// The closed forms of all rows, where every contact has one and there are no waves and defects to look for.
     pub fn forms(&self) -> Option<Vec<(usize, [InPlane; 2])>> {
         let forms = self.fixed_rows.iter().map(AxiallyFixedRow::plain).collect();
         if self.stretches.is_empty() {
@@ -338,7 +337,8 @@ impl Batch {
         }
     }
 
-    /// Forgets what was found last: the loop along the balls has evaluated all contacts, none of which needed care.
+    /// Forgets the last evaluation, since the planar right-hand side has taken its place: there no damping pulled, no
+    /// shoulder was reached and no ball was lost.
     pub fn settle(&mut self) {
         self.singles.clear();
         (self.active, self.lost, self.pulls) = (0, None, 0);
@@ -365,7 +365,7 @@ impl Batch {
         self.kind.symmetric
     }
 
-    /// How many contacts one stands for.
+    /// How many contacts each evaluated one stands for: two, where the second row is an image of the first.
     fn times(&self) -> f64 {
         if self.kind.mirrored { 2.0 } else { 1.0 }
     }

@@ -15,13 +15,13 @@ use crate::simd::InstructionSet;
 
 pub(super) use rates::Rates;
 
-/// A model of this kind.
+/// A model whose right-hand side is this loop.
 #[derive(Debug)]
 pub(super) struct Planar {
     rows: Vec<Balls>,
     /// Outer and inner ring along x and y.
     rings: [[Direction; 2]; 2],
-    /// How many contacts one stands for.
+    /// How many contacts each evaluated one stands for: two, where the second row is an image of the first.
     times: f64,
 }
 
@@ -53,7 +53,7 @@ struct Direction {
     spring: Option<Spring>,
 }
 
-/// What a plane stands on.
+/// What a planar right-hand side is made from.
 pub(super) struct Ground<'a> {
     pub model: &'a Model,
     pub reduction: &'a Reduction,
@@ -66,7 +66,7 @@ pub(super) struct Ground<'a> {
 impl Planar {
     /// For rows whose contacts all have a closed form; none if there is more to the model.
     ///
-    /// Comes with the instruction set that is to run it: its registers reach over the end of no row.
+    /// Comes with the instruction set that is to run it, whose registers hold no more balls than any row has.
     pub fn new(
         ground: &Ground<'_>,
         forms: &[(usize, [InPlane; 2])],

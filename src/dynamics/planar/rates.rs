@@ -1,4 +1,4 @@
-//! The loop.
+//! The loop of the planar right-hand side.
 
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
@@ -11,7 +11,7 @@ use crate::model::{Model, Race};
 use crate::scene::Cage;
 use crate::simd::{Simd, Vector, Wide};
 
-/// Finds the rates of a state; false where they are left to others.
+/// Finds the rates of a state; false where the general right-hand side must.
 pub(in crate::dynamics) struct Rates<'a> {
     pub planar: &'a mut Planar,
     pub model: &'a Model,
@@ -86,7 +86,7 @@ impl Direction {
         self.at.map_or((self.place, 0.0), |at| (q[at], v[at]))
     }
 
-    /// Writes what a force of contacts, the spring and steady forces add up to.
+    /// Writes the acceleration by a force of the contacts, the support's spring and the steady forces.
     #[inline(always)]
     fn accelerate(&self, force: f64, (q, v, to): (&[f64], &[f64], &mut [f64])) {
         let Some(at) = self.at else { return };
@@ -105,7 +105,7 @@ impl Balls {
         &of[self.at[direction]..][..self.count]
     }
 
-    /// The cage.
+    /// The forces of the cage's links.
     #[inline(always)]
     fn link<S: Simd>(&mut self, simd: S, cage: (&Cage, f64), q: &[f64], v: &[f64]) {
         let all = |x: f64| Vector::all(simd, x);
@@ -129,7 +129,7 @@ impl Balls {
         }
     }
 
-    /// The contacts, and what all forces on the balls do; false where a contact is not plain.
+    /// The contacts, and the accelerations of the balls by all forces; false where a contact is out of the reach of its form.
     #[inline(always)]
     fn forces<S: Simd, const MIDDLE: bool>(
         &self,

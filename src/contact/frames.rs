@@ -1,0 +1,97 @@
+//! Frames of reference, and what changes from one to the other.
+//!
+//! * The **scene's** frame is inertial: x to the right, y up, z along the bearing's axis.
+//! * A **ring's** frame has its origin at the ring's centre and moves with it. A contact is evaluated in it. Its axes keep the
+//!   directions of the scene's, since rings do not tilt; what is fixed to the ring, defects and waves, stands at angles
+//!   from a mark that has turned by θ.
+//! * The **cage's** frame turns about the bearing's axis at the orbit speed of the balls. A bearing that rolls evenly rests
+//!   in it, under the centrifugal force.
+
+// Into loops that are compiled for the instructions at hand.
+#![allow(clippy::inline_always)]
+
+use super::{V2, cross};
+use crate::simd::Number;
+
+/// Where a body is and how it moves.
+#[derive(Debug, Clone, Copy)]
+pub struct Motion {
+    /// Centre in the plane \[m\].
+    pub centre: V2,
+    /// Axial place \[m\].
+    pub z: f64,
+    /// Angle about z \[rad\].
+    pub theta: f64,
+    /// Velocity in the plane \[m/s\].
+    pub velocity: V2,
+    /// Axial velocity \[m/s\].
+    pub vz: f64,
+    /// Angular speed about z \[rad/s\].
+    pub omega: f64,
+}
+
+impl Motion {
+    /// From the four positions and the four velocities of a body.
+    pub fn new(q: &[f64], v: &[f64]) -> Self {
+        Self {
+            centre: V2::new(q[0], q[1]),
+            z: q[2],
+            theta: q[3],
+            velocity: V2::new(v[0], v[1]),
+            vz: v[2],
+            omega: v[3],
+        }
+    }
+
+    /// This body as seen by who moves with a ring's centre, but does not turn with it.
+    #[inline]
+    pub(crate) fn seen_from(&self, ring: &Self) -> Self {
+        Self {
+            centre: self.centre - ring.centre,
+            z: self.z - ring.z,
+            velocity: self.velocity - ring.velocity,
+            vz: self.vz - ring.vz,
+            ..*self
+        }
+    }
+
+    /// A place as this ring sees it.
+    #[inline(always)]
+    pub(crate) fn place_from<T: Number>(&self, [x, y, z]: [T; 3]) -> [T; 3] {
+        [x + -self.centre.x, y + -self.centre.y, z + -self.z]
+    }
+
+    /// A velocity as seen by who moves with this ring's centre.
+    #[inline(always)]
+    pub(crate) fn velocity_from<T: Number>(&self, [x, y, z]: [T; 3]) -> [T; 3] {
+        [x + -self.velocity.x, y + -self.velocity.y, z + -self.vz]
+    }
+
+    /// The angle at this body, from its mark, of a direction \[rad\].
+    #[inline]
+    pub(crate) fn angle_of(&self, direction: f64) -> f64 {
+        direction - self.theta
+    }
+
+    /// The direction of what is fixed to this body at an angle from its mark \[rad\].
+    #[inline]
+    pub(crate) fn direction_of(&self, angle: f64) -> f64 {
+        self.theta + angle
+    }
+
+    /// The direction from the axis to this body's centre \[rad\].
+    #[inline]
+    pub(crate) fn direction(&self) -> f64 {
+        self.centre.y.atan2(self.centre.x)
+    }
+
+    /// How fast that turns \[rad/s\]: the speed of the cage's frame, where a ball rests in it.
+    pub(crate) fn orbit_speed(&self) -> f64 {
+        cross(self.centre, self.velocity) / self.centre.norm_squared()
+    }
+}
+
+/// Centrifugal force on a mass \[kg\] that rests in the cage's frame, over its radius \[N/m\].
+pub(crate) fn centrifugal(mass: f64, orbit_speed: f64) -> f64 {
+    mass * orbit_speed * orbit_speed
+}
