@@ -42,7 +42,7 @@ pub use profile::{Torus, Waves};
 pub use quadrature::{Rules, Slices};
 pub use scalar::{BallSide, Pair};
 pub(crate) use stage::{
-    PlaneVector, SlicePack, SlicePacking, StageContacts, StageElement, StageWrench, in_contact,
+    PlaneVector, SlicePack, SlicePacking, StageContacts, StageElements, StageWrench, in_contact,
 };
 pub(crate) use stiffness::Tangent;
 

@@ -3,7 +3,7 @@
 use std::array::from_fn;
 
 use crate::contact::{
-    Motion, PlaneVector, Raise, SlicePack, SlicePacking, StageContacts, StageElement, StageWrench,
+    Motion, PlaneVector, Raise, SlicePack, SlicePacking, StageContacts, StageElements, StageWrench,
     in_contact,
 };
 use crate::dynamics::{SideConstants, Touching};
@@ -37,7 +37,7 @@ pub(super) struct StageBatch {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Side {
     held: StageContacts,
-    nodes: Vec<StageElement>,
+    nodes: StageElements,
     /// Slices of contacts that are evaluated alone, and the lanes of these.
     packs: Vec<(usize, SlicePack)>,
     /// Forces on the balls that do not depend on velocities, of waves and of the ends of defects: (x, y, z, about z).
@@ -151,20 +151,17 @@ impl Side {
     ) {
         let compiled = &model.balls[ball];
         let pair = &model.rows[compiled.row].pairs[race];
+        let at = state.motion(BodyId::ball(ball));
         let mut packing = SlicePacking {
             lane,
             packs: &mut self.packs,
             radius: compiled.side.radius,
+            outwards: at.seen_from(&rings[race]).centre.normalize(),
             flat: pair.law.cut().is_flat(),
             aside: [0.0; DOFS],
             count: 0,
         };
-        pair.evaluate(
-            &compiled.side,
-            &state.motion(BodyId::ball(ball)),
-            &rings[race],
-            &mut packing,
-        );
+        pair.evaluate(&compiled.side, &at, &rings[race], &mut packing);
         for (sum, part) in self.aside.iter_mut().zip(packing.aside) {
             sum[lane] += part;
         }
@@ -174,7 +171,7 @@ impl Side {
 /// Finds the nodes of whole contacts.
 struct FindElements<'a> {
     class: usize,
-    nodes: &'a mut Vec<StageElement>,
+    nodes: &'a mut StageElements,
     race: Race,
     contacts: &'a [Touching; LANES],
     whole: Mask,
@@ -247,7 +244,7 @@ impl<const SLOPE: bool> Task for StageForces<'_, SLOPE> {
             if SLOPE {
                 sum.slope = [[Lanes::ZERO; DOFS]; DOFS];
             }
-            for node in &side.nodes {
+            for node in side.nodes.iter() {
                 pair.force::<FMA, SLOPE>(node, &side.held.around, &local, secant, sum);
             }
             sum.turn::<SLOPE>(n_e);
@@ -262,7 +259,8 @@ impl<const SLOPE: bool> Task for StageForces<'_, SLOPE> {
                 let mut part = StageWrench::default();
                 let local = in_contact(&all, pack.n_e);
                 let around = side.held.around.of(*lane);
-                pair.force::<FMA, SLOPE>(&pack.element, &around, &local, secant, &mut part);
+                let element = (&pack.element, Some(&pack.rolling));
+                pair.force::<FMA, SLOPE>(element, &around, &local, secant, &mut part);
                 part.turn::<SLOPE>(pack.n_e);
                 sum.gather::<SLOPE>(*lane, &part);
             }

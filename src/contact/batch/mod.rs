@@ -187,11 +187,10 @@ impl Pair {
         d: Lanes,
         across: Lanes,
     ) -> Rolling<Lanes> {
-        match &self.law.traction {
-            Some(law) if law.reads_rolling() => {
-                Rolling::new(d, across, [eight.v[3], Lanes::all(ring.omega)])
-            }
-            _ => Rolling::resting(d),
+        if self.reads_rolling() {
+            Rolling::new(d, across, [eight.v[3], Lanes::all(ring.omega)])
+        } else {
+            Rolling::resting(d)
         }
     }
 

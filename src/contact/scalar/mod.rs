@@ -33,6 +33,11 @@ pub struct BallSide {
 }
 
 impl Pair {
+    /// Whether friction asks how the surfaces roll: only then it is found out.
+    pub(super) fn reads_rolling(&self) -> bool {
+        self.law.traction.is_some_and(|law| law.reads_rolling())
+    }
+
     /// All forces between a ball and the race of its ring.
     pub fn evaluate<S: Sink>(&self, ball: &BallSide, b: &Motion, r: &Motion, sink: &mut S) {
         let seen = b.seen_from(r);
@@ -67,7 +72,6 @@ impl Pair {
         };
         let Some(line) = line else { return };
         let across = seen.velocity.dot(&turned(n));
-        let reads_rolling = self.law.traction.is_some_and(|law| law.reads_rolling());
         let contact = Contact {
             pair: self,
             ball,
@@ -82,7 +86,7 @@ impl Pair {
             // A ring edge is met in another direction than the race.
             ball_open: ball_near || ring_open && !ball.faults.is_empty(),
             section,
-            rolling: if reads_rolling {
+            rolling: if self.reads_rolling() {
                 Rolling::new(distance, across, [b.omega, r.omega])
             } else {
                 Rolling::resting(distance)

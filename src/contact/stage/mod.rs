@@ -28,11 +28,36 @@ pub(crate) struct StageElement {
     elastic: Lanes,
     share: (Lanes, Lanes),
     slope: (Lanes, Lanes),
+    /// Moments about the ball's centre of unit forces along n_e and t_e.
+    levers: PlaneVector,
+}
+
+/// What traction laws read of an element beside its slip, where they do ([`super::Traction::reads_rolling`]).
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct StageRolling {
     load: Lanes,
     depth: Lanes,
     arm: Lanes,
-    /// Moments about the ball's centre of unit forces along n_e and t_e.
-    levers: PlaneVector,
+}
+
+/// The elements of eight contacts.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct StageElements {
+    elements: Vec<StageElement>,
+    /// As many, or none where the law reads slip alone.
+    rolling: Vec<StageRolling>,
+}
+
+impl StageElements {
+    pub fn clear(&mut self) {
+        self.elements.clear();
+        self.rolling.clear();
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = (&StageElement, Option<&StageRolling>)> {
+        let numbered = self.elements.iter().enumerate();
+        numbered.map(|(k, element)| (element, self.rolling.get(k)))
+    }
 }
 
 /// What all elements of a contact share beside their law.
@@ -91,12 +116,13 @@ impl Pair {
         eight: &EightContacts,
         ring: &Motion,
         whole: Mask,
-        nodes: &mut Vec<StageElement>,
+        nodes: &mut StageElements,
     ) -> StageContacts {
         let (contact, moves, place) = self.place::<FMA, false>(eight, ring, whole.not());
         let (regular, sigma) = (place.regular.and(whole), self.race.sigma);
         let mut holding = Holding {
             nodes,
+            reads_rolling: self.reads_rolling(),
             moves: &moves,
             sigma,
             regular,
@@ -124,13 +150,14 @@ impl Pair {
     #[inline(always)]
     pub(crate) fn force<const FMA: bool, const SLOPE: bool>(
         &self,
-        element: &StageElement,
+        (element, rolling): (&StageElement, Option<&StageRolling>),
         around: &Around,
         twist: &[Lanes; 4],
         secant: bool,
         to: &mut StageWrench,
     ) {
         let levers = element.levers;
+        let StageRolling { load, depth, arm } = rolling.copied().unwrap_or_default();
         let velocity = [
             twist[3].mul_add::<FMA>(levers[0], twist[0]),
             twist[3].mul_add::<FMA>(levers[1], twist[1]),
@@ -141,9 +168,9 @@ impl Pair {
             share: element.share,
             slope: element.slope,
             velocity,
-            load: element.load,
-            depth: element.depth,
-            arm: element.arm,
+            load,
+            depth,
+            arm,
             rolling: around.rolling,
             radii: around.radii,
         };
@@ -280,7 +307,8 @@ pub(crate) fn in_contact(twist: &[Lanes; 4], n_e: PlaneVector) -> [Lanes; 4] {
 
 /// Collects the elements of eight contacts, of those that are whole.
 struct Holding<'a> {
-    nodes: &'a mut Vec<StageElement>,
+    nodes: &'a mut StageElements,
+    reads_rolling: bool,
     moves: &'a Moves,
     sigma: f64,
     regular: Mask,
@@ -300,15 +328,19 @@ impl Receiver<Lanes> for Holding<'_> {
         let elastic = element.load * element.length;
         let elastic = self.regular.choose(elastic, Lanes::ZERO);
         self.radial += elastic * element.share.0;
-        self.nodes.push(StageElement {
+        self.nodes.elements.push(StageElement {
             elastic,
             share: element.share,
             slope: (element.sin, element.cos),
-            load: element.load,
-            depth: element.depth,
-            arm,
             levers: [Lanes::ZERO, arm * sigma],
         });
+        if self.reads_rolling {
+            self.nodes.rolling.push(StageRolling {
+                load: element.load,
+                depth: element.depth,
+                arm,
+            });
+        }
     }
 }
 

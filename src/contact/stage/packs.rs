@@ -1,7 +1,7 @@
 //! Slices of contacts that are evaluated alone, in packs of eight.
 
-use super::{PlaneVector, StageElement};
-use crate::contact::{Aside, Sink, Touch, cross, turned};
+use super::{PlaneVector, StageElement, StageRolling};
+use crate::contact::{Aside, Sink, Touch, V2, cross, turned};
 use crate::simd::LANES;
 
 /// Eight slices of one contact, each with its own direction.
@@ -9,6 +9,7 @@ use crate::simd::LANES;
 pub(crate) struct SlicePack {
     pub n_e: PlaneVector,
     pub element: StageElement,
+    pub rolling: StageRolling,
 }
 
 /// Collects the slices of a contact in packs of some lane.
@@ -17,6 +18,8 @@ pub(crate) struct SlicePacking<'a> {
     pub lane: usize,
     /// Ball radius \[m\].
     pub radius: f64,
+    /// From the ring's centre to the ball's, of length 1.
+    pub outwards: V2,
     /// Whether all slices press along the common normal.
     pub flat: bool,
     /// Sum of forces beside those of slices: x, y, z and about the ball's centre.
@@ -32,9 +35,14 @@ impl Sink for SlicePacking<'_> {
             self.packs.push((self.lane, SlicePack::default()));
         }
         self.count += 1;
-        let Some((_, SlicePack { n_e, element })) = self.packs.last_mut() else {
+        let Some((_, pack)) = self.packs.last_mut() else {
             return;
         };
+        let SlicePack {
+            n_e,
+            element,
+            rolling,
+        } = pack;
         // α of the slice: that of the place on the ball (flat contact), or of the force's direction.
         let (sin, cos) = if self.flat {
             let sin = touch.zeta / self.radius;
@@ -49,8 +57,9 @@ impl Sink for SlicePacking<'_> {
         element.elastic[lane] = touch.elastic;
         (element.share.0[lane], element.share.1[lane]) = touch.share;
         (element.slope.0[lane], element.slope.1[lane]) = (sin, cos);
-        element.load[lane] = touch.elastic / touch.width;
-        element.depth[lane] = touch.depth;
+        rolling.load[lane] = touch.elastic / touch.width;
+        rolling.depth[lane] = touch.depth;
+        rolling.arm[lane] = arm.dot(&self.outwards);
         element.levers[0][lane] = cross(arm, out);
         element.levers[1][lane] = cross(arm, turned(out));
     }
