@@ -113,14 +113,20 @@ impl Contact<'_> {
             let cos = 1.0 / (1.0 + tan * tan).sqrt();
             (tan * cos, cos)
         };
+        let (load, arm) = if self.pair.reads_rolling() {
+            let arm = feature.arm_ring.dot(&self.n) - self.distance;
+            (elastic / node.width, arm)
+        } else {
+            (0.0, 0.0)
+        };
         State {
             elastic,
             share: self.common().unwrap_or((1.0, tan)),
             slope,
             velocity: [v_p.dot(&n_e), v_p.dot(&turned(n_e)), b.vz - r.vz],
-            load: elastic / node.width,
+            load,
             depth,
-            arm: feature.arm_ring.dot(&self.n) - self.distance,
+            arm,
             rolling: self.rolling,
             radii: [radius, self.pair.race.r],
         }

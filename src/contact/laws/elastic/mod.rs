@@ -109,7 +109,11 @@ impl Elastic {
     /// Force of an element \[N\] at a penetration and for a length \[m\]; 0 where it is clear.
     #[inline]
     pub fn force(&self, depth: f64, length: f64) -> f64 {
-        self.load(depth.or_zero()) * length
+        // Most elements of a defect are clear of the ball: no power is taken for them.
+        if depth <= 0.0 {
+            return 0.0;
+        }
+        self.load(depth) * length
     }
 
     /// Elastic energy of an element \[J\]; its derivative is the force.
