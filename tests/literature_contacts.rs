@@ -20,7 +20,7 @@ use std::f64::consts::PI;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::iso16281::Iso16281;
 use ballrace::contact::{
-    BallSide, Elastic, Fault, Law, Motion, Pair, Sink, Slices, Torus, Touch, V2, Waves,
+    BallSide, Elastic, Fault, Law, Motion, Pair, Sink, Slices, Torus, Touch, Waves,
 };
 use ballrace::scene::{Defect, Material, Surface};
 use common::meets;
@@ -178,14 +178,7 @@ fn brewe_and_hamrock_on_the_209() {
 }
 
 fn at(x: f64) -> Motion {
-    Motion {
-        centre: V2::new(x, 0.0),
-        z: 0.0,
-        theta: 0.0,
-        velocity: V2::zeros(),
-        vz: 0.0,
-        omega: 0.0,
-    }
+    Motion::new(&[x, 0.0, 0.0, 0.0], &[0.0; 4])
 }
 
 #[derive(Default)]

@@ -13,11 +13,15 @@ use super::vector::{Vector, Wide};
 /// The environment variable that overrides the choice.
 const VARIABLE: &str = "BALLRACE_SIMD";
 
-/// An instruction set, named as in the x86-64 psABI. Elsewhere only [`InstructionSet::Baseline`] exists.
+/// An instruction set, named as in the x86-64 psABI. Elsewhere only [`InstructionSet::BASELINE`] exists.
 ///
 /// Results differ between levels by rounding: the upper two fuse products and sums.
 #[derive(Debug, Clone, Copy)]
-pub enum InstructionSet {
+pub struct InstructionSet(Level);
+
+/// The proof that a processor has the instructions goes with each.
+#[derive(Debug, Clone, Copy)]
+enum Level {
     /// What every processor of the architecture has (SSE2, NEON).
     Baseline,
     /// AVX2 and FMA.
@@ -76,17 +80,21 @@ pub(crate) trait Task {
 }
 
 impl InstructionSet {
+    /// What every processor of the architecture has.
+    pub const BASELINE: Self = Self(Level::Baseline);
+
     /// All levels of this processor, widest first.
     pub fn available() -> Vec<Self> {
         #[cfg(target_arch = "x86_64")]
         {
-            let v4 = pulp::x86::V4::try_new().map(Self::V4);
-            let v3 = pulp::x86::V3::try_new().map(Self::V3);
-            v4.into_iter().chain(v3).chain([Self::Baseline]).collect()
+            let v4 = pulp::x86::V4::try_new().map(Level::V4);
+            let v3 = pulp::x86::V3::try_new().map(Level::V3);
+            let all = v4.into_iter().chain(v3).chain([Level::Baseline]);
+            all.map(Self).collect()
         }
         #[cfg(not(target_arch = "x86_64"))]
         {
-            vec![Self::Baseline]
+            vec![Self::BASELINE]
         }
     }
 
@@ -119,7 +127,7 @@ impl InstructionSet {
 
     /// The instruction set of this process; the baseline if the environment names none of this processor.
     pub(crate) fn current() -> Self {
-        Self::chosen().unwrap_or(Self::Baseline)
+        Self::chosen().unwrap_or(Self::BASELINE)
     }
 
     /// Made once, at first use.
@@ -153,26 +161,26 @@ impl InstructionSet {
 
     /// Its name, as the environment variable takes it.
     pub fn name(&self) -> &'static str {
-        match self {
-            Self::Baseline => "baseline",
+        match self.0 {
+            Level::Baseline => "baseline",
             #[cfg(target_arch = "x86_64")]
-            Self::V3(_) => "x86-64-v3",
+            Level::V3(_) => "x86-64-v3",
             #[cfg(target_arch = "x86_64")]
-            Self::V4(_) => "x86-64-v4",
+            Level::V4(_) => "x86-64-v4",
         }
     }
 
     /// Does a task with the instructions of this set.
     #[inline]
     pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
-        match self {
+        match self.0 {
             // NEON has fused products everywhere.
-            Self::Baseline if cfg!(target_arch = "aarch64") => task.run::<true>(),
-            Self::Baseline => task.run::<false>(),
+            Level::Baseline if cfg!(target_arch = "aarch64") => task.run::<true>(),
+            Level::Baseline => task.run::<false>(),
             #[cfg(target_arch = "x86_64")]
-            Self::V3(instructions) => instructions.vectorize(Fused(task)),
+            Level::V3(instructions) => instructions.vectorize(Fused(task)),
             #[cfg(target_arch = "x86_64")]
-            Self::V4(instructions) => instructions.vectorize(Fused(task)),
+            Level::V4(instructions) => instructions.vectorize(Fused(task)),
         }
     }
 }
@@ -185,10 +193,10 @@ impl InstructionSet {
 
     /// This set, or one whose registers so many numbers fill.
     pub(crate) fn filled_by(self, count: usize) -> Option<Self> {
-        let narrower = match self {
+        let narrower = match self.0 {
             #[cfg(target_arch = "x86_64")]
-            Self::V4(instructions) => Self::V3(*instructions),
-            other => other,
+            Level::V4(instructions) => Self(Level::V3(*instructions)),
+            _ => self,
         };
         [self, narrower]
             .into_iter()
@@ -198,12 +206,12 @@ impl InstructionSet {
     /// Does a task that is written for registers of any width.
     #[inline]
     pub(crate) fn run_wide<T: Wide>(self, task: T) -> T::Output {
-        match self {
-            Self::Baseline => Scalar256b.vectorize(task),
+        match self.0 {
+            Level::Baseline => Scalar256b.vectorize(task),
             #[cfg(target_arch = "x86_64")]
-            Self::V3(instructions) => Simd::vectorize(instructions, task),
+            Level::V3(instructions) => Simd::vectorize(instructions, task),
             #[cfg(target_arch = "x86_64")]
-            Self::V4(instructions) => Simd::vectorize(instructions, task),
+            Level::V4(instructions) => Simd::vectorize(instructions, task),
         }
     }
 }
@@ -259,14 +267,14 @@ mod tests {
         let (used, distrust) = trusted(all.clone(), |instructions| {
             (instructions == widest).then_some("any")
         });
-        assert_eq!(used, *all.get(1).unwrap_or(&InstructionSet::Baseline));
+        assert_eq!(used, *all.get(1).unwrap_or(&InstructionSet::BASELINE));
         let wanted = Distrust {
             instructions: widest.name(),
             primitive: "any",
             used: used.name(),
         };
         assert_eq!(distrust, Some(wanted));
-        assert_eq!(trusted(all, |_| Some("any")).0, InstructionSet::Baseline);
+        assert_eq!(trusted(all, |_| Some("any")).0, InstructionSet::BASELINE);
     }
 
     /// Analytic: what the environment asks for is the widest that is tried.
