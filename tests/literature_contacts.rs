@@ -247,21 +247,18 @@ fn sink_over_a_sharp_slot() {
     for (sigma, pitch) in [(1.0, 60e-3), (-1.0, 60e-3), (1.0, 50.0), (-1.0, 50.0)] {
         let healthy = iso_pair(sigma, d, pitch, 0.53);
         let race = healthy.race.radius(0.0).unwrap();
-        let slot = Defect {
-            on: if sigma > 0.0 {
+        let slot = Defect::new(
+            if sigma > 0.0 {
                 Surface::OuterRace
             } else {
                 Surface::InnerRace
             },
-            row: 0,
-            ball: None,
-            angle: 0.0,
-            axial_offset: 0.0.into(),
-            length: d,
-            width: w.into(),
-            edge_radius: 1e-9,
-            floor: None,
-        };
+            0.0,
+            d,
+            w,
+            1e-9,
+        )
+        .at_offset(0.0);
         let open = Pair {
             faults: vec![Fault::new(&slot, 0.0, race)],
             ..healthy.clone()

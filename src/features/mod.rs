@@ -49,6 +49,7 @@ pub struct FeatureOptions {
 
 /// A number with a name.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Feature {
     /// Name, as in the table above.
     pub name: String,

@@ -10,6 +10,7 @@ use super::antiderivative::Antiderivative;
 ///
 /// In TOML: `force = 7000.0`, or `force = { ramp = { from = 0.0, to = 7000.0, start = 0.0, end = 0.1 } }`.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum TimeFunction {
     /// The same at all times.
     Constant(f64),
@@ -20,6 +21,7 @@ pub enum TimeFunction {
 /// The shapes of a value that changes in time. All are right-continuous.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[non_exhaustive]
 pub enum Profile {
     /// Linear from one value to another, constant before and after; a jump when `start == end`.
     Ramp {

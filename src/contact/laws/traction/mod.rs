@@ -88,6 +88,7 @@ impl<T: Number> Sliding<T> {
 /// assert!((law.at(4.0) - 0.02).abs() < 1e-17);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Traction {
     /// A constant coefficient.
     Coulomb(Coulomb),
