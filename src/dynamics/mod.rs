@@ -23,7 +23,7 @@ use crate::integrate::System;
 use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Spring};
 use crate::reduction::Reduction;
 
-pub use contributions::{CONTRIBUTIONS, contributions};
+pub use contributions::{contribution_names, contributions};
 
 use batch::{Batch, Kind};
 use kept::Kept;
