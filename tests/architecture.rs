@@ -1,6 +1,9 @@
 //! The rooms keep their order: who may use whom, by path, by group, by re-export or by an inherent impl; and `pyo3` only under
-//! `src/python`. What is public has no type of the libraries beneath (`public`).
+//! `src/python`. What is public has no type
+//! of the libraries beneath (`public`), and files of a room name each other one way (`circles`).
 
+#[path = "architecture/circles.rs"]
+mod circles;
 #[path = "architecture/public.rs"]
 mod public;
 #[path = "architecture/sources.rs"]
@@ -74,17 +77,22 @@ fn named(path: &str, code: &str) -> Vec<String> {
     };
     let mut found = Vec::new();
     for part in root.iter().flat_map(|root| code.split(root).skip(1)) {
-        if part.starts_with('{') {
-            found.extend(
-                entries(part)
-                    .into_iter()
-                    .map(|entry| word(entry).to_owned()),
-            );
-        } else {
-            found.push(word(part).to_owned());
-        }
+        found.extend(named_after(part));
     }
     found
+}
+
+/// The names that stand behind a path: one, or those of a group.
+fn named_after(part: &str) -> Vec<String> {
+    let names = if part.starts_with('{') {
+        entries(part)
+    } else {
+        vec![part]
+    };
+    names
+        .into_iter()
+        .map(|name| word(name).to_owned())
+        .collect()
 }
 
 /// Whether a file is the `mod.rs` of a room.

@@ -1,6 +1,7 @@
 //! Extremes of the contact loads; those of a campaign are read by probes of their own that leave no columns behind.
 
-use super::{Feature, Recorded};
+use super::Feature;
+use super::record::Recorded;
 use crate::error::{Error, Result};
 use crate::scene::{ContactQuantity, Probe, RingName, Scene};
 use crate::signals::Signals;
