@@ -29,7 +29,7 @@ pub(crate) fn trusted(model: Model) -> (Model, Option<Distrust>) {
         .into_iter()
         .skip_while(|other| *other != instructions);
     let used = below.into_iter().find(|instructions| agrees(*instructions));
-    let used = used.unwrap_or(InstructionSet::Baseline);
+    let used = used.unwrap_or(InstructionSet::BASELINE);
     let distrust = (used != instructions).then(|| Distrust {
         instructions: instructions.name(),
         primitive: CONTACTS,

@@ -7,6 +7,7 @@ use crate::model::{BodyId, Dof, Layout, Model, Race};
 
 /// How a run begins.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub enum Start {
     /// Static equilibrium in the cage's frame, then rolling speeds at the operating contact angles: next to
     /// no transient.

@@ -18,6 +18,7 @@ use crate::scene::{Defect, Surface};
 
 /// What became of a defect.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Touched {
     /// Name of the defect.
     pub name: String,

@@ -35,17 +35,15 @@ fn random(noise: &mut Noise) -> Scene {
         Surface::InnerRace
     };
     let angle = -FRAC_PI_2;
-    let defect = Defect {
+    let offset = noise.between(-0.5e-3, 0.5e-3);
+    let defect = Defect::new(
         on,
-        row: 0,
-        ball: None,
         angle,
-        axial_offset: noise.between(-0.5e-3, 0.5e-3).into(),
-        length: noise.between(1e-3, 3e-3),
-        width: noise.between(0.3e-3, 1.5e-3).into(),
-        edge_radius: 0.3e-3,
-        floor: None,
-    };
+        noise.between(1e-3, 3e-3),
+        noise.between(0.3e-3, 1.5e-3),
+        0.3e-3,
+    )
+    .at_offset(offset);
     scene.defects = [("spall".to_owned(), defect)].into();
     let pitch = TAU / scene.rows[0].ball_count as f64;
     for row in &mut scene.rows {

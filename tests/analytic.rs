@@ -18,17 +18,9 @@ fn healthy() -> Scene {
 }
 
 fn spall(on: Surface, width: f64) -> Defect {
-    Defect {
-        on,
-        row: 0,
-        ball: (on == Surface::Ball).then_some(1),
-        angle: -FRAC_PI_2,
-        axial_offset: 0.5e-3.into(),
-        length: 3e-3,
-        width: width.into(),
-        edge_radius: 0.3e-3,
-        floor: None,
-    }
+    let mut defect = Defect::new(on, -FRAC_PI_2, 3e-3, width, 0.3e-3).at_offset(0.5e-3);
+    defect.ball = (on == Surface::Ball).then_some(1);
+    defect
 }
 
 fn run(scene: &Scene, run: &Run) -> Signals {
@@ -67,23 +59,12 @@ fn force_and_moment_are_conserved() {
     let mut scene = presets::wheel_bearing(3000.0);
     scene.defects.insert(
         "inner".into(),
-        Defect {
-            angle: FRAC_PI_2,
-            ..spall(Surface::InnerRace, 1e-3)
-        },
+        spall(Surface::InnerRace, 1e-3).at_angle(FRAC_PI_2),
     );
-    scene.defects.insert(
-        "ball".into(),
-        Defect {
-            angle: 0.3,
-            ..spall(Surface::Ball, 2e-3)
-        },
-    );
-    scene.rows[0].outer_waviness = vec![ballrace::scene::Waviness {
-        order: 9,
-        amplitude: 1e-6,
-        phase: 0.3,
-    }];
+    scene
+        .defects
+        .insert("ball".into(), spall(Surface::Ball, 2e-3).at_angle(0.3));
+    scene.rows[0].outer_waviness = vec![ballrace::scene::Waviness::new(9, 1e-6, 0.3)];
     let model = compile(&scene).unwrap();
     let mut y = start(&model, &Start::Equilibrium).unwrap();
     for (i, state) in y.iter_mut().enumerate() {
@@ -258,10 +239,7 @@ fn edges_do_not_jump_and_narrow_defects_vanish() {
                 scene.loads.get_mut("axial").unwrap().force = 0.0.into();
                 let whole = compile(&scene).unwrap();
                 let y = start(&whole, &Start::Equilibrium).unwrap();
-                let mut defect = Defect {
-                    axial_offset: 0.0.into(),
-                    ..spall(on, width)
-                };
+                let mut defect = spall(on, width).at_offset(0.0);
                 defect.ball = defect.ball.map(|_| 0);
                 scene.defects.insert("d".into(), defect);
                 let faulted = compile(&scene).unwrap();
@@ -373,19 +351,11 @@ fn unbalance_turns_with_the_ring() {
     let mut scene = healthy();
     scene.unbalances.insert(
         "wheel".into(),
-        ballrace::scene::Unbalance {
-            ring: RingName::Inner,
-            moment: 1e-3,
-            angle: 0.5,
-        },
+        ballrace::scene::Unbalance::new(RingName::Inner, 1e-3, 0.5),
     );
     scene.loads = [(
         "none".to_owned(),
-        Load {
-            ring: RingName::Inner,
-            direction: [1.0, 0.0, 0.0],
-            force: 0.0.into(),
-        },
+        Load::new(RingName::Inner, [1.0, 0.0, 0.0], 0.0),
     )]
     .into();
     let model = compile(&scene).unwrap();

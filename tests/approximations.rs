@@ -18,25 +18,26 @@ use ballrace::scene::{
 use ballrace::{Model, Race, Run, Start, simulate, start};
 use common::Noise;
 
-const ROLLING: Approximations = Approximations {
-    rolling: true,
-    plane: false,
-    one_row: false,
+const ROLLING: Approximations = {
+    let mut asked = Approximations::NONE;
+    asked.rolling = true;
+    asked
 };
-const SYMMETRIC: Approximations = Approximations {
-    rolling: false,
-    plane: true,
-    one_row: false,
+const SYMMETRIC: Approximations = {
+    let mut asked = Approximations::NONE;
+    asked.plane = true;
+    asked
 };
-const ONE_ROW: Approximations = Approximations {
-    rolling: false,
-    plane: false,
-    one_row: true,
+const ONE_ROW: Approximations = {
+    let mut asked = Approximations::NONE;
+    asked.one_row = true;
+    asked
 };
-const FLAT: Approximations = Approximations {
-    rolling: true,
-    plane: true,
-    one_row: false,
+const FLAT: Approximations = {
+    let mut asked = Approximations::NONE;
+    asked.rolling = true;
+    asked.plane = true;
+    asked
 };
 
 fn wheel(law: NormalLaw, approximations: Approximations) -> Scene {
@@ -149,17 +150,9 @@ fn places_speeds_and_rates_belong_together() {
     }));
     scene.defects.insert(
         "pit".to_owned(),
-        Defect {
-            on: Surface::Ball,
-            row: 0,
-            ball: Some(3),
-            angle: PI,
-            axial_offset: 0.0.into(),
-            length: 1e-3,
-            width: 0.5e-3.into(),
-            edge_radius: 0.3e-3,
-            floor: None,
-        },
+        Defect::new(Surface::Ball, PI, 1e-3, 0.5e-3, 0.3e-3)
+            .on_ball(3)
+            .at_offset(0.0),
     );
     let model = compile(&scene).unwrap();
     let shaken = Shaken::new(&model, 5);

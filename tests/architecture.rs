@@ -1,9 +1,20 @@
 //! The rooms keep their order: who may use whom, by path, by group, by re-export or by an inherent impl; and `pyo3` only under
-//! `src/python`.
+//! `src/python`. What is public has no type
+//! of the libraries beneath (`public`), files of a room name each other one way (`circles`), and functions and
+//! files are short (`length`).
+
+#[path = "architecture/circles.rs"]
+mod circles;
+#[path = "architecture/length.rs"]
+mod length;
+#[path = "architecture/public.rs"]
+mod public;
+#[path = "architecture/sources.rs"]
+mod sources;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::Path;
+
+use sources::{Source, all, code, test_files, word};
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
 const ORDER: [&str; 26] = [
@@ -35,64 +46,8 @@ const ORDER: [&str; 26] = [
     "python",
 ];
 
-/// Path below `src` and text.
-type Source = (String, String);
-
-fn sources(folder: &Path, found: &mut Vec<Source>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            sources(&path, found);
-        } else if path.extension().is_some_and(|e| e == "rs") {
-            found.push((
-                path.to_string_lossy().into_owned(),
-                fs::read_to_string(&path).unwrap(),
-            ));
-        }
-    }
-}
-
-fn all() -> Vec<Source> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut found = Vec::new();
-    sources(&root, &mut found);
-    let prefix = root.to_string_lossy().into_owned() + "/";
-    found
-        .into_iter()
-        .map(|(path, text)| (path.replace(&prefix, ""), text))
-        .collect()
-}
-
-/// The code of a file: without comments, and without its tests, which may use all.
-fn code(text: &str) -> String {
-    let before = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
-    let lines = before.lines();
-    lines
-        .map(|line| line.split("//").next().unwrap_or("").to_owned() + "\n")
-        .collect()
-}
-
-/// Files that are declared as tests, such as `#[cfg(test)] mod lost;`.
-fn test_files(sources: &[Source]) -> BTreeSet<String> {
-    let mut found = BTreeSet::new();
-    for (path, text) in sources {
-        let folder = path.strip_suffix("mod.rs").unwrap_or("");
-        for part in text.split("#[cfg(test)]\nmod ").skip(1) {
-            if let Some((name, _)) = part.split_once(';') {
-                found.insert(format!("{folder}{name}.rs"));
-            }
-        }
-    }
-    found
-}
-
 fn room(path: &str) -> &str {
     path.split(['/', '.']).next().unwrap()
-}
-
-fn word(text: &str) -> &str {
-    let end = text.find(|c: char| !c.is_alphanumeric() && c != '_');
-    &text[..end.unwrap_or(text.len())]
 }
 
 /// The entries of a group `{a::{b, c}, d}` that a text begins with.
@@ -126,17 +81,22 @@ fn named(path: &str, code: &str) -> Vec<String> {
     };
     let mut found = Vec::new();
     for part in root.iter().flat_map(|root| code.split(root).skip(1)) {
-        if part.starts_with('{') {
-            found.extend(
-                entries(part)
-                    .into_iter()
-                    .map(|entry| word(entry).to_owned()),
-            );
-        } else {
-            found.push(word(part).to_owned());
-        }
+        found.extend(named_after(part));
     }
     found
+}
+
+/// The names that stand behind a path: one, or those of a group.
+fn named_after(part: &str) -> Vec<String> {
+    let names = if part.starts_with('{') {
+        entries(part)
+    } else {
+        vec![part]
+    };
+    names
+        .into_iter()
+        .map(|name| word(name).to_owned())
+        .collect()
 }
 
 /// Whether a file is the `mod.rs` of a room.

@@ -59,14 +59,16 @@ fn ordinary(seed: u64) -> Scene {
             row.ball_count = count;
         }
     }
-    scene.cage = noise.yes().then(|| Cage {
-        stiffness: 10_f64.powf(noise.between(4.0, 8.7)),
-        damping: 20.0,
-        play: if noise.yes() {
-            noise.between(0.0, 2e-4)
-        } else {
-            0.0
-        },
+    scene.cage = noise.yes().then(|| {
+        Cage::new(
+            10_f64.powf(noise.between(4.0, 8.7)),
+            20.0,
+            if noise.yes() {
+                noise.between(0.0, 2e-4)
+            } else {
+                0.0
+            },
+        )
     });
     let support = Mount::Spring {
         stiffness: 10_f64.powf(noise.between(7.0, 9.5)),

@@ -3,7 +3,7 @@
 use ballrace::compile;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::{
-    BallSide, Elastic, Law, Motion, Pair, Rules, Sink, Slices, Torus, Touch, V2, Waves,
+    BallSide, Elastic, Law, Motion, Pair, Rules, Sink, Slices, Torus, Touch, Waves,
 };
 use ballrace::inspect;
 use ballrace::scene::{Component, Friction, NormalLaw, Probe, presets};
@@ -23,14 +23,7 @@ impl Sink for Total {
 }
 
 fn still(x: f64, z: f64) -> Motion {
-    Motion {
-        centre: V2::new(x, 0.0),
-        z,
-        theta: 0.0,
-        velocity: V2::zeros(),
-        vz: 0.0,
-        omega: 0.0,
-    }
+    Motion::new(&[x, 0.0, z, 0.0], &[0.0; 4])
 }
 
 /// Magnitude of the force of the Hertz law at an approach and an operating angle.

@@ -105,27 +105,18 @@ fn without_probes_what_can_move_is_recorded() {
         "{inner:?}"
     );
     // Sprung along y only: nothing but y is recorded.
-    scene.outer_ring = Ring {
-        mass: Some(0.1),
-        support: Support {
-            y: Some(Mount::Spring {
-                stiffness: 1e8,
-                damping: 300.0,
-            }),
-            ..Support::default()
-        },
-        ..Ring::default()
-    };
+    scene.outer_ring = Ring::default();
+    let ring = &mut scene.outer_ring;
+    ring.mass = Some(0.1);
+    ring.support.y = Some(Mount::Spring {
+        stiffness: 1e8,
+        damping: 300.0,
+    });
     assert_eq!(columns(&scene), ["outer.y", "outer.vy", "outer.ay"]);
     // Both rings held: what the balls carry.
     let fixed = Some(Mount::Fixed);
     scene.outer_ring.support = Support::default();
-    scene.inner_ring.support = Support {
-        x: fixed,
-        y: fixed,
-        z: fixed,
-        theta: None,
-    };
+    scene.inner_ring.support = Support::new([fixed, fixed, fixed, None]);
     scene.rows[0].clearance = -4e-6;
     let loads = columns(&scene);
     assert_eq!(loads.len(), 18);
@@ -339,11 +330,7 @@ const SLIPS: &[Slip] = &[
         };
     }),
     ("cage.play", |s| {
-        s.cage = Some(Cage {
-            stiffness: 1e6,
-            damping: 20.0,
-            play: 0.1,
-        });
+        s.cage = Some(Cage::new(1e6, 20.0, 0.1));
     }),
     ("drive.speed", |s| {
         s.drive = Drive::Speed((180_000.0).into());
@@ -362,11 +349,7 @@ fn with_everything() -> Scene {
     let spall = presets::wheel_bearing(0.0).defects["spall"].clone();
     scene.defects.insert("a".to_owned(), spall);
     scene.defects.get_mut("a").unwrap().axial_offset = 0.0.into();
-    let unbalance = Unbalance {
-        ring: RingName::Inner,
-        moment: 1e-4,
-        angle: 0.0,
-    };
+    let unbalance = Unbalance::new(RingName::Inner, 1e-4, 0.0);
     scene.unbalances.insert("a".to_owned(), unbalance);
     for ring in [&mut scene.outer_ring, &mut scene.inner_ring] {
         (ring.diameter, ring.mass) = (None, Some(0.5));
@@ -403,11 +386,10 @@ fn scenes_drawn_within_the_usual_raise_no_doubt() {
         scene.outer_ring.mass = Some(noise.between(0.02, 2.0) * scale.powi(3));
         scene.inner_ring.mass = Some(noise.between(0.02, 2.0) * scale.powi(3));
         scene.drive = Drive::Speed((noise.between(0.0, 7.5e3) / scale).into());
-        scene.materials.balls = Material {
-            density: noise.between(3200.0, 7850.0),
-            youngs_modulus: noise.between(200e9, 315e9),
-            ..Material::default()
-        };
+        scene.materials.balls = Material::default();
+        let material = &mut scene.materials.balls;
+        material.density = noise.between(3200.0, 7850.0);
+        material.youngs_modulus = noise.between(200e9, 315e9);
         assert_eq!(scene.doubts(), []);
     }
 }

@@ -66,20 +66,19 @@ fn defect(scene: &Scene, on: Surface) -> Defect {
     let (angle, place, width) = match on {
         Surface::OuterRace => (0.15, ball.outer.zone_centre.unwrap(), 0.5e-3),
         Surface::InnerRace => (-0.23, ball.inner.zone_centre.unwrap(), 0.5e-3),
-        Surface::Ball => (0.9, 0.0, 0.5e-3),
+        _ => (0.9, 0.0, 0.5e-3),
     };
-    Defect {
+    let mut defect = Defect::new(
         on,
-        row: 0,
-        ball: (on == Surface::Ball).then_some(0),
-        angle: angle - FRAC_PI_2,
-        axial_offset: (place + 0.1e-3).into(),
+        angle - FRAC_PI_2,
         // Within the zone, which is as long as 1.5 mm or so.
-        length: if on == Surface::Ball { 2.2e-3 } else { 0.6e-3 },
-        width: width.into(),
-        edge_radius: 0.2e-3,
-        floor: None,
-    }
+        if on == Surface::Ball { 2.2e-3 } else { 0.6e-3 },
+        width,
+        0.2e-3,
+    )
+    .at_offset(place + 0.1e-3);
+    defect.ball = (on == Surface::Ball).then_some(0);
+    defect
 }
 
 fn with_defect(law: &NormalLaw, on: Surface, change: impl Fn(&mut Defect)) -> Scene {
@@ -91,11 +90,7 @@ fn with_defect(law: &NormalLaw, on: Surface, change: impl Fn(&mut Defect)) -> Sc
 }
 
 fn wave(order: u32) -> Vec<Waviness> {
-    vec![Waviness {
-        order,
-        amplitude: 2e-6,
-        phase: 0.4,
-    }]
+    vec![Waviness::new(order, 2e-6, 0.4)]
 }
 
 fn scenes(law: &NormalLaw) -> Vec<(&'static str, Scene)> {
@@ -118,19 +113,16 @@ fn scenes(law: &NormalLaw) -> Vec<(&'static str, Scene)> {
             "floor",
             with_defect(law, Surface::OuterRace, |d| {
                 d.width = 1e-3.into();
-                d.floor = Some(Floor {
-                    depth: 8e-6,
-                    elements: 3,
-                });
+                d.floor = Some(Floor::new(8e-6, 3));
             }),
         ),
         (
             "width that varies",
             with_defect(law, Surface::OuterRace, |d| {
-                d.width = Width::Profile(WidthProfile {
-                    positions: vec![-0.3e-3, 0.3e-3],
-                    widths: vec![0.4e-3, 0.7e-3],
-                });
+                d.width = Width::Profile(WidthProfile::new(
+                    vec![-0.3e-3, 0.3e-3],
+                    vec![0.4e-3, 0.7e-3],
+                ));
             }),
         ),
         ("waves outside", wavy(true)),
@@ -169,7 +161,7 @@ fn drift(scene: &Scene, duration: f64) -> f64 {
         });
         let torque = match &scene.drive {
             Drive::Torque { value, .. } => value.at(0.0),
-            Drive::Speed(_) => 0.0,
+            _ => 0.0,
         };
         loads.sum::<f64>() + torque * (of("inner.theta")[i] - of("inner.theta")[0])
     };
@@ -198,11 +190,7 @@ fn energy_is_kept() {
 /// An unbalance of the inner ring.
 fn unbalanced(mut scene: Scene, moment: f64, angle: f64) -> Scene {
     let ring = RingName::Inner;
-    let unbalance = Unbalance {
-        ring,
-        moment,
-        angle,
-    };
+    let unbalance = Unbalance::new(ring, moment, angle);
     scene.unbalances.insert("u".to_owned(), unbalance);
     scene
 }

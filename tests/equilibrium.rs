@@ -63,17 +63,7 @@ fn a_ball_over_a_spall_is_found() {
         let mut loads = Vec::new();
         for width in [1e-6, 0.3e-3, 0.5e-3, 1e-3, 2e-3] {
             let mut scene = presets::deep_groove_6205(500.0, 200.0, 1800.0);
-            let defect = Defect {
-                on,
-                row: 0,
-                ball: None,
-                angle: -FRAC_PI_2,
-                axial_offset: 0.0.into(),
-                length: 4e-3,
-                width: width.into(),
-                edge_radius: 0.1e-3,
-                floor: None,
-            };
+            let defect = Defect::new(on, -FRAC_PI_2, 4e-3, width, 0.1e-3).at_offset(0.0);
             scene.defects.insert("spall".to_owned(), defect);
             loads.push(equilibrium(&scene).unwrap().balls[0].inner.load);
         }

@@ -62,7 +62,7 @@ fn healthy_contacts_converge() {
         // Hertz's zone is flat: where it is so long that it leaves the ball, at 45°, it is no Hertzian contact.
         let approaches: &[f64] = match law {
             NormalLaw::Iso16281 { .. } => &[5e-6, 10e-6, 20e-6, 40e-6, 60e-6],
-            NormalLaw::Hertz => &[5e-6, 10e-6, 20e-6],
+            _ => &[5e-6, 10e-6, 20e-6],
         };
         for (m, bound) in [(4, 1e-3), (5, 1e-4), (6, 3e-5), (8, 2e-6)] {
             let mut errors = Vec::new();
@@ -104,17 +104,9 @@ fn faulted_contacts_converge() {
                     (0.4e-3, 1e-3, 0.0),
                     (1e-3, 6e-3, 0.3e-3),
                 ] {
-                    let defect = Defect {
-                        on,
-                        row: 0,
-                        ball: (on == Surface::Ball).then_some(0),
-                        angle: -FRAC_PI_2,
-                        axial_offset: offset.into(),
-                        length,
-                        width: width.into(),
-                        edge_radius: 0.3e-3,
-                        floor: None,
-                    };
+                    let mut defect =
+                        Defect::new(on, -FRAC_PI_2, length, width, 0.3e-3).at_offset(offset);
+                    defect.ball = (on == Surface::Ball).then_some(0);
                     let scene = scene(law, 0.525, 13.0, Some(defect));
                     for (approach, arc) in [(20e-6, 0.0), (40e-6, 0.1e-3), (40e-6, 0.45e-3)] {
                         let exact = forces(&scene, Slices::Fixed(100_000), approach, arc, 0.0);
@@ -141,17 +133,7 @@ fn faulted_contacts_converge() {
 /// is not.
 #[test]
 fn no_jump_across_a_defects_end() {
-    let defect = Defect {
-        on: Surface::OuterRace,
-        row: 0,
-        ball: None,
-        angle: -FRAC_PI_2,
-        axial_offset: 2e-3.into(),
-        length: 1.5e-3,
-        width: 1e-3.into(),
-        edge_radius: 0.3e-3,
-        floor: None,
-    };
+    let defect = Defect::new(Surface::OuterRace, -FRAC_PI_2, 1.5e-3, 1e-3, 0.3e-3).at_offset(2e-3);
     for law in &LAWS {
         let scene = scene(law, 0.525, 13.0, Some(defect.clone()));
         let largest = |slices: Slices| {

@@ -79,11 +79,7 @@ fn scenes() -> Vec<(String, Scene)> {
     (scene.contact.damping, scene.contact.clamp_pull) = (20.0, false);
     add("damping that pulls", scene);
     let mut scene = wheel();
-    scene.rows[1].inner_waviness = vec![Waviness {
-        order: 7,
-        amplitude: 2e-6,
-        phase: 0.3,
-    }];
+    scene.rows[1].inner_waviness = vec![Waviness::new(7, 2e-6, 0.3)];
     scene.rows[0].diameter_errors = (0..13).map(|j| 1e-6 * f64::from(j % 4)).collect();
     add("waves and unequal balls", scene);
     let mut scene = wheel();
@@ -94,30 +90,16 @@ fn scenes() -> Vec<(String, Scene)> {
         ("inner", Surface::InnerRace, None),
         ("ball", Surface::Ball, Some(1)),
     ] {
-        scene.defects.insert(
-            name.to_owned(),
-            Defect {
-                on,
-                row: 0,
-                ball,
-                angle: if ball.is_some() { PI } else { -FRAC_PI_2 },
-                axial_offset: 0.5e-3.into(),
-                length: 2e-3,
-                width: 1e-3.into(),
-                edge_radius: 0.3e-3,
-                floor: None,
-            },
-        );
+        let angle = if ball.is_some() { PI } else { -FRAC_PI_2 };
+        let mut defect = Defect::new(on, angle, 2e-3, 1e-3, 0.3e-3).at_offset(0.5e-3);
+        defect.ball = ball;
+        scene.defects.insert(name.to_owned(), defect);
     }
     let mut hertz = scene.clone();
     add("defects everywhere", scene);
     hertz.contact.law = NormalLaw::Hertz;
     for row in &mut hertz.rows {
-        row.outer_waviness = vec![Waviness {
-            order: 11,
-            amplitude: 2e-6,
-            phase: -0.3,
-        }];
+        row.outer_waviness = vec![Waviness::new(11, 2e-6, -0.3)];
     }
     add("defects everywhere on waves, Hertz", hertz.clone());
     (hertz.friction, hertz.cage) = (Friction::None, None);

@@ -14,21 +14,20 @@ use common::{apart, run, soon_over_the_spall};
 /// A spall of 1.5 mm, as wide as half a millimetre, in the middle of a surface; on the outer race ahead of the ball that
 /// stands at −90° by 2°, on the others under it.
 fn spall(on: Surface) -> Defect {
-    Defect {
+    let mut defect = Defect::new(
         on,
-        row: 0,
-        ball: (on == Surface::Ball).then_some(0),
-        angle: match on {
+        match on {
             Surface::OuterRace => -FRAC_PI_2 + 2_f64.to_radians(),
             Surface::InnerRace => -FRAC_PI_2 - 2_f64.to_radians(),
-            Surface::Ball => PI,
+            _ => PI,
         },
-        axial_offset: 0.0.into(),
-        length: 1.5e-3,
-        width: 0.5e-3.into(),
-        edge_radius: 0.2e-3,
-        floor: None,
-    }
+        1.5e-3,
+        0.5e-3,
+        0.2e-3,
+    )
+    .at_offset(0.0);
+    defect.ball = (on == Surface::Ball).then_some(0);
+    defect
 }
 
 /// A 6205 without friction: axially fixed rows, closed forms, with what must be looked at one by one.
@@ -45,22 +44,19 @@ fn plane(law: NormalLaw, on: Option<Surface>) -> Scene {
 
 fn wheel(rolling: bool, plane: bool, one_row: bool) -> Scene {
     let mut scene = soon_over_the_spall(3000.0);
-    scene.approximations = Approximations {
-        rolling,
-        plane,
-        one_row,
-    };
+    scene.approximations = Approximations::NONE;
+    let asked = &mut scene.approximations;
+    asked.rolling = rolling;
+    asked.plane = plane;
+    asked.one_row = one_row;
     scene
 }
 
 fn mirrored() -> Scene {
     let mut scene = soon_over_the_spall(0.0);
     let spall = scene.defects["spall"].clone();
-    let image = Defect {
-        row: 1,
-        axial_offset: (-spall.axial_offset.number().unwrap()).into(),
-        ..spall
-    };
+    let offset = spall.axial_offset.number().unwrap();
+    let image = spall.in_row(1).at_offset(-offset);
     scene.rows[1].start_angle = scene.rows[0].start_angle;
     scene.defects.insert("image".to_owned(), image);
     scene

@@ -20,7 +20,7 @@ use std::f64::consts::PI;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::iso16281::Iso16281;
 use ballrace::contact::{
-    BallSide, Elastic, Fault, Law, Motion, Pair, Sink, Slices, Torus, Touch, V2, Waves,
+    BallSide, Elastic, Fault, Law, Motion, Pair, Sink, Slices, Torus, Touch, Waves,
 };
 use ballrace::scene::{Defect, Material, Surface};
 use common::meets;
@@ -178,14 +178,7 @@ fn brewe_and_hamrock_on_the_209() {
 }
 
 fn at(x: f64) -> Motion {
-    Motion {
-        centre: V2::new(x, 0.0),
-        z: 0.0,
-        theta: 0.0,
-        velocity: V2::zeros(),
-        vz: 0.0,
-        omega: 0.0,
-    }
+    Motion::new(&[x, 0.0, 0.0, 0.0], &[0.0; 4])
 }
 
 #[derive(Default)]
@@ -254,21 +247,18 @@ fn sink_over_a_sharp_slot() {
     for (sigma, pitch) in [(1.0, 60e-3), (-1.0, 60e-3), (1.0, 50.0), (-1.0, 50.0)] {
         let healthy = iso_pair(sigma, d, pitch, 0.53);
         let race = healthy.race.radius(0.0).unwrap();
-        let slot = Defect {
-            on: if sigma > 0.0 {
+        let slot = Defect::new(
+            if sigma > 0.0 {
                 Surface::OuterRace
             } else {
                 Surface::InnerRace
             },
-            row: 0,
-            ball: None,
-            angle: 0.0,
-            axial_offset: 0.0.into(),
-            length: d,
-            width: w.into(),
-            edge_radius: 1e-9,
-            floor: None,
-        };
+            0.0,
+            d,
+            w,
+            1e-9,
+        )
+        .at_offset(0.0);
         let open = Pair {
             faults: vec![Fault::new(&slot, 0.0, race)],
             ..healthy.clone()

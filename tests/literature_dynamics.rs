@@ -17,7 +17,7 @@ use std::f64::consts::{PI, TAU};
 use ballrace::compile;
 use ballrace::contact::hertz::Hertz;
 use ballrace::scene::{
-    Component, Contact, ContactQuantity, Friction, Material, Mount, NormalLaw, Probe, Row, Scene,
+    Component, Contact, ContactQuantity, Friction, Material, Mount, NormalLaw, Probe, Scene,
     Support, presets,
 };
 use ballrace::{Bandwidth, Run, Signals, Start, simulate, start};
@@ -77,12 +77,10 @@ fn kinematic_orders() {
     ];
     for (name, count, d, pitch, orders) in cases {
         let mut scene = presets::deep_groove_6205(0.0, 0.0, 60.0);
-        scene.rows[0] = Row {
-            ball_count: count,
-            ball_diameter: d * 1e-3,
-            pitch_diameter: pitch * 1e-3,
-            ..scene.rows[0].clone()
-        };
+        let row = &mut scene.rows[0];
+        row.ball_count = count;
+        row.ball_diameter = d * 1e-3;
+        row.pitch_diameter = pitch * 1e-3;
         for ring in [&mut scene.outer_ring, &mut scene.inner_ring] {
             (ring.diameter, ring.mass) = (None, Some(1.0));
         }
@@ -181,26 +179,18 @@ fn orbit_of_loaded_balls_under_500_newtons() {
 fn thrown(law: &NormalLaw, outer: bool, damping: f64, speed: f64, fs: f64) -> (Vec<f64>, Vec<f64>) {
     // The load rests on a held ring: it only tells the integrator how large a contact is.
     let mut scene = presets::deep_groove_6205(1000.0, 0.0, 0.0);
-    scene.rows[0] = Row {
-        ball_count: 1,
-        clearance: 1e-3,
-        start_angle: 0.0,
-        ..scene.rows[0].clone()
-    };
+    let row = &mut scene.rows[0];
+    row.ball_count = 1;
+    row.clearance = 1e-3;
+    row.start_angle = 0.0;
     let fixed = Some(Mount::Fixed);
-    let held = Support {
-        x: fixed,
-        y: fixed,
-        z: fixed,
-        theta: None,
-    };
+    let held = Support::new([fixed, fixed, fixed, None]);
     (scene.outer_ring.support, scene.inner_ring.support) = (held.clone(), held);
     (scene.cage, scene.friction, scene.gravity) = (None, Friction::None, [0.0; 3]);
-    scene.contact = Contact {
-        law: law.clone(),
-        damping,
-        ..Contact::default()
-    };
+    scene.contact = Contact::default();
+    let contact = &mut scene.contact;
+    contact.law = law.clone();
+    contact.damping = damping;
     scene.probes = [(
         "ball".to_owned(),
         motion("row0.ball0", &[Component::X, Component::Vx]),

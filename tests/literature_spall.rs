@@ -7,7 +7,7 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use ballrace::scene::{ContactQuantity, Defect, Probe, Row, Scene, Support, Surface, presets};
+use ballrace::scene::{ContactQuantity, Defect, Probe, Scene, Support, Surface, presets};
 use ballrace::{Run, Signals, simulate};
 use common::meets;
 
@@ -35,30 +35,25 @@ fn time_to_impact(on: Surface, width: f64, shaft: f64, radial: f64) -> f64 {
     // From the middle of the spall to where the ball stands, a formula's time before the edge.
     let lead = width / race;
     let mut scene = presets::deep_groove_6205(radial, 0.0, 60.0 * shaft);
-    scene.rows[0] = Row {
-        ball_count: 12,
-        ball_diameter: d,
-        pitch_diameter: pitch,
-        outer_conformity: 0.52,
-        inner_conformity: 0.52,
-        clearance: 0.0,
-        start_angle: -FRAC_PI_2 - if outer { lead } else { 0.0 },
-        ..scene.rows[0].clone()
-    };
+    let row = &mut scene.rows[0];
+    row.ball_count = 12;
+    row.ball_diameter = d;
+    row.pitch_diameter = pitch;
+    row.outer_conformity = 0.52;
+    row.inner_conformity = 0.52;
+    row.clearance = 0.0;
+    row.start_angle = -FRAC_PI_2 - if outer { lead } else { 0.0 };
     scene.outer_ring.support = Support::default();
     scene.cage = None;
-    let spall = Defect {
+    let spall = Defect::new(
         on,
-        row: 0,
-        ball: None,
         // The inner race overtakes the ball.
-        angle: -FRAC_PI_2 - if outer { 0.0 } else { lead },
-        axial_offset: 0.0.into(),
-        length: 4e-3,
-        width: width.into(),
-        edge_radius: 10e-6,
-        floor: None,
-    };
+        -FRAC_PI_2 - if outer { 0.0 } else { lead },
+        4e-3,
+        width,
+        10e-6,
+    )
+    .at_offset(0.0);
     scene.defects = [("spall".to_owned(), spall)].into();
     let contacts = Probe::Contacts {
         row: 0,

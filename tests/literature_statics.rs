@@ -31,17 +31,15 @@ use common::meets;
 /// at −90°. Lengths in mm.
 fn single_row(z: usize, d: f64, pitch: f64, outer: f64, inner: f64, degrees: f64) -> Scene {
     let mut scene = presets::deep_groove_6205(0.0, 0.0, 0.0);
-    scene.rows[0] = Row {
-        ball_count: z,
-        ball_diameter: d * 1e-3,
-        pitch_diameter: pitch * 1e-3,
-        outer_conformity: outer,
-        inner_conformity: inner,
-        contact_angle: degrees.to_radians(),
-        clearance: 0.0,
-        start_angle: -FRAC_PI_2,
-        ..scene.rows[0].clone()
-    };
+    let row = &mut scene.rows[0];
+    row.ball_count = z;
+    row.ball_diameter = d * 1e-3;
+    row.pitch_diameter = pitch * 1e-3;
+    row.outer_conformity = outer;
+    row.inner_conformity = inner;
+    row.contact_angle = degrees.to_radians();
+    row.clearance = 0.0;
+    row.start_angle = -FRAC_PI_2;
     for ring in [&mut scene.outer_ring, &mut scene.inner_ring] {
         (ring.diameter, ring.width, ring.mass) = (None, None, Some(1.0));
         ring.support = Support::default();

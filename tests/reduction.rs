@@ -36,17 +36,16 @@ fn mirrored() -> Scene {
 }
 
 fn spall(on: Surface, axial_offset: f64) -> Defect {
-    Defect {
+    let mut defect = Defect::new(
         on,
-        row: 0,
-        ball: (on == Surface::Ball).then_some(0),
-        angle: if on == Surface::Ball { PI } else { -FRAC_PI_2 },
-        axial_offset: axial_offset.into(),
-        length: 1.5e-3,
-        width: 0.8e-3.into(),
-        edge_radius: 0.3e-3,
-        floor: None,
-    }
+        if on == Surface::Ball { PI } else { -FRAC_PI_2 },
+        1.5e-3,
+        0.8e-3,
+        0.3e-3,
+    )
+    .at_offset(axial_offset);
+    defect.ball = (on == Surface::Ball).then_some(0);
+    defect
 }
 
 type Change = fn(&mut Scene);
@@ -155,21 +154,17 @@ fn scenes() -> Vec<(&'static str, Scene, usize)> {
     for on in [Surface::OuterRace, Surface::InnerRace, Surface::Ball] {
         let mut scene = plane(hertz(), false);
         let mut defect = spall(on, 0.0);
-        defect.width = Width::Profile(WidthProfile {
-            positions: vec![-1e-3, 0.0, 1e-3],
-            widths: vec![0.2e-3, 0.9e-3, 0.2e-3],
-        });
+        defect.width = Width::Profile(WidthProfile::new(
+            vec![-1e-3, 0.0, 1e-3],
+            vec![0.2e-3, 0.9e-3, 0.2e-3],
+        ));
         scene.defects.insert("spall".to_owned(), defect);
         // A ball with a defect is turned by its edges.
         let spin = if on == Surface::Ball { 2 } else { 0 };
         scenes.push(("plane, a spall in the middle", scene, 44 + spin));
     }
     let mut scene = plane(hertz(), false);
-    scene.rows[0].outer_waviness = vec![Waviness {
-        order: 5,
-        amplitude: 2e-6,
-        phase: 0.1,
-    }];
+    scene.rows[0].outer_waviness = vec![Waviness::new(5, 2e-6, 0.1)];
     scene.rows[0].diameter_errors = (0..9).map(|j| 1e-6 * f64::from(j % 3)).collect();
     scenes.push(("plane, waves and unequal balls", scene, 44));
     let mut scene = plane(hertz(), false);
@@ -181,11 +176,7 @@ fn scenes() -> Vec<(&'static str, Scene, usize)> {
     }));
     scene.unbalances.insert(
         "shaft".to_owned(),
-        ballrace::scene::Unbalance {
-            ring: ballrace::scene::RingName::Inner,
-            moment: 1e-3,
-            angle: 0.2,
-        },
+        ballrace::scene::Unbalance::new(ballrace::scene::RingName::Inner, 1e-3, 0.2),
     );
     scenes.push(("plane, a speed that changes", scene, 44));
     let mut thrust = presets::deep_groove_6205(500.0, 300.0, 1800.0);
@@ -350,10 +341,10 @@ fn a_hair_is_enough() {
         }),
         ("a lopsided spall", |s| {
             let mut defect = spall(Surface::InnerRace, 0.0);
-            defect.width = Width::Profile(WidthProfile {
-                positions: vec![-1e-3, 1e-3],
-                widths: vec![0.8e-3, 0.8e-3 + 1e-9],
-            });
+            defect.width = Width::Profile(WidthProfile::new(
+                vec![-1e-3, 1e-3],
+                vec![0.8e-3, 0.8e-3 + 1e-9],
+            ));
             s.defects.insert("spall".to_owned(), defect);
         }),
     ];

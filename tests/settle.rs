@@ -329,11 +329,10 @@ fn approximations_begin_in_balance() {
         let mut scene = presets::wheel_bearing(3000.0);
         scene.defects.clear();
         scene.name = format!("rolling {rolling}, plane {plane}");
-        scene.approximations = Approximations {
-            rolling,
-            plane,
-            one_row: false,
-        };
+        scene.approximations = Approximations::NONE;
+        let asked = &mut scene.approximations;
+        asked.rolling = rolling;
+        asked.plane = plane;
         for settle in [Some(0.0), None] {
             let asked = Run {
                 duration: 0.04,

@@ -170,11 +170,9 @@ fn overlapping_defects_are_their_union() {
     let radius = 35.95e-3;
     let mut halves = one.clone();
     for (name, shift) in [("spall", -0.25e-3), ("other", 0.25e-3)] {
-        let half = Defect {
-            width: 1e-3.into(),
-            angle: spall.angle + shift / radius,
-            ..spall.clone()
-        };
+        let mut half = spall.clone();
+        half.width = 1e-3.into();
+        half.angle = spall.angle + shift / radius;
         halves.defects.insert(name.to_owned(), half);
     }
     let [truth, twice, halves] = [one, twice, halves].map(|scene| run(&scene, &short(2e-3)));
@@ -215,17 +213,7 @@ fn a_defect_under_an_unloaded_ball_is_not_felt() {
         let mut faulted = scene.clone();
         faulted.defects.insert(
             "above".to_owned(),
-            Defect {
-                on,
-                row: 0,
-                ball: None,
-                angle: FRAC_PI_2,
-                axial_offset: 0.0.into(),
-                length: 1e-3,
-                width: 0.5e-3.into(),
-                edge_radius: 0.2e-3,
-                floor: None,
-            },
+            Defect::new(on, FRAC_PI_2, 1e-3, 0.5e-3, 0.2e-3).at_offset(0.0),
         );
         let out = run(&faulted, &short(1.5e-3));
         let difference: Vec<f64> = ay(&out)

@@ -90,11 +90,7 @@ fn answer(scene: &Scene, direction: usize, step: f64) -> SVector<f64, 6> {
         let mut scene = scene.clone();
         let mut along = [0.0; 3];
         along[direction] = 1.0;
-        let load = Load {
-            ring: RingName::Inner,
-            direction: along,
-            force: TimeFunction::Constant(force),
-        };
+        let load = Load::new(RingName::Inner, along, TimeFunction::Constant(force));
         scene.loads.insert("probe".to_owned(), load);
         let found = equilibrium(&scene).unwrap();
         SVector::<f64, 6>::from_fn(|i, _| [found.outer, found.inner][i / 3][i % 3])
@@ -114,17 +110,7 @@ fn stiffness_is_the_slope_of_the_equilibrium() {
     wheel.cage = None;
     let mut spalled = presets::deep_groove_6205(500.0, 200.0, 1800.0);
     spalled.cage = None;
-    let spall = Defect {
-        on: Surface::InnerRace,
-        row: 0,
-        ball: None,
-        angle: -FRAC_PI_2,
-        axial_offset: 0.0.into(),
-        length: 4e-3,
-        width: 0.3e-3.into(),
-        edge_radius: 0.1e-3,
-        floor: None,
-    };
+    let spall = Defect::new(Surface::InnerRace, -FRAC_PI_2, 4e-3, 0.3e-3, 0.1e-3).at_offset(0.0);
     spalled.defects.insert("spall".to_owned(), spall);
     let caged = presets::deep_groove_6205(500.0, 200.0, 1800.0);
     let fast = presets::deep_groove_6205(500.0, 200.0, 12_000.0);
@@ -154,8 +140,8 @@ fn stiffness_is_the_slope_of_the_equilibrium() {
                 let absent = if i == 0 { Mount::Fixed } else { Mount::Free };
                 held[(3 * i + j, 3 * i + j)] += match mount.unwrap_or(absent) {
                     Mount::Spring { stiffness, .. } => stiffness,
-                    Mount::Free => 0.0,
                     Mount::Fixed => 1e30,
+                    _ => 0.0,
                 };
             }
         }

@@ -38,17 +38,9 @@ fn angular_7208() -> Scene {
 }
 
 fn spall(on: Surface) -> Defect {
-    Defect {
-        on,
-        row: 0,
-        ball: (on == Surface::Ball).then_some(0),
-        angle: -FRAC_PI_2 - 0.2,
-        axial_offset: AxialOffset::Contact,
-        length: 2e-3,
-        width: 1e-3.into(),
-        edge_radius: 0.3e-3,
-        floor: None,
-    }
+    let mut defect = Defect::new(on, -FRAC_PI_2 - 0.2, 2e-3, 1e-3, 0.3e-3);
+    defect.ball = (on == Surface::Ball).then_some(0);
+    defect
 }
 
 fn with(mut scene: Scene, defect: Defect) -> Scene {
@@ -57,10 +49,7 @@ fn with(mut scene: Scene, defect: Defect) -> Scene {
 }
 
 fn at(offset: f64, defect: Defect) -> Defect {
-    Defect {
-        axial_offset: offset.into(),
-        ..defect
-    }
+    defect.at_offset(offset)
 }
 
 fn told(out: &Signals) -> &Touched {
@@ -140,13 +129,7 @@ fn the_number_is_the_place_of_the_contact_at_equilibrium() {
 
         // A ball stands at the angle of the outer race's.
         let angle = -FRAC_PI_2 + TAU / scene.rows[0].ball_count as f64;
-        let outer = with(
-            scene.clone(),
-            Defect {
-                angle,
-                ..spall(Surface::OuterRace)
-            },
-        );
+        let outer = with(scene.clone(), spall(Surface::OuterRace).at_angle(angle));
         let ball = found
             .balls
             .iter()
@@ -228,11 +211,7 @@ fn symmetric_scenes_stay_symmetric() {
 fn both_rows(on: Surface) -> Scene {
     let mut scene = presets::wheel_bearing(0.0);
     scene.rows[1].start_angle = scene.rows[0].start_angle;
-    let of = |row: usize| Defect {
-        row,
-        angle: -FRAC_PI_2 + 0.2,
-        ..spall(on)
-    };
+    let of = |row: usize| spall(on).in_row(row).at_angle(-FRAC_PI_2 + 0.2);
     scene.defects = [("first".to_owned(), of(0)), ("second".to_owned(), of(1))].into();
     scene
 }
@@ -249,10 +228,9 @@ fn reduced_runs_see_what_full_ones_see() {
         scene
     };
     let radial = || presets::deep_groove_6205(500.0, 0.0, 1800.0);
-    let outer = || Defect {
-        angle: -FRAC_PI_2 + 0.1,
-        ..spall(Surface::OuterRace)
-    };
+    let outer = || spall(Surface::OuterRace).at_angle(-FRAC_PI_2 + 0.1);
+    let mut rolling_in_plane = Approximations::NONE;
+    (rolling_in_plane.rolling, rolling_in_plane.plane) = (true, true);
     let scenes = [
         (
             "closed, in the plane",
@@ -263,24 +241,11 @@ fn reduced_runs_see_what_full_ones_see() {
         ("mirrored, inner", both_rows(Surface::InnerRace)),
         (
             "rolling in the plane",
-            approximated(
-                with(angular_7208(), outer()),
-                Approximations {
-                    rolling: true,
-                    plane: true,
-                    one_row: false,
-                },
-            ),
+            approximated(with(angular_7208(), outer()), rolling_in_plane),
         ),
         (
             "a ball",
-            with(
-                radial(),
-                Defect {
-                    angle: -FRAC_PI_2 + 0.4,
-                    ..spall(Surface::Ball)
-                },
-            ),
+            with(radial(), spall(Surface::Ball).at_angle(-FRAC_PI_2 + 0.4)),
         ),
     ];
     for (name, scene) in scenes {
@@ -360,10 +325,7 @@ fn what_no_ball_passed_is_told_apart() {
     // At the top of a radially loaded bearing balls pass the inner race without load.
     let mut scene = with(
         presets::deep_groove_6205(500.0, 0.0, 1800.0),
-        Defect {
-            angle: FRAC_PI_2,
-            ..spall(Surface::InnerRace)
-        },
+        spall(Surface::InnerRace).at_angle(FRAC_PI_2),
     );
     scene.rows[0].start_angle = FRAC_PI_2;
     let out = run(&scene, &short(1e-4));
@@ -376,10 +338,8 @@ fn what_no_ball_passed_is_told_apart() {
 #[test]
 fn width_counts_from_zero() {
     let of = |width: Width| {
-        let defect = Defect {
-            width,
-            ..spall(Surface::InnerRace)
-        };
+        let mut defect = spall(Surface::InnerRace);
+        defect.width = width;
         run(&with(angular_7208(), defect), &short(4e-3))
     };
     let none = of(0.0.into());
@@ -388,10 +348,10 @@ fn width_counts_from_zero() {
     assert_eq!(told(&narrow).share(), Some(1.0));
     assert!(told(&narrow).passes >= 1);
     // Of a wedge only the part that is wide is there: its thin end reaches under the contact and is none.
-    let wedge = of(Width::Profile(WidthProfile {
-        positions: vec![-1e-3, 0.9e-3, 1e-3],
-        widths: vec![0.0, 0.0, 1e-3],
-    }));
+    let wedge = of(Width::Profile(WidthProfile::new(
+        vec![-1e-3, 0.9e-3, 1e-3],
+        vec![0.0, 0.0, 1e-3],
+    )));
     assert!(told(&wedge).largest_load < told(&narrow).largest_load);
 }
 
@@ -407,11 +367,9 @@ fn a_row_left_out_touches_nothing() {
     for row in [0, 1] {
         let mut scene = with(
             scene.clone(),
-            Defect {
-                row,
-                angle: -FRAC_PI_2 + 0.1,
-                ..spall(Surface::OuterRace)
-            },
+            spall(Surface::OuterRace)
+                .in_row(row)
+                .at_angle(-FRAC_PI_2 + 0.1),
         );
         scene.approximations.one_row = true;
         scene.rows[1].start_angle = scene.rows[0].start_angle;
@@ -491,10 +449,8 @@ fn a_place_is_a_number_or_a_word() {
 /// A defect that does not fit where the contact runs is refused by name.
 #[test]
 fn what_does_not_fit_there_is_refused() {
-    let long = Defect {
-        length: 6e-3,
-        ..spall(Surface::OuterRace)
-    };
+    let mut long = spall(Surface::OuterRace);
+    long.length = 6e-3;
     let scene = with(angular_7208(), long);
     scene.validate().unwrap();
     let error = compile(&scene).unwrap_err().to_string();

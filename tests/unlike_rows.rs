@@ -31,28 +31,24 @@ fn unlike(rows: usize) -> Scene {
     };
     second.ball_diameter *= 0.9;
     second.ball_count -= 2;
-    second.ball_material = Some(Material {
-        density: 3200.0,
-        youngs_modulus: 310e9,
-        poisson_ratio: 0.26,
-    });
-    second.contact = Some(Contact {
-        law: NormalLaw::Hertz,
-        slices: Slices::Fitted(7),
-        damping: 0.5,
-        clamp_pull: true,
-    });
+    second.ball_material = Some(Material::new(3200.0, 310e9, 0.26));
+    let mut own = Contact::default();
+    own.law = NormalLaw::Hertz;
+    own.slices = Slices::Fitted(7);
+    own.damping = 0.5;
+    own.clamp_pull = true;
+    second.contact = Some(own);
     second.friction = Some(Friction::None);
     third.axial_position *= 3.0;
-    third.contact = Some(Contact {
-        law: NormalLaw::Iso16281 {
-            constant: 5e10,
-            length_ratio: 0.4,
-        },
-        slices: Slices::Fixed(40),
-        damping: 0.1,
-        clamp_pull: false,
-    });
+    let mut own = Contact::default();
+    own.law = NormalLaw::Iso16281 {
+        constant: 5e10,
+        length_ratio: 0.4,
+    };
+    own.slices = Slices::Fixed(40);
+    own.damping = 0.1;
+    own.clamp_pull = false;
+    third.contact = Some(own);
     third.friction = Some(Friction::Stribeck {
         static_coefficient: 0.12,
         kinetic_coefficient: 0.05,

@@ -115,7 +115,21 @@ def read_bytes(data: bytes) -> pl.DataFrame:
     """
     from ._polars import pl
 
-    return _unless_damaged(lambda: pl.read_parquet(io.BytesIO(data)))
+    return _unless_damaged(lambda: heard_once(lambda: pl.read_parquet(io.BytesIO(data))))
+
+
+def collected(query: pl.LazyFrame) -> pl.DataFrame:
+    """Return what a query of Parquet files gives."""
+    return heard_once(query.collect)
+
+
+def to_bytes(table: pl.DataFrame, *, sealed: bool = False) -> bytes:
+    """Return a table as a Parquet file, with its hash in it if wanted."""
+    buffer = io.BytesIO()
+    heard_once(lambda: table.write_parquet(buffer))
+    if sealed:
+        seal(buffer)
+    return buffer.getvalue()
 
 
 def _check_file(path: Path) -> None:

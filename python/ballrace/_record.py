@@ -9,7 +9,6 @@ these, some blocks at a time, into one. The run itself takes memory for a few bl
 from __future__ import annotations
 
 import base64
-import io
 import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -22,7 +21,7 @@ from numpy.typing import NDArray
 
 from ._files import whole
 from ._interrupt import heard_once
-from ._parquet import columns_and_rows, read_bytes, read_columns, seal, writing_to
+from ._parquet import columns_and_rows, read_bytes, read_columns, seal, to_bytes, writing_to
 from .errors import BallraceError, FileError
 from .scene import Scene
 
@@ -128,9 +127,7 @@ def metadata(signals: Signals) -> dict[str, str]:
         "warnings": json.dumps(signals.warnings),
     }
     if signals.slices is not None:
-        table = io.BytesIO()
-        signals.slices.write_parquet(table)
-        entries["slices"] = base64.b64encode(table.getvalue()).decode()
+        entries["slices"] = base64.b64encode(to_bytes(signals.slices)).decode()
     return entries
 
 

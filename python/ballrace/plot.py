@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import plotly.graph_objects as go
     from numpy.typing import NDArray
 
-    from .paper import Balls
+    from .paper.case import Balls
     from .signals import Signals
 
 __all__ = ["force_distribution", "load_cases", "load_distribution", "signals", "slice_forces"]

@@ -26,6 +26,7 @@ pub struct Case {
 
 /// What became of a case.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Outcome {
     /// Place of the case among all, from 0.
     pub index: usize,
@@ -37,6 +38,7 @@ pub struct Outcome {
 
 /// What a case gives.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Finished {
     /// Its features.
     pub features: Vec<Feature>,

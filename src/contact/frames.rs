@@ -13,25 +13,28 @@
 use super::{V2, cross};
 use crate::simd::Number;
 
-/// Where a body is and how it moves.
+/// Where a body is and how it moves: x, y, z and the angle about z.
 #[derive(Debug, Clone, Copy)]
 pub struct Motion {
     /// Centre in the plane \[m\].
-    pub centre: V2,
+    pub(crate) centre: V2,
     /// Axial place \[m\].
-    pub z: f64,
+    pub(crate) z: f64,
     /// Angle about z \[rad\].
-    pub theta: f64,
+    pub(crate) theta: f64,
     /// Velocity in the plane \[m/s\].
-    pub velocity: V2,
+    pub(crate) velocity: V2,
     /// Axial velocity \[m/s\].
-    pub vz: f64,
+    pub(crate) vz: f64,
     /// Angular speed about z \[rad/s\].
-    pub omega: f64,
+    pub(crate) omega: f64,
 }
 
 impl Motion {
-    /// From the four positions and the four velocities of a body.
+    /// From the four positions (x, y, z \[m\], θ \[rad\]) and the four velocities of a body.
+    ///
+    /// # Panics
+    /// If either has less than four numbers.
     pub fn new(q: &[f64], v: &[f64]) -> Self {
         Self {
             centre: V2::new(q[0], q[1]),

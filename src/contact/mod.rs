@@ -47,15 +47,15 @@ pub(crate) use stage::{
 pub(crate) use stiffness::Tangent;
 
 /// A vector in the x-y plane.
-pub type V2 = Vector2<f64>;
+pub(crate) type V2 = Vector2<f64>;
 
 /// ẑ × v: a quarter turn counter-clockwise.
-pub fn turned(v: V2) -> V2 {
+pub(crate) fn turned(v: V2) -> V2 {
     V2::new(-v.y, v.x)
 }
 
 /// z component of a × b.
-pub fn cross(a: V2, b: V2) -> f64 {
+pub(crate) fn cross(a: V2, b: V2) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
@@ -84,11 +84,11 @@ pub struct Touch {
     /// Approach speed v_n \[m/s\].
     pub approach: f64,
     /// Unit vector in the plane, out of the ball at the contact.
-    pub n_e: V2,
+    pub(crate) n_e: V2,
     /// In-plane and axial part of the normal force over its magnitude: (1, tan α), Hertz law: (cos α', sin α').
     pub share: (f64, f64),
     /// Friction on the ball in the plane \[N\].
-    pub friction: V2,
+    pub(crate) friction: V2,
     /// Friction on the ball along z \[N\].
     pub friction_z: f64,
     /// Slip speed \[m/s\].
@@ -96,9 +96,9 @@ pub struct Touch {
     /// Power that friction takes out \[W\], at least 0.
     pub friction_power: f64,
     /// Contact point from the ball's centre \[m\].
-    pub arm_ball: V2,
+    pub(crate) arm_ball: V2,
     /// Contact point from the ring's centre \[m\].
-    pub arm_ring: V2,
+    pub(crate) arm_ring: V2,
     /// Whether damping wanted to pull.
     pub pull: bool,
 }
@@ -125,13 +125,13 @@ impl Touch {
 #[derive(Debug, Clone, Copy)]
 pub struct Aside {
     /// On the ball in the plane \[N\].
-    pub plane: V2,
+    pub(crate) plane: V2,
     /// On the ball along z \[N\].
-    pub axial: f64,
+    pub(crate) axial: f64,
     /// The point from the ball's centre \[m\].
-    pub arm_ball: V2,
+    pub(crate) arm_ball: V2,
     /// The point from the ring's centre \[m\].
-    pub arm_ring: V2,
+    pub(crate) arm_ring: V2,
 }
 
 impl Aside {

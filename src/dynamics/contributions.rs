@@ -1,22 +1,22 @@
 //! The forces on all bodies apart by origin.
 
 use super::sums::Named;
-use crate::forces::{self, Force, State, Table, cage, drive, gravity, load, support, unbalance};
+use crate::forces::{self, Force, State, Table, unbalance};
 use crate::model::{BodyId, Dof, Model, Race};
 
-/// Names of the contributions of [`contributions`], in their order.
-pub const CONTRIBUTIONS: [&str; 8] = [
-    "contact",
-    "damping",
-    "friction",
-    cage::FORCE.contribution,
-    support::FORCE.contribution,
-    gravity::FORCE.contribution,
-    load::FORCE.contribution,
-    drive::FORCE.contribution,
-];
+/// Names of the contributions of [`contributions`], in their order: elastic contact forces, damping and friction, then what
+/// each other force counts to.
+pub fn contribution_names() -> Vec<&'static str> {
+    let mut names = Named::NAMES.to_vec();
+    for force in &forces::ALL {
+        if !names.contains(&force.contribution) {
+            names.push(force.contribution);
+        }
+    }
+    names
+}
 
-/// The forces on every body by origin (see [`CONTRIBUTIONS`]): x, y, z \[N\] and about z \[N m\] for each body in turn. `y`
+/// The forces on every body by origin (see [`contribution_names`]): x, y, z \[N\] and about z \[N m\] for each body in turn. `y`
 /// holds the states of all bodies.
 ///
 /// # Panics
@@ -26,7 +26,8 @@ pub fn contributions(model: &Model, t: f64, y: &[f64]) -> Vec<(&'static str, Vec
     let bodies = model.bodies.len();
     let mut state = State::new(bodies);
     state.read(y);
-    let mut parts = vec![Table::zeros(bodies); CONTRIBUTIONS.len()];
+    let names = contribution_names();
+    let mut parts = vec![Table::zeros(bodies); names.len()];
     let rings = state.rings();
     for (j, ball) in model.balls.iter().enumerate() {
         let body = BodyId::ball(j);
@@ -42,7 +43,7 @@ pub fn contributions(model: &Model, t: f64, y: &[f64]) -> Vec<(&'static str, Vec
     }
     let part = |force: &Force| {
         let named = |name: &&str| *name == force.contribution;
-        CONTRIBUTIONS.iter().position(named).unwrap_or_default()
+        names.iter().position(named).unwrap_or_default()
     };
     let depends = |force: &&Force| force.name == unbalance::FORCE.name;
     for force in forces::ALL.iter().filter(|force| !depends(force)) {
@@ -56,8 +57,22 @@ pub fn contributions(model: &Model, t: f64, y: &[f64]) -> Vec<(&'static str, Vec
     }
     let bodies = model.layout().bodies();
     let listed = |part: Table| bodies.clone().flat_map(|body| part.of(body)).collect();
-    CONTRIBUTIONS
-        .into_iter()
-        .zip(parts.into_iter().map(listed))
-        .collect()
+    let parts: Vec<Vec<f64>> = parts.into_iter().map(listed).collect();
+    names.into_iter().zip(parts).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every force counts to one contribution, and none is named twice.
+    #[test]
+    fn every_force_has_its_contribution() {
+        let names = contribution_names();
+        for force in &forces::ALL {
+            let named = names.iter().filter(|name| **name == force.contribution);
+            assert_eq!(named.count(), 1, "{}", force.name);
+        }
+        assert!(names.starts_with(&Named::NAMES));
+    }
 }

@@ -20,7 +20,7 @@ use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Spring};
 use crate::reduction::Reduction;
 
 pub(crate) use batch::{Batch, Kind, SideConstants, Touching};
-pub use contributions::{CONTRIBUTIONS, contributions};
+pub use contributions::{contribution_names, contributions};
 
 use kept::Kept;
 use planar::{Ground, Planar};

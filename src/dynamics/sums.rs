@@ -40,6 +40,9 @@ pub(super) struct Named {
 }
 
 impl Named {
+    /// Names of the three.
+    pub const NAMES: [&str; 3] = ["contact", "damping", "friction"];
+
     /// (on the ball, on the ring) for elastic force, damping and friction.
     pub fn wrenches(self) -> impl Iterator<Item = ([f64; DOFS], [f64; DOFS])> {
         self.ball.into_iter().zip(self.ring)

@@ -2,9 +2,9 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::guess::RowSpring;
 use super::problem::{BallState, Problem};
 use super::search::search;
+use super::springs::RowSpring;
 use super::unknowns::{self, Rings};
 use super::{FINE, TOLERANCE};
 use crate::error::{Error, Result};

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::Vector2;
 
 use super::problem::Problem;
+use super::springs::CageSpring;
 use super::unknowns::Rings;
 use crate::contact::V2;
 use crate::model::{BodyId, Dof, RowModel};
@@ -20,34 +21,6 @@ const TENSION: f64 = 1e-10;
 const SWEEPS: usize = 4;
 /// How close to a race, over the contacts' approach, a loose ball counts as lying on it.
 const ON_RACE: f64 = 1e-2;
-
-/// The cage's hold on a ball along its radius: its pull at a radius, and a stiffness that keeps a loose ball from
-/// jumping between the races from one round to the next.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct CageSpring {
-    force: f64,
-    stiffness: f64,
-    radius: f64,
-}
-
-impl CageSpring {
-    /// A pull at a radius, with a stiffness there.
-    pub(super) fn held(force: f64, stiffness: f64, radius: f64) -> Self {
-        Self {
-            force,
-            stiffness,
-            radius,
-        }
-    }
-
-    pub(super) fn pull(&self, radius: f64) -> f64 {
-        self.force - self.stiffness * (radius - self.radius)
-    }
-
-    pub(super) fn stiffness(&self) -> f64 {
-        self.stiffness
-    }
-}
 
 /// A row's balls as its cage sees them while the rings stand still: springs on their races; and a ball that one race
 /// alone carries leaves it when it is pulled off, for the other one or to hang between them on its neighbours.
@@ -217,11 +190,8 @@ impl Problem<'_> {
                 let mut spring = CageSpring::default();
                 if tension != 0.0 {
                     places[k] = chain.balls[k].at(radius);
-                    spring = CageSpring {
-                        force: tension * chain.pull(k, &radii),
-                        stiffness: share * together,
-                        radius,
-                    };
+                    let pull = tension * chain.pull(k, &radii);
+                    spring = CageSpring::held(pull, share * together, radius);
                 }
                 self.cage_spring[row.first + k] = spring;
             }

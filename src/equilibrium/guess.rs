@@ -8,53 +8,11 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
 use super::problem::Problem;
 use super::search::search;
 use super::unknowns::{self, OF_A_RING, RingStiffness, Rings};
-use crate::model::{Model, Race, RowModel};
+use crate::model::Race;
 
 /// Newton iterations at most, and the residual over the sum of the acting forces that is good enough.
 const ITERATIONS: usize = 40;
 const GOOD: f64 = 1e-3;
-
-/// The approach of both contacts of a row's balls by the force: a power law through the force at the scene's typical approach.
-pub(super) struct RowSpring {
-    /// Approach at the outer and at the inner race over the force to the power 1/exponent.
-    give: [f64; 2],
-    exponent: f64,
-}
-
-impl RowSpring {
-    pub(super) fn of(model: &Model, row: &RowModel) -> Self {
-        let scales = &model.scales;
-        let side = &model.balls[row.first].side;
-        // A slice's own power, and the zone's length goes with the root.
-        let exponent = row.pairs[0].law.elastic.exponent() + 0.5;
-        let give = row.pairs.each_ref().map(|pair| {
-            let race = &pair.race;
-            let distance = race.a + race.sigma * (race.r - side.radius + scales.approach);
-            let place = Vector3::new(distance, 0.0, race.centre);
-            let force = pair.tangent(side, &place).force.norm();
-            // A defect may lie there.
-            let force = if force > 0.0 { force } else { scales.load };
-            scales.approach / force.powf(1.0 / exponent)
-        });
-        Self { give, exponent }
-    }
-
-    /// Approach at a race under a force.
-    pub(super) fn approach(&self, race: Race, force: f64) -> f64 {
-        self.give[race] * force.powf(1.0 / self.exponent)
-    }
-
-    /// The outer race's share of the approach of both.
-    pub(super) fn outer_share(&self) -> f64 {
-        self.give[Race::Outer] / (self.give[0] + self.give[1])
-    }
-
-    /// Force at an approach of both races together, above 0, and its slope.
-    fn force(&self, approach: f64) -> (f64, f64) {
-        let force = (approach / (self.give[0] + self.give[1])).powf(self.exponent);
-        (force, self.exponent * force / approach)
-    }
-}
 
 impl Problem<'_> {
     /// Places of the rings where such springs carry the load.

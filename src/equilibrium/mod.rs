@@ -22,6 +22,7 @@ mod problem;
 mod residual;
 mod rings;
 mod search;
+mod springs;
 mod stiffness;
 mod unknowns;
 

@@ -17,6 +17,7 @@ use crate::scene::{AxialOffset, Defect, Row, Scene, Surface, TimeFunction};
 /// Where the number of a defect's axial place comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Placed {
     /// The scene gave it.
     Given,

@@ -5,8 +5,8 @@
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::TOLERANCE;
-use super::cage::CageSpring;
 use super::problem::Problem;
+use super::springs::CageSpring;
 use super::unknowns::{self, OF_A_RING, RingStiffness, Rings};
 use crate::error::Result;
 use crate::interrupt;

@@ -2,8 +2,7 @@
 
 use nalgebra::{DVector, Matrix2, Matrix3, SMatrix, Vector2, Vector3};
 
-use super::cage::CageSpring;
-use super::guess::RowSpring;
+use super::springs::{CageSpring, RowSpring};
 use super::unknowns::{self, OF_RINGS, Rings};
 use crate::contact::{Tangent, V2, centrifugal};
 use crate::forces::{gravity, load, support, unbalance};

@@ -69,15 +69,21 @@ impl Problem<'_> {
                 found.add(BodyId::ball(j), (ball.force.x + more).hypot(ball.force.y));
             }
         }
-        let mut left = [0.0_f64; 2];
-        for &i in &self.free {
-            let (race, dof) = unknowns::degree(i);
-            left[race] = left[race].hypot(on_rings[i] - self.support(race, dof) * rings[i]);
-        }
+        let left = self.left_on_rings(rings, &on_rings);
         for race in Race::BOTH {
             found.add(race.ring(), left[race]);
         }
         Ok(found)
+    }
+
+    /// What loads and balls leave to be carried of each ring beside its support, along free directions.
+    fn left_on_rings(&self, rings: &Rings, forces: &Rings) -> [f64; 2] {
+        let mut left = [0.0_f64; 2];
+        for &i in &self.free {
+            let (race, dof) = unknowns::degree(i);
+            left[race] = left[race].hypot(forces[i] - self.support(race, dof) * rings[i]);
+        }
+        left
     }
 
     /// Of the two rings' loads the larger one.

@@ -1,14 +1,10 @@
 //! Lines at the fault frequencies of the rows, with their harmonics and sidebands.
 
-use super::shaft::Shaft;
+use super::shaft::{SHARE, Shaft};
 use super::spectrum::Spectrum;
 use super::transform::squared_envelope;
 use super::{Feature, named};
 use crate::scene::Row;
-
-/// A line is sought this far from its kinematic frequency: the operating contact angle differs from the
-/// nominal one, by 10° at most, and the balls slip a little.
-pub(super) const SHARE: f64 = 0.02;
 
 /// A line nearer to 0 than this many bins drowns in the Hann window's main lobe around it.
 const BINS: f64 = 2.0;

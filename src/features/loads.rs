@@ -1,6 +1,7 @@
 //! Extremes of the contact loads; those of a campaign are read by probes of their own that leave no columns behind.
 
-use super::{Feature, Recorded};
+use super::Feature;
+use super::record::Recorded;
 use crate::error::{Error, Result};
 use crate::scene::{ContactQuantity, Probe, RingName, Scene};
 use crate::signals::Signals;
@@ -40,27 +41,33 @@ pub(crate) fn without_load_probes(mut signals: Signals, scene: &Scene) -> Signal
     signals
 }
 
+/// Whether a probe records the load of every ball of a row on a race.
+fn records_loads(probe: &Probe, row: usize, race: RingName) -> bool {
+    let Probe::Contacts {
+        row: of,
+        balls: None,
+        races,
+        quantities,
+    } = probe
+    else {
+        return false;
+    };
+    let has_race = races.as_ref().is_none_or(|r| r.contains(&race));
+    let load = ContactQuantity::Load;
+    let has_load = quantities.as_ref().is_none_or(|q| q.contains(&load));
+    *of == row && has_race && has_load
+}
+
 /// Names of the columns that hold the load of every ball of a row on a race.
 ///
 /// # Errors
 /// [`Error::Scene`] if no probe of the scene records them all.
 fn columns_of(scene: &Scene, row: usize, race: RingName) -> Result<Vec<String>> {
     let recorded = scene.recorded();
-    let records = |probe: &Probe| match probe {
-        Probe::Contacts {
-            row: of,
-            balls: None,
-            races,
-            quantities,
-        } => {
-            let has_race = races.as_ref().is_none_or(|r| r.contains(&race));
-            let load = ContactQuantity::Load;
-            let has_load = quantities.as_ref().is_none_or(|q| q.contains(&load));
-            *of == row && has_race && has_load
-        }
-        _ => false,
-    };
-    let Some((name, _)) = recorded.iter().find(|(_, probe)| records(probe)) else {
+    let Some((name, _)) = recorded
+        .iter()
+        .find(|(_, probe)| records_loads(probe, row, race))
+    else {
         let allowed =
             format!("probes that record the loads of all contacts; none does of row {row}");
         return Err(Error::scene("contact_loads", true, allowed));

@@ -16,6 +16,7 @@
 mod lines;
 pub(crate) mod loads;
 mod moments;
+mod record;
 mod recorded;
 mod shaft;
 mod spectrum;
@@ -29,8 +30,9 @@ use crate::scene::Scene;
 use crate::signals::{Signals, columns};
 
 pub(crate) use loads::{with_load_probes, without_load_probes};
+pub(crate) use record::Recorded;
 pub use recorded::signal_features;
-pub(crate) use recorded::{Recorded, features_of};
+pub(crate) use recorded::{check_recorded, features_of};
 
 /// What to compute the features of.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
@@ -49,6 +51,7 @@ pub struct FeatureOptions {
 
 /// A number with a name.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Feature {
     /// Name, as in the table above.
     pub name: String,
@@ -125,7 +128,7 @@ fn check_record(options: &FeatureOptions, duration: f64, fs: f64) -> Result<()> 
 pub fn features(signals: &Signals, options: &FeatureOptions) -> Result<Vec<Feature>> {
     let columns = feature_columns(&signals.scene, options)?;
     let recorded = Recorded::from(signals);
-    recorded.check(options)?;
+    check_recorded(&recorded, options)?;
     Ok(features_of(&recorded, &columns, options))
 }
 

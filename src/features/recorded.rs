@@ -1,57 +1,21 @@
-//! Features of what is recorded, wherever it is kept: signals of a run, arrays of another program, measurements.
+//! Features of what is recorded: of a run's columns, or of one signal.
 
+use super::record::Recorded;
 use super::shaft::Shaft;
 use super::{Feature, FeatureOptions, check_record, lines, loads, moments};
 use crate::error::Result;
 use crate::scene::Scene;
-use crate::signals::Signals;
 
-/// Columns of a run, by their names, all of the same length.
-pub(crate) struct Recorded<'a> {
-    /// What was run.
-    pub scene: &'a Scene,
-    /// Sampling rate \[Hz\].
-    pub fs: f64,
-    /// Names and samples.
-    pub columns: Vec<(&'a str, &'a [f64])>,
-    /// Largest Hertz pressure of any contact at the start or the end of the run \[Pa\].
-    pub largest_pressure: f64,
-}
-
-impl<'a> From<&'a Signals> for Recorded<'a> {
-    fn from(signals: &'a Signals) -> Self {
-        let columns = signals.columns.iter();
-        Self {
-            scene: &signals.scene,
-            fs: signals.fs,
-            columns: columns.map(|c| (c.name.as_str(), &*c.values)).collect(),
-            largest_pressure: signals.stats.largest_pressure,
-        }
+/// Refuses options that a record does not give.
+///
+/// # Errors
+/// [`crate::Error::Scene`] names the option.
+pub(crate) fn check_recorded(recorded: &Recorded<'_>, options: &FeatureOptions) -> Result<()> {
+    if options.contact_loads {
+        loads::columns(recorded.scene)?;
     }
-}
-
-impl<'a> Recorded<'a> {
-    /// The samples of a column.
-    pub(super) fn get(&self, name: &str) -> Option<&'a [f64]> {
-        let found = self.columns.iter().find(|(known, _)| *known == name);
-        found.map(|(_, values)| *values)
-    }
-
-    /// Number of samples.
-    fn count(&self) -> usize {
-        self.columns.first().map_or(0, |(_, values)| values.len())
-    }
-
-    /// Refuses options that the record does not give.
-    ///
-    /// # Errors
-    /// [`crate::Error::Scene`] names the option.
-    pub fn check(&self, options: &FeatureOptions) -> Result<()> {
-        if options.contact_loads {
-            loads::columns(self.scene)?;
-        }
-        check_record(options, self.count() as f64 / self.fs, self.fs)
-    }
+    let duration = recorded.count() as f64 / recorded.fs;
+    check_record(options, duration, recorded.fs)
 }
 
 /// The features of the given columns, then the extremes of the contact loads if they are asked for, and the largest

@@ -3,8 +3,11 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use super::lines::SHARE;
 use crate::scene::{Drive, Scene};
+
+/// A line is sought this far from its kinematic frequency: the operating contact angle differs from the
+/// nominal one, by 10° at most, and the balls slip a little.
+pub(super) const SHARE: f64 = 0.02;
 
 /// What a spectrum is taken over.
 pub(super) enum Shaft {

@@ -70,31 +70,20 @@ pub fn integrate<S: System, M: Method<S>, O: Observer<S>>(
     let mut stats = Statistics::default();
     let mut interrupted = false;
 
-    let fail = |time, step, group, kind| Failure {
-        time,
-        step,
-        group,
-        kind,
-    };
     let not_finite = |time, i| fail(time, 0.0, tolerance.group_of(i), FailureKind::NonFinite);
     work.restart(system, t0).map_err(|i| not_finite(t0, i))?;
 
     let fixed = options.fixed_step.is_some();
-    let ceiling = if fixed {
-        f64::INFINITY
-    } else {
-        options.max_step
-    };
-    // The step size that the error alone asks for.
-    let mut free = options
+    let ceiling = options
         .fixed_step
-        .or(options.first_step)
-        .unwrap_or_else(|| {
-            let ahead = (t0, stops.next());
-            let order = tableau.error_order;
-            first_step(system, &mut work, &mut norm, ahead, ceiling, order)
-                .max(SMALLEST_ULPS * ulp(t0))
-        });
+        .map_or(options.max_step, |_| f64::INFINITY);
+    // The step size that the error alone asks for.
+    let given = options.fixed_step.or(options.first_step);
+    let mut free = given.unwrap_or_else(|| {
+        let ahead = (t0, stops.next());
+        let order = tableau.error_order;
+        first_step(system, &mut work, &mut norm, ahead, ceiling, order).max(SMALLEST_ULPS * ulp(t0))
+    });
     let mut failures = 0;
     let mut group = 0;
 
@@ -110,13 +99,10 @@ pub fn integrate<S: System, M: Method<S>, O: Observer<S>>(
         } else {
             clock.advanced(plan.h)
         };
-        let error = match method.attempt(&mut work, system, (t, next.now()), plan.h, stop.latest())
-        {
+        let at = (t, next.now());
+        let error = match method.attempt(&mut work, system, at, plan.h, stop.latest()) {
             Ok(()) => norm.measure(&work.y, &work.y1, &work.error),
-            Err(i) => Worst {
-                value: f64::INFINITY,
-                group: tolerance.group_of(i),
-            },
+            Err(i) => no_error(tolerance.group_of(i)),
         };
         let finite = error.value.is_finite();
         group = error.group;
@@ -133,11 +119,7 @@ pub fn integrate<S: System, M: Method<S>, O: Observer<S>>(
 
         failures = 0;
         if !fixed {
-            let factor = control.accepted(error.value, plan.shortened);
-            let wish = plan.h * factor;
-            // A shortened step is no reason to forget the size from before it.
-            let restore = plan.shortened && factor >= 1.0;
-            free = if restore { free.max(wish) } else { wish };
+            free = after(&plan, free, control.accepted(error.value, plan.shortened));
         }
         let stiffness = work.stiffness(plan.h, norm.weights());
         stats.accept(tableau, t, &plan, stiffness);
@@ -165,6 +147,31 @@ pub fn integrate<S: System, M: Method<S>, O: Observer<S>>(
         stats,
         interrupted,
     })
+}
+
+fn fail(time: f64, step: f64, group: usize, kind: FailureKind) -> Failure {
+    Failure {
+        time,
+        step,
+        group,
+        kind,
+    }
+}
+
+/// The error of a step that has none, since a group of states was not finite.
+fn no_error(group: usize) -> Worst {
+    Worst {
+        value: f64::INFINITY,
+        group,
+    }
+}
+
+/// The step size that the error asks for after an accepted step, from that before it and the controller's factor.
+fn after(plan: &Plan, free: f64, factor: f64) -> f64 {
+    let wish = plan.h * factor;
+    // A shortened step is no reason to forget the size from before it.
+    let restore = plan.shortened && factor >= 1.0;
+    if restore { free.max(wish) } else { wish }
 }
 
 /// Whether the pieces of the problem fit each other.

@@ -31,6 +31,7 @@ pub struct Failure {
 
 /// The reason of a [`Failure`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FailureKind {
     /// A state or derivative was not finite, and no smaller step helped.
     NonFinite,

@@ -9,7 +9,7 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use super::errors::OrRaise;
-use crate::features::{Recorded, features_of, loads, transform};
+use crate::features::{Recorded, check_recorded, features_of, loads, transform};
 use crate::scene::kinematic_orders;
 use crate::{Error, Feature, FeatureOptions, Scene};
 
@@ -98,7 +98,7 @@ pub(super) fn run_features(
             columns: held.iter().map(|(name, x)| (&**name, &**x)).collect(),
             largest_pressure: largest_pressure.unwrap_or(f64::NAN),
         };
-        recorded.check(&options)?;
+        check_recorded(&recorded, &options)?;
         Ok(features_of(&recorded, &asked, &options))
     });
     Ok(named(found.or_raise(py)?))

@@ -46,6 +46,7 @@ pub struct Reduction {
 
 /// Degrees of freedom that a run leaves out.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
+#[non_exhaustive]
 pub struct Omission {
     /// What they are, such as `z`.
     pub what: String,
@@ -57,6 +58,7 @@ pub struct Omission {
 
 /// A reduction that the scene does not allow.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
+#[non_exhaustive]
 pub struct Obstacle {
     /// The reduction.
     pub what: String,

@@ -106,13 +106,11 @@ pub(crate) fn follow(
             last.copy_from_slice(step.y1());
             last_time = step.t1();
             let crawls = collapse.after(step.h());
-            let why = if let Some(ball) = lost {
-                Some(Halt::Escaped(ball))
-            } else if let Some((body, does)) = bounds.left(step.y1()) {
-                Some(Halt::RanAway(body, does))
-            } else {
-                crawls.then_some(Halt::Crawls)
-            };
+            let left = || bounds.left(step.y1());
+            let why = lost
+                .map(Halt::Escaped)
+                .or_else(|| left().map(|(body, does)| Halt::RanAway(body, does)))
+                .or_else(|| crawls.then_some(Halt::Crawls));
             if let Some(why) = why {
                 halt = Some((step.t1(), step.h(), why));
                 return ControlFlow::Break(());
@@ -154,8 +152,25 @@ pub(crate) fn follow(
     let nfev_past_end = go_on(&mut dynamics, watch, end, (&tolerance, options), progress)?;
     finish(watch, begins + length)?;
     let _ = progress(1.0);
-    let stats = solution.stats;
     let statistics = Statistics {
+        clamped_pulls: pulls,
+        truncated_contacts: truncated,
+        wall_time: begun.elapsed().as_secs_f64(),
+        nfev_past_end,
+        ..statistics(model, &solution.stats, &choice, (y0, &full))
+    };
+    Ok((full, statistics, choice))
+}
+
+/// What integration and the states of all bodies at the start and at the end tell of a stretch.
+fn statistics(
+    model: &Model,
+    stats: &integrate::Statistics,
+    choice: &Choice,
+    (first, last): (&[f64], &[f64]),
+) -> Statistics {
+    let share = |steps: usize| steps as f64 / stats.accepted.max(1) as f64;
+    Statistics {
         accepted: stats.accepted,
         rejected: stats.rejected,
         nfev: stats.nfev,
@@ -164,20 +179,19 @@ pub(crate) fn follow(
         smallest_step_time: Some(stats.smallest_step_time).filter(|t| t.is_finite()),
         largest_step: stats.largest_step,
         stiff_share: stats.share_stiff(),
-        implicit_share: choice.implicit as f64 / stats.accepted.max(1) as f64,
-        capped_share: stats.capped as f64 / stats.accepted.max(1) as f64,
-        clamped_pulls: pulls,
-        truncated_contacts: truncated,
+        implicit_share: share(choice.implicit),
+        capped_share: share(stats.capped),
+        clamped_pulls: 0,
+        truncated_contacts: 0,
         acceleration_residual: None,
-        wall_time: begun.elapsed().as_secs_f64(),
-        nfev_past_end,
-        largest_pressure: inspect::largest_pressure(model, y0)
-            .max(inspect::largest_pressure(model, &full)),
+        wall_time: 0.0,
+        nfev_past_end: 0,
+        largest_pressure: inspect::largest_pressure(model, first)
+            .max(inspect::largest_pressure(model, last)),
         settling_accepted: 0,
         settling_nfev: 0,
-        orbit_slowed: orbit::slowed(model, y0, &full),
-    };
-    Ok((full, statistics, choice))
+        orbit_slowed: orbit::slowed(model, first, last),
+    }
 }
 
 /// Follows the motion beyond the end of the run for what the last samples take from there; returns the evaluations.

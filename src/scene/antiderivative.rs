@@ -81,6 +81,19 @@ impl Antiderivative {
     }
 }
 
+impl TimeFunction {
+    /// Integral from 0 to `t` ≥ 0. A run sums a table once, not at every call.
+    ///
+    /// ```
+    /// use ballrace::scene::{Profile, TimeFunction};
+    /// let ramp = TimeFunction::Profile(Profile::Ramp { from: 0.0, to: 8.0, start: 1.0, end: 3.0 });
+    /// assert_eq!([0.5, 2.0, 3.0, 4.0].map(|t| ramp.integral(t)), [0.0, 2.0, 8.0, 16.0]);
+    /// ```
+    pub fn integral(&self, t: f64) -> f64 {
+        Antiderivative::new(self).at(self, t)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -9,6 +9,7 @@ use crate::error::{Error, Result};
 /// `benches/README.md`; [`crate::explain()`] offers those that apply to a scene.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct Approximations {
     /// Balls and cage are kinematic: every row orbits in proportion to the inner ring as it rolls at the start, its
     /// balls spaced as there, and moves along its radii and z only. Friction and cage are left out, of
@@ -22,9 +23,16 @@ pub struct Approximations {
 }
 
 impl Approximations {
+    /// None: every answer is the model's own.
+    pub const NONE: Self = Self {
+        rolling: false,
+        plane: false,
+        one_row: false,
+    };
+
     /// Whether any is asked for.
     pub fn any(self) -> bool {
-        self != Self::default()
+        self != Self::NONE
     }
 
     /// The scene without the forces that are given up.

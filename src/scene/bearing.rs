@@ -7,6 +7,7 @@ use super::{Contact, Friction, Material, defaults};
 /// One row of balls between two grooves (geometry of model section 2).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Row {
     /// Number of balls Z, 1 to 1000.
     pub ball_count: usize,
@@ -71,9 +72,46 @@ pub struct Row {
     pub friction: Option<Friction>,
 }
 
+impl Row {
+    /// A healthy row in the plane z = 0, without contact angle and clearance, its numbers as the fields of the same names.
+    pub fn new(
+        ball_count: usize,
+        ball_diameter: f64,
+        pitch_diameter: f64,
+        outer_conformity: f64,
+        inner_conformity: f64,
+    ) -> Self {
+        Self {
+            ball_count,
+            ball_diameter,
+            pitch_diameter,
+            outer_conformity,
+            inner_conformity,
+            contact_angle: 0.0,
+            side: defaults::side(),
+            axial_position: 0.0,
+            clearance: 0.0,
+            axial_preload: 0.0,
+            start_angle: 0.0,
+            outer_shoulders: None,
+            inner_shoulders: None,
+            outer_waviness: Vec::new(),
+            inner_waviness: Vec::new(),
+            diameter_errors: Vec::new(),
+            ball_mass: None,
+            ball_inertia: None,
+            ball_support: Support::default(),
+            ball_material: None,
+            contact: None,
+            friction: None,
+        }
+    }
+}
+
 /// One harmonic of a race's radius: ΔR(φ) = amplitude · cos(order · φ + phase), φ from the ring's own x axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Waviness {
     /// Waves around the circumference, 1 to 1000.
     pub order: u32,
@@ -84,9 +122,21 @@ pub struct Waviness {
     pub phase: f64,
 }
 
+impl Waviness {
+    /// So many waves of an amplitude \[m\] and a phase \[rad\].
+    pub fn new(order: u32, amplitude: f64, phase: f64) -> Self {
+        Self {
+            order,
+            amplitude,
+            phase,
+        }
+    }
+}
+
 /// A ring: its mass and how it is held.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Ring {
     /// Mass, with what turns or moves with the ring \[kg\]; absent: from `diameter`, `width` and density.
     #[serde(default)]
@@ -109,6 +159,7 @@ pub struct Ring {
 /// outer ring, free for the inner ring and the balls.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Support {
     /// Along x.
     #[serde(default)]
@@ -127,6 +178,7 @@ pub struct Support {
 /// One direction of a support.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[non_exhaustive]
 pub enum Mount {
     /// Nothing holds the body.
     Free,
@@ -144,6 +196,11 @@ pub enum Mount {
 }
 
 impl Support {
+    /// From the mounts along x, y and z and about z.
+    pub fn new([x, y, z, theta]: [Option<Mount>; 4]) -> Self {
+        Self { x, y, z, theta }
+    }
+
     /// The four mounts (x, y, z, θ) with absent ones filled in.
     pub fn mounts(&self, absent: Mount) -> [Mount; 4] {
         [self.x, self.y, self.z, self.theta].map(|mount| mount.unwrap_or(absent))
@@ -153,6 +210,7 @@ impl Support {
 /// Which ring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum RingName {
     /// The outer ring, body 0.
     Outer,

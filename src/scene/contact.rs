@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 /// How a ball meets a race.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct Contact {
     /// Force of a slice from its penetration; Hertz's law by default.
     pub law: NormalLaw,
@@ -30,6 +31,7 @@ impl Default for Contact {
 /// Elastic force of a slice.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[non_exhaustive]
 pub enum NormalLaw {
     /// The paper's law, after the roller slices of ISO/TS 16281: F = Σ c_s s^{10/9}. With the paper's constants it gives
     /// way about three times as far as Hertz; [`crate::explain()`] tells how far at a scene's own load.
@@ -66,6 +68,7 @@ impl NormalLaw {
 /// Where a ball is cut.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Slices {
     /// Slices of equal width over the whole ball, fixed in it: the paper's method. 10 to 100 000.
     Fixed(usize),
@@ -81,6 +84,7 @@ pub enum Slices {
 /// Friction of a slice: force μ(u) F u⃗ / √(u² + v_s²) against the slip velocity u⃗.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[non_exhaustive]
 pub enum Friction {
     /// No friction.
     #[default]
@@ -121,6 +125,7 @@ pub enum Friction {
 /// Springs that keep the centres of neighbouring balls of a row at their distance (model section 6).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Cage {
     /// Stiffness k_c \[N/m\].
     pub stiffness: f64,
@@ -130,4 +135,15 @@ pub struct Cage {
     /// Total play p \[m\]: free within ± p/2 of the nominal distance.
     #[serde(default)]
     pub play: f64,
+}
+
+impl Cage {
+    /// Springs of a stiffness \[N/m\], with damping \[N s/m\] and total play \[m\].
+    pub fn new(stiffness: f64, damping: f64, play: f64) -> Self {
+        Self {
+            stiffness,
+            damping,
+            play,
+        }
+    }
 }

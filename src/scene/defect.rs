@@ -10,6 +10,7 @@ use super::time::number_or_map;
 /// A defect of one body (model section 7). It turns with its body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Defect {
     /// Which surface.
     pub on: Surface,
@@ -36,9 +37,71 @@ pub struct Defect {
     pub floor: Option<Floor>,
 }
 
+impl Defect {
+    /// A defect of row 0 where contacts run, without floor: its surface, angle \[rad\], axial length \[m\], width \[m\] and
+    /// edge radius \[m\].
+    ///
+    /// ```
+    /// use ballrace::scene::{Defect, Surface};
+    /// let spall = Defect::new(Surface::InnerRace, 0.0, 2e-3, 1e-3, 0.3e-3);
+    /// let chip = Defect::new(Surface::Ball, 0.0, 2e-3, 1e-3, 0.3e-3).on_ball(4).at_offset(0.0);
+    /// assert_eq!((spall.ball, chip.ball), (None, Some(4)));
+    /// ```
+    pub fn new(
+        on: Surface,
+        angle: f64,
+        length: f64,
+        width: impl Into<Width>,
+        edge_radius: f64,
+    ) -> Self {
+        Self {
+            on,
+            row: 0,
+            ball: None,
+            angle,
+            axial_offset: AxialOffset::Contact,
+            length,
+            width: width.into(),
+            edge_radius,
+            floor: None,
+        }
+    }
+
+    /// The same in another row.
+    #[must_use]
+    pub fn in_row(self, row: usize) -> Self {
+        Self { row, ..self }
+    }
+
+    /// The same on a ball of its row.
+    #[must_use]
+    pub fn on_ball(self, ball: usize) -> Self {
+        Self {
+            ball: Some(ball),
+            ..self
+        }
+    }
+
+    /// The same at another angular place \[rad\].
+    #[must_use]
+    pub fn at_angle(self, angle: f64) -> Self {
+        Self { angle, ..self }
+    }
+
+    /// The same at an axial place of its middle \[m\].
+    #[must_use]
+    pub fn at_offset(self, axial_offset: impl Into<AxialOffset>) -> Self {
+        Self {
+            axial_offset: axial_offset.into(),
+            ..self
+        }
+    }
+}
+
 /// The surface that carries a defect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Surface {
     /// Outer race.
     OuterRace,
@@ -50,6 +113,7 @@ pub enum Surface {
 
 /// Axial place of a defect's middle: a number, or `"contact"`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub enum AxialOffset {
     /// From the row's plane (races) or the ball's centre \[m\].
     At(f64),
@@ -85,6 +149,7 @@ const CONTACT: &str = "contact";
 /// forces are a bare sum: a bed of bumps rather than a smooth floor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Floor {
     /// Depth of the crests below the surface \[m\].
     pub depth: f64,
@@ -92,8 +157,16 @@ pub struct Floor {
     pub elements: usize,
 }
 
+impl Floor {
+    /// So many circles, their crests at a depth \[m\].
+    pub fn new(depth: f64, elements: usize) -> Self {
+        Self { depth, elements }
+    }
+}
+
 /// Width of a defect along its length.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Width {
     /// The same over the whole length \[m\].
     Constant(f64),
@@ -104,11 +177,25 @@ pub enum Width {
 /// Width given at axial places, linear between them, constant beyond.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct WidthProfile {
     /// Axial places from the defect's middle, increasing \[m\].
     pub positions: Vec<f64>,
     /// Widths \[m\].
     pub widths: Vec<f64>,
+}
+
+impl WidthProfile {
+    /// Widths \[m\] at axial places from the defect's middle \[m\].
+    pub fn new(positions: Vec<f64>, widths: Vec<f64>) -> Self {
+        Self { positions, widths }
+    }
+}
+
+impl From<WidthProfile> for Width {
+    fn from(profile: WidthProfile) -> Self {
+        Self::Profile(profile)
+    }
 }
 
 impl From<f64> for Width {
@@ -122,7 +209,7 @@ impl Width {
     ///
     /// ```
     /// use ballrace::scene::{Width, WidthProfile};
-    /// let w = Width::Profile(WidthProfile { positions: vec![-1e-3, 1e-3], widths: vec![0.0, 2e-3] });
+    /// let w = Width::from(WidthProfile::new(vec![-1e-3, 1e-3], vec![0.0, 2e-3]));
     /// assert_eq!(w.at(0.0), (1e-3, 1.0));
     /// assert_eq!(w.at(5e-3), (2e-3, 0.0));
     /// ```

@@ -8,6 +8,7 @@ use super::time::TimeFunction;
 /// A force on a ring's centre, in a fixed direction of the inertial frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Load {
     /// The loaded ring.
     pub ring: RingName,
@@ -17,12 +18,24 @@ pub struct Load {
     pub force: TimeFunction,
 }
 
+impl Load {
+    /// A force \[N\] on a ring along a direction.
+    pub fn new(ring: RingName, direction: [f64; 3], force: impl Into<TimeFunction>) -> Self {
+        Self {
+            ring,
+            direction,
+            force: force.into(),
+        }
+    }
+}
+
 /// A mass off the axis of a ring that turns with it: in-plane force m e (ω² r̂ − ω̇ t̂).
 ///
 /// It is part of the ring's mass and of its inertia about its own centre, which x and y are of: the centre of mass stands
 /// m e / (mass of the ring) off. A ring whose rotation is free feels the reaction, about z −m e r̂ × (ẍ, ÿ), and its weight.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Unbalance {
     /// The unbalanced ring.
     pub ring: RingName,
@@ -33,9 +46,21 @@ pub struct Unbalance {
     pub angle: f64,
 }
 
+impl Unbalance {
+    /// Mass times eccentricity \[kg m\] at an angular place of a ring \[rad\].
+    pub fn new(ring: RingName, moment: f64, angle: f64) -> Self {
+        Self {
+            ring,
+            moment,
+            angle,
+        }
+    }
+}
+
 /// What turns the inner ring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[non_exhaustive]
 pub enum Drive {
     /// Given speed Ω(t) \[rad/s\]; may not jump.
     Speed(TimeFunction),

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 /// Materials of the parts.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Materials {
     /// Both rings.
     #[serde(default)]
@@ -17,6 +18,7 @@ pub struct Materials {
 /// A linear elastic, isotropic material; the default is bearing steel (model section 11).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct Material {
     /// Density \[kg/m³\], 7850.
     pub density: f64,
@@ -32,6 +34,17 @@ impl Default for Material {
             density: 7850.0,
             youngs_modulus: 206e9,
             poisson_ratio: 0.3,
+        }
+    }
+}
+
+impl Material {
+    /// Density \[kg/m³\], Young's modulus \[Pa\] and Poisson's ratio.
+    pub fn new(density: f64, youngs_modulus: f64, poisson_ratio: f64) -> Self {
+        Self {
+            density,
+            youngs_modulus,
+            poisson_ratio,
         }
     }
 }

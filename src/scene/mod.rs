@@ -57,6 +57,7 @@ pub const SCHEMA: u32 = 1;
 /// A whole bearing, its loads, its defects and what to record of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Scene {
     /// Version of the document, 1.
     #[serde(default = "defaults::schema")]
@@ -123,6 +124,39 @@ fn check_length(text: &str, factor: f64) -> Result<()> {
 }
 
 impl Scene {
+    /// A bearing of rows and what turns its inner ring, all else by default: the outer ring held, the inner ring free,
+    /// bearing steel, Hertz's law, no friction, no cage, gravity, no loads and no defects.
+    ///
+    /// ```
+    /// use ballrace::scene::{Drive, Load, RingName, Row, Scene};
+    /// let row = Row::new(9, 7.94e-3, 39.04e-3, 0.525, 0.515);
+    /// let mut scene = Scene::new(vec![row], Drive::Speed(188.5.into()));
+    /// scene.inner_ring.mass = Some(1.0);
+    /// scene.loads.insert("radial".into(), Load::new(RingName::Inner, [0.0, -1.0, 0.0], 500.0));
+    /// assert!(scene.validate().is_ok());
+    /// ```
+    pub fn new(rows: Vec<Row>, drive: Drive) -> Self {
+        Self {
+            schema: SCHEMA,
+            name: String::new(),
+            rows,
+            outer_ring: Ring::default(),
+            inner_ring: Ring::default(),
+            materials: Materials::default(),
+            contact: Contact::default(),
+            friction: Friction::default(),
+            cage: None,
+            drive,
+            gravity: defaults::gravity(),
+            loads: BTreeMap::new(),
+            unbalances: BTreeMap::new(),
+            defects: BTreeMap::new(),
+            probes: BTreeMap::new(),
+            approximations: Approximations::default(),
+            solver: Solver::default(),
+        }
+    }
+
     /// How the balls of a row meet their races: the row's own contact, or that of the scene.
     pub fn contact_of<'a>(&'a self, row: &'a Row) -> &'a Contact {
         row.contact.as_ref().unwrap_or(&self.contact)

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::{
-    Approximations, Cage, Contact, Defect, Drive, Friction, Load, Materials, Mount, NormalLaw,
-    Probe, Ring, RingName, Row, SCHEMA, Scene, Solver, Support, Surface, defaults,
+    Cage, Contact, Defect, Drive, Friction, Load, Mount, NormalLaw, Probe, Ring, RingName, Row,
+    Scene, Support, Surface,
 };
 
 /// The paper's faulted double-row wheel bearing under 7 kN radial and the given axial load \[N\].
@@ -29,34 +29,16 @@ pub fn wheel_bearing(axial_load: f64) -> Scene {
     let pitch = TAU / 13.0;
     let phase = -FRAC_PI_2 + 0.15_f64.to_radians() - (cage_speed * 0.017_992) % pitch;
     let row = |side: i8, axial_position: f64, start_angle: f64| Row {
-        ball_count: 13,
-        ball_diameter,
-        pitch_diameter,
-        outer_conformity: conformity,
-        inner_conformity: conformity,
         contact_angle,
         side,
         axial_position,
-        clearance: 0.0,
-        axial_preload: 0.0,
         start_angle,
-        outer_shoulders: None,
-        inner_shoulders: None,
-        outer_waviness: Vec::new(),
-        inner_waviness: Vec::new(),
-        diameter_errors: Vec::new(),
-        ball_mass: None,
-        ball_inertia: None,
-        ball_support: Support::default(),
-        ball_material: None,
-        contact: None,
-        friction: None,
+        ..Row::new(13, ball_diameter, pitch_diameter, conformity, conformity)
     };
+    // Back-to-back rows 22 mm apart, half a pitch out of phase.
+    let rows = vec![row(1, -11e-3, phase), row(-1, 11e-3, phase + pitch / 2.0)];
     Scene {
-        schema: SCHEMA,
         name: "wheel bearing".to_owned(),
-        // Back-to-back rows 22 mm apart, half a pitch out of phase.
-        rows: vec![row(1, -11e-3, phase), row(-1, 11e-3, phase + pitch / 2.0)],
         // Outer ring with its share of the knuckle: 0.8 kg on 10⁹ N/m (support travel well under the
         // ball's shift), damped at 11 %.
         outer_ring: Ring {
@@ -70,7 +52,6 @@ pub fn wheel_bearing(axial_load: f64) -> Scene {
             support: held(0.0, 500.0),
             ..Ring::default()
         },
-        materials: Materials::default(),
         // The paper's law and constants, with which the numbers here were identified.
         contact: Contact {
             law: NormalLaw::iso16281(),
@@ -81,34 +62,16 @@ pub fn wheel_bearing(axial_load: f64) -> Scene {
             slip_speed: 0.1,
         },
         // Polymer cage.
-        cage: Some(Cage {
-            stiffness: 1e6,
-            damping: 20.0,
-            play: 0.0,
-        }),
-        drive: Drive::Speed(speed.into()),
-        gravity: defaults::gravity(),
+        cage: Some(Cage::new(1e6, 20.0, 0.0)),
         loads: loads(7000.0, axial_load),
-        unbalances: BTreeMap::new(),
         // 2.32 mm from the ball centres' plane towards the mid-plane: the zone reaches it under +3 kN
         // and leaves it under −3 kN.
         defects: BTreeMap::from([(
             "spall".to_owned(),
-            Defect {
-                on: Surface::OuterRace,
-                row: 0,
-                ball: None,
-                angle: -FRAC_PI_2,
-                axial_offset: 2.32e-3.into(),
-                length: 1.5e-3,
-                width: 1.5e-3.into(),
-                edge_radius: 0.3e-3,
-                floor: None,
-            },
+            Defect::new(Surface::OuterRace, -FRAC_PI_2, 1.5e-3, 1.5e-3, 0.3e-3).at_offset(2.32e-3),
         )]),
         probes: ring_motion(),
-        approximations: Approximations::default(),
-        solver: Solver::default(),
+        ..Scene::new(rows, Drive::Speed(speed.into()))
     }
 }
 
@@ -116,38 +79,17 @@ pub fn wheel_bearing(axial_load: f64) -> Scene {
 ///
 /// `radial_load` and `axial_load` in newtons on the inner ring, along −y and +z; `speed_rpm` of the inner ring.
 pub fn deep_groove_6205(radial_load: f64, axial_load: f64, speed_rpm: f64) -> Scene {
+    // Nine balls of 7.94 mm on 39.04 mm: the published geometry behind 3.5848 and 5.4152 orders. Usual for deep-groove
+    // bearings: the inner groove hugs the ball closer.
     let row = Row {
-        // Nine balls of 7.94 mm on 39.04 mm: the published geometry behind 3.5848 and 5.4152 orders.
-        ball_count: 9,
-        ball_diameter: 7.94e-3,
-        pitch_diameter: 39.04e-3,
-        // Usual for deep-groove bearings: the inner groove hugs the ball closer.
-        outer_conformity: 0.525,
-        inner_conformity: 0.515,
-        contact_angle: 0.0,
-        side: 1,
-        axial_position: 0.0,
         // Normal clearance of a 25 mm bore is 5 to 20 µm, less the fits.
         clearance: 10e-6,
-        axial_preload: 0.0,
         // A ball on the load line at the start.
         start_angle: -FRAC_PI_2,
-        outer_shoulders: None,
-        inner_shoulders: None,
-        outer_waviness: Vec::new(),
-        inner_waviness: Vec::new(),
-        diameter_errors: Vec::new(),
-        ball_mass: None,
-        ball_inertia: None,
-        ball_support: Support::default(),
-        ball_material: None,
-        contact: None,
-        friction: None,
+        ..Row::new(9, 7.94e-3, 39.04e-3, 0.525, 0.515)
     };
     Scene {
-        schema: SCHEMA,
         name: "deep groove 6205".to_owned(),
-        rows: vec![row],
         // 25 × 52 × 15 mm by the standard; the outer ring in a stiff housing (near 5 kHz, damped at 5 %).
         outer_ring: Ring {
             diameter: Some(52e-3),
@@ -163,50 +105,27 @@ pub fn deep_groove_6205(radial_load: f64, axial_load: f64, speed_rpm: f64) -> Sc
             support: held(0.0, 300.0),
             ..Ring::default()
         },
-        materials: Materials::default(),
-        contact: Contact {
-            law: NormalLaw::Hertz,
-            ..Contact::default()
-        },
         friction: Friction::Coulomb {
             coefficient: 0.05,
             slip_speed: 0.1,
         },
         // Pressed steel, with some play in its pockets.
-        cage: Some(Cage {
-            stiffness: 1e6,
-            damping: 20.0,
-            play: 0.1e-3,
-        }),
-        drive: Drive::Speed((speed_rpm * PI / 30.0).into()),
-        gravity: defaults::gravity(),
+        cage: Some(Cage::new(1e6, 20.0, 0.1e-3)),
         loads: loads(radial_load, axial_load),
-        unbalances: BTreeMap::new(),
-        defects: BTreeMap::new(),
         probes: ring_motion(),
-        approximations: Approximations::default(),
-        solver: Solver::default(),
+        ..Scene::new(vec![row], Drive::Speed((speed_rpm * PI / 30.0).into()))
     }
 }
 
 /// Springs and dampers along x, y and z; the rotation is left to the default of the ring.
 fn held(stiffness: f64, damping: f64) -> Support {
     let mount = Some(Mount::Spring { stiffness, damping });
-    Support {
-        x: mount,
-        y: mount,
-        z: mount,
-        theta: None,
-    }
+    Support::new([mount, mount, mount, None])
 }
 
 /// Radial load along −y, axial along +z, on the inner ring.
 fn loads(radial: f64, axial: f64) -> BTreeMap<String, Load> {
-    let load = |direction, force: f64| Load {
-        ring: RingName::Inner,
-        direction,
-        force: force.into(),
-    };
+    let load = |direction, force: f64| Load::new(RingName::Inner, direction, force);
     BTreeMap::from([
         ("radial".to_owned(), load([0.0, -1.0, 0.0], radial)),
         ("axial".to_owned(), load([0.0, 0.0, 1.0], axial)),

@@ -10,6 +10,7 @@ use super::bearing::RingName;
 /// A named set of signals.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[non_exhaustive]
 pub enum Probe {
     /// Position, velocity and acceleration of a body; filtered.
     Motion {
@@ -69,6 +70,7 @@ pub enum Probe {
 /// One component of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Component {
     /// Position \[m\].
     X,
@@ -145,6 +147,7 @@ impl Component {
 /// One quantity of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum ContactQuantity {
     /// Magnitude of the normal force, elastic and damping \[N\].
     Load,

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 /// The method of integration; measured against each other in `benches/README.md`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Method {
     /// Dormand–Prince 5(4), explicit: the default.
     #[default]
@@ -37,6 +38,7 @@ impl Method {
 /// How the equations are integrated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct Solver {
     /// The method. Default `dormand-prince`.
     pub method: Method,

@@ -4,12 +4,11 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::antiderivative::Antiderivative;
-
 /// A value in time: a plain number, or one of the [`Profile`]s.
 ///
 /// In TOML: `force = 7000.0`, or `force = { ramp = { from = 0.0, to = 7000.0, start = 0.0, end = 0.1 } }`.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum TimeFunction {
     /// The same at all times.
     Constant(f64),
@@ -20,6 +19,7 @@ pub enum TimeFunction {
 /// The shapes of a value that changes in time. All are right-continuous.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[non_exhaustive]
 pub enum Profile {
     /// Linear from one value to another, constant before and after; a jump when `start == end`.
     Ramp {
@@ -140,17 +140,6 @@ impl TimeFunction {
                 }
             }
         }
-    }
-
-    /// Integral from 0 to `t` ≥ 0. A run sums a table once, not at every call.
-    ///
-    /// ```
-    /// use ballrace::scene::{Profile, TimeFunction};
-    /// let ramp = TimeFunction::Profile(Profile::Ramp { from: 0.0, to: 8.0, start: 1.0, end: 3.0 });
-    /// assert_eq!([0.5, 2.0, 3.0, 4.0].map(|t| ramp.integral(t)), [0.0, 2.0, 8.0, 16.0]);
-    /// ```
-    pub fn integral(&self, t: f64) -> f64 {
-        Antiderivative::new(self).at(self, t)
     }
 
     /// Times at which the value jumps or has a corner \[s\].

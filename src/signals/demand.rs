@@ -3,7 +3,7 @@
 use super::SliceRow;
 use super::blocks::rows_in_memory;
 use super::filter::HALF;
-use crate::dynamics::CONTRIBUTIONS;
+use crate::dynamics::contribution_names;
 use crate::inspect::Energy;
 use crate::model::{DOFS, RINGS};
 use crate::scene::{Component, ContactQuantity, Probe, Scene, Slices};
@@ -66,7 +66,7 @@ impl Demand {
                 },
                 Probe::Energy {} => Energy::default().entries().len(),
                 Probe::Torque {} => RINGS,
-                Probe::Forces { .. } => DOFS * CONTRIBUTIONS.len(),
+                Probe::Forces { .. } => DOFS * contribution_names().len(),
                 Probe::Slices {
                     row,
                     balls,

@@ -2,7 +2,7 @@
 
 use super::Column;
 use super::filter::Kind;
-use crate::dynamics::{CONTRIBUTIONS, Dynamics, contributions};
+use crate::dynamics::{Dynamics, contribution_names, contributions};
 use crate::equilibrium::compile;
 use crate::error::Result;
 use crate::inspect::{self, Energy};
@@ -165,7 +165,7 @@ impl Probes {
     }
 
     fn forces(&mut self, name: &str, body: BodyId) -> Reader {
-        for part in CONTRIBUTIONS {
+        for part in contribution_names() {
             for dof in Dof::ALL {
                 let unit = if dof.is_rotation() { "N m" } else { "N" };
                 self.column(format!("{name}.{part}.{}", dof.name()), unit, None);

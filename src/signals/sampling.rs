@@ -13,6 +13,7 @@ const PAST_END: f64 = 0.1;
 
 /// Whether signals are filtered before they are sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Bandwidth {
     /// Motion, cage forces and friction torques pass a linear-phase low-pass: flat within 0.004 dB to 0.4 fs, 83 dB
     /// down beyond 0.6 fs, without delay. What jumps rings for some samples before and after, as in any such record.

@@ -4,14 +4,16 @@
 //! around them is compiled for. `Vector`s are the registers themselves. [`InstructionSet`] compiles a task for three sets
 //! into one program and picks one at run time.
 
+mod choice;
 mod isa;
 mod lanes;
 mod number;
 mod proof;
 mod vector;
 
+pub use choice::{Distrust, UnknownInstructionSet};
+pub use isa::InstructionSet;
 pub(crate) use isa::Task;
-pub use isa::{Distrust, InstructionSet, UnknownInstructionSet};
 pub(crate) use lanes::{Counters, LANES, Lanes, Mask, mul_add};
 pub(crate) use number::{Decision, Number};
 pub(crate) use vector::{Choice, Simd, Vector, Wide};

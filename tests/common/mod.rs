@@ -99,12 +99,7 @@ pub fn soon_over_the_spall(axial_load: f64) -> Scene {
 pub fn one_ball(squeeze: f64) -> Scene {
     let mut scene = presets::deep_groove_6205(1000.0, 0.0, 0.0);
     let fixed = Some(Mount::Fixed);
-    let held = Support {
-        x: fixed,
-        y: fixed,
-        z: fixed,
-        theta: None,
-    };
+    let held = Support::new([fixed, fixed, fixed, None]);
     scene.rows[0].ball_count = 1;
     scene.rows[0].start_angle = 0.0;
     scene.rows[0].clearance = -squeeze;

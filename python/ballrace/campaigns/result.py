@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .._parquet import collected
 from .._text import printable
 from ..scene import Scene
 from .cases import apply
@@ -136,7 +137,7 @@ class Campaign:
         if row.is_empty():
             raise KeyError(f"no case {case_id!r} with signals")
         shard = pl.scan_parquet(self._store.signals(row["signals"][0]), glob=False)
-        return shard.filter(pl.col("case_id") == case_id).drop("case_id").sort("t").collect()
+        return collected(shard.filter(pl.col("case_id") == case_id).drop("case_id").sort("t"))
 
     def scene(self, case_id: str) -> Scene:
         """Return the scene of a case.

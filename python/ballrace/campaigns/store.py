@@ -19,7 +19,6 @@ that its content has the hash it is named by; a campaign that goes on sets those
 from __future__ import annotations
 
 import hashlib
-import io
 import json
 import os
 import re
@@ -27,7 +26,7 @@ import uuid
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from .._parquet import read_bytes, read_sealed, seal
+from .._parquet import read_bytes, read_sealed, to_bytes
 from ..errors import CampaignError
 from .disk import put, sweep
 
@@ -161,19 +160,14 @@ class Store:
 
     def write(self, folder: str, frame: pl.DataFrame) -> str:
         """Write a shard and return its name."""
-        buffer = io.BytesIO()
-        frame.write_parquet(buffer)
-        data = buffer.getvalue()
+        data = to_bytes(frame)
         name = f"{hashlib.blake2b(data, digest_size=16).hexdigest()}.parquet"
         put(self.root, f"{folder}/{name}", data)
         return name
 
     def write_table(self, name: str, frame: pl.DataFrame) -> None:
         """Write or replace a table at the root."""
-        buffer = io.BytesIO()
-        frame.write_parquet(buffer)
-        seal(buffer)
-        put(self.root, name, buffer.getvalue())
+        put(self.root, name, to_bytes(frame, sealed=True))
 
     def read_table(self, name: str) -> pl.DataFrame:
         """Read a table at the root.

@@ -167,7 +167,7 @@ def run_here(
     try:
         _core.campaign(documents(), job.threads, job.sharing, job.features, job.keep_signals, done)
     except KeyboardInterrupt:
-        # Of one Ctrl-C polars tells as it writes, and then Python, in the midst of what follows.
+        # What has finished is written, even if Ctrl-C comes again.
         with suppress(KeyboardInterrupt):
             writer.flush()
         raise

@@ -2,6 +2,7 @@
 
 /// The line along which elements lie.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Cut {
     /// Slices of the ball's surface, each of which presses along its own normal by its penetration in the plane,
     /// s = σ (d − R(z)) + ρ (model section 3). The line is the chord that ball and groove have in common.

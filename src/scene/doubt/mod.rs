@@ -22,6 +22,7 @@ pub const STATIC_PRESSURE: f64 = 4.2e9;
 
 /// A value that no bearing is likely to have.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Doubt {
     /// Path of the field, such as `rows[0].ball_diameter`, or what follows from the scene, such as `contact pressure`.
     pub path: String,

@@ -8,6 +8,23 @@ use crate::scene::{Mount, RingName, Row, Scene, Support};
 use crate::told;
 
 pub(super) fn row(path: &str, row: &Row) -> Result<()> {
+    circle_of_balls(path, row)?;
+    angles_and_places(path, row)?;
+    deviations(path, row)?;
+    let at = |field: &str| format!("{path}.{field}");
+    for (field, value) in [
+        ("ball_mass", row.ball_mass),
+        ("ball_inertia", row.ball_inertia),
+    ] {
+        if let Some(value) = value {
+            positive(&at(field), value)?;
+        }
+    }
+    support(&at("ball_support"), &row.ball_support)
+}
+
+/// Balls that fit on their pitch circle.
+fn circle_of_balls(path: &str, row: &Row) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     if !(1..=1000).contains(&row.ball_count) {
         return Err(Error::scene(at("ball_count"), row.ball_count, "1 to 1000"));
@@ -35,6 +52,12 @@ pub(super) fn row(path: &str, row: &Row) -> Result<()> {
             ),
         ));
     }
+    Ok(())
+}
+
+/// Grooves and where they stand.
+fn angles_and_places(path: &str, row: &Row) -> Result<()> {
+    let at = |field: &str| format!("{path}.{field}");
     for (field, f) in [
         ("outer_conformity", row.outer_conformity),
         ("inner_conformity", row.inner_conformity),
@@ -55,6 +78,7 @@ pub(super) fn row(path: &str, row: &Row) -> Result<()> {
     if row.side != 1 && row.side != -1 {
         return Err(Error::scene(at("side"), row.side, "+1 or -1"));
     }
+    let d = row.ball_diameter;
     within(&at("axial_position"), row.axial_position, -100.0..=100.0)?;
     within(&at("clearance"), row.clearance, -d / 10.0..=d / 2.0)?;
     within(&at("axial_preload"), row.axial_preload, -d / 2.0..=d / 2.0)?;
@@ -73,6 +97,12 @@ pub(super) fn row(path: &str, row: &Row) -> Result<()> {
             }
         }
     }
+    Ok(())
+}
+
+/// What races and balls have that is not as drawn.
+fn deviations(path: &str, row: &Row) -> Result<()> {
+    let d = row.ball_diameter;
     for (field, waves) in [
         ("outer_waviness", &row.outer_waviness),
         ("inner_waviness", &row.inner_waviness),
@@ -86,7 +116,7 @@ pub(super) fn row(path: &str, row: &Row) -> Result<()> {
     }
     if !row.diameter_errors.is_empty() && row.diameter_errors.len() != row.ball_count {
         return Err(Error::scene(
-            at("diameter_errors"),
+            format!("{path}.diameter_errors"),
             format!("{} values", row.diameter_errors.len()),
             format!("none, or one for each of the {} balls", row.ball_count),
         ));
@@ -100,15 +130,7 @@ pub(super) fn row(path: &str, row: &Row) -> Result<()> {
             -d / 10.0..=largest,
         )?;
     }
-    for (field, value) in [
-        ("ball_mass", row.ball_mass),
-        ("ball_inertia", row.ball_inertia),
-    ] {
-        if let Some(value) = value {
-            positive(&at(field), value)?;
-        }
-    }
-    support(&at("ball_support"), &row.ball_support)
+    Ok(())
 }
 
 pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {

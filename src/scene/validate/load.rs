@@ -47,6 +47,10 @@ pub(super) fn loads(scene: &Scene) -> Result<()> {
         }
         time_function(&format!("loads.{name}.force"), &load.force, 1e12)?;
     }
+    unbalances(scene)
+}
+
+fn unbalances(scene: &Scene) -> Result<()> {
     for (name, unbalance) in &scene.unbalances {
         entry_name("unbalances", name)?;
         within(

@@ -4,22 +4,16 @@ use super::check::within;
 use crate::error::{Error, Result};
 use crate::scene::{Probe, Scene};
 
+fn known_body(scene: &Scene, path: &str, body: &str) -> Result<()> {
+    let known = "`outer`, `inner` or a ball of a row such as `row0.ball3`";
+    let unknown = || Error::scene(format!("{path}.body"), body, known);
+    scene.body_index(body).map(|_| ()).ok_or_else(unknown)
+}
+
 pub(super) fn probe(scene: &Scene, path: &str, probe: &Probe) -> Result<()> {
     match probe {
-        Probe::Motion { body, .. } | Probe::Forces { body } => {
-            scene.body_index(body).map(|_| ()).ok_or_else(|| {
-                let kind = if matches!(probe, Probe::Motion { .. }) {
-                    "motion"
-                } else {
-                    "forces"
-                };
-                Error::scene(
-                    format!("{path}.{kind}.body"),
-                    body,
-                    "`outer`, `inner` or a ball of a row such as `row0.ball3`",
-                )
-            })
-        }
+        Probe::Motion { body, .. } => known_body(scene, &format!("{path}.motion"), body),
+        Probe::Forces { body } => known_body(scene, &format!("{path}.forces"), body),
         Probe::Cage { row } => scene.row_index(&format!("{path}.cage"), *row).map(|_| ()),
         Probe::Energy {} | Probe::Torque {} => Ok(()),
         Probe::Contacts { row, balls, .. } => {

@@ -36,6 +36,7 @@ pub(in crate::contact) trait ForLaw {
 
 /// An elastic law.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Elastic {
     /// The paper's law.
     Iso16281(Iso16281),

@@ -88,6 +88,7 @@ impl<T: Number> Sliding<T> {
 /// assert!((law.at(4.0) - 0.02).abs() < 1e-17);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Traction {
     /// A constant coefficient.
     Coulomb(Coulomb),
@@ -148,21 +149,8 @@ impl Traction {
     pub(in crate::contact) fn factor<T: Number>(&self, element: &Sliding<T>) -> T {
         match self {
             Self::Coulomb(law) => law.factor(element),
-            Self::Stribeck(_) | Self::Curve(_) => {
-                // A copy, so that the element itself need not be in memory where Coulomb's law reads it.
-                let apart = *element;
-                self.with_exponentials(&apart)
-            }
-        }
-    }
-
-    /// Exponentials have no vector instructions; apart, so that they do not spoil the loop of the others.
-    #[inline(never)]
-    fn with_exponentials<T: Number>(&self, element: &Sliding<T>) -> T {
-        match self {
-            Self::Coulomb(law) => law.factor(element),
-            Self::Stribeck(law) => law.factor(element),
-            Self::Curve(law) => law.factor(element),
+            Self::Stribeck(law) => apart(element, |element| law.factor(element)),
+            Self::Curve(law) => apart(element, |element| law.factor(element)),
         }
     }
 
@@ -211,6 +199,18 @@ impl Traction {
             radii: [1.0; 2],
         })
     }
+}
+
+/// A law with exponentials, which have no vector instructions: apart, so that they do not spoil the loop of the others.
+#[inline(always)]
+fn apart<T: Number>(element: &Sliding<T>, law: impl Fn(&Sliding<T>) -> T) -> T {
+    #[inline(never)]
+    fn call<T>(element: &Sliding<T>, law: impl Fn(&Sliding<T>) -> T) -> T {
+        law(element)
+    }
+    // A copy, so that the element itself need not be in memory where Coulomb's law reads it.
+    let copy = *element;
+    call(&copy, law)
 }
 
 /// 1/√(u² + v_s²): what makes friction smooth at rest.

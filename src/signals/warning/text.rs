@@ -1,0 +1,139 @@
+//! Warnings in words: what was found, and what to do about it.
+
+use std::fmt::{Display, Formatter, Result};
+
+use super::Warning;
+use crate::simd::Distrust;
+use crate::told::duration;
+
+impl Display for Warning {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Self::Accelerations {
+                residual,
+                stiff_share,
+                rtol,
+                fixed_step,
+            } => match fixed_step {
+                None => accelerations(f, *residual, *stiff_share, *rtol),
+                Some(step) => accelerations_of_fixed_steps(f, *residual, *step),
+            },
+            Self::FixedStep { step, limit } => fixed_step(f, *step, *limit),
+            Self::Shoulders { contacts, steps } => shoulders(f, *contacts, *steps),
+            Self::Instructions(distrust) => instructions(f, distrust),
+            Self::SamplingRate { fs, defect, line } => sampling_rate(f, *fs, defect, *line),
+            Self::Doubtful(doubt) => doubt.fmt(f),
+            Self::Untouched {
+                defect,
+                passes,
+                axial_offset,
+                contact_offset,
+            } => match contact_offset {
+                Some(place) => beside(f, defect, *passes, [*place, *axial_offset]),
+                None => unloaded(f, defect, *passes),
+            },
+            Self::Unpassed { defect, duration } => unpassed(f, defect, *duration),
+            Self::FreeOrbit { slowed } => free_orbit(f, *slowed),
+        }
+    }
+}
+
+fn accelerations(f: &mut Formatter<'_>, residual: f64, stiff_share: f64, rtol: f64) -> Result {
+    write!(
+        f,
+        "accelerations are uncertain by about {:.0} %: they differ that much from the derivative of the \
+         velocities; {:.0} % of the steps stood at the stability limit (rtol = {rtol:e}). Use a smaller \
+         rtol, keep solver.frequency_cap on, or raise the friction's slip_speed",
+        100.0 * residual,
+        100.0 * stiff_share
+    )
+}
+
+fn accelerations_of_fixed_steps(f: &mut Formatter<'_>, residual: f64, step: f64) -> Result {
+    write!(
+        f,
+        "accelerations are uncertain by about {:.0} %: they differ that much from the derivative of the \
+         velocities. Use a max_step smaller than {}, or raise the friction's slip_speed",
+        100.0 * residual,
+        duration(step)
+    )
+}
+
+fn fixed_step(f: &mut Formatter<'_>, step: f64, limit: f64) -> Result {
+    write!(
+        f,
+        "a fixed step of {} is longer than the {} by which the method is stable and \
+         accurate in this scene. Use a smaller max_step, or keep solver.frequency_cap on",
+        duration(step),
+        duration(limit)
+    )
+}
+
+fn shoulders(f: &mut Formatter<'_>, contacts: usize, steps: usize) -> Result {
+    write!(
+        f,
+        "contacts rode over a shoulder {contacts} times in {steps} steps: the part beyond it carries \
+         nothing, and the pressure at the edge is not modelled. Lower the axial load, raise the \
+         shoulders, or look at the truncated contacts"
+    )
+}
+
+fn instructions(f: &mut Formatter<'_>, distrust: &Distrust) -> Result {
+    let Distrust {
+        instructions,
+        primitive,
+        used,
+    } = distrust;
+    write!(
+        f,
+        "this processor offers the instruction set {instructions}, but its `{primitive}` gives wrong \
+         results; the run used {used}. Please report it, with the processor's name"
+    )
+}
+
+fn sampling_rate(f: &mut Formatter<'_>, fs: f64, defect: &str, line: f64) -> Result {
+    write!(
+        f,
+        "fs = {fs} Hz shows nothing of defects.{defect}: its line, at {line:.1} Hz, lies above fs/2. Use an \
+         fs well above {:.0} Hz",
+        2.0 * line
+    )
+}
+
+/// A defect that lies where no contact runs: the axial places of contacts and of its middle \[m\].
+fn beside(f: &mut Formatter<'_>, defect: &str, passes: usize, places: [f64; 2]) -> Result {
+    let [contact, middle] = places.map(|place| 1e3 * place);
+    write!(
+        f,
+        "defect {defect:?} was never touched: balls passed it {passes} times, but contacts ran at \
+         {contact:.3} mm and its middle lies at {middle:.3} mm (axial_offset); give \"contact\" to place it where \
+         they run at equilibrium, or a greater length"
+    )
+}
+
+/// A defect that balls passed without load.
+fn unloaded(f: &mut Formatter<'_>, defect: &str, passes: usize) -> Result {
+    write!(
+        f,
+        "defect {defect:?} was never touched: balls passed it {passes} times, but none was loaded there; \
+         move it by its angle, or change the loads"
+    )
+}
+
+fn unpassed(f: &mut Formatter<'_>, defect: &str, duration: f64) -> Result {
+    write!(
+        f,
+        "no ball passed defect {defect:?} in {duration} s: the signals show nothing of it; simulate for \
+         longer, or move it by its angle"
+    )
+}
+
+fn free_orbit(f: &mut Formatter<'_>, slowed: f64) -> Result {
+    write!(
+        f,
+        "nothing drives the balls along their orbit, since contacts have no friction: they lost {:.1} % of its rate, \
+         and fault frequencies moved with them. Give the scene a friction, or approximations.rolling, which keeps the \
+         orbit kinematic",
+        100.0 * slowed
+    )
+}

@@ -1,0 +1,122 @@
+//! The crate as a stranger uses it: nothing but `ballrace`, no preset, no progress callback.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+use ballrace::scene::{
+    Cage, Defect, Drive, Friction, Load, Mount, Row, Scene, Support, Surface, Unbalance, Waviness,
+};
+use ballrace::scene::{Probe, RingName};
+use ballrace::{
+    Case, Error, FeatureOptions, Race, Run, Start, campaign, compile, dynamics, equilibrium,
+    explain, inspect, load_distribution, simulate, start, stiffness,
+};
+
+/// Every part of a scene, by constructors and fields.
+fn bearing() -> Scene {
+    let mut row = Row::new(8, 8e-3, 40e-3, 0.52, 0.52);
+    row.clearance = 8e-6;
+    row.outer_waviness = vec![Waviness::new(9, 0.1e-6, 0.0)];
+    let mut scene = Scene::new(vec![row], Drive::Speed(150.0.into()));
+    scene.name = "a stranger's".to_owned();
+    let spring = Some(Mount::Spring {
+        stiffness: 1e8,
+        damping: 300.0,
+    });
+    scene.outer_ring.mass = Some(0.2);
+    scene.outer_ring.support = Support::new([spring, spring, spring, None]);
+    scene.inner_ring.mass = Some(1.0);
+    scene.inner_ring.support.x = Some(Mount::Spring {
+        stiffness: 0.0,
+        damping: 300.0,
+    });
+    scene.friction = Friction::Coulomb {
+        coefficient: 0.05,
+        slip_speed: 0.1,
+    };
+    scene.cage = Some(Cage::new(1e6, 20.0, 0.1e-3));
+    let down = Load::new(RingName::Inner, [0.0, -1.0, 0.0], 800.0);
+    let axial = Load::new(RingName::Inner, [0.0, 0.0, 1.0], 200.0);
+    scene.loads = BTreeMap::from([("down".to_owned(), down), ("axial".to_owned(), axial)]);
+    let unbalance = Unbalance::new(RingName::Inner, 1e-5, 0.0);
+    scene.unbalances.insert("shaft".to_owned(), unbalance);
+    let spall = Defect::new(Surface::OuterRace, -1.4, 1e-3, 0.5e-3, 0.2e-3);
+    scene.defects.insert("spall".to_owned(), spall);
+    let motion = Probe::Motion {
+        body: "outer".to_owned(),
+        components: None,
+    };
+    scene.probes.insert("outer".to_owned(), motion);
+    scene
+}
+
+fn short() -> Run {
+    Run {
+        duration: 1e-3,
+        ..Run::default()
+    }
+}
+
+#[test]
+fn a_scene_built_by_constructors_runs() {
+    let scene = bearing();
+    assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene);
+    let out = simulate(&scene, &short()).unwrap();
+    let ay = out.get("outer.ay").unwrap();
+    assert_eq!(ay.len(), 50);
+    assert!(ay.iter().all(|a| a.is_finite()) && ay.iter().any(|a| *a != 0.0));
+}
+
+/// Limit: at equilibrium the contacts of the outer ring carry the loads.
+#[test]
+fn contacts_are_read_from_a_state() {
+    let mut scene = bearing();
+    scene.defects.clear();
+    let model = compile(&scene).unwrap();
+    let y = start(&model, &Start::Equilibrium).unwrap();
+    let axial: f64 = (0..8)
+        .map(|ball| inspect::contact(&model, &y, ball, Race::Outer))
+        .filter(|contact| contact.load > 0.0)
+        .map(|contact| contact.load * contact.angle.sin())
+        .sum();
+    assert!((axial.abs() - 200.0).abs() < 2.0, "{axial}");
+    let mut dy = vec![0.0; model.dim()];
+    dynamics::rhs(&model, 0.0, &y, &mut dy);
+    assert!(dy.iter().all(|rate| rate.is_finite()));
+    let forces = dynamics::contributions(&model, 0.0, &y);
+    assert!(forces.iter().any(|(name, _)| *name == "contact"));
+}
+
+#[test]
+fn statics_and_costs_are_told() {
+    let scene = bearing();
+    let found = equilibrium(&scene).unwrap();
+    assert_eq!(found.balls.len(), 8);
+    assert!(found.inner[1] < 0.0 && found.largest_pressure() > 0.0);
+    assert_eq!(stiffness(&scene).unwrap().rings.len(), 6);
+    assert_eq!(load_distribution(&scene, 3).unwrap().equilibria.len(), 3);
+    assert!(!explain(&scene).unwrap().to_string().is_empty());
+}
+
+/// One error for bad input, which names the field.
+#[test]
+fn a_campaign_keeps_its_failures() {
+    let mut broken = bearing();
+    broken.rows[0].ball_diameter = -1.0;
+    let cases = [bearing(), broken].map(|scene| Case {
+        scene,
+        run: short(),
+    });
+    let mut done = 0;
+    let outcomes = campaign(cases, 2, &FeatureOptions::default(), &mut |count| {
+        done = count;
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    assert_eq!((outcomes.len(), done), (2, 2));
+    assert!(outcomes[0].result.is_ok());
+    match &outcomes[1].result {
+        Err(Error::Scene { path, .. }) => assert_eq!(path, "rows[0].ball_diameter"),
+        other => panic!("{other:?}"),
+    }
+}
