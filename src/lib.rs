@@ -29,7 +29,8 @@
 //! * [`simd`] — eight numbers at once, or a register full, compiled for three instruction sets.
 //! * [`scene`] — what a user says: names, numbers, defaults; a serde document that is only validated.
 //! * [`contact`] — one ball on one race: race profiles, elastic, damping and traction laws, quadrature, fault circles, and the
-//!   kernel, the one coding of an element's force, with its drivers. Numbers in, numbers out; no indices, no state.
+//!   kernel, the one coding of an element's force, with its drivers; `contact/frames.rs` leads from the scene's frame to a
+//!   ring's and the cage's. Numbers in, numbers out; no indices, no state.
 //! * `model` ([`Model`]) — the scene compiled: bodies, races and directions ([`BodyId`], [`Race`], [`Dof`]) with the one
 //!   place that turns them into offsets ([`Layout`]), arrays, scales. Never changed by a run.
 //! * `forces` — cage, supports, gravity, loads, unbalance, drive: one file each, with force, energy or power, rate for step
