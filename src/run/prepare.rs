@@ -6,12 +6,11 @@ use std::ops::ControlFlow;
 use super::Run;
 use super::accuracy;
 use super::settle::{self, Settled};
-use super::simulate::simulate_with_progress;
 use crate::equilibrium::{Placed, place};
 use crate::error::Result;
 use crate::memory;
 use crate::scene::Scene;
-use crate::signals::{Accuracy, Bandwidth, Demand};
+use crate::signals::{Accuracy, Bandwidth, Demand, Signals};
 use crate::start::Start;
 
 /// A scene as it will run.
@@ -24,11 +23,15 @@ pub(super) struct Prepared {
     pub accuracy: Option<Accuracy>,
 }
 
+/// How pilot runs are simulated.
+type Simulate = fn(&Scene, &Run, &mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Signals>;
+
 /// Prepares a run, whose record stays or leaves in blocks.
 pub(super) fn prepare(
     scene: &Scene,
     run: &Run,
     in_blocks: bool,
+    simulate: Simulate,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Prepared> {
     let (scene, placed) = place(scene)?;
@@ -42,7 +45,8 @@ pub(super) fn prepare(
     check_memory(&scene, run, (run.samples()?, 1), in_blocks)?;
     let settled = settle::settle(&scene, run, progress)?;
     let accuracy = run.accuracy.map(|requested| {
-        let pilot = &mut |scene: &Scene, from: &Start| pilot(scene, from, run, progress);
+        let pilot =
+            &mut |scene: &Scene, from: &Start| pilot((scene, from), run, simulate, progress);
         accuracy::choose(requested, &mut scene, &settled.from, pilot)
     });
     Ok(Prepared {
@@ -55,9 +59,9 @@ pub(super) fn prepare(
 
 /// The first milliseconds of a run: samples of its first column, and the evaluations.
 fn pilot(
-    scene: &Scene,
-    from: &Start,
+    (scene, from): (&Scene, &Start),
     run: &Run,
+    simulate: Simulate,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<(Vec<f64>, usize)> {
     let first = Run {
@@ -71,7 +75,7 @@ fn pilot(
         time_limit: None,
         ..run.clone()
     };
-    let mut out = simulate_with_progress(scene, &first, &mut |_| progress(0.0))?;
+    let mut out = simulate(scene, &first, &mut |_| progress(0.0))?;
     Ok((out.columns.remove(0).values, out.stats.nfev))
 }
 

@@ -115,7 +115,7 @@ fn unlimited(
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Signals> {
     let in_blocks = sink.is_some();
-    let prepared = prepare(scene, run, in_blocks, progress)?;
+    let prepared = prepare(scene, run, in_blocks, simulate_with_progress, progress)?;
     let Prepared { scene, settled, .. } = &prepared;
     let (model, distrust) = selftest::trusted(compile(scene)?);
     let y0 = start(&model, &settled.from)?;

@@ -122,6 +122,57 @@ pub enum Friction {
     },
 }
 
+/// A friction law as checks see it: its numbers by the names of their fields.
+pub(super) struct FrictionNumbers {
+    /// Name in a document.
+    pub law: &'static str,
+    /// All but the slip speed.
+    pub fields: Vec<(&'static str, f64)>,
+    /// Slip speed v_s \[m/s\].
+    pub slip_speed: f64,
+}
+
+impl Friction {
+    /// The numbers of the law; none without friction.
+    pub(super) fn numbers(&self) -> Option<FrictionNumbers> {
+        let (law, fields, slip_speed) = match *self {
+            Self::None => return None,
+            Self::Coulomb {
+                coefficient,
+                slip_speed,
+            } => ("coulomb", vec![("coefficient", coefficient)], slip_speed),
+            Self::Stribeck {
+                static_coefficient,
+                kinetic_coefficient,
+                stribeck_speed,
+                slip_speed,
+            } => {
+                let fields = vec![
+                    ("stribeck_speed", stribeck_speed),
+                    ("static_coefficient", static_coefficient),
+                    ("kinetic_coefficient", kinetic_coefficient),
+                ];
+                ("stribeck", fields, slip_speed)
+            }
+            Self::Traction {
+                a,
+                b,
+                c,
+                d,
+                slip_speed,
+            } => {
+                let fields = vec![("a", a), ("b", b), ("c", c), ("d", d)];
+                ("traction", fields, slip_speed)
+            }
+        };
+        Some(FrictionNumbers {
+            law,
+            fields,
+            slip_speed,
+        })
+    }
+}
+
 /// Springs that keep the centres of neighbouring balls of a row at their distance (model section 6).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -59,44 +59,22 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
 }
 
 fn friction(path: &str, friction: &Friction, found: &mut Vec<Doubt>) {
-    let (law, coefficients, slip_speed) = match *friction {
-        Friction::None => return,
-        Friction::Coulomb {
-            coefficient,
-            slip_speed,
-        } => ("coulomb", vec![("coefficient", coefficient)], slip_speed),
-        Friction::Stribeck {
-            static_coefficient,
-            kinetic_coefficient,
-            slip_speed,
-            ..
-        } => (
-            "stribeck",
-            vec![
-                ("static_coefficient", static_coefficient),
-                ("kinetic_coefficient", kinetic_coefficient),
-            ],
-            slip_speed,
-        ),
-        Friction::Traction {
-            a,
-            b,
-            c,
-            d,
-            slip_speed,
-        } => {
-            // Its only stationary point.
-            let slip = if b == 0.0 || c == 0.0 {
-                0.0
-            } else {
-                (1.0 / c - a / b).max(0.0)
-            };
-            let peak = ((a + b * slip) * (-c * slip).exp() + d).max(a + d).max(d);
-            ("traction", vec![("largest coefficient", peak)], slip_speed)
-        }
+    let Some(mut numbers) = friction.numbers() else {
+        return;
     };
-    for (field, value) in coefficients {
-        if value > FRICTION {
+    if let Friction::Traction { a, b, c, d, .. } = *friction {
+        // Its only stationary point.
+        let slip = if b == 0.0 || c == 0.0 {
+            0.0
+        } else {
+            (1.0 / c - a / b).max(0.0)
+        };
+        let peak = ((a + b * slip) * (-c * slip).exp() + d).max(a + d).max(d);
+        numbers.fields.push(("largest coefficient", peak));
+    }
+    let law = numbers.law;
+    for (field, value) in numbers.fields {
+        if field.ends_with("coefficient") && value > FRICTION {
             let usual = "rolling bearings have 0.001 to 0.2, dry steel less than 1";
             found.push(Doubt::new(
                 format!("{path}.{law}.{field}"),
@@ -105,9 +83,9 @@ fn friction(path: &str, friction: &Friction, found: &mut Vec<Doubt>) {
             ));
         }
     }
-    if slip_speed > SLIP {
+    if numbers.slip_speed > SLIP {
         let usual = "below it friction fades, so that rolling balls would have none; speeds are in metres a second";
-        let value = format!("{} m/s", number(slip_speed));
+        let value = format!("{} m/s", number(numbers.slip_speed));
         found.push(Doubt::new(format!("{path}.{law}.slip_speed"), value, usual));
     }
 }

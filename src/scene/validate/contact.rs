@@ -56,69 +56,48 @@ pub(super) fn contact(path: &str, contact: &Contact) -> Result<()> {
 }
 
 pub(super) fn friction(path: &str, friction: &Friction) -> Result<()> {
-    let check = |law: &str, fields: &[(&str, f64)], slip_speed: f64| {
-        for (field, value) in fields {
-            within(&format!("{path}.{law}.{field}"), *value, 0.0..=1e6)?;
-        }
-        within(&format!("{path}.{law}.slip_speed"), slip_speed, 1e-9..=1e3)
+    let Some(numbers) = friction.numbers() else {
+        return Ok(());
     };
-    match *friction {
-        Friction::None => Ok(()),
-        Friction::Coulomb {
-            coefficient,
-            slip_speed,
-        } => check("coulomb", &[("coefficient", coefficient)], slip_speed),
-        Friction::Stribeck {
-            static_coefficient,
-            kinetic_coefficient,
-            stribeck_speed,
-            slip_speed,
-        } => {
-            positive(&format!("{path}.stribeck.stribeck_speed"), stribeck_speed)?;
-            check(
-                "stribeck",
-                &[
-                    ("static_coefficient", static_coefficient),
-                    ("kinetic_coefficient", kinetic_coefficient),
-                ],
-                slip_speed,
-            )
-        }
-        Friction::Traction {
-            a,
-            b,
-            c,
-            d,
-            slip_speed,
-        } => {
-            for (field, value) in [("a", a), ("b", b)] {
-                within(&format!("{path}.traction.{field}"), value, -1e6..=1e6)?;
-            }
-            check("traction", &[("c", c), ("d", d)], slip_speed)?;
-            // Dissipation must not be negative: μ(u) ≥ 0 at its ends and at its only stationary point.
-            let least = if b == 0.0 || c == 0.0 {
-                0.0
-            } else {
-                (1.0 / c - a / b).max(0.0)
-            };
-            for u in [0.0, least] {
-                let mu = (a + b * u) * (-c * u).exp() + d;
-                if mu < 0.0 {
-                    return Err(Error::scene(
-                        format!("{path}.traction"),
-                        format!("μ({u} m/s) = {mu}"),
-                        "coefficients with μ ≥ 0 at every slip",
-                    ));
-                }
-            }
-            if c == 0.0 && b < 0.0 {
-                return Err(Error::scene(
-                    format!("{path}.traction.b"),
-                    b,
-                    "at least 0 when c is 0",
-                ));
-            }
-            Ok(())
+    let at = |field: &str| format!("{path}.{}.{field}", numbers.law);
+    for (field, value) in &numbers.fields {
+        match *field {
+            "stribeck_speed" => positive(&at(field), *value)?,
+            // A traction curve may begin at or fall to less than nothing, if another part makes up for it.
+            "a" | "b" => within(&at(field), *value, -1e6..=1e6)?,
+            _ => within(&at(field), *value, 0.0..=1e6)?,
         }
     }
+    within(&at("slip_speed"), numbers.slip_speed, 1e-9..=1e3)?;
+    match *friction {
+        Friction::Traction { a, b, c, d, .. } => traction(path, [a, b, c, d]),
+        _ => Ok(()),
+    }
+}
+
+/// Dissipation must not be negative: μ(u) ≥ 0 at its ends and at its only stationary point.
+fn traction(path: &str, [a, b, c, d]: [f64; 4]) -> Result<()> {
+    let least = if b == 0.0 || c == 0.0 {
+        0.0
+    } else {
+        (1.0 / c - a / b).max(0.0)
+    };
+    for u in [0.0, least] {
+        let mu = (a + b * u) * (-c * u).exp() + d;
+        if mu < 0.0 {
+            return Err(Error::scene(
+                format!("{path}.traction"),
+                format!("μ({u} m/s) = {mu}"),
+                "coefficients with μ ≥ 0 at every slip",
+            ));
+        }
+    }
+    if c == 0.0 && b < 0.0 {
+        return Err(Error::scene(
+            format!("{path}.traction.b"),
+            b,
+            "at least 0 when c is 0",
+        ));
+    }
+    Ok(())
 }
