@@ -18,7 +18,7 @@ fn bearing() -> Scene {
     row.clearance = 8e-6;
     row.outer_waviness = vec![Waviness::new(9, 0.1e-6, 0.0)];
     let mut scene = Scene::new(vec![row], Drive::Speed(150.0.into()));
-    scene.name = "a stranger's".to_owned();
+    scene.name = String::from("a stranger's");
     let spring = Some(Mount::Spring {
         stiffness: 1e8,
         damping: 300.0,
