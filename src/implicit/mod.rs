@@ -2,7 +2,7 @@
 //!
 //! Friction is the stiffest part of the model, and linearising it once a step is not enough: within a step
 //! slices go over from sticking to sliding. So the nodes of every contact are found once a stage
-//! ([`Stage`]), and their forces are iterated on velocities alone. The matrix is an arrow
+//! (`stage.rs`), and their forces are iterated on velocities alone. The matrix is an arrow
 //! (`arrow.rs`) of a 4×4 block a ball and 8×8 for the rings; cage links and supports are in the residual, not in
 //! the matrix: their damping is slow and converges by itself. A matrix serves as many stages and steps as
 //! corrections by it shrink fast, which at a steady roll are many.
