@@ -62,10 +62,10 @@
 //!
 //! | what | touch | prove |
 //! |---|---|---|
-//! | an elastic law | a file in `contact/laws/elastic/`, its variant in the `mod.rs` there, a variant in `scene/contact.rs` | doctest values, `tests/contact.rs` |
-//! | a traction law | a file in `contact/laws/traction/`, its variant in the `mod.rs` there, a variant in `scene/contact.rs` | dissipation ≥ 0, its slope |
+//! | an elastic law | a file in `contact/laws/elastic/`, its variant in the `mod.rs` there, a variant in `scene/contact.rs`; for Python `python/ballrace/scene/contact.py` | doctest values, `tests/contact.rs` |
+//! | a traction law | a file in `contact/laws/traction/`, its variant in the `mod.rs` there, a variant with its numbers in `scene/contact.rs`; for Python as above | dissipation ≥ 0, its slope |
 //! | a force | a file in `forces/`, its entry in `forces/mod.rs`, which names its contribution, a line in `Dynamics::add_applied_forces` | `tests/energy.rs`, power balance |
-//! | a direction of a body | `Dof` and `Layout` in `model/layout.rs`, mass and mount in `model/body.rs`, its force where it acts | `model/layout.rs`, momentum |
+//! | a direction of a body | `Dof` and `Layout` in `model/layout.rs`, mass and mount in `model/body.rs`; what carries the four numbers of a contact: `forces/state.rs`, `dynamics/sums.rs`, `dynamics/batch/`, `implicit/` | `model/layout.rs`, momentum |
 //! | what acts along z, or differs by row | `reduction/symmetry.rs`; what contacts share, `RowModel::is_like` | a hair of it in `tests/reduction.rs`, `tests/unlike_rows.rs` |
 //! | an approximation | `scene/approximations.rs`, grounds and a reason in `reduction/`, an offer in `explain/variants.rs` | `tests/approximations.rs`, a row in `benches/approximations.py` |
 //! | a race profile | `contact/profile/`; how it is cut, `contact/scalar/` and `contact/kernel.rs` | gap against a closed form |
