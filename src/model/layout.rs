@@ -154,6 +154,7 @@ impl BodyId {
 
 /// A direction in which a body moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Dof {
     /// Along x \[m\].
     X,

@@ -122,6 +122,15 @@ pub enum Friction {
     },
 }
 
+/// Slip \[m/s\] at the only stationary point of a traction curve (a + b u) exp(−c u) + d; 0 where it has none.
+pub(super) fn extreme_slip([a, b, c]: [f64; 3]) -> f64 {
+    if b == 0.0 || c == 0.0 {
+        0.0
+    } else {
+        (1.0 / c - a / b).max(0.0)
+    }
+}
+
 /// A friction law as checks see it: its numbers by the names of their fields.
 pub(super) struct FrictionNumbers {
     /// Name in a document.

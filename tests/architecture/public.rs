@@ -146,13 +146,13 @@ fn leaks_are_seen() {
     };
     for planted in [
         "pub fn f(at: V2) {\n}\n",
-        "pub const fn f() -> nalgebra::Point2<f64> {\n    todo!()\n}\n",
+        "pub const fn f() -> nalgebra::Point2<f64> {\n    loop {}\n}\n",
         "pub type Place = V2;\n",
         "pub struct S {\n    pub at: V2,\n}\n",
         "pub struct S(pub V2);\n",
         "pub enum E {\n    At(pulp::x86::V3),\n}\n",
         "pub trait T {\n    fn at(&self) -> Matrix2<f64>;\n}\n",
-        "impl Open {\n    pub fn at(&self) -> V2 {\n        todo!()\n    }\n}\n",
+        "impl Open {\n    pub fn at(&self) -> V2 {\n        loop {}\n    }\n}\n",
         "impl From<V2> for Open {\n    fn from(at: [f64; 2]) -> Self {\n        Self\n    }\n}\n",
     ] {
         assert_eq!(look(planted).len(), 1, "{planted}: {:?}", look(planted));
@@ -161,15 +161,15 @@ fn leaks_are_seen() {
         "pub struct S {\n    pub(crate) at: V2,\n    pub x: f64,\n}\n",
         "pub fn f() -> f64 {\n    V2::zeros().x\n}\n",
         "pub(crate) fn f(at: V2) {\n}\n",
-        "impl Hidden {\n    pub fn at(&self) -> V2 {\n        todo!()\n    }\n}\n",
-        "impl Open {\n    fn at(&self) -> V2 {\n        todo!()\n    }\n}\n",
+        "impl Hidden {\n    pub fn at(&self) -> V2 {\n        loop {}\n    }\n}\n",
+        "impl Open {\n    fn at(&self) -> V2 {\n        loop {}\n    }\n}\n",
     ] {
         assert!(look(allowed).is_empty(), "{allowed}: {:?}", look(allowed));
     }
 }
 
-/// Enums that are complete: nobody will name a third ring or a seventh degree of freedom without rewriting the model.
-const CLOSED: [&str; 5] = ["Race", "BodyKind", "Dof", "Degree", "Slices"];
+/// Enums that are complete: nobody will name a third ring without rewriting the model.
+const CLOSED: [&str; 4] = ["Race", "BodyKind", "Degree", "Slices"];
 
 /// Public structs and enums of scenes, and enums of all rooms, that a later version could not extend.
 fn frozen(sources: &[Source]) -> (Vec<String>, usize) {

@@ -79,6 +79,7 @@ impl Pair {
             r,
             apart,
             distance,
+            z: seen.z,
             n,
             on_ring,
             raise,
@@ -105,6 +106,8 @@ pub(super) struct Contact<'a> {
     /// From the ring's centre to the ball's.
     pub(super) apart: V2,
     pub(super) distance: f64,
+    /// Axial place of the ball in the ring's frame.
+    pub(super) z: f64,
     /// Its unit vector.
     pub(super) n: V2,
     /// Direction of the ball in the ring's frame.

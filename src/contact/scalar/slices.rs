@@ -166,7 +166,7 @@ impl Contact<'_> {
         &self,
         wanted: impl Fn(&Fault) -> bool + Clone,
     ) -> impl Iterator<Item = f64> + Clone {
-        let dz = self.b.z - self.r.z;
+        let dz = self.z;
         let faults = self.pair.faults.iter();
         faults
             .filter(move |fault| wanted(fault))
@@ -197,7 +197,7 @@ impl Contact<'_> {
     /// The zone in pieces between the ends of shoulders and of defects in reach.
     fn fitted<S: Sink>(&self, line: &Line, rules: &Rules, sink: &mut S) {
         let race = &self.pair.race;
-        let dz = self.b.z - self.r.z;
+        let dz = self.z;
         let shoulders = [race.centre + race.lowest, race.centre + race.highest];
         // Few, so the next one is found by looking at all.
         let cuts = shoulders
@@ -302,7 +302,7 @@ impl Contact<'_> {
         if square <= 0.0 {
             return None;
         }
-        let z = self.b.z - self.r.z + zeta;
+        let z = self.z + zeta;
         let race = &self.pair.race;
         let groove = race.groove(z)?;
         let rho = square.sqrt();

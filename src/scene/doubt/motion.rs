@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::{Doubt, angle, length, phase};
+use crate::scene::contact::extreme_slip;
 use crate::scene::{Drive, Friction, Scene};
 use crate::told::number;
 
@@ -63,12 +64,7 @@ fn friction(path: &str, friction: &Friction, found: &mut Vec<Doubt>) {
         return;
     };
     if let Friction::Traction { a, b, c, d, .. } = *friction {
-        // Its only stationary point.
-        let slip = if b == 0.0 || c == 0.0 {
-            0.0
-        } else {
-            (1.0 / c - a / b).max(0.0)
-        };
+        let slip = extreme_slip([a, b, c]);
         let peak = ((a + b * slip) * (-c * slip).exp() + d).max(a + d).max(d);
         numbers.fields.push(("largest coefficient", peak));
     }

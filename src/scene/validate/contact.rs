@@ -2,6 +2,7 @@
 
 use super::check::{positive, within};
 use crate::error::{Error, Result};
+use crate::scene::contact::extreme_slip;
 use crate::scene::{Contact, Friction, Material, Materials, NormalLaw, Row, Slices};
 
 pub(super) fn materials(materials: &Materials) -> Result<()> {
@@ -77,12 +78,7 @@ pub(super) fn friction(path: &str, friction: &Friction) -> Result<()> {
 
 /// Dissipation must not be negative: μ(u) ≥ 0 at its ends and at its only stationary point.
 fn traction(path: &str, [a, b, c, d]: [f64; 4]) -> Result<()> {
-    let least = if b == 0.0 || c == 0.0 {
-        0.0
-    } else {
-        (1.0 / c - a / b).max(0.0)
-    };
-    for u in [0.0, least] {
+    for u in [0.0, extreme_slip([a, b, c])] {
         let mu = (a + b * u) * (-c * u).exp() + d;
         if mu < 0.0 {
             return Err(Error::scene(

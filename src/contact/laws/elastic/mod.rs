@@ -119,7 +119,9 @@ impl Elastic {
 
     /// Elastic energy of an element \[J\]; its derivative is the force.
     pub fn energy(&self, depth: f64, length: f64) -> f64 {
-        let depth = depth.or_zero();
+        if depth <= 0.0 {
+            return 0.0;
+        }
         let per_length = match self {
             Self::Iso16281(law) => law.energy(depth),
             Self::Hertz(law) => law.energy(depth),
