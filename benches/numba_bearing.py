@@ -332,6 +332,10 @@ def refuse(document: dict[str, Any]) -> None:
             for k in (
                 "outer_shoulders",
                 "inner_shoulders",
+                "outer_profile",
+                "inner_profile",
+                "outer_arch",
+                "inner_arch",
                 "outer_waviness",
                 "inner_waviness",
                 "diameter_errors",

@@ -187,11 +187,11 @@ pub(crate) fn compiled(model: &Model, defect: &Defect) -> (Fault, f64) {
     );
     match defect.on {
         Surface::OuterRace => (
-            race_fault(defect, row, &pairs[Race::Outer].race),
+            race_fault(defect, row, &pairs[Race::Outer]),
             row.axial_position,
         ),
         Surface::InnerRace => (
-            race_fault(defect, row, &pairs[Race::Inner].race),
+            race_fault(defect, row, &pairs[Race::Inner]),
             row.axial_position,
         ),
         Surface::Ball => {
@@ -231,9 +231,10 @@ impl Watched {
         let diameter = model.scene().rows[defect.row].ball_diameter;
         let slices = slices(defect.length, diameter);
         let pairs = pairs.entry((defect.row, slices)).or_insert_with(|| {
-            Arc::new(row.pairs.each_ref().map(|pair| Pair {
-                slices: Slices::Fixed(slices),
-                ..pair.clone()
+            Arc::new(row.pairs.each_ref().map(|pair| {
+                let mut finer = pair.clone();
+                finer.change(|flank| flank.slices = Slices::Fixed(slices));
+                finer
             }))
         });
         Self {

@@ -1,6 +1,7 @@
 //! The laws of one contact against closed forms.
 
 use ballrace::compile;
+use ballrace::contact::Shape;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::{
     BallSide, Elastic, Law, Motion, Pair, Rules, Sink, Slices, Torus, Touch, Waves,
@@ -41,6 +42,7 @@ fn hertz_force(slices: Slices, approach: f64, angle: f64) -> (f64, Hertz) {
     };
     let pair = Pair {
         race,
+        shape: Shape::default(),
         waves: Waves::default(),
         law: Law::elastic(Elastic::Hertz(law)),
         slices,

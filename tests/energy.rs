@@ -9,11 +9,11 @@ use std::f64::consts::FRAC_PI_2;
 use ballrace::compile;
 use ballrace::dynamics::rhs;
 use ballrace::scene::{
-    Defect, Drive, Floor, Friction, Mount, NormalLaw, Probe, RingName, Scene, Slices, Surface,
-    Unbalance, Waviness, Width, WidthProfile, presets,
+    Defect, Drive, Floor, Friction, GothicArch, Mount, NormalLaw, Probe, RingName, Scene, Slices,
+    Surface, Unbalance, Waviness, Width, WidthProfile, presets,
 };
 use ballrace::{Error, Run, Start, equilibrium, start};
-use common::{run, short};
+use common::{run, short, through_points};
 
 const LAWS: [NormalLaw; 2] = [
     NormalLaw::Hertz,
@@ -104,7 +104,19 @@ fn scenes(law: &NormalLaw) -> Vec<(&'static str, Scene)> {
     let plain = |_: &mut Defect| {};
     let mut both = with_defect(law, Surface::OuterRace, plain);
     both.rows[0].outer_waviness = wave(30);
+    let points = |scene: &Scene| through_points(scene, 300);
     vec![
+        ("points", points(&coasting(law))),
+        (
+            "outer race of points",
+            points(&with_defect(law, Surface::OuterRace, plain)),
+        ),
+        (
+            "ball on points",
+            points(&with_defect(law, Surface::Ball, plain)),
+        ),
+        ("waves on points", points(&both)),
+        ("four points, outer race", four_points(law)),
         ("healthy", coasting(law)),
         ("outer race", with_defect(law, Surface::OuterRace, plain)),
         ("inner race", with_defect(law, Surface::InnerRace, plain)),
@@ -130,6 +142,18 @@ fn scenes(law: &NormalLaw) -> Vec<(&'static str, Scene)> {
         ("waves and a defect", both),
         ("two rows", two_rows(law)),
     ]
+}
+
+/// Both races gothic arches, and a defect on one.
+fn four_points(law: &NormalLaw) -> Scene {
+    let mut scene = coasting(law);
+    let arch = GothicArch::new(0.3);
+    let row = &mut scene.rows[0];
+    (row.outer_arch, row.inner_arch) = (Some(arch.clone()), Some(arch));
+    let mut spall = defect(&scene, Surface::OuterRace);
+    spall.length = 2e-3;
+    scene.defects.insert("spall".to_owned(), spall);
+    scene
 }
 
 /// Two rows that are not alike: other balls, another angle, a defect on one.

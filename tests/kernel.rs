@@ -13,7 +13,7 @@ use ballrace::inspect;
 use ballrace::scene::{Defect, Friction, NormalLaw, Scene, Slices, Surface, Waviness, presets};
 use ballrace::simd::InstructionSet;
 use ballrace::{Race, Start, start};
-use common::Noise;
+use common::{Noise, through_points};
 
 /// Largest difference of the two evaluations at random states around an equilibrium, over the sum of the contact
 /// loads on a body and 1 kN: the distance of two axes is known to 4e-18 m, which a contact of some 1e8 N/m turns
@@ -62,6 +62,13 @@ fn scenes() -> Vec<(String, Scene)> {
         }
     }
     let wheel = || presets::wheel_bearing(3000.0);
+    for slices in [Slices::Fitted(6), Slices::Fixed(70)] {
+        for law in [NormalLaw::iso16281(), NormalLaw::Hertz] {
+            let mut scene = through_points(&wheel(), 200);
+            (scene.contact.law, scene.contact.slices) = (law, slices);
+            scenes.push((format!("points, {slices:?}"), scene));
+        }
+    }
     let mut add = |name: &str, scene: Scene| scenes.push((name.to_owned(), scene));
     add("few balls", presets::deep_groove_6205(800.0, 200.0, 3000.0));
     let mut scene = wheel();
@@ -102,6 +109,11 @@ fn scenes() -> Vec<(String, Scene)> {
         row.outer_waviness = vec![Waviness::new(11, 2e-6, -0.3)];
     }
     add("defects everywhere on waves, Hertz", hertz.clone());
+    add("waves on points, Hertz", {
+        let mut points = through_points(&hertz, 200);
+        points.defects.clear();
+        points
+    });
     (hertz.friction, hertz.cage) = (Friction::None, None);
     hertz.defects.clear();
     add("waves without friction, Hertz", hertz);

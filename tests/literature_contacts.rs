@@ -17,6 +17,7 @@ mod common;
 
 use std::f64::consts::PI;
 
+use ballrace::contact::Shape;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::iso16281::Iso16281;
 use ballrace::contact::{
@@ -214,6 +215,7 @@ fn iso_pair(sigma: f64, d: f64, pitch: f64, conformity: f64) -> Pair {
             lowest: -r,
             highest: r,
         },
+        shape: Shape::default(),
         waves: Waves::default(),
         law: Law::elastic(Elastic::Iso16281(Iso16281::new(3.5948e10, 0.5, d))),
         slices: Slices::Fixed(20_001),

@@ -45,6 +45,8 @@ pub(super) struct Element<T> {
     pub load: T,
     /// In-plane and axial part of the normal force over its magnitude.
     pub share: (T, T),
+    /// What friction weighs over the normal force.
+    pub rubbing: T,
 }
 
 /// Takes the elements of a whole contact.
@@ -63,16 +65,18 @@ pub(super) fn zone<T: Number>(cut: &Cut, section: &Section<T>, half_curvature: T
 }
 
 /// Hands all elements of a whole contact to their receiver. `SYMMETRIC` says that the zone is, so that half of it stands
-/// for the whole.
+/// for the whole. `rubbing` is what friction weighs at fitted nodes, if not the same as the normal force.
 #[inline(always)]
 pub(super) fn elements<T: Number, const FMA: bool, const SYMMETRIC: bool>(
     law: &Law,
     slices: &Slices,
+    rubbing: Option<&[T]>,
     contact: &Whole<T>,
     to: &mut impl Receiver<T>,
 ) {
     law.elastic.choose(Elements::<_, _, FMA, SYMMETRIC> {
         slices,
+        rubbing,
         contact,
         to,
     });
@@ -81,6 +85,7 @@ pub(super) fn elements<T: Number, const FMA: bool, const SYMMETRIC: bool>(
 /// The elements of a contact, for one elastic law.
 struct Elements<'a, T, R, const FMA: bool, const SYMMETRIC: bool> {
     slices: &'a Slices,
+    rubbing: Option<&'a [T]>,
     contact: &'a Whole<T>,
     to: &'a mut R,
 }
@@ -92,21 +97,29 @@ impl<T: Number, R: Receiver<T>, const FMA: bool, const SYMMETRIC: bool> ForLaw
     fn run<L: Load>(self) {
         let Self {
             slices,
+            rubbing,
             contact,
             to,
         } = self;
         let (half, radius) = (contact.half, contact.section.radius);
         match slices {
             Slices::Fitted(rules) if L::FLAT => {
-                for (x, weight, times) in nodes::<SYMMETRIC>(rules) {
-                    let element = contact.on_tangent::<L, FMA>(half * x, half * weight);
+                for (k, (x, weight, times)) in nodes::<SYMMETRIC>(rules) {
+                    let mut element = contact.on_tangent::<L, FMA>(half * x, half * weight);
+                    if let Some(rubbing) = rubbing {
+                        element.rubbing = rubbing[k];
+                    }
                     to.element::<FMA, SYMMETRIC>(&element, times);
                 }
             }
             Slices::Fitted(rules) => {
                 let reach = half * contact.inverse;
-                for (x, weight, times) in nodes::<SYMMETRIC>(rules) {
-                    let element = contact.on_chord::<L, FMA, SYMMETRIC>(reach * x, half * weight);
+                for (k, (x, weight, times)) in nodes::<SYMMETRIC>(rules) {
+                    let mut element =
+                        contact.on_chord::<L, FMA, SYMMETRIC>(reach * x, half * weight);
+                    if let Some(rubbing) = rubbing {
+                        element.rubbing = rubbing[k];
+                    }
                     to.element::<FMA, SYMMETRIC>(&element, times);
                 }
             }
@@ -145,6 +158,7 @@ pub(super) fn as_one<T: Number>(contact: &Whole<T>, stiffness: f64) -> Element<T
         length: one,
         load: pressed * pressed.sqrt() * stiffness,
         share: contact.section.normal,
+        rubbing: one,
     }
 }
 
@@ -198,6 +212,7 @@ impl<T: Number> Whole<T> {
             length: width,
             load: L::load::<T, FMA>(self.strength, depth),
             share: (sin.same(1.0), tan),
+            rubbing: sin.same(1.0),
         }
     }
 
@@ -216,12 +231,13 @@ impl<T: Number> Whole<T> {
             length,
             load: L::load::<T, FMA>(self.strength, depth),
             share: self.section.normal,
+            rubbing: u.same(1.0),
         }
     }
 
     /// ζ/R in the middle of all fixed slices that may lie in any of the zones, and how many each stands for.
     #[inline(always)]
-    fn fixed_sines<const SYMMETRIC: bool>(
+    pub(super) fn fixed_sines<const SYMMETRIC: bool>(
         &self,
         count: usize,
     ) -> impl Iterator<Item = (f64, u32)> + use<T, SYMMETRIC> {
@@ -247,9 +263,11 @@ impl<T: Number> Whole<T> {
     }
 }
 
-/// The nodes of a whole zone with what they weigh and how many they stand for: in the plane those of one half, twice.
+/// The nodes of a whole zone by number, with what they weigh and how many they stand for: in the plane those of one half, twice.
 #[inline(always)]
-fn nodes<const SYMMETRIC: bool>(rules: &Rules) -> impl Iterator<Item = (f64, f64, u32)> + '_ {
+fn nodes<const SYMMETRIC: bool>(
+    rules: &Rules,
+) -> impl Iterator<Item = (usize, (f64, f64, u32))> + '_ {
     let rule = rules.on([true; 2]);
     let first = if SYMMETRIC { rule.len() / 2 } else { 0 };
     let alone = if SYMMETRIC {
@@ -259,7 +277,7 @@ fn nodes<const SYMMETRIC: bool>(rules: &Rules) -> impl Iterator<Item = (f64, f64
     };
     rule[first..].iter().enumerate().map(move |(k, (x, w))| {
         let times = if k < alone { 1 } else { 2 };
-        (*x, w * f64::from(times), times)
+        (first + k, (*x, w * f64::from(times), times))
     })
 }
 
@@ -270,6 +288,8 @@ pub(super) struct State<T> {
     pub elastic: T,
     /// In-plane and axial part of the normal force over its magnitude.
     pub share: (T, T),
+    /// What friction weighs over it.
+    pub rubbing: T,
     /// sin α and cos α: the meridional direction of slip is −sin α n_e + cos α ẑ.
     pub slope: (T, T),
     /// Velocity of the ball's surface against the ring's along n_e, t_e and z \[m/s\].
@@ -338,9 +358,11 @@ pub(super) fn force<T: Number, const FMA: bool, const SYMMETRIC: bool, const BEN
         let sliding = of.sliding(approach, v_t.mul_add::<FMA>(v_t, u_m * u_m));
         if BEND {
             (factor, bend) = traction.factor_and_bend(&sliding);
+            bend = bend * of.rubbing;
         } else {
             factor = traction.factor(&sliding);
         }
+        factor = factor * of.rubbing;
         let drag = factor * pressed;
         let meridional = drag * u_m;
         friction = [meridional * sin, -(drag * v_t), -(meridional * cos)];

@@ -2,8 +2,8 @@
 //!
 //! `profile` has the races and the zone where a ball touches one (model sections 2 and 3), `laws` what an element of
 //! the zone bears (sections 4 and 5), `quadrature` where the elements lie (section 10), `kernel` puts these together:
-//! the force of an element, and the elements of a whole contact. `frames` says where a ball is as its ring sees it.
-//! The drivers:
+//! the force of an element, and the elements of a whole contact; `frames` says where a ball is as its ring sees it, `slip` how
+//! ball and race slide on each other along a zone, from which `quadrature` has what friction weighs there. The kernel's drivers:
 //!
 //! * `scalar` — [`Pair::evaluate`]: one contact with whatever cuts its zone, every single force to a [`Sink`];
 //! * `batch` — eight whole contacts at once;
@@ -24,12 +24,13 @@ pub mod laws;
 mod profile;
 mod quadrature;
 mod scalar;
+mod slip;
 mod stage;
 mod stiffness;
 
 use nalgebra::Vector2;
 
-pub(crate) use batch::{BatchForces, Constants, EightContacts, Places};
+pub(crate) use batch::{BatchForces, Constants, EightContacts, Places, Rubbing, Summing};
 pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz_stiffness};
 pub use fault::Fault;
 pub(crate) use fault::{Sight, Sighted};
@@ -37,10 +38,10 @@ pub use frames::Motion;
 pub(crate) use frames::centrifugal;
 pub use laws::elastic::{elliptic, hertz, iso16281};
 pub use laws::{Cut, Damping, Elastic, Law, Traction};
-pub(crate) use profile::{Raise, Section};
+pub(crate) use profile::{Before, Contour, Curve, Raise, Section};
 pub use profile::{Torus, Waves};
 pub use quadrature::{Rules, Slices};
-pub use scalar::{BallSide, Pair};
+pub use scalar::{BallSide, Pair, Shape};
 pub(crate) use stage::{
     PlaneVector, SlicePack, SlicePacking, StageContacts, StageElements, StageWrench, in_contact,
 };
@@ -75,6 +76,8 @@ pub struct Touch {
     pub width: f64,
     /// Penetration that the law saw \[m\].
     pub depth: f64,
+    /// What friction weighs here over the normal force, about 1 (see `quadrature`).
+    pub rubbing: f64,
     /// Elastic part of the normal force \[N\].
     pub elastic: f64,
     /// Normal force with damping, after clamping \[N\].
@@ -93,7 +96,7 @@ pub struct Touch {
     pub friction_z: f64,
     /// Slip speed \[m/s\].
     pub slip: f64,
-    /// Power that friction takes out \[W\], at least 0.
+    /// Power that friction takes out \[W\]; of a whole contact at least 0.
     pub friction_power: f64,
     /// Contact point from the ball's centre \[m\].
     pub(crate) arm_ball: V2,

@@ -2,8 +2,8 @@
 //!
 //! Where all surfaces are whole, ball and groove are two circles in the meridional plane, and the force depends on the
 //! places e and c of their centres alone: the kernel with derivatives by both says force and stiffness, of the very sum
-//! that a run makes, so Newton's method converges on it quadratically. Near a defect, and where the ball's equator
-//! cuts the zone, the stiffness is found by differences.
+//! that a run makes, so Newton's method converges on it quadratically. Near a defect, where the ball's equator
+//! cuts the zone, and on races that are no tori, the stiffness is found by differences.
 
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
@@ -27,6 +27,12 @@ pub(crate) struct Tangent {
 impl Pair {
     /// Force and stiffness at rest of a ball whose centre stands at `place` from the ring's, neither turned.
     pub(crate) fn tangent(&self, ball: &BallSide, place: &Vector3<f64>) -> Tangent {
+        if !self.shape.is_torus() {
+            return Tangent {
+                force: self.elastic(ball, place),
+                stiffness: None,
+            };
+        }
         let distance = place.xy().norm();
         let n = V2::new(place.x, place.y) / distance;
         let angle = if self.waves.is_round() && self.faults.is_empty() && ball.faults.is_empty() {
@@ -184,10 +190,11 @@ impl Pair {
             section: &section,
             force: [of(0.0); 2],
         };
+        let (law, slices) = (&self.law, &self.slices);
         match closed_form::elastic_stiffness(self) {
             Some(stiffness) => sums.add(&kernel::as_one(&contact, stiffness)),
             None => {
-                kernel::elements::<_, false, false>(&self.law, &self.slices, &contact, &mut sums);
+                kernel::elements::<_, false, false>(law, slices, None, &contact, &mut sums);
             }
         }
         Meridional {
@@ -328,7 +335,7 @@ impl Sink for ElasticForce {
 mod tests {
     use super::super::hertz::Hertz;
     use super::super::iso16281::Iso16281;
-    use super::super::{Elastic, Law, Torus, Waves};
+    use super::super::{Elastic, Law, Shape, Torus, Waves};
     use super::*;
     use crate::scene::{Material, Waviness};
 
@@ -348,6 +355,7 @@ mod tests {
                 lowest: -6.24e-3,
                 highest: 6.24e-3,
             },
+            shape: Shape::default(),
             waves,
             law: Law::elastic(elastic),
             slices,

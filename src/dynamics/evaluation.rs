@@ -53,7 +53,8 @@ impl Dynamics<'_> {
             let half = count.div_ceil(2);
             format!("{half} of {count} {slices} (mirror symmetry), {law}")
         } else {
-            format!("{count} {slices}, {law}")
+            let shape = pair.shape.name();
+            format!("{count} {slices}{shape}, {law}")
         }
     }
 }

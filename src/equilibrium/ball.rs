@@ -7,6 +7,7 @@ use super::search::search;
 use super::springs::RowSpring;
 use super::unknowns::{self, Rings};
 use super::{FINE, TOLERANCE};
+use crate::contact::Pair;
 use crate::error::{Error, Result};
 use crate::interrupt;
 use crate::model::{BodyId, Dof, Race};
@@ -69,18 +70,18 @@ impl Problem<'_> {
         &self.springs[self.model.balls[j].row]
     }
 
-    /// The line of the groove centres.
-    pub(super) fn line(&self, j: usize, rings: &Rings) -> Line {
+    /// The line of the groove centres, of those flanks that press the ball most.
+    fn line(&self, j: usize, rings: &Rings) -> Line {
         let (centres, reach) = self.grooves(j, rings);
-        let apart = centres[1] - centres[0];
-        let length = apart.norm();
-        Line {
-            from: centres[0],
-            unit: apart / length,
-            length,
-            reach: reach[0],
-            approach: length - reach[0] - reach[1],
-        }
+        Line::between(centres, reach)
+    }
+
+    /// The lines between the centres of all grooves that may press a ball: one, or of gothic arches those whose ends lie on
+    /// the flanks.
+    pub(super) fn lines(&self, j: usize, rings: &Rings) -> impl Iterator<Item = Line> {
+        let all = self.groove_pairs(j, rings);
+        all.filter(|grooves| grooves.meet)
+            .map(|grooves| Line::between(grooves.centres, grooves.reach))
     }
 
     /// How far out and in a ball between whole races can be; none for a ball that both press.
@@ -112,18 +113,31 @@ impl Problem<'_> {
     }
 
     /// Groove centres (radius, axial place) in the ball's meridional plane, and how far from them a ball that
-    /// just touches has its centre.
+    /// just touches has its centre; of gothic arches those flanks that press the ball most.
     fn grooves(&self, j: usize, rings: &Rings) -> ([Vector2<f64>; 2], [f64; 2]) {
-        let ball = &self.model.balls[j];
-        let pairs = &self.model.rows[ball.row].pairs;
-        let centre = |race: Race| {
-            let ring = unknowns::of(rings, race);
-            let shift = ring.xy().dot(&self.directions[j]);
-            let torus = &pairs[race].race;
-            Vector2::new(torus.a + shift, torus.centre + ring.z)
+        let pressing = |of: &Grooves| {
+            let apart = (of.centres[1] - of.centres[0]).norm() - of.reach[0] - of.reach[1];
+            if of.meet { apart } else { f64::NEG_INFINITY }
         };
-        let reach = Race::BOTH.map(|race| pairs[race].race.r - ball.side.radius);
-        (Race::BOTH.map(centre), reach)
+        let most = self
+            .groove_pairs(j, rings)
+            .reduce(|a, b| if pressing(&b) > pressing(&a) { b } else { a });
+        let most = most.expect("a race has a groove");
+        (most.centres, most.reach)
+    }
+
+    /// Every groove of the outer race with every one of the inner.
+    fn groove_pairs(&self, j: usize, rings: &Rings) -> impl Iterator<Item = Grooves> {
+        let ball = &self.model.balls[j];
+        let [outer, inner] = &self.model.rows[ball.row].pairs;
+        let pairs = outer
+            .flanks()
+            .flat_map(move |outer| inner.flanks().map(move |inner| [outer, inner]));
+        let places = Race::BOTH.map(|race| {
+            let ring = unknowns::of(rings, race);
+            Vector2::new(ring.xy().dot(&self.directions[j]), ring.z)
+        });
+        pairs.map(move |pair| Grooves::of(pair, places, ball.side.radius))
     }
 
     /// A ball between rings that stand still, sought from a place; the precision is a residual over the ball's share of
@@ -226,6 +240,37 @@ impl Problem<'_> {
     }
 }
 
+/// A groove of the outer and one of the inner race in a ball's meridional plane.
+struct Grooves {
+    /// Their centres (radius, axial place).
+    centres: [Vector2<f64>; 2],
+    /// How far from them a ball that just touches has its centre.
+    reach: [f64; 2],
+    /// Whether the line of the centres meets both races on these flanks.
+    meet: bool,
+}
+
+impl Grooves {
+    /// Of two races whose rings are at some places (along the ball's direction, axial).
+    fn of(pair: [&Pair; 2], places: [Vector2<f64>; 2], radius: f64) -> Self {
+        let centres = Race::BOTH.map(|race| {
+            let (torus, shift) = (&pair[race].race, places[race]);
+            Vector2::new(torus.a + shift.x, torus.centre + shift.y)
+        });
+        let apart = centres[1] - centres[0];
+        let lean = apart.y / apart.norm();
+        let meets = |race: Race| {
+            let torus = &pair[race].race;
+            !pair[race].is_beyond_cusp(torus.centre + torus.sigma * lean * torus.r)
+        };
+        Self {
+            centres,
+            reach: Race::BOTH.map(|race| pair[race].race.r - radius),
+            meet: Race::BOTH.into_iter().all(meets),
+        }
+    }
+}
+
 /// The line of a ball's groove centres in its meridional plane, from the outer to the inner one.
 pub(super) struct Line {
     from: Vector2<f64>,
@@ -235,6 +280,20 @@ pub(super) struct Line {
     reach: f64,
     /// Approach of both contacts of a ball on the line; negative: a gap.
     pub(super) approach: f64,
+}
+
+impl Line {
+    fn between(centres: [Vector2<f64>; 2], reach: [f64; 2]) -> Self {
+        let apart = centres[1] - centres[0];
+        let length = apart.norm();
+        Self {
+            from: centres[0],
+            unit: apart / length,
+            length,
+            reach: reach[0],
+            approach: length - reach[0] - reach[1],
+        }
+    }
 }
 
 /// Least eigenvalue of a matrix's symmetric part.

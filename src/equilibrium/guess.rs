@@ -49,19 +49,17 @@ impl Problem<'_> {
             let in_space = |v: Vector2<f64>| Vector3::new(v.x * x, v.x * y, v.y);
             let own = in_space(self.own_load(j));
             unknowns::add(&mut forces, self.towards(j), &own);
-            let line = self.line(j, rings);
-            if line.approach <= 0.0 {
-                continue;
+            for line in self.lines(j, rings).filter(|line| line.approach > 0.0) {
+                let (force, slope) = self.springs[ball.row].force(line.approach);
+                let unit = in_space(line.unit);
+                for race in Race::BOTH {
+                    unknowns::add(&mut forces, race, &(unit * (race.sigma() * force)));
+                }
+                // Stiff along the line; aside, in the meridional plane, the force turns with it.
+                let aside = force / line.length;
+                let plane = Matrix3::new(x * x, x * y, 0.0, x * y, y * y, 0.0, 0.0, 0.0, 1.0);
+                tied += unit * unit.transpose() * (slope - aside) + plane * aside;
             }
-            let (force, slope) = self.springs[ball.row].force(line.approach);
-            let unit = in_space(line.unit);
-            for race in Race::BOTH {
-                unknowns::add(&mut forces, race, &(unit * (race.sigma() * force)));
-            }
-            // Stiff along the line; aside, in the meridional plane, the force turns with it.
-            let aside = force / line.length;
-            let plane = Matrix3::new(x * x, x * y, 0.0, x * y, y * y, 0.0, 0.0, 0.0, 1.0);
-            tied += unit * unit.transpose() * (slope - aside) + plane * aside;
         }
         let mut stiffness = RingStiffness::zeros();
         for a in Race::BOTH {

@@ -190,14 +190,14 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
             .waves
             .at(dy.atan2(dx) - y[layout.at(race.ring(), Dof::Theta)]);
         let radius = ball.side.radius;
-        let section = pair.race.section(radius, dx.hypot(dy), b[2] - r[2], wave);
+        let (deflection, _) = pair.foot(radius, dx.hypot(dy), b[2] - r[2], wave);
         let loaded = summary.load > 0.0;
         ContactEquilibrium {
             load: summary.load,
             angle: loaded.then_some(summary.angle),
-            deflection: section.approach,
+            deflection,
             zone_centre: loaded.then_some(summary.zone_centre),
-            pressure: inspect::pressure(model, j, race, summary.load),
+            pressure: inspect::pressure(model, y, (j, race), summary.load),
         }
     };
     let balls = model.balls.iter().enumerate().map(|(j, ball)| {

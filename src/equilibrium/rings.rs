@@ -273,20 +273,9 @@ impl Problem<'_> {
             for race in Race::BOTH {
                 let pair = &self.model.rows[compiled.row].pairs[race];
                 let ring = unknowns::of(rings, race);
-                let offset = ball.y - ring.z - pair.race.centre;
                 let distance = ball.x - V2::new(ring.x, ring.y).dot(&self.directions[j]);
-                let radius = compiled.side.radius;
-                let section = pair.race.section(radius, distance, ball.y - ring.z, 0.0);
-                // The contact point lies where the line of centres meets the groove.
-                let point = offset / section.l * pair.race.r;
-                let pressed = section.approach > 0.0;
-                // Behind the groove's centre a ball is loose, as long as it is in the groove at all.
-                let left = if section.e > 0.0 {
-                    pressed && (point < pair.race.lowest || point > pair.race.highest)
-                } else {
-                    offset.abs() >= pair.race.r
-                };
-                if left {
+                let left = pair.left(compiled.side.radius, distance, ball.y - ring.z);
+                if let Some((point, [lowest, highest])) = left {
                     return Err(Error::Equilibrium {
                         reason: format!(
                             "{} leaves the groove of the {} race: its contact lies {} from the groove's \
@@ -294,8 +283,8 @@ impl Problem<'_> {
                             self.model.bodies[BodyId::ball(j)].name,
                             race.name(),
                             told::length(point),
-                            told::length(pair.race.lowest),
-                            told::length(pair.race.highest)
+                            told::length(lowest),
+                            told::length(highest)
                         ),
                     });
                 }

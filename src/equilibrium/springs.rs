@@ -46,9 +46,8 @@ impl RowSpring {
         // A slice's own power, and the zone's length goes with the root.
         let exponent = row.pairs[0].law.elastic.exponent() + 0.5;
         let give = row.pairs.each_ref().map(|pair| {
-            let race = &pair.race;
-            let distance = race.a + race.sigma * (race.r - side.radius + scales.approach);
-            let place = Vector3::new(distance, 0.0, race.centre);
+            let (distance, z) = pair.seat(side.radius, scales.approach);
+            let place = Vector3::new(distance, 0.0, z);
             let force = pair.tangent(side, &place).force.norm();
             // A defect may lie there.
             let force = if force > 0.0 { force } else { scales.load };

@@ -75,7 +75,13 @@ impl Stage {
         self.meetings.fill(<[Meeting; 2]>::default());
         for race in Race::BOTH {
             for contact in self.search.touching(race) {
-                self.meetings[contact.ball][race] = Meeting::Whole(contact.raise);
+                // The elements of a stage are those of a torus.
+                let row = &model.rows[model.balls[contact.ball].row];
+                self.meetings[contact.ball][race] = if row.pairs[race].shape.is_torus() {
+                    Meeting::Whole(contact.raise)
+                } else {
+                    Meeting::Faulted
+                };
             }
         }
         for (race, ball) in self.search.faulted() {

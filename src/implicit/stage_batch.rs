@@ -190,7 +190,9 @@ impl Task for FindElements<'_> {
     fn run<const FMA: bool>(self) -> StageContacts {
         let eight = self.constants[self.race].eight(self.class, self.contacts, self.state);
         let pair = &self.model.rows[self.class].pairs[self.race];
-        pair.stage_elements::<FMA>(&eight, &self.rings[self.race], self.whole, self.nodes)
+        let ring = &self.rings[self.race];
+        let instructions = self.model.instructions;
+        pair.stage_elements::<FMA>(&eight, ring, self.whole, instructions, self.nodes)
     }
 }
 

@@ -1,6 +1,6 @@
 //! A contact in a state: load, angle, zone, slip, and the forces of its slices.
 
-use crate::contact::{Sink, Touch, V2};
+use crate::contact::{Pair, Sink, Touch, V2};
 use crate::model::{BodyId, Model, Race};
 
 /// A contact in a few numbers.
@@ -102,13 +102,39 @@ pub(crate) fn largest_pressure(model: &Model, y: &[f64]) -> f64 {
     let balls = 0..model.balls.len();
     let contacts = balls.flat_map(|j| Race::BOTH.map(|race| (j, race)));
     contacts
-        .map(|(j, race)| pressure(model, j, race, contact(model, y, j, race).load))
+        .map(|(j, race)| pressure(model, y, (j, race), contact(model, y, j, race).load))
         .fold(0.0, f64::max)
 }
 
-/// Hertz pressure \[Pa\] of a ball on a race under a load \[N\].
-pub(crate) fn pressure(model: &Model, j: usize, race: Race, load: f64) -> f64 {
-    model.rows[model.balls[j].row].hertz[race].pressure(load)
+/// Hertz pressure \[Pa\] of a ball on a race under a load \[N\]; on a gothic arch of the flank that bears more.
+pub(crate) fn pressure(model: &Model, y: &[f64], (j, race): (usize, Race), load: f64) -> f64 {
+    let row = &model.rows[model.balls[j].row];
+    let pair = &row.pairs[race];
+    let heaviest = if pair.other_flank().is_some() {
+        let mut flanks = Flanks {
+            pair,
+            sums: <[Summary; 2]>::default(),
+        };
+        visit(model, y, j, race, &mut flanks);
+        let [own, other] = flanks.sums.map(|sum| sum.plane.norm().hypot(sum.axial));
+        own.max(other)
+    } else {
+        load
+    };
+    row.hertz[race].pressure(heaviest)
+}
+
+/// What the flank of a gothic arch that comes first bears, and the other.
+struct Flanks<'a> {
+    pair: &'a Pair,
+    sums: [Summary; 2],
+}
+
+impl Sink for Flanks<'_> {
+    fn touch(&mut self, touch: &Touch) {
+        let other = self.pair.is_beyond_cusp(touch.z);
+        self.sums[usize::from(other)].touch(touch);
+    }
 }
 
 /// The forces of the slices of one contact, in order of ζ; on a fault a slice may appear more than once.

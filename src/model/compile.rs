@@ -3,13 +3,14 @@
 use std::f64::consts::PI;
 
 use super::body::{Body, Degree, ball_mass, conformity, groove_radius, ring_mass};
+use super::race::{RaceGeometry, geometry};
 use super::{
     Ball, BodyId, DOFS, Dof, LoadModel, Model, Race, RowModel, Scales, Spring, UnbalanceModel,
     demand, nodes,
 };
 use crate::contact::hertz::Hertz;
 use crate::contact::{
-    BallSide, Damping, Elastic, Fault, Law, Pair, Rules, Slices, Torus, Traction, Waves,
+    BallSide, Damping, Elastic, Fault, Law, Pair, Rules, Shape, Slices, Torus, Traction, Waves,
 };
 use crate::error::{Error, Result};
 use crate::scene::{self, Approximations, Defect, Drive, Mount, Row, Scene, Surface};
@@ -31,12 +32,13 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     let mut rows = Vec::new();
     let mut balls = Vec::new();
     for (i, row) in scene.rows.iter().enumerate() {
-        let hertz = Race::BOTH.map(|race| hertz(scene, row, race));
+        let [outer, inner] = Race::BOTH.map(|race| pair(scene, (i, row), race));
+        let ((outer, on_outer), (inner, on_inner)) = (outer?, inner?);
         rows.push(RowModel {
             first: balls.len(),
             count: row.ball_count,
-            pairs: Race::BOTH.map(|race| pair(scene, (i, row), race, hertz[race])),
-            hertz,
+            pairs: [outer, inner],
+            hertz: [on_outer, on_inner],
             cage_distance: row.pitch_diameter * (PI / row.ball_count as f64).sin(),
             side: f64::from(row.side),
             class: i,
@@ -87,9 +89,16 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     Ok(model)
 }
 
-/// Gives each race the fewest nodes that reach the accuracy it asks for: rows that are alike in all else the same number, so
-/// that they stay alike.
+/// Gives all nodes weights for friction, and each race the fewest nodes that reach the accuracy it asks for: rows that are alike
+/// in all else the same number, so that they stay alike.
 fn fit_nodes(model: &mut Model) {
+    let finer = nodes::finer(model);
+    for pair in model.rows.iter_mut().flat_map(|row| &mut row.pairs) {
+        if let Slices::Fitted(rules) = &pair.slices {
+            let exponent = pair.law.elastic.exponent();
+            pair.slices = Slices::Fitted(Rules::for_friction(rules.count(), exponent, finer));
+        }
+    }
     let fewest: Vec<Option<[Slices; 2]>> = (0..model.rows.len())
         .map(|row| {
             let scene::Slices::Accuracy(accuracy) =
@@ -99,12 +108,12 @@ fn fit_nodes(model: &mut Model) {
             };
             let alike = |other: &usize| model.rows[*other].class == model.rows[row].class;
             let alike: Vec<usize> = (0..model.rows.len()).filter(alike).collect();
-            Some(Race::BOTH.map(|race| nodes::fewest(model, &alike, race, accuracy)))
+            Some(Race::BOTH.map(|race| nodes::fewest(model, &alike, race, (accuracy, finer))))
         })
         .collect();
     for (row, fewest) in model.rows.iter_mut().zip(fewest) {
         for (pair, slices) in row.pairs.iter_mut().zip(fewest.into_iter().flatten()) {
-            pair.slices = slices;
+            pair.change(|flank| flank.slices.clone_from(&slices));
         }
     }
     classify(&mut model.rows);
@@ -147,47 +156,64 @@ fn ring(scene: &Scene, ring: &scene::Ring, race: Race) -> Result<Body> {
 }
 
 /// Hertz's contact of a ball and one race.
-fn hertz(scene: &Scene, row: &Row, race: Race) -> Hertz {
+fn hertz(scene: &Scene, (row, race): (&Row, Race), torus: &Torus, angle: f64) -> Hertz {
+    let is_own = torus.r == groove_radius(row, race);
+    let own = torus.r / row.ball_diameter;
     Hertz::new(
-        race.sigma(),
+        torus.sigma,
         row.ball_diameter,
         row.pitch_diameter,
-        conformity(row, race),
-        row.contact_angle,
+        if is_own { conformity(row, race) } else { own },
+        angle,
         scene.ball_material_of(row),
         &scene.materials.rings,
     )
 }
 
-/// Geometry and laws of one race (model section 2).
-fn pair(scene: &Scene, (index, row): (usize, &Row), race: Race, hertz: Hertz) -> Pair {
-    let (radius, sigma) = (row.ball_diameter / 2.0, race.sigma());
-    let r = groove_radius(row, race);
-    let (sin, cos) = row.contact_angle.sin_cos();
-    let side = f64::from(row.side);
-    let preload = match race {
-        Race::Outer => 0.0,
-        Race::Inner => side * row.axial_preload,
+/// Geometry and laws of one race (model section 2), and Hertz's contact with it.
+fn pair(scene: &Scene, (index, row): (usize, &Row), race: Race) -> Result<(Pair, Hertz)> {
+    let path = format!("rows[{index}]");
+    let angle = row.contact_angle;
+    let (mut pair, hertz) = match geometry(&path, row, race)? {
+        RaceGeometry::One(torus, shape) => {
+            let hertz = hertz(scene, (row, race), &torus, angle);
+            let one = Pair {
+                shape,
+                ..whole(scene, row, race, (torus, hertz))
+            };
+            check_hollow(&path, &one, race)?;
+            (one, hertz)
+        }
+        RaceGeometry::Arch(flanks, angle) => {
+            let hertz = flanks.map(|torus| hertz(scene, (row, race), &torus, angle));
+            let [low, high] = [0, 1].map(|i| whole(scene, row, race, (flanks[i], hertz[i])));
+            let arch = Pair::arch([low, high], angle).ok_or_else(|| {
+                Error::scene(
+                    format!("{path}.{}_arch.conformities", race.name()),
+                    format!("{:?}", flanks.map(|torus| torus.r / row.ball_diameter)),
+                    "nearer to each other: the flanks do not meet between a ball's two contacts",
+                )
+            })?;
+            (arch, hertz[1])
+        }
     };
-    let (shoulders, waviness, surface) = match race {
-        Race::Outer => (row.outer_shoulders, &row.outer_waviness, Surface::OuterRace),
-        Race::Inner => (row.inner_shoulders, &row.inner_waviness, Surface::InnerRace),
+    let surface = match race {
+        Race::Outer => Surface::OuterRace,
+        Race::Inner => Surface::InnerRace,
     };
-    let [low, high] = shoulders.map_or([r, r], |angles| angles.map(|angle| r * angle.sin()));
-    let race = Torus {
-        sigma,
-        a: row.pitch_diameter / 2.0 - sigma * (r - radius) * cos + sigma * row.clearance / 4.0,
-        centre: row.axial_position - sigma * side * (r - radius) * sin + preload,
-        r,
-        lowest: -low,
-        highest: high,
+    let of_race = |defect: &&Defect| defect.on == surface && defect.row == index;
+    let defects = scene.defects.values().filter(of_race);
+    let faults: Vec<Fault> = defects.map(|d| race_fault(d, row, &pair)).collect();
+    pair.change(|flank| flank.faults.clone_from(&faults));
+    Ok((pair, hertz))
+}
+
+/// A race without defects and the laws of its contacts.
+fn whole(scene: &Scene, row: &Row, race: Race, (torus, hertz): (Torus, Hertz)) -> Pair {
+    let waviness = match race {
+        Race::Outer => &row.outer_waviness,
+        Race::Inner => &row.inner_waviness,
     };
-    let faults = scene
-        .defects
-        .values()
-        .filter(|defect| defect.on == surface && defect.row == index)
-        .map(|defect| race_fault(defect, row, &race))
-        .collect();
     let contact = scene.contact_of(row);
     let elastic = Elastic::new(&contact.law, row.ball_diameter, hertz);
     let exponent = elastic.exponent();
@@ -198,7 +224,8 @@ fn pair(scene: &Scene, (index, row): (usize, &Row), race: Race, hertz: Hertz) ->
         scene::Slices::Accuracy(_) => Slices::Fitted(Rules::new(nodes::MANY, exponent)),
     };
     Pair {
-        race,
+        race: torus,
+        shape: Shape::default(),
         waves: Waves(waviness.clone()),
         law: Law {
             damping: Damping {
@@ -209,8 +236,20 @@ fn pair(scene: &Scene, (index, row): (usize, &Row), race: Race, hertz: Hertz) ->
             ..Law::elastic(elastic)
         },
         slices,
-        faults,
+        faults: Vec::new(),
     }
+}
+
+/// Hertz's law knows one curvature and one contact: its races must be hollow all along, and wider than balls.
+fn check_hollow(path: &str, pair: &Pair, race: Race) -> Result<()> {
+    if pair.law.cut().is_flat() && !pair.shape.is_hollow() {
+        return Err(Error::scene(
+            format!("{path}.{}_profile.r", race.name()),
+            "a profile that is not",
+            "hollow all along and wider than the balls, for Hertz's law; contact.law = iso16281 takes any",
+        ));
+    }
+    Ok(())
 }
 
 fn ball_faults(scene: &Scene, row: usize, ball: usize, radius: f64) -> Vec<Fault> {
@@ -223,10 +262,14 @@ fn ball_faults(scene: &Scene, row: usize, ball: usize, radius: f64) -> Vec<Fault
 }
 
 /// A defect of a race, compiled.
-pub(crate) fn race_fault(defect: &Defect, row: &Row, race: &Torus) -> Fault {
+pub(crate) fn race_fault(defect: &Defect, row: &Row, race: &Pair) -> Fault {
     let middle = row.axial_position + offset(defect);
     // Validation keeps the defect inside the groove.
-    Fault::new(defect, middle, race.radius(middle).unwrap_or(race.a))
+    Fault::new(
+        defect,
+        middle,
+        race.radius_at(middle).unwrap_or(race.race.a),
+    )
 }
 
 /// A defect of a ball of this radius, compiled.

@@ -8,6 +8,7 @@ mod compile;
 mod demand;
 mod layout;
 mod nodes;
+mod race;
 mod scales;
 
 use std::mem::discriminant;
@@ -78,10 +79,11 @@ impl RowModel {
     }
 
     /// Whether its contacts follow the same equations as another row's, cut at as many places: kind of law, slices, damping
-    /// and friction are the same. Geometry, waves and strength of the law may differ.
+    /// and friction are the same. Of tori the geometry may differ, and waves and strength of the law.
     pub fn is_like(&self, other: &Self) -> bool {
         let alike = |(a, b): (&Pair, &Pair)| {
             discriminant(&a.law.elastic) == discriminant(&b.law.elastic)
+                && (a.shape.is_torus() && b.shape.is_torus() || a.shape == b.shape)
                 && (&a.slices, a.law.damping, a.law.traction)
                     == (&b.slices, b.law.damping, b.law.traction)
         };

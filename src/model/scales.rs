@@ -1,8 +1,7 @@
 //! The scene's own scales: a typical approach, the highest contact frequency, and what follows from them.
 
 use super::{Degree, Dof, Model, Race};
-use crate::contact::{BallSide, Law, Motion, Pair, Sink, Touch, V2, centrifugal};
-use crate::scene::Drive;
+use crate::contact::{BallSide, Motion, Pair, Sink, Touch, V2, Waves, centrifugal};
 
 /// Scales that tolerances and the step cap follow.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -19,10 +18,7 @@ impl Scales {
     /// Estimated from loads at their peaks; a wrong load by half moves the frequency by a tenth.
     pub(super) fn of(model: &Model) -> Self {
         let scene = &model.scene;
-        let speed = match &scene.drive {
-            Drive::Speed(speed) => speed.peak(),
-            Drive::Torque { initial_speed, .. } => initial_speed.abs(),
-        };
+        let speed = scene.drive.peak_speed();
         let (mut radial, mut axial) = (0.0, 0.0);
         for load in &model.loads {
             let peak = load.force.peak();
@@ -107,16 +103,13 @@ struct Bottom {
 
 impl Bottom {
     fn new(pair: &Pair, ball: &BallSide) -> Self {
+        let mut pair = pair.clone();
+        pair.change(|flank| {
+            (flank.faults, flank.waves) = (Vec::new(), Waves::default());
+            flank.law.traction = None;
+        });
         Self {
-            pair: Pair {
-                faults: Vec::new(),
-                waves: crate::contact::Waves::default(),
-                law: Law {
-                    traction: None,
-                    ..pair.law
-                },
-                ..pair.clone()
-            },
+            pair,
             ball: BallSide {
                 radius: ball.radius,
                 faults: Vec::new(),
@@ -126,8 +119,7 @@ impl Bottom {
 
     /// Elastic force when pressed radially by an approach \[m\].
     fn force(&self, approach: f64) -> f64 {
-        let race = &self.pair.race;
-        let distance = race.a + race.sigma * (race.r - self.ball.radius + approach);
+        let (distance, z) = self.pair.seat(self.ball.radius, approach);
         let at = |x: f64, z: f64| Motion {
             centre: V2::new(x, 0.0),
             z,
@@ -137,7 +129,7 @@ impl Bottom {
             omega: 0.0,
         };
         let mut sum = Elastic(0.0);
-        let (ball, ring) = (at(distance, race.centre), at(0.0, 0.0));
+        let (ball, ring) = (at(distance, z), at(0.0, 0.0));
         self.pair.evaluate(&self.ball, &ball, &ring, &mut sum);
         sum.0
     }

@@ -27,6 +27,9 @@ pub(super) fn about_rows(model: &Model, start: &[f64]) -> Symmetry {
             require((torus.centre - plane).abs() <= ROUNDING, || {
                 format!("the {race} groove of row {i} is not level with its balls")
             })?;
+            require(pair.shape.is_torus(), || {
+                format!("the {race} race of row {i} is not one torus")
+            })?;
             require(torus.lowest == -torus.highest, || {
                 format!("the {race} shoulders of row {i} are unequal")
             })?;
@@ -156,7 +159,8 @@ fn pair_is_image(a: &Pair, b: &Pair, sum: f64) -> bool {
         faults: a.faults.clone(),
         ..b.clone()
     };
-    faults && (a.race.centre + b.race.centre - sum).abs() <= ROUNDING && *a == image
+    let tori = a.shape.is_torus() && b.shape.is_torus();
+    tori && faults && (a.race.centre + b.race.centre - sum).abs() <= ROUNDING && *a == image
 }
 
 /// Whether two sets of defects are images: every one has its own.

@@ -22,8 +22,8 @@ const SHARE: f64 = 1.0 / 3.0;
 const FIRST: f64 = 1e-4;
 /// The tightest.
 const TIGHTEST: f64 = 1e-10;
-/// Numbers of nodes tried: the default, and from twelve on each about half as many again as the one before.
-const NODES: [usize; 6] = [6, 12, 18, 26, 38, 64];
+/// Numbers of nodes tried: the default, then each about half as many again as the one before.
+const NODES: [usize; 7] = [6, 8, 12, 18, 26, 38, 64];
 /// Largest step over 1/ω of the highest contact frequency: beyond it the method is not stable.
 const LARGEST: f64 = 2.0;
 

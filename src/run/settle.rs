@@ -112,11 +112,8 @@ fn needed(model: &Model, y0: &[f64]) -> f64 {
     if slowest.is_infinite() && !pairs.any(takes_energy) {
         return 0.0;
     }
-    let has_play = model
-        .scene
-        .cage
-        .as_ref()
-        .is_some_and(|cage| cage.play > 0.0);
+    let cage = model.scene.cage.as_ref();
+    let has_play = cage.is_some_and(|cage| cage.play > 0.0);
     let times = (0..model.rows.len()).map(|row| {
         let turn = if has_play && has_loose_balls(model, y0, row) {
             TAKE_UP

@@ -43,6 +43,25 @@ pub struct Row {
     /// Shoulder angles of the inner groove towards −z and +z, from the groove's centre \[rad\]; absent: none.
     #[serde(default)]
     pub inner_shoulders: Option<[f64; 2]>,
+    /// Radius \[m\] by which the edges of the outer shoulders are rounded off, so that a contact that runs over one fades away; absent:
+    /// sharp edges. With the law of ISO 16281.
+    #[serde(default)]
+    pub outer_shoulder_radius: Option<f64>,
+    /// Radius \[m\] by which the edges of the inner shoulders are rounded off.
+    #[serde(default)]
+    pub inner_shoulder_radius: Option<f64>,
+    /// Outer race through points, in place of the groove that `outer_conformity` says.
+    #[serde(default)]
+    pub outer_profile: Option<RaceProfile>,
+    /// Inner race through points, in place of the groove that `inner_conformity` says.
+    #[serde(default)]
+    pub inner_profile: Option<RaceProfile>,
+    /// Outer race as a gothic arch, as in a four-point bearing.
+    #[serde(default)]
+    pub outer_arch: Option<GothicArch>,
+    /// Inner race as a gothic arch, as in a four-point bearing.
+    #[serde(default)]
+    pub inner_arch: Option<GothicArch>,
     /// Waviness of the outer race; turns with the outer ring.
     #[serde(default)]
     pub outer_waviness: Vec<Waviness>,
@@ -95,6 +114,12 @@ impl Row {
             start_angle: 0.0,
             outer_shoulders: None,
             inner_shoulders: None,
+            outer_shoulder_radius: None,
+            inner_shoulder_radius: None,
+            outer_profile: None,
+            inner_profile: None,
+            outer_arch: None,
+            inner_arch: None,
             outer_waviness: Vec::new(),
             inner_waviness: Vec::new(),
             diameter_errors: Vec::new(),
@@ -104,6 +129,54 @@ impl Row {
             ball_material: None,
             contact: None,
             friction: None,
+        }
+    }
+}
+
+/// A race through points: the cubic spline R(z), twice continuously differentiable, whose end conditions are "not a knot". It ends
+/// with its points: shoulders are part of it.
+///
+/// The points are those of zero clearance and preload, which shift it as they shift a groove: R(z) by P_d/4 away from the
+/// balls, an inner race along z by δ_p.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct RaceProfile {
+    /// Axial places of the points from the row's plane \[m\], strictly increasing; 4 to 10 000.
+    pub z: Vec<f64>,
+    /// Radius of the race there, from the ring's axis \[m\].
+    pub r: Vec<f64>,
+}
+
+impl RaceProfile {
+    /// Through points at axial places `z` with radii `r` \[m\].
+    pub fn new(z: Vec<f64>, r: Vec<f64>) -> Self {
+        Self { z, r }
+    }
+}
+
+/// A race of two grooves whose centres lie apart along the axis, so that a ball that rests in it touches both: a ring split in
+/// the middle, of which a shim of width (2 r − D) sin α_s was ground away.
+///
+/// The clearance P_d is the play of a ball that touches both flanks at the shim angle; of the groove before it was split
+/// it is larger by (2 r − D)(1 − cos α_s) a race (T. A. Harris, *Rolling Bearing Analysis*, ch. 2).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct GothicArch {
+    /// Shim angle α_s, between the plane and the normals of a resting ball \[rad\]; above 0, at most 80°.
+    pub shim_angle: f64,
+    /// Conformities of the flanks towards −z and +z, above 0.5 and at most 1; absent: that of the race, both.
+    #[serde(default)]
+    pub conformities: Option<[f64; 2]>,
+}
+
+impl GothicArch {
+    /// Flanks of the race's own conformity.
+    pub fn new(shim_angle: f64) -> Self {
+        Self {
+            shim_angle,
+            conformities: None,
         }
     }
 }

@@ -73,8 +73,8 @@ pub enum Slices {
     /// Slices of equal width over the whole ball, fixed in it: the paper's method. 10 to 100 000.
     Fixed(usize),
     /// Quadrature nodes on every smooth piece of the zone that touches. 2 to 64; 6 give the normal force to 2e-5
-    /// (root mean square over loads, angles and defects), friction to some percent where slip changes sign within
-    /// the zone.
+    /// (root mean square over loads, angles and defects), friction to 1e-4 of μ times it;
+    /// but where slip changes by more than 70 slip speeds over half a zone, to some percent.
     Fitted(usize),
     /// As many fitted nodes as give normal and friction force of rolling balls to this share of the normal force;
     /// found for each race when the scene is compiled. 1e-9 to 1e-1.

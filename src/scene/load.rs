@@ -75,6 +75,14 @@ pub enum Drive {
 }
 
 impl Drive {
+    /// Largest speed of the inner ring that the drive tells of \[rad/s\].
+    pub(crate) fn peak_speed(&self) -> f64 {
+        match self {
+            Self::Speed(speed) => speed.peak(),
+            Self::Torque { initial_speed, .. } => initial_speed.abs(),
+        }
+    }
+
     /// Speed of the inner ring at the start \[rad/s\].
     pub fn initial_speed(&self) -> f64 {
         match self {

@@ -40,7 +40,7 @@ use crate::memory;
 
 pub(crate) use antiderivative::Antiderivative;
 pub use approximations::Approximations;
-pub use bearing::{Mount, Ring, RingName, Row, Support, Waviness};
+pub use bearing::{GothicArch, Mount, RaceProfile, Ring, RingName, Row, Support, Waviness};
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
 pub use defect::{AxialOffset, Defect, Floor, Surface, Width, WidthProfile};
 pub use doubt::{Doubt, STATIC_PRESSURE};

@@ -52,6 +52,17 @@ impl Lanes {
         slice[..LANES].copy_from_slice(&self.0);
     }
 
+    /// The numbers themselves.
+    #[inline(always)]
+    pub(crate) fn numbers(&self) -> &[f64; LANES] {
+        &self.0
+    }
+
+    #[inline(always)]
+    pub(crate) fn numbers_mut(&mut self) -> &mut [f64; LANES] {
+        &mut self.0
+    }
+
     #[inline(always)]
     pub(crate) fn map(self, mut f: impl FnMut(f64) -> f64) -> Self {
         Self::from_fn(|i| f(self.0[i]))

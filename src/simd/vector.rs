@@ -9,6 +9,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 pub(crate) use pulp::{Simd, WithSimd as Wide};
 
 use super::lanes::LANES;
+use super::number::{Decision, GUESS, Number};
 
 /// The numbers of a register.
 #[derive(Debug, Clone, Copy)]
@@ -225,6 +226,105 @@ impl<S: Simd> AddAssign for Vector<S> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
+    }
+}
+
+impl<S: Simd> Add<f64> for Vector<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: f64) -> Self {
+        self + self.same(other)
+    }
+}
+
+impl<S: Simd> Mul<f64> for Vector<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: f64) -> Self {
+        self * self.same(other)
+    }
+}
+
+impl<S: Simd> Number for Vector<S> {
+    type Decision = Choice<S>;
+
+    #[inline(always)]
+    fn same(self, x: f64) -> Self {
+        self.same(x)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+
+    /// Fused where the instructions have it, whatever is said.
+    #[inline(always)]
+    fn mul_add<const FMA: bool>(self, b: Self, c: Self) -> Self {
+        self.mul_add(b, c)
+    }
+
+    #[inline(always)]
+    fn gates(self, other: Self) -> Self {
+        let zero = self.same(0.0);
+        let off = self
+            .simd
+            .less_than_or_equal_f64s(self.numbers, zero.numbers);
+        self.told(off).choose(zero, other)
+    }
+
+    #[inline(always)]
+    fn above(self, other: Self) -> Choice<S> {
+        other.below(self)
+    }
+
+    #[inline(always)]
+    fn curve(self, f: impl Fn(f64) -> f64, _slope: impl Fn(f64, f64) -> f64) -> Self {
+        self.map(f)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
+    }
+
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let mut numbers = [[0.0; LANES]; 2];
+        self.store(&mut numbers[0]);
+        other.store(&mut numbers[1]);
+        let [a, b] = numbers;
+        let mut both = [0.0; LANES];
+        for (i, to) in both.iter_mut().enumerate().take(Self::LANES) {
+            *to = f(a[i], b[i]);
+        }
+        Self::load(self.simd, &both)
+    }
+
+    #[inline(always)]
+    fn range(self) -> (f64, f64) {
+        let mut numbers = [0.0; LANES];
+        self.store(&mut numbers);
+        let numbers = &numbers[..Self::LANES];
+        let least = numbers.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        (least, most)
+    }
+
+    #[inline(always)]
+    fn guess_inverse_root(self) -> Self {
+        let simd = self.simd;
+        let words: S::u32s = pulp::cast(self.numbers);
+        let halved: S::u64s = pulp::cast(simd.wrapping_dyn_shr_u32s(words, simd.splat_u32s(1)));
+        let guess = simd.sub_u64s(simd.splat_u64s(GUESS), halved);
+        self.with(simd.transmute_f64s_u64s(guess))
+    }
+}
+
+impl<S: Simd> Decision for Choice<S> {
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        self.and(other)
     }
 }
 

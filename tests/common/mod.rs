@@ -5,8 +5,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use ballrace::scene::{Friction, Mount, Probe, Scene, Support, presets};
-use ballrace::{Bandwidth, Run, Signals, simulate};
+use ballrace::scene::{Friction, Mount, Probe, RaceProfile, Row, Scene, Support, presets};
+use ballrace::{Bandwidth, Race, Run, Signals, simulate};
 
 /// Numbers in −1 … 1, the same in every run.
 pub struct Noise(pub u64);
@@ -120,4 +120,31 @@ pub fn one_ball(squeeze: f64) -> Scene {
 /// Mass of the ball of [`one_ball`] \[kg\].
 pub fn ball_mass() -> f64 {
     7850.0 * PI * 7.94e-3_f64.powi(3) / 6.0
+}
+
+/// Points of the groove that a row's conformity says, so many of them to 75° on both sides.
+pub fn tabulated(row: &Row, race: Race, count: usize) -> RaceProfile {
+    let (conformity, sigma) = match race {
+        Race::Outer => (row.outer_conformity, 1.0),
+        Race::Inner => (row.inner_conformity, -1.0),
+    };
+    let (r, ball) = (conformity * row.ball_diameter, row.ball_diameter / 2.0);
+    let (sin, cos) = row.contact_angle.sin_cos();
+    let a = row.pitch_diameter / 2.0 - sigma * (r - ball) * cos;
+    let centre = -sigma * f64::from(row.side) * (r - ball) * sin;
+    let angle = |k: usize| 75_f64.to_radians() * (2.0 * k as f64 / count as f64 - 1.0);
+    let (z, r) = (0..=count)
+        .map(|k| (centre + r * angle(k).sin(), a + sigma * r * angle(k).cos()))
+        .unzip();
+    RaceProfile::new(z, r)
+}
+
+/// All races of a scene through points of their tori.
+pub fn through_points(scene: &Scene, count: usize) -> Scene {
+    let mut scene = scene.clone();
+    for row in &mut scene.rows {
+        row.outer_profile = Some(tabulated(row, Race::Outer, count));
+        row.inner_profile = Some(tabulated(row, Race::Inner, count));
+    }
+    scene
 }

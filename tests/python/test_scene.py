@@ -48,6 +48,8 @@ def every_field() -> s.Scene:
         start_angle=0.3,
         outer_shoulders=(0.9, 0.8),
         inner_shoulders=(0.7, 0.9),
+        outer_shoulder_radius=1e-4,
+        inner_shoulder_radius=2e-4,
         outer_waviness=(s.Waviness(order=7, amplitude=1e-7, phase=0.1),),
         inner_waviness=(
             s.Waviness(order=8, amplitude=1e-7),
@@ -162,7 +164,33 @@ def scenes() -> list[s.Scene]:
             {"drive": s.SpeedDrive(s.Sine(mean=9.0, amplitude=1.0, frequency=2.0, phase=0.0))}
         ),
         full.replace({"drive": s.SpeedDrive(100.0), "contact.slices": s.AccurateSlices(1e-5)}),
+        shaped(full),
     ]
+
+
+def shaped(full: s.Scene) -> s.Scene:
+    """A scene whose races are a curve through points and gothic arches."""
+    row = dataclasses.replace(
+        full.rows[0],
+        outer_shoulders=None,
+        outer_shoulder_radius=None,
+        inner_shoulder_radius=None,
+        outer_profile=s.RaceProfile(
+            z=(-3e-3, -1e-3, 1e-3, 3e-3), r=(22.7e-3, 23.4e-3, 23.4e-3, 22.7e-3)
+        ),
+        inner_arch=s.GothicArch(shim_angle=0.3, conformities=(0.52, 0.53)),
+    )
+    other = dataclasses.replace(
+        row,
+        inner_shoulders=None,
+        outer_profile=None,
+        inner_arch=None,
+        outer_arch=row.inner_arch,
+        inner_profile=s.RaceProfile(
+            z=(-3e-3, -1e-3, 1e-3, 3e-3), r=(16.3e-3, 15.6e-3, 15.6e-3, 16.3e-3)
+        ),
+    )
+    return dataclasses.replace(full, rows=(row, other))
 
 
 def walk(value: Any, hint: Any, path: str = "") -> Iterator[tuple[str, Any, Any]]:

@@ -12,7 +12,7 @@ Where a field may be one of several things, its type says so: ``friction="none"`
 from __future__ import annotations
 
 from .approximations import Approximations
-from .bearing import Ring, RingName, Row, Waviness
+from .bearing import GothicArch, RaceProfile, Ring, RingName, Row, Waviness
 from .cage import Cage
 from .contact import AccurateSlices, Contact, FittedSlices, FixedSlices, Iso16281, NormalLaw, Slices
 from .defect import AxialOffset, Defect, Floor, Surface, Width, WidthProfile
@@ -56,6 +56,7 @@ __all__ = [
     "Floor",
     "ForcesProbe",
     "Friction",
+    "GothicArch",
     "Iso16281",
     "Load",
     "Material",
@@ -65,6 +66,7 @@ __all__ = [
     "Mount",
     "NormalLaw",
     "Probe",
+    "RaceProfile",
     "Ramp",
     "Ring",
     "RingName",

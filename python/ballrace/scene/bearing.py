@@ -11,7 +11,7 @@ from .friction import Friction
 from .material import Material
 from .support import Support
 
-__all__ = ["Ring", "RingName", "Row", "Waviness"]
+__all__ = ["GothicArch", "RaceProfile", "Ring", "RingName", "Row", "Waviness"]
 
 
 RingName = Literal["outer", "inner"]
@@ -35,6 +35,43 @@ class Waviness(Part):
     order: int
     amplitude: float
     phase: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class RaceProfile(Part):
+    """A race through points: the cubic spline R(z), twice continuously differentiable, that ends with its points.
+
+    Its end conditions are "not a knot", as those of :class:`scipy.interpolate.CubicSpline`. The points are
+    those of zero clearance and preload, which shift it as they shift a groove.
+
+    Attributes
+    ----------
+    z : tuple of float, or array
+        Axial places of the points from the row's plane [m], strictly increasing; 4 to 10 000.
+    r : tuple of float, or array
+        Radius of the race there, from the ring's axis [m].
+    """
+
+    z: tuple[float, ...]
+    r: tuple[float, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class GothicArch(Part):
+    """A race of two grooves whose centres lie apart along the axis, so that a ball that rests in it touches both.
+
+    The row's clearance is the play of a ball that touches both flanks at the shim angle.
+
+    Attributes
+    ----------
+    shim_angle : float
+        Between the plane and the normals of a resting ball [rad]; above 0, at most 80°.
+    conformities : tuple of two floats, or None
+        Conformities of the flanks towards -z and +z, above 0.5 and at most 1; None: that of the race, both.
+    """
+
+    shim_angle: float
+    conformities: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,6 +102,13 @@ class Row(Part):
         Start angle of ball 0, counter-clockwise from +x [rad].
     outer_shoulders, inner_shoulders : tuple of two floats, or None
         Shoulder angles towards -z and +z, from the groove's centre [rad]; None: no shoulders.
+    outer_shoulder_radius, inner_shoulder_radius : float or None
+        Radius by which the shoulders' edges are rounded off [m], so that a contact that runs over one fades away;
+        None: sharp edges. With the law of ISO 16281.
+    outer_profile, inner_profile : RaceProfile or None
+        Race through points, in place of the groove that the conformity says.
+    outer_arch, inner_arch : GothicArch or None
+        Race as a gothic arch, as in a four-point bearing.
     outer_waviness, inner_waviness : tuple of Waviness
         Waviness of the races; turns with the rings.
     diameter_errors : tuple of float
@@ -96,6 +140,12 @@ class Row(Part):
     start_angle: float = 0.0
     outer_shoulders: tuple[float, float] | None = None
     inner_shoulders: tuple[float, float] | None = None
+    outer_shoulder_radius: float | None = None
+    inner_shoulder_radius: float | None = None
+    outer_profile: RaceProfile | None = None
+    inner_profile: RaceProfile | None = None
+    outer_arch: GothicArch | None = None
+    inner_arch: GothicArch | None = None
     outer_waviness: tuple[Waviness, ...] = ()
     inner_waviness: tuple[Waviness, ...] = ()
     diameter_errors: tuple[float, ...] = ()

@@ -17,8 +17,8 @@ pub(crate) struct Places {
     pub q: [Lanes; 3],
 }
 
-/// Which of eight balls of a row touch a race, which of these may see a defect of it, how the race is raised
-/// there, and which balls are lost ([`crate::contact::Torus::farthest`]).
+/// Which of eight balls of a row touch a race, which of these may see a defect of it or are for other reasons left to
+/// [`Pair::evaluate`], how the race is raised there, and which balls are lost ([`crate::contact::Torus::farthest`]).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Near {
     pub touching: Mask,
@@ -102,10 +102,20 @@ impl Pair {
         } else {
             Raise::each(|i| self.waves.raise(ring.angle_of(y[i].atan2(x[i]))))
         };
-        let e = (d - raise.height - race.a) * race.sigma;
-        let c = Lanes::all(race.centre) - z;
-        let section = Section::new::<FMA, false>(balls.radius, Lanes::all(race.r), e, c);
-        let touching = section.is_clear().not();
+        let (touching, lost) = if self.shape.is_torus() {
+            let e = (d - raise.height - race.a) * race.sigma;
+            let c = Lanes::all(race.centre) - z;
+            let section = Section::new::<FMA, false>(balls.radius, Lanes::all(race.r), e, c);
+            // Negated, so that what is not a number counts as lost.
+            let inside = balls
+                .radius
+                .map(|radius| race.farthest(radius))
+                .above(section.l);
+            (section.is_clear().not(), inside.not())
+        } else {
+            let [touching, lost] = self.near_shape(balls.radius, d - raise.height, z);
+            (touching, lost)
+        };
         let mut faulted = Mask::default();
         if !self.faults.is_empty() && touching.any() {
             for fault in &self.faults {
@@ -116,16 +126,14 @@ impl Pair {
                 faulted = faulted.or((x * cos + y * sin).above(d * bound));
             }
         }
-        // Negated, so that what is not a number counts as lost.
-        let inside = balls
-            .radius
-            .map(|radius| race.farthest(radius))
-            .above(section.l);
+        if !self.goes_by_eights() {
+            faulted = touching;
+        }
         Near {
             touching,
             faulted: faulted.and(touching),
             raise,
-            lost: inside.not(),
+            lost,
         }
     }
 }

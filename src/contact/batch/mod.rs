@@ -8,14 +8,18 @@
 #![allow(clippy::inline_always)]
 
 mod gather;
+mod points;
+mod rubbing;
 
 pub(crate) use gather::{Constants, EightContacts, Places};
+pub(crate) use rubbing::Rubbing;
 
 use super::kernel::{self, Element, Receiver, State, Whole};
 use super::laws::traction::Rolling;
 use super::profile::{SHALLOW, Section, Zone};
+use super::slip::Moves;
 use super::{Law, Motion, Pair};
-use crate::simd::{Counters, Lanes, Mask};
+use crate::simd::{Counters, InstructionSet, Lanes, Mask};
 
 /// What eight contacts put on balls and ring: force \[N\] and moment about z \[N m\].
 #[derive(Debug, Clone, Copy, Default)]
@@ -28,18 +32,12 @@ pub(crate) struct BatchForces {
     pub left_out: Mask,
 }
 
-/// How eight balls move against their ring.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Moves {
-    /// Velocity of the ball's centre along n_e and z \[m/s\].
-    pub v_e: Lanes,
-    pub v_z: Lanes,
-    /// Slip along t_e is slide + spin · arm.
-    pub slide: Lanes,
-    pub spin: Lanes,
-    pub rolling: Rolling<Lanes>,
-    /// A contact's arm from the ball's centre, R(z) − d, is this and σ times the groove's height.
-    pub arm: Lanes,
+/// How the force of a contact is summed.
+pub(crate) enum Summing<'a> {
+    /// Element by element.
+    Elements(InstructionSet, &'a mut Rubbing),
+    /// Under Hertz's law as a whole, by its stiffness.
+    AsOne(f64),
 }
 
 /// Where eight contacts are and which way they point.
@@ -58,55 +56,33 @@ pub(super) struct Place {
 struct Sums<'a> {
     law: &'a Law,
     sigma: f64,
-    moves: &'a Moves,
+    moves: &'a Moves<Lanes>,
     radii: [Lanes; 2],
     normal: Lanes,
     tangential: Lanes,
     axial: Lanes,
     moment: Lanes,
-    pulls: Counters,
-}
-
-/// The same on waves, whose slope takes the elastic part of the force along n_e.
-struct WavySums<'a> {
-    sums: Sums<'a>,
+    /// The elastic part of that along n_e, of which waves turn some aside. Summed without waves too: that costs less than a
+    /// second program for those with.
     elastic: Lanes,
+    pulls: Counters,
 }
 
 impl Pair {
     /// Forces of eight contacts of this or another row: what their constants do not say (the kind of law, where
-    /// the ball is cut, damping, friction) is the same for all rows. Contacts in `skip` are left out, and told. With a
-    /// `stiffness` they follow Hertz's law as a whole.
+    /// the ball is cut, damping, friction) is the same for all rows. Contacts in `skip` are left out, and told.
     #[inline(always)]
     pub(crate) fn forces<const FMA: bool, const SYMMETRIC: bool>(
         &self,
         eight: &EightContacts,
         ring: &Motion,
         skip: Mask,
-        stiffness: Option<f64>,
+        summing: Summing<'_>,
     ) -> BatchForces {
         let (whole, moves, place) = self.place::<FMA, SYMMETRIC>(eight, ring, skip);
         let mut sums = Sums::new(self, &whole, &moves);
-        if let Some(lean) = place.lean {
-            let elastic = Lanes::ZERO;
-            let mut wavy = WavySums { sums, elastic };
-            self.elements::<FMA, SYMMETRIC>(&whole, stiffness, &mut wavy);
-            sums = wavy.sums;
-            sums.tangential += wavy.elastic * lean;
-        } else {
-            self.elements::<FMA, SYMMETRIC>(&whole, stiffness, &mut sums);
-        }
-        let (sigma, n) = (self.race.sigma, place.n);
-        let (along, across) = (sums.normal * sigma, sums.tangential * sigma);
-        let plane = (n.0 * along - n.1 * across, n.1 * along + n.0 * across);
-        let moment = sums.moment * sigma;
-        BatchForces {
-            ball: [plane.0, plane.1, sums.axial, moment],
-            // About the ring's centre the arm is longer by d.
-            ring: [-plane.0, -plane.1, -sums.axial, -moment - place.d * across],
-            pulls: sums.pulls.total(),
-            left_out: place.regular.not(),
-        }
+        self.elements::<FMA, SYMMETRIC>(&whole, &moves, summing, &mut sums);
+        sums.on_bodies(&place)
     }
 
     /// Where eight contacts are; those in `skip` are not regular.
@@ -116,7 +92,7 @@ impl Pair {
         eight: &EightContacts,
         ring: &Motion,
         skip: Mask,
-    ) -> (Whole<Lanes>, Moves, Place) {
+    ) -> (Whole<Lanes>, Moves<Lanes>, Place) {
         let of = &eight.constants;
         let sigma = self.race.sigma;
         let (zero, one) = (Lanes::ZERO, Lanes::all(1.0));
@@ -194,21 +170,23 @@ impl Pair {
         }
     }
 
-    /// All elements, or with a stiffness one for all.
+    /// All elements, or one for all.
     #[inline(always)]
     fn elements<const FMA: bool, const SYMMETRIC: bool>(
         &self,
         whole: &Whole<Lanes>,
-        stiffness: Option<f64>,
+        moves: &Moves<Lanes>,
+        summing: Summing<'_>,
         to: &mut impl Receiver<Lanes>,
     ) {
-        match stiffness {
-            Some(stiffness) => {
+        match summing {
+            Summing::AsOne(stiffness) => {
                 let element = kernel::as_one(whole, stiffness);
                 to.element::<FMA, false>(&element, self.slices.count());
             }
-            None => {
-                kernel::elements::<_, FMA, SYMMETRIC>(&self.law, &self.slices, whole, to);
+            Summing::Elements(instructions, rubbing) => {
+                let rubbing = rubbing.at_nodes::<FMA>(instructions, self, whole, moves, None);
+                kernel::elements::<_, FMA, SYMMETRIC>(&self.law, &self.slices, rubbing, whole, to);
             }
         }
     }
@@ -216,7 +194,7 @@ impl Pair {
 
 impl<'a> Sums<'a> {
     #[inline(always)]
-    fn new(pair: &'a Pair, whole: &Whole<Lanes>, moves: &'a Moves) -> Self {
+    fn new(pair: &'a Pair, whole: &Whole<Lanes>, moves: &'a Moves<Lanes>) -> Self {
         let zero = Lanes::ZERO;
         Self {
             law: &pair.law,
@@ -227,7 +205,28 @@ impl<'a> Sums<'a> {
             tangential: zero,
             axial: zero,
             moment: zero,
+            elastic: zero,
             pulls: Counters::default(),
+        }
+    }
+
+    /// What they put on balls and ring.
+    #[inline(always)]
+    fn on_bodies(&self, place: &Place) -> BatchForces {
+        let (sigma, n) = (self.sigma, place.n);
+        let mut tangential = self.tangential;
+        if let Some(lean) = place.lean {
+            tangential += self.elastic * lean;
+        }
+        let (along, across) = (self.normal * sigma, tangential * sigma);
+        let plane = (n.0 * along - n.1 * across, n.1 * along + n.0 * across);
+        let moment = self.moment * sigma;
+        BatchForces {
+            ball: [plane.0, plane.1, self.axial, moment],
+            // About the ring's centre the arm is longer by d.
+            ring: [-plane.0, -plane.1, -self.axial, -moment - place.d * across],
+            pulls: self.pulls.total(),
+            left_out: place.regular.not(),
         }
     }
 }
@@ -242,9 +241,12 @@ impl Receiver<Lanes> for Sums<'_> {
         let moves = self.moves;
         let sigma = Lanes::all(self.sigma);
         let arm = element.groove.mul_add::<FMA>(sigma, moves.arm);
+        let elastic = element.load * element.length;
+        self.elastic += elastic * element.share.0;
         let state = State {
-            elastic: element.load * element.length,
+            elastic,
             share: element.share,
+            rubbing: element.rubbing,
             slope: (element.sin, element.cos),
             velocity: [
                 moves.v_e,
@@ -268,18 +270,6 @@ impl Receiver<Lanes> for Sums<'_> {
         if !SYMMETRIC {
             self.axial = self.axial - axial;
         }
-    }
-}
-
-impl Receiver<Lanes> for WavySums<'_> {
-    #[inline(always)]
-    fn element<const FMA: bool, const SYMMETRIC: bool>(
-        &mut self,
-        element: &Element<Lanes>,
-        times: u32,
-    ) {
-        self.elastic += element.load * element.length * element.share.0;
-        self.sums.element::<FMA, SYMMETRIC>(element, times);
     }
 }
 

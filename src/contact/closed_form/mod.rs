@@ -56,10 +56,12 @@ pub(super) fn elastic_stiffness(pair: &Pair) -> Option<f64> {
     }
 }
 
-/// The nodes of a contact that could have a closed form.
+/// The nodes of a contact that could have a closed form: of a torus without friction.
 fn rules(pair: &Pair) -> Option<&Rules> {
     match &pair.slices {
-        Slices::Fitted(rules) if pair.law.traction.is_none() => Some(rules),
+        Slices::Fitted(rules) if pair.law.traction.is_none() && pair.shape.is_torus() => {
+            Some(rules)
+        }
         _ => None,
     }
 }
@@ -309,7 +311,7 @@ impl Series {
 mod tests {
     use super::*;
     use crate::contact::iso16281::Iso16281;
-    use crate::contact::{Law, Torus, Waves};
+    use crate::contact::{Law, Shape, Torus, Waves};
     use crate::simd::InstructionSet;
 
     struct Forces<'a>(&'a Series, f64);
@@ -346,6 +348,7 @@ mod tests {
                     lowest: -r,
                     highest: r,
                 },
+                shape: Shape::default(),
                 waves: Waves::default(),
                 law: Law::elastic(Elastic::Iso16281(Iso16281::new(
                     3.5948e10,

@@ -16,7 +16,7 @@ impl Contact<'_> {
         depth: f64,
     ) -> RingElement<D> {
         let raise = self.pair.waves.raise(self.on_ring + edge.angle);
-        let sigma = self.pair.race.sigma;
+        let sigma = self.race.sigma;
         let reach = node.torus_radius + raise.height + sigma * (edge.radius + depth);
         let u = rotated(self.n, edge.angle);
         let from_ring = u * reach;
@@ -91,7 +91,7 @@ impl Contact<'_> {
             waves.raise(self.r.angle_of(m.y.atan2(m.x)))
         };
         let radius = node.torus_radius + raise.height;
-        let sigma = self.pair.race.sigma;
+        let sigma = self.race.sigma;
         RingElement {
             n_e: m * sigma,
             s: D::new(

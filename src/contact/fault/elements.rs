@@ -89,7 +89,7 @@ const MOST_KEPT: usize = 24;
 impl Contact<'_> {
     /// Whether a surface is absent where the slice meets it.
     pub(in crate::contact) fn is_open(&self, node: &Node) -> bool {
-        let direction = self.n * self.pair.race.sigma;
+        let direction = self.n * self.race.sigma;
         self.ring_arc(node).is_some() || self.ball_arc(node, direction).is_some()
     }
 
@@ -162,7 +162,7 @@ impl Contact<'_> {
 
     /// The race, whole.
     fn race_element<D: Depth>(&self, node: &Node) -> RingElement<D> {
-        let sigma = self.pair.race.sigma;
+        let sigma = self.race.sigma;
         RingElement {
             shape: Shape::Race,
             n_e: self.n * sigma,
@@ -182,13 +182,16 @@ impl Contact<'_> {
         if self.pair.waves.is_round() {
             return Lean::default();
         }
-        let force = turned(n) * (self.pair.race.sigma * slope / distance);
+        let force = turned(n) * (self.race.sigma * slope / distance);
         Lean { force, arm }
     }
 
     /// Slope of the race's radius along z.
     pub(super) fn race_slope(&self, node: &Node) -> f64 {
-        self.pair.race.slope(node.z, node.torus_radius)
+        match &self.surface {
+            None => self.race.slope(node.z, node.torus_radius),
+            Some(surface) => surface.curve.at(node.z).slope,
+        }
     }
 
     /// A feature of the ring against the ball, smooth or not.

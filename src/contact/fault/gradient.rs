@@ -104,7 +104,7 @@ impl Contact<'_> {
     /// Energy per length on the side of lower ζ less that on the other; none where there is no contact or no change.
     fn jump(&self, line: &Line, zeta: f64) -> Option<f64> {
         let node = self.node_of(line, zeta)?;
-        let reaches = node.depth > 0.0 && self.pair.race.reaches(node.z);
+        let reaches = node.depth > 0.0 && self.race.reaches(node.z);
         let side = |beside: f64| self.energy(&Node { beside, ..node });
         let jump = side(-HAIR) - side(HAIR);
         (reaches && jump != 0.0).then_some(jump)
@@ -133,7 +133,7 @@ impl Contact<'_> {
 
     /// From derivatives of the energy by e and dz.
     fn central(&self, by_e: f64, by_z: f64) -> Aside {
-        let sigma = self.pair.race.sigma;
+        let sigma = self.race.sigma;
         let across = sigma * by_e * self.raise.slope / self.distance;
         Aside {
             plane: self.n * (-sigma * by_e) + turned(self.n) * across,
@@ -153,7 +153,7 @@ mod tests {
     use crate::contact::hertz::Hertz;
     use crate::contact::iso16281::Iso16281;
     use crate::contact::{
-        BallSide, Elastic, Fault, Law, Motion, Pair, Rules, Slices, Torus, Touch, Waves,
+        BallSide, Elastic, Fault, Law, Motion, Pair, Rules, Shape, Slices, Torus, Touch, Waves,
     };
     use crate::scene::{Defect, Floor, Material, Surface, Waviness, Width, WidthProfile};
 
@@ -214,6 +214,7 @@ mod tests {
             |d: &Defect| Fault::new(d, d.axial_offset.number().unwrap(), 30e-3 + sigma * race.r);
         Pair {
             race,
+            shape: Shape::default(),
             waves: Waves(if waves > 0 { vec![wave] } else { Vec::new() }),
             law: Law::elastic(elastic),
             // Inside a defect forces like s^{10/9} end within pieces, without a weight for them.

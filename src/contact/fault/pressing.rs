@@ -12,8 +12,11 @@ impl Contact<'_> {
         if node.depth <= 0.0 {
             return;
         }
-        if !self.pair.race.reaches(node.z) {
-            sink.truncated();
+        if !self.race.reaches(node.z) {
+            // Beyond the cusp of a gothic arch is the other flank.
+            if !self.pair.is_beyond_cusp(node.z) {
+                sink.truncated();
+            }
             return;
         }
         // Forces along normals are all there is to the ISO law, and where surfaces are whole.
@@ -61,6 +64,7 @@ impl Contact<'_> {
             z: node.z,
             width: node.width,
             depth,
+            rubbing: node.rubbing,
             elastic,
             normal: force.normal,
             energy: if S::ENERGY {
@@ -122,13 +126,14 @@ impl Contact<'_> {
         State {
             elastic,
             share: self.common().unwrap_or((1.0, tan)),
+            rubbing: node.rubbing,
             slope,
             velocity: [v_p.dot(&n_e), v_p.dot(&turned(n_e)), b.vz - r.vz],
             load,
             depth,
             arm,
             rolling: self.rolling,
-            radii: [radius, self.pair.race.r],
+            radii: [radius, self.race.r],
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What a contact carries within a defect.
 
 use super::Fault;
-use crate::contact::{BallSide, Motion, Pair, Sink, Torus, Touch};
+use crate::contact::{BallSide, Motion, Pair, Sink, Touch};
 
 /// A defect as a contact sees it.
 #[derive(Debug, Clone, Copy)]
@@ -27,7 +27,7 @@ pub(crate) struct LoadWithin {
 struct Sum<'a> {
     defect: &'a Sighted<'a>,
     radius: f64,
-    race: &'a Torus,
+    pair: &'a Pair,
     load: f64,
     within: f64,
     moment: f64,
@@ -39,7 +39,8 @@ impl Sink for Sum<'_> {
             let square = self.radius * self.radius - touch.zeta * touch.zeta;
             (touch.zeta, square.max(0.0).sqrt())
         } else {
-            (touch.z, self.race.radius(touch.z).unwrap_or(self.race.a))
+            let at = self.pair.radius_at(touch.z);
+            (touch.z, at.unwrap_or(self.pair.race.a))
         };
         self.load += touch.normal;
         self.moment += touch.normal * place;
@@ -62,7 +63,7 @@ impl Pair {
         let mut sum = Sum {
             defect,
             radius: ball.radius,
-            race: &self.race,
+            pair: self,
             load: 0.0,
             within: 0.0,
             moment: 0.0,

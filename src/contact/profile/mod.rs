@@ -1,13 +1,23 @@
-//! Races as functions R(z): the torus (model section 2), and a ball before it in their meridional plane.
+//! Races as functions R(z), and a ball before one in their meridional plane.
+//!
+//! A race is a torus (model section 2), a curve through points (`curve`; `contour` finds the contacts with it, `meeting` their zones). A gothic
+//! arch is two tori, of which `scalar/shape.rs` knows.
 
+mod contour;
+mod curve;
+mod meeting;
 mod section;
 mod waves;
 mod zone;
 
+pub(crate) use contour::{Before, Contour};
+pub(super) use contour::{FLAT, SNUG};
+pub(crate) use curve::Curve;
+pub(super) use meeting::{Meeting, REACH, Surface};
 pub(crate) use section::Section;
 pub(crate) use waves::Raise;
 pub use waves::Waves;
-pub(super) use zone::{Chord, SHALLOW, SurfacePoint, Zone};
+pub(super) use zone::{Chord, Ends, SHALLOW, SurfacePoint, Zone};
 
 /// A groove that is part of a torus: R(z) = a ± √(r² − (z − z₀)²), + for the outer race.
 ///

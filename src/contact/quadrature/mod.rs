@@ -1,9 +1,16 @@
-//! Where a ball is cut: fixed slices of equal width, or quadrature nodes fitted to the zone that touches.
+//! Where a ball is cut: fixed slices of equal width, or quadrature nodes fitted to the zone that touches, and what these weigh
+//! for friction.
+
+mod halves;
+mod product;
 
 use std::collections::BTreeMap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::{DMatrix, SymmetricEigen};
+
+pub(super) use halves::Halves;
+pub(super) use product::Product;
 
 /// Fixed slices or fitted nodes.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,9 +33,9 @@ impl Slices {
     }
 }
 
-/// Rules that have been asked for, by nodes and exponent: every race of every scene needs the same few, and their
+/// Rules that have been asked for, by nodes, exponent and how much finer friction is resolved: every race of every scene needs the same few, and their
 /// eigenvalues would be most of what it costs to compile a scene.
-static KNOWN: Mutex<BTreeMap<(usize, u64), Rules>> = Mutex::new(BTreeMap::new());
+static KNOWN: Mutex<BTreeMap<(usize, u64, usize), Rules>> = Mutex::new(BTreeMap::new());
 
 /// Quadrature rules on −1 … 1 for forces that vanish at some ends like a power of the penetration.
 ///
@@ -36,11 +43,24 @@ static KNOWN: Mutex<BTreeMap<(usize, u64), Rules>> = Mutex::new(BTreeMap::new())
 /// named; the weight function is divided out, so one sum serves all.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rules {
-    both: Vec<(f64, f64)>,
-    low: Vec<(f64, f64)>,
-    high: Vec<(f64, f64)>,
-    neither: Vec<(f64, f64)>,
+    both: Rule,
+    low: Rule,
+    high: Rule,
+    neither: Rule,
+    /// What their nodes weigh for friction, if there are no more than [`MOST`].
+    products: Option<Arc<[Product; 4]>>,
+    halves: Option<Arc<Halves>>,
 }
+
+/// Most nodes a piece with weights of their own for friction: more do without.
+pub(super) const MOST: usize = 64;
+
+/// Nodes beyond those of a rule by which friction is resolved, where it is not known how steep it is. 1/√(u² + w²) has poles at
+/// ± i η with η about 0.2 of half a zone where a loaded contact spins; 26 nodes meet these to e^(−2 · 26 η).
+const FINER: usize = 20;
+
+/// Nodes and weights.
+type Rule = Vec<(f64, f64)>;
 
 impl Rules {
     /// m nodes a piece for a law of exponent β, 2 m on one where the force vanishes at neither end.
@@ -54,14 +74,38 @@ impl Rules {
     /// assert!((sum - 1.293_623_271_07).abs() < 1e-11, "{sum}");
     /// ```
     pub fn new(m: usize, exponent: f64) -> Self {
+        Self::for_friction(m, exponent, FINER)
+    }
+
+    /// The same with weights for friction from rules of so many nodes more, or for none without such weights.
+    pub fn for_friction(m: usize, exponent: f64, finer: usize) -> Self {
         let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
         known
-            .entry((m, exponent.to_bits()))
-            .or_insert_with(|| Self::compute(m, exponent))
+            .entry((m, exponent.to_bits(), finer))
+            .or_insert_with(|| Self::compute(m, exponent, finer))
             .clone()
     }
 
-    fn compute(m: usize, exponent: f64) -> Self {
+    fn compute(m: usize, exponent: f64, finer: usize) -> Self {
+        let rules = Self::nodes(m, exponent);
+        let products =
+            (m <= MOST && finer > 0).then(|| Arc::new(products(&rules, m + finer, exponent)));
+        let halves = products
+            .as_deref()
+            .map(|[both, ..]| Arc::new(Halves::new(both)));
+        let [both, low, high, neither] = rules;
+        Self {
+            both,
+            low,
+            high,
+            neither,
+            products,
+            halves,
+        }
+    }
+
+    /// The rules of m nodes for forces that vanish at both ends, the low one, the high one and none.
+    fn nodes(m: usize, exponent: f64) -> [Rule; 4] {
         let one_sided = jacobi(
             m,
             0.0,
@@ -69,13 +113,13 @@ impl Rules {
             2_f64.powf(exponent + 1.0) / (exponent + 1.0),
         );
         let high = one_sided.iter().rev().map(|(x, w)| (-x, *w)).collect();
-        Self {
-            both: jacobi(m, exponent, exponent, both_sided_mass(exponent)),
-            low: one_sided,
+        [
+            jacobi(m, exponent, exponent, both_sided_mass(exponent)),
+            one_sided,
             high,
             // Inside a defect the forces of its elements vanish at ends of their own, with no weight for them.
-            neither: jacobi(2 * m, 0.0, 0.0, 2.0),
-        }
+            jacobi(2 * m, 0.0, 0.0, 2.0),
+        ]
     }
 
     /// The rule for a piece whose force vanishes at its low end, its high end, both or neither.
@@ -88,10 +132,41 @@ impl Rules {
         }
     }
 
+    /// What the nodes of that rule weigh for friction.
+    pub(super) fn product(&self, sealed: [bool; 2]) -> Option<&Product> {
+        let [both, low, high, neither] = self.products.as_deref()?;
+        Some(match sealed {
+            [true, true] => both,
+            [true, false] => low,
+            [false, true] => high,
+            [false, false] => neither,
+        })
+    }
+
+    /// What those of a whole zone weigh.
+    pub(super) fn halves(&self) -> Option<&Halves> {
+        self.halves.as_deref()
+    }
+
     /// Nodes of a whole zone.
     pub fn count(&self) -> usize {
         self.both.len()
     }
+}
+
+/// What the nodes of all rules weigh for friction, by rules of m nodes.
+fn products([both, low, high, neither]: &[Rule; 4], m: usize, exponent: f64) -> [Product; 4] {
+    let finer = Rules::nodes(m, exponent);
+    let (rising, falling) = (
+        |x: f64| (1.0 + x).powf(exponent),
+        |x: f64| (1.0 - x).powf(exponent),
+    );
+    [
+        Product::new(both, &finer[0], |x| rising(x) * falling(x)),
+        Product::new(low, &finer[1], rising),
+        Product::new(high, &finer[2], falling),
+        Product::new(neither, &finer[3], |_| 1.0),
+    ]
 }
 
 /// ∫ (1 − x²)^β dx = 2 ∫₀¹ … by the one-sided rule, on which (1 + x)^β is smooth.

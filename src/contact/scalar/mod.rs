@@ -1,18 +1,25 @@
 //! One ball on one race: finds the zone that touches, and cuts it into slices.
 
+mod rubbing;
+mod shape;
 mod slices;
 
+pub(super) use shape::Kind;
+pub use shape::Shape;
 pub(super) use slices::{Line, Node};
 
 use super::laws::traction::Rolling;
-use super::profile::{Raise, Section};
+use super::profile::{Before, Meeting, Raise, Section, Surface};
+use super::slip::{Moves, Slip};
 use super::{Cut, Fault, Law, Motion, Sink, Slices, Torus, V2, Waves, turned};
 
 /// What all contacts of a row's balls with one race share.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pair {
-    /// The race.
+    /// The race: a torus, or what is like a race of another shape where balls nominally touch it.
     pub race: Torus,
+    /// Its shape.
+    pub shape: Shape,
     /// Its waviness.
     pub waves: Waves,
     /// What they follow.
@@ -47,59 +54,185 @@ impl Pair {
             return;
         }
         let n = apart / distance;
-        let sigma = self.race.sigma;
         let needs_angle =
             !(self.waves.is_round() && self.faults.is_empty() && ball.faults.is_empty());
         let angle = if needs_angle { seen.direction() } else { 0.0 };
-        let on_ring = r.angle_of(angle);
-        let raise = self.waves.raise(on_ring);
-        let section = self
-            .race
-            .section(ball.radius, distance, seen.z, raise.height);
-        if section.is_clear() {
+        let raise = self.waves.raise(r.angle_of(angle));
+        let z = seen.z;
+        let facing = Facing {
+            apart,
+            distance,
+            z,
+            n,
+            angle,
+            raise,
+        };
+        if let Kind::Points { contour, .. } = self.shape.kind() {
+            let before = Before {
+                radius: ball.radius,
+                d: distance - raise.height,
+                z,
+            };
+            for meeting in contour.meetings(before) {
+                self.meet(ball, [b, r], &facing, &meeting, sink);
+            }
             return;
         }
-        let on_ball = b.angle_of(if sigma > 0.0 {
+        for flank in self.flanks() {
+            let race = &flank.race;
+            let section = race.section(ball.radius, distance, z, raise.height);
+            if section.is_clear() {
+                continue;
+            }
+            let line = match flank.law.cut() {
+                Cut::BallSurface => Some(Line::along_ball(&section)),
+                Cut::CommonTangent { curvature } => Line::along_tangent(curvature, &section),
+            };
+            let Some(line) = line else { continue };
+            let contact = Contact {
+                slip: flank.slip_along(&line, &section, [b, r], &facing),
+                ..flank.contact(ball, [b, r], &facing, section)
+            };
+            contact.slices(&line, sink);
+        }
+    }
+
+    /// One contact with a race through points.
+    fn meet<S: Sink>(
+        &self,
+        ball: &BallSide,
+        motions: [&Motion; 2],
+        facing: &Facing,
+        meeting: &Meeting<'_>,
+        sink: &mut S,
+    ) {
+        let section = meeting.section;
+        let line = match self.law.cut() {
+            Cut::BallSurface => {
+                let (chord, ends) = meeting.chord();
+                Some(Line::along_chord(chord, ends))
+            }
+            Cut::CommonTangent { curvature } => Line::along_tangent(curvature, &section),
+        };
+        let Some(line) = line else { return };
+        if meeting.ends_within(line.ends()) {
+            sink.truncated();
+        }
+        let contact = Contact {
+            race: meeting.torus,
+            surface: Some(meeting.surface),
+            slip: self.slip_along(&line, &section, motions, facing),
+            ..self.contact(ball, motions, facing, section)
+        };
+        contact.slices(&line, sink);
+    }
+
+    /// A contact with the torus.
+    fn contact<'a>(
+        &'a self,
+        ball: &'a BallSide,
+        [b, r]: [&'a Motion; 2],
+        facing: &Facing,
+        section: Section<f64>,
+    ) -> Contact<'a> {
+        let Facing {
+            apart,
+            distance,
+            z,
+            n,
+            angle,
+            raise,
+        } = *facing;
+        let on_ring = r.angle_of(angle);
+        let on_ball = b.angle_of(if self.race.sigma > 0.0 {
             angle
         } else {
             angle + std::f64::consts::PI
         });
         let ring_open = self.faults.iter().any(|fault| fault.in_reach(on_ring));
         let ball_near = ball.faults.iter().any(|fault| fault.in_reach(on_ball));
-        let line = match self.law.cut() {
-            Cut::BallSurface => Some(Line::along_ball(&section)),
-            Cut::CommonTangent { curvature } => Line::along_tangent(curvature, &section),
-        };
-        let Some(line) = line else { return };
-        let across = seen.velocity.dot(&turned(n));
-        let contact = Contact {
+        Contact {
             pair: self,
+            race: self.race,
+            surface: None,
             ball,
             b,
             r,
             apart,
             distance,
-            z: seen.z,
+            z,
             n,
             on_ring,
             raise,
             ring_open,
             // A ring edge is met in another direction than the race.
             ball_open: ball_near || ring_open && !ball.faults.is_empty(),
+            slip: None,
             section,
+            rolling: self.moves([b, r], facing).rolling,
+        }
+    }
+
+    /// How the ball moves against the ring.
+    fn moves(&self, [b, r]: [&Motion; 2], facing: &Facing) -> Moves<f64> {
+        let Facing { distance, n, .. } = *facing;
+        let (velocity, sigma) = (b.seen_from(r).velocity, self.race.sigma);
+        let across = velocity.dot(&turned(n));
+        Moves {
+            v_e: velocity.dot(&n) * sigma,
+            v_z: b.vz - r.vz,
+            slide: (across - distance * r.omega) * sigma,
+            spin: (b.omega - r.omega) * sigma,
             rolling: if self.reads_rolling() {
                 Rolling::new(distance, across, [b.omega, r.omega])
             } else {
                 Rolling::resting(distance)
             },
-        };
-        contact.slices(&line, sink);
+            arm: self.race.a + facing.raise.height - distance,
+        }
     }
+
+    /// The slip along a line, where it is a zone's and there is friction.
+    fn slip_along(
+        &self,
+        line: &Line,
+        section: &Section<f64>,
+        motions: [&Motion; 2],
+        facing: &Facing,
+    ) -> Option<Slip<f64>> {
+        if !line.is_common(section) {
+            return None;
+        }
+        let moves = self.moves(motions, facing);
+        if moves.are_none() {
+            return None;
+        }
+        // Beside the groove there is no slip to tell, nor a node to weigh.
+        Slip::along::<false>(&self.law, self.race.sigma, section, &moves).filter(Slip::is_finite)
+    }
+}
+
+/// A ball as it stands before a ring.
+struct Facing {
+    /// From the ring's centre to the ball's, and how far.
+    apart: V2,
+    distance: f64,
+    /// Axially, in the ring's frame.
+    z: f64,
+    /// The unit vector across the axis and, where anything depends on it, its angle.
+    n: V2,
+    angle: f64,
+    /// Of the race by its waves.
+    raise: Raise<f64>,
 }
 
 /// A contact being evaluated.
 pub(super) struct Contact<'a> {
     pub(super) pair: &'a Pair,
+    /// The torus, or that of the circle of curvature of another shape where it is met.
+    pub(super) race: Torus,
+    /// The race where it is a curve through points.
+    pub(super) surface: Option<Surface<'a>>,
     pub(super) ball: &'a BallSide,
     pub(super) b: &'a Motion,
     pub(super) r: &'a Motion,
@@ -108,7 +241,7 @@ pub(super) struct Contact<'a> {
     pub(super) distance: f64,
     /// Axial place of the ball in the ring's frame.
     pub(super) z: f64,
-    /// Its unit vector.
+    /// Unit vector of `apart`.
     pub(super) n: V2,
     /// Direction of the ball in the ring's frame.
     pub(super) on_ring: f64,
@@ -117,10 +250,20 @@ pub(super) struct Contact<'a> {
     pub(super) ring_open: bool,
     pub(super) ball_open: bool,
     pub(super) section: Section<f64>,
+    /// Along the line, if there is friction; on a curve through points that along the circle of curvature.
+    pub(super) slip: Option<Slip<f64>>,
     pub(super) rolling: Rolling<f64>,
 }
 
 impl Contact<'_> {
+    /// Height of the race over the groove's centre at an axial place of the ring's frame; none where there is none.
+    pub(super) fn groove(&self, z: f64) -> Option<f64> {
+        match &self.surface {
+            None => self.race.groove(z),
+            Some(surface) => Some(self.race.sigma * (surface.at(z)?.radius - self.race.a)),
+        }
+    }
+
     /// (cos α', sin α') of the common normal, where all elements press along it.
     pub(super) fn common(&self) -> Option<(f64, f64)> {
         let is_flat = self.pair.law.cut().is_flat();

@@ -11,7 +11,8 @@
 use super::Contact;
 use crate::contact::fault::Station;
 use crate::contact::fault::gradient::{HAIR, Owner};
-use crate::contact::profile::{Chord, Section, Zone};
+use crate::contact::profile::{Chord, Ends, Section, Zone};
+use crate::contact::quadrature::MOST;
 use crate::contact::{Fault, Rules, Sink, Slices};
 
 /// The line along which a contact is cut, over the zone low … high of u.
@@ -37,7 +38,15 @@ enum Along {
 impl Line {
     /// Along the ball's surface.
     pub(super) fn along_ball(section: &Section<f64>) -> Self {
-        let (chord, [(low, low_sealed), (high, high_sealed)]) = Chord::of(section);
+        let (chord, ends) = Chord::of(section);
+        Self::along_chord(chord, ends)
+    }
+
+    /// Along a chord, between the ends of a zone.
+    pub(super) fn along_chord(
+        chord: Chord,
+        [(low, low_sealed), (high, high_sealed)]: Ends,
+    ) -> Self {
         Self {
             along: Along::Surface(chord),
             low,
@@ -63,6 +72,19 @@ impl Line {
             high: half,
             sealed: [true; 2],
         })
+    }
+
+    /// Its ends along ζ.
+    pub(super) fn ends(&self) -> [f64; 2] {
+        [self.low, self.high].map(|u| self.zeta(u).0)
+    }
+
+    /// Whether it is the common chord or tangent, and not the ball's axis in place of one.
+    pub(super) fn is_common(&self, section: &Section<f64>) -> bool {
+        match &self.along {
+            Along::Surface(chord) => chord.normal == section.normal,
+            Along::Tangent { .. } => true,
+        }
     }
 
     /// Place ζ at u, and the width that a unit of u stands for: of a slice, or of the common tangent.
@@ -106,6 +128,8 @@ pub(in crate::contact) struct Node {
     pub(in crate::contact) torus_radius: f64,
     /// By how much beside it defects are looked for (see [`Station`]).
     pub(in crate::contact) beside: f64,
+    /// What friction weighs here over the normal force.
+    pub(in crate::contact) rubbing: f64,
 }
 
 impl Node {
@@ -196,7 +220,7 @@ impl Contact<'_> {
 
     /// The zone in pieces between the ends of shoulders and of defects in reach.
     fn fitted<S: Sink>(&self, line: &Line, rules: &Rules, sink: &mut S) {
-        let race = &self.pair.race;
+        let race = &self.race;
         let dz = self.z;
         let shoulders = [race.centre + race.lowest, race.centre + race.highest];
         // Few, so the next one is found by looking at all.
@@ -249,8 +273,15 @@ impl Contact<'_> {
             f64::midpoint(piece.low, piece.high),
             (piece.high - piece.low) / 2.0,
         );
-        for (x, weight) in rules.on(piece.sealed) {
-            if let Some(node) = self.node(line, centre + half * x, half * weight) {
+        let product = rules.product(piece.sealed);
+        let weighed = self.slip.as_ref().zip(product);
+        let mut rubbing = [if weighed.is_some() { 0.0 } else { 1.0 }; 2 * MOST];
+        if let Some((slip, product)) = weighed {
+            product.weights::<_, false>(slip, (centre, half), |k, weight| rubbing[k] += weight);
+        }
+        for (k, (x, weight)) in rules.on(piece.sealed).iter().enumerate() {
+            if let Some(mut node) = self.node(line, centre + half * x, half * weight) {
+                node.rubbing = rubbing.get(k).copied().unwrap_or(1.0);
                 self.slice(&node, sink);
             }
         }
@@ -303,8 +334,8 @@ impl Contact<'_> {
             return None;
         }
         let z = self.z + zeta;
-        let race = &self.pair.race;
-        let groove = race.groove(z)?;
+        let race = &self.race;
+        let groove = self.groove(z)?;
         let rho = square.sqrt();
         let depth = match line.along {
             Along::Surface(_) => self.section.penetration(rho, groove),
@@ -319,6 +350,7 @@ impl Contact<'_> {
             groove,
             torus_radius: race.a + race.sigma * groove,
             beside: 0.0,
+            rubbing: 1.0,
         })
     }
 }

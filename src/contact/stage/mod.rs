@@ -13,11 +13,12 @@ mod packs;
 
 pub(crate) use packs::{SlicePack, SlicePacking};
 
-use super::batch::{EightContacts, Moves};
+use super::batch::{EightContacts, Rubbing};
 use super::kernel::{self, Element, Force, Receiver, State};
 use super::laws::traction::Rolling;
+use super::slip::Moves;
 use super::{Motion, Pair};
-use crate::simd::{Lanes, Mask};
+use crate::simd::{InstructionSet, Lanes, Mask};
 
 /// Directions in the plane.
 pub(crate) type PlaneVector = [Lanes; 2];
@@ -27,6 +28,8 @@ pub(crate) type PlaneVector = [Lanes; 2];
 pub(crate) struct StageElement {
     elastic: Lanes,
     share: (Lanes, Lanes),
+    /// That of the velocities at which the stage was found.
+    rubbing: Lanes,
     slope: (Lanes, Lanes),
     /// Moments about the ball's centre of unit forces along n_e and t_e.
     levers: PlaneVector,
@@ -46,6 +49,7 @@ pub(crate) struct StageElements {
     elements: Vec<StageElement>,
     /// As many, or none where the law reads slip alone.
     rolling: Vec<StageRolling>,
+    rubbing: Rubbing,
 }
 
 impl StageElements {
@@ -116,19 +120,28 @@ impl Pair {
         eight: &EightContacts,
         ring: &Motion,
         whole: Mask,
+        instructions: InstructionSet,
         nodes: &mut StageElements,
     ) -> StageContacts {
         let (contact, moves, place) = self.place::<FMA, false>(eight, ring, whole.not());
         let (regular, sigma) = (place.regular.and(whole), self.race.sigma);
+        let StageElements {
+            elements,
+            rolling,
+            rubbing,
+        } = nodes;
+        let rubbing = rubbing.at_nodes::<FMA>(instructions, self, &contact, &moves, None);
         let mut holding = Holding {
-            nodes,
+            elements,
+            rolling,
             reads_rolling: self.reads_rolling(),
             moves: &moves,
             sigma,
             regular,
             radial: Lanes::ZERO,
         };
-        kernel::elements::<_, FMA, false>(&self.law, &self.slices, &contact, &mut holding);
+        let slices = &self.slices;
+        kernel::elements::<_, FMA, false>(&self.law, slices, rubbing, &contact, &mut holding);
         let radial = holding.radial;
         let across = radial * place.lean.unwrap_or_default() * sigma;
         StageContacts {
@@ -166,6 +179,7 @@ impl Pair {
         let state = State {
             elastic: element.elastic,
             share: element.share,
+            rubbing: element.rubbing,
             slope: element.slope,
             velocity,
             load,
@@ -307,9 +321,10 @@ pub(crate) fn in_contact(twist: &[Lanes; 4], n_e: PlaneVector) -> [Lanes; 4] {
 
 /// Collects the elements of eight contacts, of those that are whole.
 struct Holding<'a> {
-    nodes: &'a mut StageElements,
+    elements: &'a mut Vec<StageElement>,
+    rolling: &'a mut Vec<StageRolling>,
     reads_rolling: bool,
-    moves: &'a Moves,
+    moves: &'a Moves<Lanes>,
     sigma: f64,
     regular: Mask,
     /// Sum of the elastic forces in the plane.
@@ -328,14 +343,15 @@ impl Receiver<Lanes> for Holding<'_> {
         let elastic = element.load * element.length;
         let elastic = self.regular.choose(elastic, Lanes::ZERO);
         self.radial += elastic * element.share.0;
-        self.nodes.elements.push(StageElement {
+        self.elements.push(StageElement {
             elastic,
             share: element.share,
+            rubbing: element.rubbing,
             slope: (element.sin, element.cos),
             levers: [Lanes::ZERO, arm * sigma],
         });
         if self.reads_rolling {
-            self.nodes.rolling.push(StageRolling {
+            self.rolling.push(StageRolling {
                 load: element.load,
                 depth: element.depth,
                 arm,
@@ -350,12 +366,13 @@ mod tests {
     use crate::contact::dual::Dual;
     use crate::contact::iso16281::Iso16281;
     use crate::contact::laws::traction::tests::laws;
-    use crate::contact::{Damping, Elastic, Law, Slices, Torus, Waves};
+    use crate::contact::{Damping, Elastic, Law, Shape, Slices, Torus, Waves};
 
     fn state<T: crate::simd::Number>(of: impl Fn(f64) -> T, velocity: [T; 3]) -> State<T> {
         State {
             elastic: of(120.0),
             share: (of(0.8), of(0.6)),
+            rubbing: of(0.9),
             slope: (of(0.55), of(f64::sqrt(1.0 - 0.55 * 0.55))),
             velocity,
             load: of(1e5),
@@ -393,6 +410,7 @@ mod tests {
                         lowest: -6e-3,
                         highest: 6e-3,
                     },
+                    shape: Shape::default(),
                     waves: Waves::default(),
                     law,
                     slices: Slices::Fixed(10),

@@ -56,6 +56,7 @@ impl Sink for SlicePacking<'_> {
         (n_e[0][lane], n_e[1][lane]) = (out.x, out.y);
         element.elastic[lane] = touch.elastic;
         (element.share.0[lane], element.share.1[lane]) = touch.share;
+        element.rubbing[lane] = touch.rubbing;
         (element.slope.0[lane], element.slope.1[lane]) = (sin, cos);
         rolling.load[lane] = touch.elastic / touch.width;
         rolling.depth[lane] = touch.depth;

@@ -1,7 +1,9 @@
 //! Eight contacts gathered from anywhere, and evaluated together.
 
 use super::Single;
-use crate::contact::{BatchForces, Constants, EightContacts, Motion, Raise};
+use crate::contact::{
+    BatchForces, Constants, Contour, EightContacts, Motion, Raise, Rubbing, Summing,
+};
 use crate::forces::State;
 use crate::model::{Ball, BodyId, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
@@ -34,7 +36,7 @@ pub(crate) struct Touching {
 }
 
 /// Up to eight contacts with one ring; the last one fills the lanes that are left.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Group {
     /// The class of their rows.
     pub class: usize,
@@ -42,6 +44,7 @@ pub(super) struct Group {
     pub contacts: [Touching; LANES],
     pub count: usize,
     pub forces: BatchForces,
+    rubbing: Rubbing,
 }
 
 impl SideConstants {
@@ -126,6 +129,28 @@ pub(super) fn leave(groups: &[Group], singles: &mut Vec<Single>) {
     }
 }
 
+/// Evaluates a group on a race that is a hollow curve.
+pub(super) struct EightOnCurve<'a>(pub Eight<'a>, pub &'a Contour);
+
+impl Task for EightOnCurve<'_> {
+    type Output = ();
+
+    // Compiled for the instruction set that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        let Self(of, contour) = self;
+        let eight = of.contacts();
+        let Eight { group, model, .. } = of;
+        let (pair, ring) = (
+            &model.rows[group.class].pairs[group.race],
+            &of.rings[group.race],
+        );
+        let rubbing = (model.instructions, &mut group.rubbing);
+        group.forces = pair.forces_on_curve::<FMA>(&eight, ring, contour, rubbing);
+    }
+}
+
 /// Evaluates a group.
 pub(super) struct Eight<'a> {
     pub group: &'a mut Group,
@@ -136,6 +161,23 @@ pub(super) struct Eight<'a> {
     pub rings: &'a [Motion; 2],
 }
 
+impl Eight<'_> {
+    /// What is gathered of the contacts.
+    // Compiled for the instruction set that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn contacts(&self) -> EightContacts {
+        let group = &self.group;
+        let constants = &self.constants[group.race];
+        let mut eight = constants.eight(group.class, &group.contacts, self.state);
+        // Lanes left over must not count as pulling.
+        for lane in group.count..LANES {
+            eight.constants.radius[lane] *= 0.5;
+        }
+        eight
+    }
+}
+
 impl Task for Eight<'_> {
     type Output = ();
 
@@ -143,19 +185,16 @@ impl Task for Eight<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
+        let eight = self.contacts();
         let group = self.group;
         let race = group.race;
-        let mut eight = self.constants[race].eight(group.class, &group.contacts, self.state);
-        // Lanes left over must not count as pulling.
-        for lane in group.count..LANES {
-            eight.constants.radius[lane] *= 0.5;
-        }
         let pair = &self.model.rows[group.class].pairs[race];
         let (ring, skip) = (&self.rings[race], Mask::default());
+        let summing = Summing::Elements(self.model.instructions, &mut group.rubbing);
         group.forces = if self.symmetric {
-            pair.forces::<FMA, true>(&eight, ring, skip, None)
+            pair.forces::<FMA, true>(&eight, ring, skip, summing)
         } else {
-            pair.forces::<FMA, false>(&eight, ring, skip, None)
+            pair.forces::<FMA, false>(&eight, ring, skip, summing)
         };
     }
 }

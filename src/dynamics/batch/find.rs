@@ -1,7 +1,7 @@
 //! The search: which balls touch which race, eight at a time.
 
 use super::{Batch, SideConstants, Single, Touching};
-use crate::contact::{Constants, EightContacts, Motion, Places, Raise};
+use crate::contact::{Constants, EightContacts, Motion, Places, Raise, Summing};
 use crate::forces::{State, Table};
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
@@ -112,7 +112,8 @@ impl Task for Find<'_> {
                             Lanes::ZERO,
                         ],
                     };
-                    let found = pair.forces::<FMA, false>(&eight, ring, skip, Some(stiffness));
+                    let summing = Summing::AsOne(stiffness);
+                    let found = pair.forces::<FMA, false>(&eight, ring, skip, summing);
                     for (i, force) in found.ball.into_iter().take(3).enumerate() {
                         let dof = Dof::TRANSLATIONS[i];
                         forces.add_eight(BodyId::ball(stretch.first), dof, force);

@@ -24,7 +24,7 @@ use crate::reduction::AxialPlaces;
 use crate::simd::{LANES, Lanes};
 
 use axially_fixed::{AxiallyFixedRow, AxiallyFixedSums, EvaluateAxiallyFixed};
-use eight::{Eight, Group, leave};
+use eight::{Eight, EightOnCurve, Group, leave};
 pub(crate) use eight::{SideConstants, Touching};
 use find::{Find, Stretch};
 
@@ -187,14 +187,19 @@ impl Batch {
     ) {
         let (constants, symmetric) = (&self.constants, self.kind.symmetric);
         let eight = |group: &mut Group| {
-            model.instructions.run(Eight {
+            let curve = model.rows[group.class].pairs[group.race].hollow_curve();
+            let eight = Eight {
                 group,
                 constants,
                 symmetric,
                 model,
                 state,
                 rings,
-            });
+            };
+            match curve {
+                None => model.instructions.run(eight),
+                Some(contour) => model.instructions.run(EightOnCurve(eight, contour)),
+            }
         };
         let one = |single: &mut Single| {
             let ball = &model.balls[single.ball];

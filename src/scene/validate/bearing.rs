@@ -1,6 +1,6 @@
 //! Rows, rings and supports.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 use super::check::{positive, within};
 use crate::error::{Error, Result};
@@ -41,31 +41,22 @@ fn circle_of_balls(path: &str, row: &Row) -> Result<()> {
     }
     let count = row.ball_count as f64;
     let gap = dm * (PI / count).sin();
-    if row.ball_count > 1 && gap <= d {
-        return Err(Error::scene(
-            at("ball_diameter"),
-            d,
-            format!(
-                "less than the distance of neighbouring balls, {}, for {count} balls on pitch diameter {}",
-                told::length(gap),
-                told::length(dm)
-            ),
-        ));
+    if row.ball_count == 1 || gap > d {
+        return Ok(());
     }
-    Ok(())
+    let allowed = format!(
+        "less than the distance of neighbouring balls, {}, for {count} balls on pitch diameter {}",
+        told::length(gap),
+        told::length(dm)
+    );
+    Err(Error::scene(at("ball_diameter"), d, allowed))
 }
 
 /// Grooves and where they stand.
 fn angles_and_places(path: &str, row: &Row) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
-    for (field, f) in [
-        ("outer_conformity", row.outer_conformity),
-        ("inner_conformity", row.inner_conformity),
-    ] {
-        if !(f > 0.5 && f <= 1.0) {
-            return Err(Error::scene(at(field), f, "above 0.5 and at most 1"));
-        }
-    }
+    conformity(&at("outer_conformity"), row.outer_conformity)?;
+    conformity(&at("inner_conformity"), row.inner_conformity)?;
     let steepest = 80_f64.to_radians();
     if !(0.0..=steepest).contains(&row.contact_angle) {
         let allowed = format!("from 0 to {} rad, which is 80°", told::number(steepest));
@@ -83,21 +74,14 @@ fn angles_and_places(path: &str, row: &Row) -> Result<()> {
     within(&at("clearance"), row.clearance, -d / 10.0..=d / 2.0)?;
     within(&at("axial_preload"), row.axial_preload, -d / 2.0..=d / 2.0)?;
     within(&at("start_angle"), row.start_angle, -1e3..=1e3)?;
-    for (field, shoulders) in [
-        ("outer_shoulders", row.outer_shoulders),
-        ("inner_shoulders", row.inner_shoulders),
-    ] {
-        for (side, angle) in shoulders.iter().flatten().enumerate() {
-            if !(*angle > 0.0 && *angle < FRAC_PI_2) {
-                return Err(Error::scene(
-                    format!("{path}.{field}[{side}]"),
-                    angle,
-                    "above 0 and below π/2",
-                ));
-            }
-        }
-    }
     Ok(())
+}
+
+fn conformity(path: &str, conformity: f64) -> Result<()> {
+    if conformity > 0.5 && conformity <= 1.0 {
+        return Ok(());
+    }
+    Err(Error::scene(path, conformity, "above 0.5 and at most 1"))
 }
 
 /// What races and balls have that is not as drawn.

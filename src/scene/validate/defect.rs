@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::check::{below, finite, positive, within};
+use super::race::limits;
 use crate::error::{Error, Result};
 use crate::scene::{Defect, Row, Scene, Surface, Width};
 use crate::told;
@@ -117,21 +118,10 @@ fn on_race(path: &str, row: &Row, defect: &Defect, outer: bool) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     let radius = row.ball_diameter / 2.0;
 
-    let (f, shoulders, sign) = if outer {
-        (row.outer_conformity, row.outer_shoulders, -1.0)
-    } else {
-        (row.inner_conformity, row.inner_shoulders, 1.0)
-    };
-    let groove = f * row.ball_diameter;
-    // Axial place of the groove's centre from the row's plane (model section 2).
-    let mut centre = sign * f64::from(row.side) * (groove - radius) * row.contact_angle.sin();
-    if !outer {
-        centre += f64::from(row.side) * row.axial_preload;
-    }
-    let limits = shoulders.map_or([groove; 2], |s| s.map(|angle| groove * angle.sin()));
+    let [first, last] = limits(row, outer);
     let beyond = |offset: &f64| {
         let half = defect.length / 2.0;
-        offset - half - centre <= -limits[0] || offset + half - centre >= limits[1]
+        offset - half <= first || offset + half >= last
     };
     if let Some(offset) = defect.axial_offset.number().filter(beyond) {
         return Err(Error::scene(
@@ -140,8 +130,8 @@ fn on_race(path: &str, row: &Row, defect: &Defect, outer: bool) -> Result<()> {
             format!(
                 "a defect within the race: its middle is at {}, the race ends at {} and {} from the row's plane",
                 told::length(offset),
-                told::length(centre - limits[0]),
-                told::length(centre + limits[1])
+                told::length(first),
+                told::length(last)
             ),
         ));
     }

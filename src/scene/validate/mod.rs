@@ -6,6 +6,7 @@ mod contact;
 mod defect;
 mod load;
 mod probe;
+mod race;
 
 use super::{Drive, RingName, Row, SCHEMA, Scene};
 use crate::error::{Error, Result};
@@ -29,6 +30,7 @@ impl Scene {
         }
         for (i, row) in self.rows.iter().enumerate() {
             bearing::row(&format!("rows[{i}]"), row)?;
+            race::races(&format!("rows[{i}]"), row, self.contact_of(row))?;
             contact::of_row(&format!("rows[{i}]"), row)?;
         }
         bearing::ring(self, RingName::Outer)?;

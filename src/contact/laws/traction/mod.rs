@@ -144,6 +144,15 @@ impl Traction {
         }
     }
 
+    /// Slip speed below which friction bends \[m/s\]: 1/√(u² + width²) is what is steep in it.
+    pub(in crate::contact) fn width(&self) -> f64 {
+        match self {
+            Self::Coulomb(law) => law.slip_speed,
+            Self::Stribeck(law) => law.slip_speed,
+            Self::Curve(law) => law.slip_speed,
+        }
+    }
+
     /// Friction over normal force and slip velocity, φ = μ(u)/√(u² + v_s²) \[s/m\].
     #[inline(always)]
     pub(in crate::contact) fn factor<T: Number>(&self, element: &Sliding<T>) -> T {

@@ -1,0 +1,196 @@
+//! How ball and race slide on each other along a zone, as a formula of the place: what friction is hard to integrate by.
+
+// Into loops that are compiled for the instructions at hand.
+#![allow(clippy::inline_always)]
+
+use super::laws::traction::Rolling;
+use super::profile::Section;
+use super::{Cut, Law};
+use crate::simd::{Lanes, Number, Simd, Vector};
+
+/// How a ball moves against its ring, or eight balls do.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Moves<T> {
+    /// Velocity of the ball's centre along n_e and z \[m/s\].
+    pub v_e: T,
+    pub v_z: T,
+    /// Slip along t_e is slide + spin · arm.
+    pub slide: T,
+    pub spin: T,
+    pub rolling: Rolling<T>,
+    /// A contact's arm from the ball's centre, R(z) − d, is this and σ times the groove's height.
+    pub arm: T,
+}
+
+impl Moves<f64> {
+    /// Whether nothing moves, as in statics: there is no friction then.
+    pub fn are_none(&self) -> bool {
+        [self.v_e, self.v_z, self.slide, self.spin] == [0.0; 4]
+    }
+}
+
+/// Slip along the line that a zone is cut along, by its coordinate u \[m\] from the middle of the zone.
+///
+/// | symbol | meaning | unit |
+/// |---|---|---|
+/// | u_t | along the race, c₀ + c₁ u + … + c₄ u⁴ | m/s |
+/// | u_m | along the meridian, m₀ + m₁ u + m₂ u² | m/s |
+/// | w | width of the traction law ([`super::Traction::width`]) | m/s |
+/// | h | 1 − b z (1 + (1 − b)/2 z), z = (u/r)²: the force of the element goes like (1 − x²)^β/h, b = 3/4 β on the chord | |
+///
+/// A model, not the slip itself: by how much it is off, the weights of friction lose exactness and no more.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Slip<T> {
+    along: [T; 5],
+    across: [T; 3],
+    /// w².
+    width: f64,
+    /// 1/r².
+    over: T,
+    /// b, and b (1 − b)/2.
+    fade: [f64; 2],
+}
+
+impl<T: Number> Slip<T> {
+    /// (u_t² + u_m² + w²) h² at u: the inverse square of what friction per force and slip goes like.
+    #[inline(always)]
+    pub fn square<const FMA: bool>(&self, u: T) -> T {
+        self.squares::<FMA>(u).0
+    }
+
+    /// The same at u and at −u, which have their even and odd parts in common.
+    #[inline(always)]
+    pub fn squares<const FMA: bool>(&self, u: T) -> (T, T) {
+        let ([c_0, c_1, c_2, c_3, c_4], [m_0, m_1, m_2]) = (self.along, self.across);
+        let v = u * u;
+        let even = c_4.mul_add::<FMA>(v, c_2).mul_add::<FMA>(v, c_0);
+        let odd = c_3.mul_add::<FMA>(v, c_1) * u;
+        let (across_even, across_odd) = (m_2.mul_add::<FMA>(v, m_0), m_1 * u);
+        let [first, second] = self.fade;
+        let z = v * self.over;
+        let fade = (z * -second + -first).mul_add::<FMA>(z, u.same(1.0));
+        let fade = fade * fade;
+        let plus = self.sum::<FMA>(even + odd, across_even + across_odd);
+        let minus = self.sum::<FMA>(even - odd, across_even - across_odd);
+        (plus * fade, minus * fade)
+    }
+
+    /// Of the squares of slip along and across the race and of the width.
+    #[inline(always)]
+    fn sum<const FMA: bool>(&self, along: T, across: T) -> T {
+        let square = across.mul_add::<FMA>(across, along.same(self.width));
+        along.mul_add::<FMA>(along, square)
+    }
+
+    /// The same counted from another u.
+    #[inline(always)]
+    pub fn from<const FMA: bool>(mut self, middle: T) -> Self {
+        shift::<T, 5, FMA>(&mut self.along, middle);
+        shift::<T, 3, FMA>(&mut self.across, middle);
+        self
+    }
+}
+
+/// Powers of a polynomial about another place, by Horner's scheme.
+#[inline(always)]
+fn shift<T: Number, const N: usize, const FMA: bool>(powers: &mut [T; N], place: T) {
+    for last in 0..N - 1 {
+        for k in (last..N - 1).rev() {
+            powers[k] = powers[k + 1].mul_add::<FMA>(place, powers[k]);
+        }
+    }
+}
+
+impl<T: Number> Slip<T> {
+    /// Slip along the line that a zone is cut along, under a law and on a race of some σ; none without friction.
+    ///
+    /// Along the race it is linear in the groove's height, which is developed about the middle of the zone; across it the
+    /// ball's surface alone says which way.
+    #[inline(always)]
+    pub fn along<const FMA: bool>(
+        law: &Law,
+        sigma: f64,
+        section: &Section<T>,
+        moves: &Moves<T>,
+    ) -> Option<Self> {
+        let width = law.traction?.width();
+        let (cos, sin) = section.normal;
+        let groove = section.groove::<FMA>(sin);
+        let one = cos.same(1.0);
+        let (inverse, over, steep) = (one / section.radius, one / section.r, one / groove);
+        // Of the groove at the middle: its slope along z, and half of its curvature along the line.
+        let (tan, across_z) = ((section.radius * sin - section.c) * steep, cos * steep);
+        let rise = tan.mul_add::<FMA>(tan, one);
+        let second = rise * cos * across_z * -0.5;
+        let (heights, fade, bent) = match law.cut() {
+            // Over u, ζ runs along the ball, and both circles meet at the chord's ends: c₄ is that of √(r² − u²).
+            Cut::BallSurface => {
+                let second = second + tan * sin * inverse * 0.5;
+                let heights = [second, cos.same(0.0), second * over * over * 0.25];
+                let fade = 0.75 * law.elastic.exponent();
+                (heights, fade, inverse * inverse * -0.5)
+            }
+            // g √(1 − 2 t v − v²) with v = u cos α'/g.
+            Cut::CommonTangent { .. } => {
+                let third = second * tan * across_z;
+                let fourth = (rise * 5.0 + -4.0) * second * across_z * across_z * 0.25;
+                ([second, third, fourth], 0.0, cos.same(0.0))
+            }
+        };
+        let turning = moves.spin * sigma;
+        let across = moves.v_z * cos - moves.v_e * sin;
+        let middle = (groove - section.e) * sigma;
+        Some(Self {
+            along: [
+                moves.spin.mul_add::<FMA>(middle, moves.slide),
+                -(turning * tan * cos),
+                turning * heights[0],
+                turning * heights[1],
+                turning * heights[2],
+            ],
+            across: [
+                across,
+                -((moves.v_z * sin + moves.v_e * cos) * inverse),
+                across * bent,
+            ],
+            width: width * width,
+            over: over * over,
+            fade: [fade, 0.5 * fade * (1.0 - fade)],
+        })
+    }
+}
+
+impl Slip<Lanes> {
+    /// Of the contacts that a register holds, from one of them on.
+    #[inline(always)]
+    pub fn register<S: Simd>(&self, simd: S, from: usize) -> Slip<Vector<S>> {
+        let of = |lanes: &Lanes| Vector::load(simd, &lanes.numbers()[from..]);
+        let ([c_0, c_1, c_2, c_3, c_4], [m_0, m_1, m_2]) = (&self.along, &self.across);
+        Slip {
+            along: [of(c_0), of(c_1), of(c_2), of(c_3), of(c_4)],
+            across: [of(m_0), of(m_1), of(m_2)],
+            width: self.width,
+            over: of(&self.over),
+            fade: self.fade,
+        }
+    }
+}
+
+impl Slip<f64> {
+    /// Some slip, for tests.
+    #[cfg(test)]
+    pub fn made(along: [f64; 5], across: [f64; 3]) -> Self {
+        Self {
+            along,
+            across,
+            width: 1e-4,
+            over: 2e4,
+            fade: [0.8, 0.08],
+        }
+    }
+
+    /// Whether it is a number everywhere: the middle of the zone lies in the groove.
+    pub fn is_finite(&self) -> bool {
+        self.along.iter().chain(&self.across).all(|c| c.is_finite())
+    }
+}

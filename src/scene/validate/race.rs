@@ -1,0 +1,190 @@
+//! Shapes of races.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::check::{positive, within};
+use crate::error::{Error, Result};
+use crate::scene::{Contact, GothicArch, NormalLaw, RaceProfile, Row};
+use crate::told;
+
+/// Fewest and most points of a profile.
+const POINTS: (usize, usize) = (4, 10_000);
+
+/// What a row says of one of its races.
+struct Fields<'a> {
+    name: &'a str,
+    shoulders: Option<[f64; 2]>,
+    edge: Option<f64>,
+    profile: &'a Option<RaceProfile>,
+    arch: &'a Option<GothicArch>,
+}
+
+/// The races of a row whose balls follow a contact law.
+pub(super) fn races(path: &str, row: &Row, contact: &Contact) -> Result<()> {
+    let outer = Fields {
+        name: "outer",
+        shoulders: row.outer_shoulders,
+        edge: row.outer_shoulder_radius,
+        profile: &row.outer_profile,
+        arch: &row.outer_arch,
+    };
+    let inner = Fields {
+        name: "inner",
+        shoulders: row.inner_shoulders,
+        edge: row.inner_shoulder_radius,
+        profile: &row.inner_profile,
+        arch: &row.inner_arch,
+    };
+    race(path, row, contact, &outer)?;
+    race(path, row, contact, &inner)
+}
+
+fn race(path: &str, row: &Row, contact: &Contact, of: &Fields<'_>) -> Result<()> {
+    let at = |field: &str| format!("{path}.{}_{field}", of.name);
+    shoulders(&at("shoulders"), of.shoulders)?;
+    if let Some(profile) = of.profile {
+        only(&at("arch"), of.arch.is_some(), "a profile")?;
+        only(
+            &at("shoulders"),
+            of.shoulders.is_some(),
+            "a profile, which ends with its points",
+        )?;
+        points(&at("profile"), row, profile)?;
+    }
+    if let Some(arch) = of.arch {
+        gothic(&at("arch"), arch, of.shoulders)?;
+    }
+    let Some(edge) = of.edge else { return Ok(()) };
+    let path = at("shoulder_radius");
+    positive(&path, edge)?;
+    within(&path, edge, 0.0..=row.ball_diameter)?;
+    only(
+        &path,
+        of.profile.is_some() || of.arch.is_some(),
+        "a profile or an arch",
+    )?;
+    if of.shoulders.is_none() {
+        let allowed = format!("absent without {}", at("shoulders"));
+        return Err(Error::scene(path, edge, allowed));
+    }
+    if contact.law == NormalLaw::Hertz {
+        let allowed = "absent with Hertz's law, which does not see where a groove ends; contact.law = iso16281 does";
+        return Err(Error::scene(path, edge, allowed));
+    }
+    Ok(())
+}
+
+/// Refuses a field beside another that says the same.
+fn only(path: &str, given: bool, beside: &str) -> Result<()> {
+    if given {
+        return Err(Error::scene(
+            path,
+            "given",
+            format!("absent beside {beside}"),
+        ));
+    }
+    Ok(())
+}
+
+fn shoulders(path: &str, shoulders: Option<[f64; 2]>) -> Result<()> {
+    for (side, angle) in shoulders.iter().flatten().enumerate() {
+        if !(*angle > 0.0 && *angle < FRAC_PI_2) {
+            return Err(Error::scene(
+                format!("{path}[{side}]"),
+                angle,
+                "above 0 and below π/2",
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn points(path: &str, row: &Row, profile: &RaceProfile) -> Result<()> {
+    let RaceProfile { z, r } = profile;
+    if z.len() != r.len() || !(POINTS.0..=POINTS.1).contains(&z.len()) {
+        return Err(Error::scene(
+            path,
+            format!("{} places, {} radii", z.len(), r.len()),
+            format!("as many radii as places, {} to {}", POINTS.0, POINTS.1),
+        ));
+    }
+    let reach = 2.0 * row.ball_diameter;
+    for (i, z) in z.iter().enumerate() {
+        within(&format!("{path}.z[{i}]"), *z, -reach..=reach)?;
+    }
+    for (i, pair) in z.windows(2).enumerate() {
+        if pair[1] <= pair[0] {
+            return Err(Error::scene(
+                format!("{path}.z[{}]", i + 1),
+                pair[1],
+                format!("above the place before it, {}", told::length(pair[0])),
+            ));
+        }
+    }
+    for (i, r) in r.iter().enumerate() {
+        within(&format!("{path}.r[{i}]"), *r, 1e-6..=100.0)?;
+    }
+    Ok(())
+}
+
+fn gothic(path: &str, arch: &GothicArch, shoulders: Option<[f64; 2]>) -> Result<()> {
+    let steepest = 80_f64.to_radians();
+    let angle = arch.shim_angle;
+    if !(angle > 0.0 && angle <= steepest) {
+        let allowed = format!(
+            "above 0 and at most {} rad, which is 80°",
+            told::number(steepest)
+        );
+        return Err(Error::scene(format!("{path}.shim_angle"), angle, allowed));
+    }
+    for (i, f) in arch.conformities.iter().flatten().enumerate() {
+        if !(*f > 0.5 && *f <= 1.0) {
+            let path = format!("{path}.conformities[{i}]");
+            return Err(Error::scene(path, f, "above 0.5 and at most 1"));
+        }
+    }
+    if shoulders.is_some_and(|s| s.iter().any(|shoulder| *shoulder <= angle)) {
+        let allowed = "below both shoulder angles";
+        return Err(Error::scene(format!("{path}.shim_angle"), angle, allowed));
+    }
+    Ok(())
+}
+
+/// Where a race ends, from the row's plane \[m\]; without what shoulders leave of a race that has none.
+pub(super) fn limits(row: &Row, outer: bool) -> [f64; 2] {
+    let (f, shoulders, profile, arch, sign) = if outer {
+        let own = (&row.outer_profile, &row.outer_arch);
+        (
+            row.outer_conformity,
+            row.outer_shoulders,
+            own.0,
+            own.1,
+            -1.0,
+        )
+    } else {
+        let own = (&row.inner_profile, &row.inner_arch);
+        (row.inner_conformity, row.inner_shoulders, own.0, own.1, 1.0)
+    };
+    let side = f64::from(row.side);
+    let preload = if outer { 0.0 } else { side * row.axial_preload };
+    if let Some(profile) = profile {
+        return [0, profile.z.len() - 1].map(|i| profile.z[i] + preload);
+    }
+    // Axial place of a groove's centre from the row's plane (model section 2).
+    let centre = |groove: f64, angle: f64, side: f64| {
+        sign * side * (groove - row.ball_diameter / 2.0) * angle.sin() + preload
+    };
+    let ends = |groove: f64| shoulders.map_or([groove; 2], |s| s.map(|angle| groove * angle.sin()));
+    if let Some(arch) = arch {
+        let [low, high] = arch
+            .conformities
+            .unwrap_or([f; 2])
+            .map(|f| f * row.ball_diameter);
+        // The flank towards +z is struck from a centre at −z, of either ring.
+        let of = |groove: f64, towards: f64| centre(groove, arch.shim_angle, -sign * towards);
+        return [of(low, -1.0) - ends(low)[0], of(high, 1.0) + ends(high)[1]];
+    }
+    let groove = f * row.ball_diameter;
+    let middle = centre(groove, row.contact_angle, side);
+    [middle - ends(groove)[0], middle + ends(groove)[1]]
+}
