@@ -68,7 +68,7 @@
 //! | a direction of a body | `Dof` and `Layout` in `model/layout.rs`, mass and mount in `model/body.rs`; what carries the four numbers of a contact: `forces/state.rs`, `dynamics/sums.rs`, `dynamics/batch/`, `implicit/` | `model/layout.rs`, momentum |
 //! | what acts along z, or differs by row | `reduction/symmetry.rs`; what contacts share, `RowModel::is_like` | a hair of it in `tests/reduction.rs`, `tests/unlike_rows.rs` |
 //! | an approximation | `scene/approximations.rs`, grounds and a reason in `reduction/`, an offer in `explain/variants.rs` | `tests/approximations.rs`, a row in `benches/approximations.py` |
-//! | a race profile | what can be said by points: a tabulation in `model/race.rs`; else a kind in `contact/profile/shape.rs` with its contacts, fields in `scene/bearing.rs` and `scene/validate/race.rs` | `tests/profiles.rs`: gap against a closed form, energy |
+//! | a race profile | what can be said by points: a tabulation in `model/race.rs`; else a kind in `contact/scalar/shape.rs` with its contacts, fields in `scene/bearing.rs` and `scene/validate/race.rs` | `tests/profiles.rs`: gap against a closed form, energy |
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
 //! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `run/method.rs` and in `run/step_limit.rs` | row sums, order of convergence |
 //! | a signal | a variant in `scene/probe.rs`, two arms in `signals/probes.rs` | unit, value at a known state; filtered or a reading of a state |

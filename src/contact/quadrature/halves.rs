@@ -95,6 +95,17 @@ mod tests {
     use super::super::Rules;
     use super::*;
 
+    /// Limits: nodes too few, or too many, weigh the same for friction as for the normal force.
+    #[test]
+    fn is_for_some_numbers_of_nodes() {
+        for (m, weighed) in [(2, false), (3, true), (64, true), (65, false)] {
+            let rules = Rules::for_friction(m, 1.5, 8);
+            assert_eq!(rules.halves().is_some(), weighed, "{m}");
+            assert_eq!(rules.product([true, false]).is_some(), weighed, "{m}");
+        }
+        assert!(Rules::for_friction(6, 1.5, 0).halves().is_none());
+    }
+
     /// Analytic: the weights are those of the whole rules, for even and odd numbers of nodes and of finer ones.
     #[test]
     fn is_the_whole() {

@@ -47,12 +47,14 @@ pub struct Rules {
     low: Rule,
     high: Rule,
     neither: Rule,
-    /// What their nodes weigh for friction, if there are no more than [`MOST`].
+    /// What their nodes weigh for friction, if there are [`LEAST`] to [`MOST`].
     products: Option<Arc<[Product; 4]>>,
     halves: Option<Arc<Halves>>,
 }
 
-/// Most nodes a piece with weights of their own for friction: more do without.
+/// Fewest nodes of a piece that weigh for friction by themselves: a straight line through two says too little of the force.
+const LEAST: usize = 3;
+/// Most of them: more do without.
 pub(super) const MOST: usize = 64;
 
 /// Nodes beyond those of a rule by which friction is resolved, where it is not known how steep it is. 1/√(u² + w²) has poles at
@@ -89,7 +91,7 @@ impl Rules {
     fn compute(m: usize, exponent: f64, finer: usize) -> Self {
         let rules = Self::nodes(m, exponent);
         let products =
-            (m <= MOST && finer > 0).then(|| Arc::new(products(&rules, m + finer, exponent)));
+            ((LEAST..=MOST).contains(&m) && finer > 0).then(|| Arc::new(products(&rules, m + finer, exponent)));
         let halves = products
             .as_deref()
             .map(|[both, ..]| Arc::new(Halves::new(both)));
