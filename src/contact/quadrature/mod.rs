@@ -90,8 +90,8 @@ impl Rules {
 
     fn compute(m: usize, exponent: f64, finer: usize) -> Self {
         let rules = Self::nodes(m, exponent);
-        let products =
-            ((LEAST..=MOST).contains(&m) && finer > 0).then(|| Arc::new(products(&rules, m + finer, exponent)));
+        let products = ((LEAST..=MOST).contains(&m) && finer > 0)
+            .then(|| Arc::new(products(&rules, m + finer, exponent)));
         let halves = products
             .as_deref()
             .map(|[both, ..]| Arc::new(Halves::new(both)));

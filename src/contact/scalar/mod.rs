@@ -118,10 +118,14 @@ impl Pair {
         if meeting.ends_within(line.ends()) {
             sink.truncated();
         }
+        let middle = line.middle();
         let contact = Contact {
             race: meeting.torus,
             surface: Some(meeting.surface),
-            slip: self.slip_along(&line, &section, motions, facing),
+            slip: self
+                .slip_along(&line, &section, motions, facing)
+                .map(|slip| slip.from::<false>(middle)),
+            middle,
             ..self.contact(ball, motions, facing, section)
         };
         contact.slices(&line, sink);
@@ -168,6 +172,7 @@ impl Pair {
             // A ring edge is met in another direction than the race.
             ball_open: ball_near || ring_open && !ball.faults.is_empty(),
             slip: None,
+            middle: 0.0,
             section,
             rolling: self.moves([b, r], facing).rolling,
         }
@@ -252,6 +257,8 @@ pub(super) struct Contact<'a> {
     pub(super) section: Section<f64>,
     /// Along the line, if there is friction; on a curve through points that along the circle of curvature.
     pub(super) slip: Option<Slip<f64>>,
+    /// The place on the line that slip is counted from: the middle of the zone.
+    pub(super) middle: f64,
     pub(super) rolling: Rolling<f64>,
 }
 

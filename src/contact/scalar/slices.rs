@@ -79,6 +79,11 @@ impl Line {
         [self.low, self.high].map(|u| self.zeta(u).0)
     }
 
+    /// u of its middle.
+    pub(super) fn middle(&self) -> f64 {
+        f64::midpoint(self.low, self.high)
+    }
+
     /// Whether it is the common chord or tangent, and not the ball's axis in place of one.
     pub(super) fn is_common(&self, section: &Section<f64>) -> bool {
         match &self.along {
@@ -277,7 +282,8 @@ impl Contact<'_> {
         let weighed = self.slip.as_ref().zip(product);
         let mut rubbing = [if weighed.is_some() { 0.0 } else { 1.0 }; 2 * MOST];
         if let Some((slip, product)) = weighed {
-            product.weights::<_, false>(slip, (centre, half), |k, weight| rubbing[k] += weight);
+            let zone = (centre - self.middle, half);
+            product.weights::<_, false>(slip, zone, |k, weight| rubbing[k] += weight);
         }
         for (k, (x, weight)) in rules.on(piece.sealed).iter().enumerate() {
             if let Some(mut node) = self.node(line, centre + half * x, half * weight) {
