@@ -4,7 +4,10 @@
 // Everything here must end up in the loop that uses it, compiled for that loop's instructions.
 #![allow(clippy::inline_always)]
 
+use std::any::TypeId;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+use pulp::Scalar256b;
 
 pub(crate) use pulp::{Simd, WithSimd as Wide};
 
@@ -152,9 +155,12 @@ impl<S: Simd> Vector<S> {
         most.below(self).choose(most, self)
     }
 
-    /// self · b + c, fused where the instructions have it.
+    /// self · b + c, fused where the instructions have it: elsewhere a fused product is a slow call. NEON has it everywhere.
     #[inline(always)]
     pub(crate) fn mul_add(self, b: Self, c: Self) -> Self {
+        if TypeId::of::<S>() == TypeId::of::<Scalar256b>() && !cfg!(target_arch = "aarch64") {
+            return self * b + c;
+        }
         self.with(self.simd.mul_add_e_f64s(self.numbers, b.numbers, c.numbers))
     }
 
