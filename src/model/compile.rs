@@ -94,10 +94,12 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
 fn fit_nodes(model: &mut Model) {
     let finer = nodes::finer(model);
     for pair in model.rows.iter_mut().flat_map(|row| &mut row.pairs) {
-        if let Slices::Fitted(rules) = &pair.slices {
-            let exponent = pair.law.elastic.exponent();
-            pair.slices = Slices::Fitted(Rules::for_friction(rules.count(), exponent, finer));
-        }
+        pair.change(|flank| {
+            if let Slices::Fitted(rules) = &flank.slices {
+                let exponent = flank.law.elastic.exponent();
+                flank.slices = Slices::Fitted(Rules::for_friction(rules.count(), exponent, finer));
+            }
+        });
     }
     let fewest: Vec<Option<[Slices; 2]>> = (0..model.rows.len())
         .map(|row| {

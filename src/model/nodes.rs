@@ -183,7 +183,24 @@ impl Sink for Force {
 mod tests {
     use super::*;
     use crate::compile;
-    use crate::scene::{Friction, presets};
+    use crate::scene::{Friction, GothicArch, presets};
+
+    /// Limits: both flanks of a gothic arch weigh for friction in the same way, finely resolved or not at all.
+    #[test]
+    fn both_flanks_are_resolved_alike() {
+        for slip_speed in [0.1, 1e-3] {
+            let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+            scene.friction = Friction::Coulomb {
+                coefficient: 0.05,
+                slip_speed,
+            };
+            scene.rows[0].inner_arch = Some(GothicArch::new(0.5));
+            let model = compile(&scene).unwrap();
+            let pair = &model.rows[0].pairs[Race::Inner];
+            let other = pair.other_flank().unwrap();
+            assert_eq!(pair.slices, other.slices, "{slip_speed}");
+        }
+    }
 
     /// Limits: finer where slip sweeps over more slip speeds; not at all without friction, nor where it would cost too much.
     #[test]
