@@ -14,7 +14,8 @@ use ballrace::scene::{Defect, Drive, Friction, Method, Scene, Surface, presets};
 use ballrace::{Error, Run, Signals, Start, Warning, simulate, start};
 use common::{Noise, short, soon_over_the_spall};
 
-const METHODS: [Method; 8] = [
+const METHODS: [Method; 9] = [
+    Method::Adams,
     Method::DormandPrince,
     Method::Tsitouras,
     Method::Verner,

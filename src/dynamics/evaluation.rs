@@ -1,5 +1,7 @@
 //! Which code an evaluation runs, in words.
 
+use std::ops::Range;
+
 use super::Dynamics;
 use crate::contact::{Pair, Slices};
 use crate::forces::{self, Use};
@@ -24,9 +26,18 @@ impl Dynamics<'_> {
         contacts.into_iter().chain(forces).collect()
     }
 
+    /// The rows whose contacts have a part in the motion.
+    pub(crate) fn rows_in_motion(&self) -> Range<usize> {
+        if self.contacts.is_mirrored() {
+            0..self.model.rows.len()
+        } else {
+            self.contacts.rows()
+        }
+    }
+
     /// Whether the contacts of a row have a part in the motion.
     pub(crate) fn evaluates(&self, row: usize) -> bool {
-        self.contacts.rows().contains(&row) || self.contacts.is_mirrored()
+        self.rows_in_motion().contains(&row)
     }
 
     /// How the contacts of a row with a race are evaluated where no defect is in reach.

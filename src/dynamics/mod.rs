@@ -195,6 +195,21 @@ impl<'m> Dynamics<'m> {
         self.contact_torques
     }
 
+    /// Gives a second row that is the image of the first its changes of velocity, out of those of all bodies.
+    pub(crate) fn mirror(&self, changes: &mut [f64]) {
+        if let Order::Kept(kept) = &self.order {
+            kept.reduction.mirror(self.model, changes);
+        }
+    }
+
+    /// Whether every state is a place along an axis, an angle or its rate: none is a ball's distance from the shaft.
+    pub(crate) fn is_cartesian(&self) -> bool {
+        match &self.order {
+            Order::Bodies => true,
+            Order::Kept(kept) => kept.reduction.is_cartesian(),
+        }
+    }
+
     /// What each state belongs to: those of the first half of a state vector, in their order.
     pub(crate) fn degrees(&self) -> Vec<(BodyId, Dof)> {
         match &self.order {

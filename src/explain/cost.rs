@@ -18,9 +18,9 @@ use crate::run::{options, tolerance};
 /// Places of the cage over a ball's pitch.
 const PLACES: usize = 8;
 /// Steps that are timed at each.
-const STEPS: usize = 60;
+const STEPS: usize = 240;
 /// Of these the first ones, which grow.
-const GROWING: usize = 20;
+const GROWING: usize = 60;
 /// How often; the fastest counts, the others were disturbed.
 const TIMES: usize = 3;
 /// Evaluations that are timed at once.

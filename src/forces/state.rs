@@ -106,6 +106,13 @@ impl Table {
             }
         }
     }
+
+    /// Writes what [`Table::read`] reads.
+    fn write(&self, half: &mut [f64]) {
+        for (body, numbers) in Layout::each_mut(half).iter_mut().enumerate() {
+            *numbers = self.of(BodyId::new(body));
+        }
+    }
 }
 
 /// Where all bodies are and how they move.
@@ -129,6 +136,13 @@ impl State {
         let (q, v) = y.split_at(y.len() / 2);
         self.q.read(q);
         self.v.read(v);
+    }
+
+    /// Writes what [`State::read`] reads.
+    pub fn write(&self, y: &mut [f64]) {
+        let (q, v) = y.split_at_mut(y.len() / 2);
+        self.q.write(q);
+        self.v.write(v);
     }
 
     #[inline]

@@ -8,6 +8,7 @@
 //! corrections by it shrink fast, which at a steady roll are many.
 
 mod arrow;
+mod linear;
 mod stage;
 mod stage_batch;
 
@@ -17,6 +18,7 @@ use crate::dynamics::Dynamics;
 use crate::integrate::{ImplicitVelocity, Stuck, System};
 use crate::model::{BodyId, DOFS, Layout, Race};
 
+pub(crate) use linear::Damped;
 use stage::{Largest, Stage};
 
 /// Iterations before a stage is given up and the step tried again smaller.
@@ -46,7 +48,7 @@ pub struct ImplicitDynamics<'d, 'm> {
 impl<'d, 'm> ImplicitDynamics<'d, 'm> {
     /// For the states of all bodies that `dynamics` takes.
     pub fn new(dynamics: &'d mut Dynamics<'m>) -> Self {
-        let stage = Stage::new(dynamics.model());
+        let stage = Stage::new(dynamics.model(), dynamics.rows_in_motion());
         Self { dynamics, stage }
     }
 
@@ -77,7 +79,8 @@ impl<'d, 'm> ImplicitDynamics<'d, 'm> {
     /// Finds the nodes of all contacts at the places of a state.
     fn find_elements(&mut self, t: f64, y: &[f64]) {
         self.dynamics.read(t, y);
-        self.stage.find_elements(self.dynamics);
+        self.stage
+            .find_elements(self.dynamics, self.dynamics.state());
     }
 
     /// The residual base + γh a − v with the last reactions of the contacts.

@@ -1,12 +1,14 @@
 //! What an implicit stage needs to know of the contacts: held at its places, and the matrix of their slopes.
 
+use std::ops::Range;
+
 use nalgebra::SVector;
 use rayon::prelude::*;
 
 use super::arrow::Arrow;
 use super::stage_batch::{Meeting, StageBatch};
 use crate::dynamics::{Batch, Dynamics, Kind};
-use crate::forces::Table;
+use crate::forces::{State, Table};
 use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Race};
 use crate::simd::{LANES, Lanes, Task};
 
@@ -37,11 +39,16 @@ pub(super) struct Stage {
 }
 
 impl Stage {
-    pub fn new(model: &Model) -> Self {
+    /// For the contacts of some rows.
+    pub fn new(model: &Model, rows: Range<usize>) -> Self {
+        let kind = Kind {
+            rows,
+            ..Kind::whole(model)
+        };
         let balls = model.balls.len();
         let eights = model.classes().map(|class| model.eights(class)).sum();
         Self {
-            search: Batch::new(model, Kind::whole(model)),
+            search: Batch::new(model, kind),
             meetings: vec![<[Meeting; 2]>::default(); balls],
             batches: vec![StageBatch::default(); eights],
             active: 0,
@@ -54,9 +61,9 @@ impl Stage {
         }
     }
 
-    /// Finds the nodes of all contacts at the state that was read last.
-    pub fn find_elements(&mut self, dynamics: &Dynamics<'_>) {
-        let (model, state) = (dynamics.model(), dynamics.state());
+    /// Finds the nodes of all contacts at a state of all bodies.
+    pub fn find_elements(&mut self, dynamics: &Dynamics<'_>, state: &State) {
+        let model = dynamics.model();
         let rings = state.rings();
         self.search.find(None, model, state, &rings);
         self.gather(model);
@@ -159,11 +166,16 @@ impl Stage {
         }
     }
 
+    /// Whether the matrix that is there was made for nearly the same γh.
+    pub fn is_like(&self, gamma_h: f64) -> bool {
+        let same = |kept: f64| (gamma_h / kept - 1.0).abs() < SAME;
+        self.kept.is_some_and(same)
+    }
+
     /// Whether the matrix that is there was made for nearly the same equations.
     pub fn is_kept(&self, gamma_h: f64) -> bool {
-        let same = |kept: f64| (gamma_h / kept - 1.0).abs() < SAME;
         let meets = |meeting: Meeting| meeting != Meeting::Nothing;
-        self.kept.is_some_and(same)
+        self.is_like(gamma_h)
             && self
                 .kept_meetings
                 .iter()

@@ -12,12 +12,12 @@ const MAX_TERMS: usize = 8;
 ///
 /// # Panics
 /// With more than eight nonzero weights, or with vectors shorter than `out`.
-pub(super) fn combine(
+pub(super) fn combine<K: AsRef<[f64]>>(
     out: &mut [f64],
     base: Option<&[f64]>,
     h: f64,
     weights: &[f64],
-    k: &[Vec<f64>],
+    k: &[K],
 ) {
     InstructionSet::current().run_wide(Combination {
         out,
@@ -28,15 +28,15 @@ pub(super) fn combine(
     });
 }
 
-struct Combination<'a> {
+struct Combination<'a, K> {
     out: &'a mut [f64],
     base: Option<&'a [f64]>,
     h: f64,
     weights: &'a [f64],
-    k: &'a [Vec<f64>],
+    k: &'a [K],
 }
 
-impl Wide for Combination<'_> {
+impl<K: AsRef<[f64]>> Wide for Combination<'_, K> {
     type Output = ();
 
     // Compiled for the instruction set that runs it.
@@ -73,15 +73,15 @@ impl Wide for Combination<'_> {
 }
 
 /// The same with the zeros gone.
-struct Fused<'a> {
+struct Fused<'a, K> {
     out: &'a mut [f64],
     h: f64,
     weights: &'a [f64; MAX_TERMS],
     stages: &'a [usize; MAX_TERMS],
-    k: &'a [Vec<f64>],
+    k: &'a [K],
 }
 
-impl Fused<'_> {
+impl<K: AsRef<[f64]>> Fused<'_, K> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn onto<S: Simd, const BASE: bool>(self, simd: S, base: &[f64], terms: usize) {
@@ -110,7 +110,7 @@ impl Fused<'_> {
         let mut registers: [&[S::f64s]; N] = [&[]; N];
         for j in 0..N {
             weights[j] = Vector::all(simd, self.weights[j]);
-            registers[j] = Vector::<S>::registers(&self.k[self.stages[j]], whole);
+            registers[j] = Vector::<S>::registers(self.k[self.stages[j]].as_ref(), whole);
         }
         let bases = Vector::<S>::registers(base, if BASE { whole } else { 0 });
         let out = Vector::<S>::registers_mut(self.out, whole);
@@ -129,7 +129,7 @@ impl Fused<'_> {
         for i in whole * Vector::<S>::LANES..len {
             let mut sum = zero;
             for (weight, stage) in weights.iter().zip(self.stages) {
-                sum = weight.mul_add(Vector::all(simd, self.k[*stage][i]), sum);
+                sum = weight.mul_add(Vector::all(simd, self.k[*stage].as_ref()[i]), sum);
             }
             let base = if BASE { base[i] } else { 0.0 };
             self.out[i] = h.mul_add(sum, Vector::all(simd, base)).first();

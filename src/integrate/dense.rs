@@ -3,14 +3,24 @@
 use std::fmt;
 
 use super::combine::combine;
+use super::multistep;
 
 /// Stages a step can have at most; bounds the weights kept on the stack.
 const MAX_STAGES: usize = 16;
 
+/// What a step's derivatives weigh within it.
+#[derive(Clone, Copy)]
+pub(super) enum Weights<'a> {
+    /// A Runge–Kutta method's: of every derivative in every state.
+    OfDerivatives(&'a [[f64; 4]]),
+    /// Of every acceleration in velocities, and integrated once more in positions.
+    OfAccelerations(&'a multistep::Weights),
+}
+
 /// An accepted step, as the observer sees it.
 #[derive(Clone, Copy)]
 pub struct DenseStep<'a> {
-    weights: &'a [[f64; 4]],
+    weights: Weights<'a>,
     span: (f64, f64),
     h: f64,
     y0: &'a [f64],
@@ -20,7 +30,7 @@ pub struct DenseStep<'a> {
 
 impl<'a> DenseStep<'a> {
     pub(super) fn new(
-        weights: &'a [[f64; 4]],
+        weights: Weights<'a>,
         span: (f64, f64),
         h: f64,
         y0: &'a [f64],
@@ -84,11 +94,18 @@ impl<'a> DenseStep<'a> {
     pub fn interpolate(&self, t: f64, out: &mut [f64]) {
         // Over t1 − t0, not h: the end of the step is then exactly θ = 1.
         let theta = (t - self.t0()) / (self.t1() - self.t0());
+        match self.weights {
+            Weights::OfDerivatives(weights) => self.by_derivatives(theta, weights, out),
+            Weights::OfAccelerations(weights) => self.by_accelerations(theta, weights, out),
+        }
+    }
+
+    fn by_derivatives(&self, theta: f64, polynomials: &[[f64; 4]], out: &mut [f64]) {
         let mut weights = [0.0; MAX_STAGES];
-        for (weight, d) in weights.iter_mut().zip(self.weights) {
+        for (weight, d) in weights.iter_mut().zip(polynomials) {
             *weight = theta * (d[0] + theta * (d[1] + theta * (d[2] + theta * d[3])));
         }
-        let stages = self.weights.len();
+        let stages = polynomials.len();
         combine(
             out,
             Some(self.y0),
@@ -96,6 +113,13 @@ impl<'a> DenseStep<'a> {
             &weights[..stages],
             &self.k[..stages],
         );
+    }
+
+    fn by_accelerations(&self, theta: f64, weights: &multistep::Weights, out: &mut [f64]) {
+        let half = self.y0.len() / 2;
+        let (q, v) = out.split_at_mut(half.min(out.len()));
+        let accelerations = [0, 1, 2, 3].map(|i| &self.k[i][half..]);
+        multistep::advance((q, v), self.y0, self.h, (theta, weights), &accelerations);
     }
 }
 

@@ -66,7 +66,7 @@ pub fn integrate<S: System, M: Method<S>, O: Observer<S>>(
     let mut stops = Stops::new(&options.breakpoints, t0, end);
     let mut norm = Norm::new(tolerance);
     let mut control = Control::new(&options.controller);
-    let mut work = Stepper::new(tableau, y0);
+    let mut work = Stepper::new(tableau, method.is_multistep(), y0);
     let mut stats = Statistics::default();
     let mut interrupted = false;
 

@@ -2,6 +2,7 @@
 
 use super::System;
 use super::additive::{Additive, ImplicitVelocity};
+use super::control::Controller;
 use super::step::Stepper;
 use super::tableau::Tableau;
 
@@ -12,6 +13,16 @@ use super::tableau::Tableau;
 pub trait Method<S> {
     /// Weights, error weights and dense output.
     fn tableau(&self) -> &Tableau;
+
+    /// How the step follows the error.
+    fn controller(&self) -> Controller {
+        Controller::for_order(self.tableau().error_order)
+    }
+
+    /// Whether it builds on the steps behind.
+    fn is_multistep(&self) -> bool {
+        false
+    }
 
     /// Tries a step `h` from `(t, y)` to `t1`: fills the new state, the derivatives and the error.
     ///

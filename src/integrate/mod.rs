@@ -9,6 +9,8 @@
 //! | `method.rs`    | what the driver asks of a method                           |
 //! | `additive.rs`  | a step explicit in positions, implicit in velocities       |
 //! | `verlet.rs`    | velocity Verlet                                            |
+//! | `adams.rs`     | Adams' predictor–corrector, linearly implicit in velocities |
+//! | `multistep.rs` | the steps behind, and the polynomial through their accelerations |
 //! | `combine.rs`   | base + h · weighted sum of stages, in one pass             |
 //! | `step.rs`      | one step of any tableau, in preallocated memory            |
 //! | `norm.rs`      | tolerances and the worst group's scaled error              |
@@ -51,6 +53,7 @@
 //! Equations I*, 2nd ed., sections II.4–II.6, and volume II, section IV.2, for
 //! the step-size control with memory and the stiffness quotient.
 
+mod adams;
 mod additive;
 mod clock;
 mod combine;
@@ -59,6 +62,7 @@ mod dense;
 mod driver;
 mod failure;
 mod method;
+mod multistep;
 mod norm;
 mod options;
 mod start;
@@ -71,6 +75,7 @@ mod tableau_additive;
 mod tableau_pairs;
 mod verlet;
 
+pub use adams::{Adams, LinearlyImplicit};
 pub use additive::{Additive, ImplicitVelocity, Stuck};
 pub use control::Controller;
 pub use dense::DenseStep;
@@ -110,7 +115,8 @@ pub trait Observer<S> {
     ///
     /// The last [`System::rhs`] call before this one was at the accepted state
     /// `(step.t1(), step.y1())`, so whatever `system` remembers of its last
-    /// evaluation belongs to that state. If the step ended on a breakpoint, the
+    /// evaluation belongs to that state ([`Adams`] and [`VelocityVerlet`]: to the
+    /// state foretold, a fraction of the error away). If the step ended on a breakpoint, the
     /// call was at `(t1.next_down(), y1)`: the limit from the left.
     ///
     /// The observer may call [`System::rhs`] itself; the integrator relies on

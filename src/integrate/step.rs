@@ -2,7 +2,8 @@
 
 use super::System;
 use super::combine::combine;
-use super::dense::DenseStep;
+use super::dense::{DenseStep, Weights};
+use super::multistep::History;
 use super::stiffness::quotient;
 use super::tableau::Tableau;
 use crate::simd::{InstructionSet, Simd, Vector, Wide};
@@ -22,6 +23,8 @@ pub struct Stepper<'a> {
     /// Derivatives: the first at `y`, the last at `y1`, the others between.
     /// A method that is not FSAL has one more than stages.
     pub(super) k: Vec<Vec<f64>>,
+    /// The steps behind, for methods that use them. Their derivatives follow the first one.
+    pub(super) history: Option<History>,
     /// Evaluations of the right-hand side so far.
     pub(super) calls: usize,
     /// Iterations of implicit stages so far.
@@ -29,7 +32,7 @@ pub struct Stepper<'a> {
 }
 
 impl<'a> Stepper<'a> {
-    pub(super) fn new(tableau: &'a Tableau, y: &[f64]) -> Self {
+    pub(super) fn new(tableau: &'a Tableau, multistep: bool, y: &[f64]) -> Self {
         let zero = vec![0.0; y.len()];
         let derivatives = tableau.stages + usize::from(!tableau.fsal);
         Self {
@@ -39,6 +42,7 @@ impl<'a> Stepper<'a> {
             error: zero.clone(),
             stage: zero.clone(),
             k: vec![zero; derivatives],
+            history: multistep.then(History::new),
             calls: 0,
             iterations: 0,
         }
@@ -49,6 +53,7 @@ impl<'a> Stepper<'a> {
     /// The error is the index of the first non-finite state or derivative.
     pub(super) fn restart<S: System>(&mut self, system: &mut S, t: f64) -> Result<(), usize> {
         check_finite(&self.y)?;
+        self.history = self.history.map(|_| History::new());
         system.rhs(t, &self.y, &mut self.k[0]);
         self.calls += 1;
         check_finite(&self.k[0])
@@ -100,13 +105,23 @@ impl<'a> Stepper<'a> {
 
     /// The last attempt as a polynomial from `t0` to `t1`.
     pub(super) fn dense(&self, t0: f64, t1: f64, h: f64) -> DenseStep<'_> {
-        DenseStep::new(self.tableau.dense, (t0, t1), h, &self.y, &self.y1, &self.k)
+        let weights = match &self.history {
+            Some(history) => Weights::OfAccelerations(&history.weights),
+            None => Weights::OfDerivatives(self.tableau.dense),
+        };
+        DenseStep::new(weights, (t0, t1), h, &self.y, &self.y1, &self.k)
     }
 
     /// Makes the end of the last attempt the accepted state.
     pub(super) fn advance(&mut self) {
         let last = self.k.len() - 1;
-        self.k.swap(0, last);
+        match &mut self.history {
+            Some(history) => {
+                history.advance();
+                self.k.rotate_right(1);
+            }
+            None => self.k.swap(0, last),
+        }
         std::mem::swap(&mut self.y, &mut self.y1);
     }
 }

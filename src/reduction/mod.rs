@@ -293,6 +293,11 @@ impl Reduction {
         &self.felt
     }
 
+    /// Whether no ball is followed by its distance from the shaft.
+    pub(crate) fn is_cartesian(&self) -> bool {
+        !self.orbits.iter().any(Orbit::has_states)
+    }
+
     /// Rows that turn as one and whose radii are states, with the place of their first one.
     pub(crate) fn orbits(&self) -> impl Iterator<Item = (&Orbit, usize)> {
         self.orbits
@@ -341,7 +346,9 @@ impl Reduction {
         }
         if let (true, [first, second]) = (self.mirrored, &model.scene.rows[..]) {
             let axial = f64::midpoint(first.axial_position, second.axial_position);
-            copy_row(model, full, 2.0 * axial);
+            let (places, speeds) = full.split_at_mut(layout.half());
+            copy_row(model, places, 2.0 * axial);
+            copy_row(model, speeds, 0.0);
         }
     }
 
@@ -363,8 +370,15 @@ impl Reduction {
         for orbit in &self.orbits {
             orbit.rates(t, y, rates, full);
         }
+        let (speeds, accelerations) = full.split_at_mut(layout.half());
+        self.mirror(model, speeds);
+        self.mirror(model, accelerations);
+    }
+
+    /// Where one row runs for two, gives the second one the numbers of the first: speeds or changes, by body.
+    pub(crate) fn mirror(&self, model: &Model, half: &mut [f64]) {
         if self.mirrored {
-            copy_row(model, full, 0.0);
+            copy_row(model, half, 0.0);
         }
     }
 
@@ -389,16 +403,13 @@ pub(crate) fn axial_places(model: &Model, start: &[f64]) -> Option<AxialPlaces> 
         .filter(|_| model.scene.approximations.plane)
 }
 
-/// Makes the second row the image of the first, whose axial places z become `sum` − z.
-fn copy_row(model: &Model, full: &mut [f64], sum: f64) {
+/// Makes the second row the image of the first, whose axial numbers z become `sum` − z; of one half of a state.
+fn copy_row(model: &Model, half: &mut [f64], sum: f64) {
     let [first, second] = [0, 1].map(|row| model.rows[row].first_body());
-    let (places, speeds) = full.split_at_mut(model.layout().half());
-    for (half, sum) in [(places, sum), (speeds, 0.0)] {
-        let bodies = Layout::each_mut(half);
-        for k in 0..model.rows[0].count {
-            let mut image = bodies[first.after(k).index()];
-            image[Dof::Z] = sum - image[Dof::Z];
-            bodies[second.after(k).index()] = image;
-        }
+    let bodies = Layout::each_mut(half);
+    for k in 0..model.rows[0].count {
+        let mut image = bodies[first.after(k).index()];
+        image[Dof::Z] = sum - image[Dof::Z];
+        bodies[second.after(k).index()] = image;
     }
 }

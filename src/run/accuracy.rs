@@ -5,6 +5,7 @@
 //! setting and with the next finer one, until the two agree to a third of the request: first for the tolerance, then
 //! for the nodes. The difference of neighbours is the error of the coarser, for the finer is several times better.
 
+use super::step_limit;
 use crate::equilibrium::compile;
 use crate::error::{Error, Result};
 use crate::model::{Body, Dof, Model};
@@ -19,13 +20,11 @@ pub(crate) const FS: f64 = 100e3;
 /// Share of the request that tolerance and nodes may each use.
 const SHARE: f64 = 1.0 / 3.0;
 /// First tolerance tried over the request: for 1 % the default, so that an impact after the pilot is met well.
-const FIRST: f64 = 1e-4;
+const FIRST: f64 = 1e-5;
 /// The tightest.
 const TIGHTEST: f64 = 1e-10;
 /// Numbers of nodes tried: the default, then each about half as many again as the one before.
 const NODES: [usize; 7] = [6, 8, 12, 18, 26, 38, 64];
-/// Largest step over 1/ω of the highest contact frequency: beyond it the method is not stable.
-const LARGEST: f64 = 2.0;
 
 /// Runs a scene from a state for the horizon, or less if the run is shorter: samples of its only probe's only column,
 /// and the evaluations that it took.
@@ -79,9 +78,8 @@ fn set_nodes(scene: &mut Scene, count: usize) {
 
 /// Refuses what cannot be asked for, of this scene.
 pub(crate) fn check(scene: &Scene) -> Result<()> {
-    if scene.solver.method != Method::DormandPrince {
-        let allowed =
-            "dormand-prince where `accuracy` is given: its choice is measured on that method";
+    if scene.solver.method != Method::Adams {
+        let allowed = "adams where `accuracy` is given: its choice is measured on that method";
         return Err(Error::scene(
             "method",
             format!("{:?}", scene.solver.method),
@@ -95,7 +93,7 @@ pub(crate) fn check(scene: &Scene) -> Result<()> {
 fn cap(scene: &mut Scene, model: &Model) {
     let solver = &mut scene.solver;
     if solver.frequency_cap {
-        let cap = LARGEST / model.scales().frequency;
+        let cap = step_limit::largest(solver.method, model);
         solver.max_step = Some(solver.max_step.map_or(cap, |step| step.min(cap)));
         solver.frequency_cap = false;
     }

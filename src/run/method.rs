@@ -5,10 +5,10 @@ use std::ops::ControlFlow;
 
 use super::step_limit;
 use crate::dynamics::Dynamics;
-use crate::implicit::ImplicitDynamics;
+use crate::implicit::{Damped, ImplicitDynamics};
 use crate::integrate::{
-    self, BOGACKI_SHAMPINE, Controller, DORMAND_PRINCE, DenseStep, Failure, KENNEDY_CARPENTER,
-    Observer, Options, RUNGE_KUTTA_4, Solution, Statistics, System, TSITOURAS, Tolerance, VERNER,
+    self, Adams, BOGACKI_SHAMPINE, DORMAND_PRINCE, DenseStep, Failure, KENNEDY_CARPENTER, Observer,
+    Options, RUNGE_KUTTA_4, Solution, Statistics, System, TSITOURAS, Tolerance, VERNER,
     VelocityVerlet, integrate,
 };
 use crate::model::Model;
@@ -61,6 +61,12 @@ pub(crate) fn run<'m, O: Observer<Dynamics<'m>>>(
         Method::Tsitouras => by(&TSITOURAS, dynamics, task, observer),
         Method::Verner => by(&VERNER, dynamics, task, observer),
         Method::RungeKutta4 => by(&RUNGE_KUTTA_4, dynamics, task, observer),
+        Method::Adams => by(
+            &Adams,
+            &mut Damped::new(dynamics),
+            task,
+            &mut Through(observer),
+        ),
         Method::VelocityVerlet => by(&VelocityVerlet, dynamics, task, observer),
         Method::ImplicitFriction => {
             let mut implicit = ImplicitDynamics::new(dynamics);
@@ -93,7 +99,7 @@ where
     } = task;
     let tableau = method.tableau();
     let options = Options {
-        controller: Controller::for_order(tableau.error_order),
+        controller: method.controller(),
         ..options.clone()
     };
     let choice = Choice {
@@ -184,6 +190,17 @@ impl<'m, O: Observer<Dynamics<'m>>> Observer<ImplicitDynamics<'_, 'm>> for Throu
     fn accepted(
         &mut self,
         system: &mut ImplicitDynamics<'_, 'm>,
+        step: &DenseStep<'_>,
+        stats: &Statistics,
+    ) -> ControlFlow<()> {
+        self.0.accepted(system.dynamics, step, stats)
+    }
+}
+
+impl<'m, O: Observer<Dynamics<'m>>> Observer<Damped<'_, 'm>> for Through<'_, O> {
+    fn accepted(
+        &mut self,
+        system: &mut Damped<'_, 'm>,
         step: &DenseStep<'_>,
         stats: &Statistics,
     ) -> ControlFlow<()> {

@@ -2,16 +2,18 @@
 
 use crate::model::Model;
 
-/// Steps in a row below the limit that make a collapse.
+/// Steps over which a collapse is seen.
 const PATIENCE: usize = 1000;
-/// Share of the contacts' 1/ω, or of a smaller largest step, below which a step leads nowhere: at 1e-5 a
+/// Share of the contacts' 1/ω, or of a smaller largest step, below which steps lead nowhere: at 1e-5 a
 /// millisecond takes more than ten million steps.
 const HOPELESS: f64 = 1e-5;
 
-/// Counts steps that are too small for the run to end in a useful time.
+/// Sees when steps are too small for the run to end in a useful time.
 pub(crate) struct StepCollapse {
     limit: f64,
     steps: usize,
+    /// Time that they took the run on \[s\].
+    progress: f64,
 }
 
 impl StepCollapse {
@@ -19,12 +21,19 @@ impl StepCollapse {
         Self {
             limit: HOPELESS * max_step.min(1.0 / model.scales.frequency),
             steps: 0,
+            progress: 0.0,
         }
     }
 
     /// Whether the run is no longer worth waiting for after an accepted step.
     pub fn after(&mut self, step: f64) -> bool {
-        self.steps = if step < self.limit { self.steps + 1 } else { 0 };
-        self.steps >= PATIENCE
+        self.steps += 1;
+        self.progress += step;
+        if self.steps < PATIENCE {
+            return false;
+        }
+        let collapsed = self.progress < PATIENCE as f64 * self.limit;
+        (self.steps, self.progress) = (0, 0.0);
+        collapsed
     }
 }

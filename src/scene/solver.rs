@@ -7,8 +7,11 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Method {
-    /// Dormand–Prince 5(4), explicit: the default.
+    /// Adams' predictor–corrector of order four, linearly implicit in friction: the default. One evaluation a step; see
+    /// [`Adams`](crate::integrate::Adams).
     #[default]
+    Adams,
+    /// Dormand–Prince 5(4), explicit.
     DormandPrince,
     /// Bogacki–Shampine 3(2), explicit.
     BogackiShampine,
@@ -40,9 +43,9 @@ impl Method {
 #[serde(deny_unknown_fields, default)]
 #[non_exhaustive]
 pub struct Solver {
-    /// The method. Default `dormand-prince`.
+    /// The method. Default `adams`.
     pub method: Method,
-    /// Relative tolerance, 1e-12 to 1e-1; each kind of state has its scale from the scene. Default 1e-6.
+    /// Relative tolerance, 1e-12 to 1e-1; each kind of state has its scale from the scene. Default 1e-7.
     pub rtol: f64,
     /// First step \[s\]; absent: Hairer's estimate.
     pub first_step: Option<f64>,
@@ -62,7 +65,7 @@ impl Default for Solver {
     fn default() -> Self {
         Self {
             method: Method::default(),
-            rtol: 1e-6,
+            rtol: 1e-7,
             first_step: None,
             max_step: None,
             frequency_cap: true,

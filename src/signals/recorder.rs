@@ -35,8 +35,10 @@ pub(crate) struct Recorder<'s> {
     grid: Option<(Reading, Decimator)>,
     /// The next point of the grid; 0 stands at t = 0.
     next: i64,
-    /// Whether accelerations or torques are recorded, so that the model is evaluated at every sample.
+    /// Whether the samples' own readings want accelerations, for which the model is evaluated.
     needs_rhs: bool,
+    /// Whether accelerations are recorded at all, so that they are judged.
+    judges: bool,
     /// Whether it has to be on the grid.
     needs_rhs_on_grid: bool,
     listings: Vec<super::probes::Listing>,
@@ -79,7 +81,8 @@ impl<'s> Recorder<'s> {
             points,
             grid,
             next: 0,
-            needs_rhs: probes.needs_rhs,
+            needs_rhs: probes.needs_rhs && !filtered,
+            judges: probes.needs_rhs,
             needs_rhs_on_grid,
             listings: probes.listings,
             own: (Vec::new(), Vec::new()),
@@ -144,7 +147,7 @@ impl<'s> Recorder<'s> {
             }
         }
         if t == 0.0 {
-            self.sample(dynamics, t);
+            self.sample(dynamics, t, false);
         }
         self.list(dynamics, t, |_, _| {});
     }
@@ -167,8 +170,9 @@ impl<'s> Recorder<'s> {
                 break;
             }
             step.interpolate(t, &mut self.own.0);
-            self.sample(dynamics, t);
-            if self.needs_rhs {
+            let judged = self.judges && Residual::wants(self.held.sampled());
+            self.sample(dynamics, t, judged);
+            if judged {
                 self.residual.add(step, t, &self.own.1);
             }
         }
@@ -226,12 +230,14 @@ impl<'s> Recorder<'s> {
         self.next += 1;
     }
 
-    /// The accelerations are the model's at the interpolated state.
-    fn sample(&mut self, dynamics: &mut Dynamics<'_>, t: f64) {
+    /// The accelerations are the model's at the interpolated state; they are found where a reading or the judge wants them.
+    fn sample(&mut self, dynamics: &mut Dynamics<'_>, t: f64, judged: bool) {
         let (y, dy) = &mut self.own;
         dynamics.expand(t, y, &mut self.y);
-        if self.needs_rhs {
+        if self.needs_rhs || judged {
             dynamics.rhs(t, y, dy);
+        }
+        if self.needs_rhs {
             dynamics.expand_rates(t, y, dy, &mut self.dy);
         }
         self.held.t.push(t);
