@@ -21,9 +21,9 @@ Method = Literal[
     "implicit-friction",
     "auto",
 ]
-"""The method of integration: a predictor–corrector of order 4 with one evaluation a step, explicit pairs of order
-5, 3, 5 and 6, two of fixed steps, the one that is explicit in positions and implicit in velocities, and the choice of
-it or Dormand–Prince by friction's stiffness."""
+"""The method of integration: a predictor–corrector of order 4 with one evaluation a step, explicit pairs of
+order 5, 3, 5 and 6, two of fixed steps, the one that is explicit in positions and implicit in velocities, and the
+choice of it or Dormand–Prince by friction's stiffness."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,8 +34,9 @@ class Solver(Part):
     ----------
     method : Method
         The method. ``"adams"`` takes one evaluation a step and a third to a fifth of those that explicit pairs
-        take for the same error. Explicit steps shrink with the slip speed of friction, those of ``"adams"`` later and
-        those of ``"implicit-friction"`` not at all. Methods of fixed steps take the largest step allowed.
+        take for the same error. Explicit steps shrink with the slip speed of friction, those of ``"adams"``
+        later and those of ``"implicit-friction"`` not at all. Methods of fixed steps take the largest step
+        allowed.
     rtol : float
         Relative tolerance, 1e-12 to 1e-1; each kind of state has its scale from the scene.
     first_step : float or None
