@@ -14,8 +14,9 @@ All numbers are in SI units, at every face.
 
 from __future__ import annotations
 
-from . import frequencies, presets, scene, spectra
+from . import defects, frequencies, presets, scene, spectra
 from ._features import features
+from .bearings import Bearing, Catalogue, bearing, catalogue
 from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
 from .errors import (
     AccuracyWarning,
@@ -32,6 +33,7 @@ from .errors import (
 )
 from .explanation import Explanation, explain
 from .model import Model
+from .operating import FaultFrequencies, fault_frequencies
 from .options import Run
 from .run import simulate
 from .scene import Scene
@@ -48,13 +50,16 @@ from .statics import (
 __all__ = [
     "AccuracyWarning",
     "BallraceError",
+    "Bearing",
     "BudgetError",
     "Campaign",
     "CampaignError",
     "CampaignWarning",
+    "Catalogue",
     "Equilibrium",
     "EquilibriumError",
     "Explanation",
+    "FaultFrequencies",
     "FileError",
     "IntegrationError",
     "LoadDistribution",
@@ -68,9 +73,13 @@ __all__ = [
     "Signals",
     "Stiffness",
     "Touched",
+    "bearing",
     "campaign",
+    "catalogue",
+    "defects",
     "equilibrium",
     "explain",
+    "fault_frequencies",
     "features",
     "frequencies",
     "grid",

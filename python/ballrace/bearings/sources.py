@@ -1,0 +1,26 @@
+"""Where the numbers of the catalogue come from, by the words in its table."""
+
+from __future__ import annotations
+
+__all__ = ["BOUNDARY", "CONFORMITY", "SOURCES"]
+
+BOUNDARY = "ISO 15, as in the makers' tables"
+"""Bore, outside diameter and width."""
+
+CONFORMITY = "assumed: the largest that ISO 76 rates, 0.52 inside and 0.53 outside; makers do not publish it"
+"""Groove radii."""
+
+SOURCES = {
+    "ratings": "estimated: the set of 1/64 inch balls that has the printed ratings by ISO 76 and ISO 281",
+    "mean": "estimated: the mean of bore and outside diameter; 0 to 1 % more in real bearings",
+    "nsk": "NSK rolling bearing tables",
+    "nsk_precision": "NSK super-precision tables",
+    "cwru": "Case Western Reserve University bearing data, drive end (SKF 6205-2RS JEM)",
+    "paderborn": "Paderborn University KAt data (its 6203; CWRU's fan end gives 6.746 on 28.5 mm)",
+    "pronostia": "FEMTO-ST PRONOSTIA data (NSK 6804)",
+    "xjtu": "XJTU-SY data (LDK UER204)",
+    "spectraquest": "SpectraQuest, with the Ottawa data: 0.3125 inch on 1.516 inch (others print 39.3 mm)",
+    "size205": "assumed: as of a 6205, whose balls it has",
+    "harris": "T. A. Harris, Rolling Bearing Analysis, the 218 angular contact bearing",
+}
+"""Sentence by the word in ``bearings.csv``."""
