@@ -1,7 +1,7 @@
 """Defects as they are spoken of: a spall, a dent, a line, with sizes in millimetres.
 
 Each is a :class:`ballrace.scene.Defect`, placed where the contact runs unless ``axial_offset`` says otherwise; put
-them into a scene by name, ``br.bearing("6205", defects={"spall": br.defects.spall(on="inner_race", width_mm=1.0)})``.
+them into a scene by name: ``br.bearing("6205", defects={"spall": spall(on="inner_race", width_mm=1.0)})``.
 
 >>> import ballrace as br
 >>> spall(on="outer_race", width_mm=1.0).width

@@ -1,8 +1,8 @@
 """Fault frequencies of a bearing as it runs: at the contact angle under its load, with the slip of its cage.
 
-Of a bearing whose outer ring stands still and whose balls roll, the load alone moves the frequencies from the nominal
-ones: thrust opens the contact angle, which raises BPFO and lowers BPFI. Slip lowers the cage's speed below that of
-rolling, and BPFO with it, and raises BPFI.
+Where the outer ring stands still and the balls roll, the load alone moves the frequencies from the nominal ones: thrust
+opens the contact angle, which raises BPFO and lowers BPFI. Slip makes the cage slower than rolling would, lowers BPFO
+and raises BPFI. A cage with play, or a clearance in which unloaded balls drop, can make it faster: negative slip.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ class FaultFrequencies:
     shaft : float
         Frequency of the inner ring f_r [Hz].
     ftf, bpfo, bpfi, bsf : float
-        Cage, ball passes on the outer and the inner race, spin of a ball in the cage [Hz]. A defect on a ball meets
-        the races at twice ``bsf``.
+        Cage, ball passes on the outer and the inner race, spin of a ball in the cage [Hz]. A defect on a ball
+        meets the races at twice ``bsf``.
     contact_angle : float
         The angle they are of [rad].
     slip : float or None
@@ -71,8 +71,8 @@ def fault_frequencies(
     ----------
     of : str, Bearing, Scene or Signals
         A designation of the catalogue or a bearing of it: at the nominal contact angle, since no load is given. A
-        scene: at the contact angle under its load. Signals of a run: with the cage's slip as well, if a probe records
-        the motion of a ball of the row (``MotionProbe(body="row0.ball0", components=("x", "y"))``).
+        scene: at the contact angle under its load. Signals of a run: with the cage's slip as well, if a probe
+        records the motion of a ball of the row (``MotionProbe(body="row0.ball0", components=("x", "y"))``).
     speed_rpm : float, optional
         Speed of the inner ring [rev/min]; by default that of the scene, if it is given and constant.
     row : int
@@ -139,13 +139,13 @@ def operating_angle(scene: Scene, row: int = 0) -> float:
 
 
 def cage_frequency(out: Signals, row: int = 0) -> float | None:
-    """Return how often the balls of a row went round, by the balls whose motion was recorded [Hz]; None without one."""
+    """Return how often a row goes round, by the balls whose motion was recorded [Hz]; None without one."""
     rates = []
     for name, probe in out.scene.probes.items():
-        if isinstance(probe, MotionProbe) and probe.body.startswith(f"row{row}."):
-            if f"{name}.x" in out and f"{name}.y" in out:
-                angle = np.unwrap(np.arctan2(out[f"{name}.y"], out[f"{name}.x"]))
-                rates.append(np.polyfit(out.t, angle, 1)[0] / (2.0 * math.pi))
+        of_row = isinstance(probe, MotionProbe) and probe.body.startswith(f"row{row}.")
+        if of_row and f"{name}.x" in out and f"{name}.y" in out:
+            angle = np.unwrap(np.arctan2(out[f"{name}.y"], out[f"{name}.x"]))
+            rates.append(np.polyfit(out.t, angle, 1)[0] / (2.0 * math.pi))
     return float(np.mean(rates)) if rates else None
 
 

@@ -46,9 +46,9 @@ def bearing(
     """Return a scene of a bearing of the catalogue, ready to run.
 
     It is built as :func:`ballrace.presets.deep_groove_6205` is: Hertz's law, Coulomb friction, a cage of pressed
-    steel with some play; the outer ring in a stiff housing (near 5 kHz, damped at 5 %, whatever the size), the inner
-    ring on a shaft; the motion of both rings recorded. What it assumes is in the fields of the scene, all of which
-    :meth:`ballrace.Scene.replace` changes.
+    steel with some play; the outer ring in a stiff housing (near 5 kHz, damped at 5 %, whatever the size), the
+    inner ring on a shaft; the motion of both rings recorded. What it assumes is in the fields of the scene, all of
+    which :meth:`ballrace.Scene.replace` changes.
 
     Parameters
     ----------
@@ -59,13 +59,13 @@ def bearing(
     axial_load : float, optional
         Load on the inner ring along +z [N], of either sign on a deep groove bearing and by default none there. An
         angular contact bearing holds it towards +z alone, and a radial load only together with it: more than
-        ``radial_load * tan(contact_angle)``. By default the opposed bearing gives it the thrust under which half of
-        its balls carry, 1.22 times that.
+        ``radial_load * tan(contact_angle)``. By default the opposed bearing gives it the thrust under which half
+        of its balls carry, 1.22 times that.
     speed_rpm : float
         Speed of the inner ring [rev/min].
     clearance : {"C2", "CN", "C3", "C4"} or float
-        Of a deep groove bearing: the middle of a class of ISO 5753-1, or a diametral clearance [m]. Fits take some of
-        it. Angular contact bearings have none: their contact angle says it.
+        Of a deep groove bearing: the middle of a class of ISO 5753-1, or a diametral clearance [m]. Fits take
+        some of it. Angular contact bearings have none: their contact angle says it.
     defects : Defect, or mapping of str to Defect
         Defects, as :mod:`ballrace.defects` makes them; a single one is named ``defect``.
 
@@ -110,7 +110,9 @@ def bearing(
 def _row(made: Bearing, clearance: str | float) -> Row:
     deep = made.kind == "deep_groove"
     if not (deep or clearance == "CN"):
-        allowed = "left away: the clearance of an angular contact bearing follows from its contact angle"
+        allowed = (
+            "left away: the clearance of an angular contact bearing follows from its contact angle"
+        )
         raise SceneError("clearance", repr(clearance), allowed)
     return Row(
         ball_count=made.ball_count,
@@ -141,14 +143,18 @@ def _thrust(made: Bearing, radial: float, axial: float | None) -> float:
     axial = _load("axial_load", axial)
     if made.kind == "angular_contact" and not (axial > least or axial == radial == 0.0):
         allowed = (
-            f"above {least:.4g} N towards +z, radial_load * tan(contact angle): with less the rings of a {made.designation} "
-            "come apart; by default its opposed bearing gives it what half of the balls need"
+            f"above {least:.4g} N towards +z, radial_load * tan(contact angle): with less the rings of a "
+            f"{made.designation} come apart; by default its opposed bearing gives it what half of the balls need"
         )
         raise SceneError("axial_load", f"{axial:g}", allowed)
     return axial
 
 
 def _load(name: str, value: float) -> float:
-    if isinstance(value, bool) or not math.isfinite(value) or (name == "radial_load" and value < 0.0):
+    if (
+        isinstance(value, bool)
+        or not math.isfinite(value)
+        or (name == "radial_load" and value < 0.0)
+    ):
         raise SceneError(name, repr(value), "a load [N], the radial one along -y and from 0")
     return float(value)

@@ -46,10 +46,14 @@ def radial_clearance(bore: float, clearance: str | float) -> float:
     """
     if not isinstance(clearance, str):
         if isinstance(clearance, bool) or not math.isfinite(clearance):
-            raise SceneError("clearance", repr(clearance), "a number [m], or one of " + ", ".join(CLASSES))
+            raise SceneError(
+                "clearance", repr(clearance), "a number [m], or one of " + ", ".join(CLASSES)
+            )
         return float(clearance)
     if clearance not in CLASSES:
-        raise SceneError("clearance", repr(clearance), "a number [m], or one of " + ", ".join(CLASSES))
+        raise SceneError(
+            "clearance", repr(clearance), "a number [m], or one of " + ", ".join(CLASSES)
+        )
     for largest, limits in _TABLE:
         if bore <= largest * (1e-3 + 1e-12):
             low, high = limits[CLASSES.index(clearance)]

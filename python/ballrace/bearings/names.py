@@ -11,10 +11,12 @@ if TYPE_CHECKING:
 
 __all__ = ["near", "resolved"]
 
-_MAKERS = re.compile(r"^(SKF|FAG|INA|NSK|NTN|SNR|KOYO|JTEKT|NACHI|TIMKEN|LDK|REXNORD|MB|IBU|HRB|ZWZ|LYC)\s*")
+_MAKERS = re.compile(
+    r"^(SKF|FAG|INA|NSK|NTN|SNR|KOYO|JTEKT|NACHI|TIMKEN|LDK|REXNORD|MB|IBU|HRB|ZWZ|LYC)\s*"
+)
 _HARMLESS = re.compile(
-    r"""(?: [-\s/]* (?: 2?RSR? | 2RS[1HL] | RS[1HL] | 2?ZR? | ZZ | VV | DDU? | LL[BUH] | [LU]LB | NR? | JEM | CM | CN
-        | C[2-5] | P[0456] ) )* [-\s/]* $""",
+    r"""(?: [-\s/]* (?: 2?RSR? | 2RS[1HL] | RS[1HL] | 2?ZR? | ZZ | VV | DDU? | LL[BUH] | [LU]LB | NR? | JEM
+        | CM | CN | C[2-5] | P[0456] ) )* [-\s/]* $""",
     re.VERBOSE,
 )
 """Seals, shields, snap ring grooves, clearance and tolerance: no matter of the balls."""
@@ -34,7 +36,9 @@ def resolved(name: str, known: Collection[str]) -> str | None:
     """
     text = _MAKERS.sub("", name.strip().upper())
     for designation in sorted(known, key=len, reverse=True):
-        if _bare(text).startswith(_bare(designation)) and _HARMLESS.fullmatch(_rest(text, designation)):
+        if _bare(text).startswith(_bare(designation)) and _HARMLESS.fullmatch(
+            _rest(text, designation)
+        ):
             return designation
     number, letters = re.fullmatch(r"(\d*)(.*)", _bare(text)).groups()  # type: ignore[union-attr]
     other = number + _ANGLES.get(letters, letters)

@@ -7,7 +7,9 @@ __all__ = ["BOUNDARY", "CONFORMITY", "SOURCES"]
 BOUNDARY = "ISO 15, as in the makers' tables"
 """Bore, outside diameter and width."""
 
-CONFORMITY = "assumed: the largest that ISO 76 rates, 0.52 inside and 0.53 outside; makers do not publish it"
+CONFORMITY = (
+    "assumed: the largest that ISO 76 rates, 0.52 inside and 0.53 outside; makers do not publish it"
+)
 """Groove radii."""
 
 SOURCES = {
