@@ -14,7 +14,7 @@ All numbers are in SI units, at every face.
 
 from __future__ import annotations
 
-from . import defects, frequencies, presets, scene, spectra
+from . import defects, frequencies, measuring, presets, scene, spectra
 from ._features import features
 from .bearings import Bearing, Catalogue, bearing, catalogue
 from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
@@ -32,6 +32,7 @@ from .errors import (
     SceneWarning,
 )
 from .explanation import Explanation, explain
+from .measuring import measure
 from .model import Model
 from .operating import FaultFrequencies, fault_frequencies
 from .options import Run
@@ -85,6 +86,8 @@ __all__ = [
     "grid",
     "latin_hypercube",
     "load_distribution",
+    "measure",
+    "measuring",
     "presets",
     "scatter",
     "scene",

@@ -1,8 +1,9 @@
 """Fault frequencies of a bearing as it runs: at the contact angle under its load, with the slip of its cage.
 
-Where the outer ring stands still and the balls roll, the load alone moves the frequencies from the nominal ones: thrust
-opens the contact angle, which raises BPFO and lowers BPFI. Slip makes the cage slower than rolling would, lowers BPFO
-and raises BPFI. A cage with play, or a clearance in which unloaded balls drop, can make it faster: negative slip.
+Where the outer ring stands still and the balls roll, the load alone moves the frequencies from the nominal
+ones: thrust opens the contact angle, which raises BPFO and lowers BPFI. Slip makes the cage slower than rolling
+would, lowers BPFO and raises BPFI. A cage with play, or a clearance in which unloaded balls drop, can make it
+faster: negative slip.
 """
 
 from __future__ import annotations

@@ -1,0 +1,89 @@
+"""What else shakes where the sensor sits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import SceneError
+from .checks import positive
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .source import Source
+
+__all__ = ["Machine", "white_noise"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Machine:
+    """Vibration of the machine at the sensor that is none of the bearing's.
+
+    Attributes
+    ----------
+    shaft : tuple of float
+        Amplitudes of the shaft's orders 1, 2, … [m/s²]; phases are drawn.
+    mains : tuple of float
+        Amplitudes of the multiples 1, 2, … of the mains [m/s²]; phases are drawn.
+    mains_frequency : float
+        Frequency of the mains [Hz].
+    noise_density : float
+        White noise, its one-sided power spectral density [(m/s²)²/Hz].
+    modulation : tuple of float
+        How the shaft's orders 1, 2, … swell the noise: it is multiplied by ``1 + Σ m_k cos(k θ + φ_k)``, which
+        gives the squared envelope lines there; phases are drawn.
+    """
+
+    shaft: tuple[float, ...] = ()
+    mains: tuple[float, ...] = ()
+    mains_frequency: float = 50.0
+    noise_density: float = 0.0
+    modulation: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        positive("machine.mains_frequency", self.mains_frequency)
+        positive("machine.noise_density", self.noise_density, zero=True)
+        for name in ("shaft", "mains", "modulation"):
+            values = tuple(getattr(self, name))
+            object.__setattr__(self, name, values)
+            if not np.isfinite(np.asarray(values, dtype=np.float64)).all():
+                raise SceneError(f"machine.{name}", repr(values), "numbers")
+
+    def added(self, source: Source, rng: np.random.Generator) -> NDArray[np.float64]:
+        """Return what it adds to a signal [m/s²].
+
+        Raises
+        ------
+        SceneError
+            The angle of the shaft is needed, and not known.
+        """
+        # All phases are drawn first, so that one setting does not change the numbers of another.
+        phases = rng.uniform(0.0, 2.0 * np.pi, (3, 64))
+        total = np.zeros(source.x.size)
+        if self.noise_density > 0.0:
+            total += white_noise(self.noise_density, source.fs, source.x.size, rng)
+        if self.modulation and self.noise_density > 0.0:
+            total *= 1.0 + _orders(self.modulation, source.needed_angle(), phases[0])
+        if self.shaft:
+            total += _orders(self.shaft, source.needed_angle(), phases[1])
+        turn = 2.0 * np.pi * self.mains_frequency * source.t
+        return total + _orders(self.mains, turn, phases[2])
+
+
+def white_noise(
+    density: float, fs: float, size: int, rng: np.random.Generator
+) -> NDArray[np.float64]:
+    """Return normal white noise of a one-sided power spectral density, per hertz."""
+    return float(np.sqrt(0.5 * density * fs)) * rng.standard_normal(size)
+
+
+def _orders(
+    amplitudes: tuple[float, ...], angle: NDArray[np.float64], phases: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    total = np.zeros(angle.size)
+    for k, amplitude in enumerate(amplitudes):
+        total += amplitude * np.cos((k + 1) * angle + phases[k % phases.size])
+    return total
