@@ -34,7 +34,7 @@ def spall(
     *,
     on: Surface,
     width_mm: float,
-    length_mm: float = 4.0,
+    length_mm: float = 2.0,
     depth_mm: float | None = None,
     edge_radius_mm: float = 0.3,
     angle: float = _DOWN,
@@ -125,36 +125,33 @@ def dent(
 def line(
     *,
     on: Surface,
-    width_mm: float,
-    length_mm: float | None = None,
-    edge_radius_mm: float = 0.3,
+    width_mm: float = 0.2,
+    length_mm: float = 2.0,
+    edge_radius_mm: float = 0.05,
     angle: float = _DOWN,
+    axial_offset: AxialOffset = "contact",
     row: int = 0,
     ball: int | None = None,
 ) -> Defect:
-    """Return a groove across the whole race, as an engraver or a wire leaves it, wherever the contact runs.
+    """Return a narrow line with sharp edges across the rolling direction, as an engraver or a wire leaves it.
 
     Parameters
     ----------
-    on, width_mm, edge_radius_mm, angle, row, ball
-        As for :func:`spall`.
-    length_mm : float, optional
-        Extent across the rolling direction [mm]; by default 50, more than the race is wide, and 3 on a ball.
+    on, width_mm, length_mm, edge_radius_mm, angle, axial_offset, row, ball
+        As for :func:`spall`, which it is but for its sizes.
 
     Raises
     ------
     SceneError
         A number is not usable.
     """
-    if length_mm is None:
-        length_mm = 3.0 if on == "ball" else 50.0
     return spall(
         on=on,
         width_mm=width_mm,
         length_mm=length_mm,
         edge_radius_mm=edge_radius_mm,
         angle=angle,
-        axial_offset=0.0,
+        axial_offset=axial_offset,
         row=row,
         ball=ball,
     )
