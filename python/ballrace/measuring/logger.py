@@ -111,9 +111,8 @@ class Logger:
         if self.step is None:
             return np.clip(x, -self.range, self.range), clipped
         # A converter has one code more below zero than above.
-        codes = np.clip(
-            np.rint(x / self.step), -(2 ** (self.bits or 0)) // 2, 2 ** (self.bits or 0) // 2 - 1
-        )
+        codes = np.rint(x / self.step)
+        codes = np.clip(codes, -self.range / self.step, self.range / self.step - 1.0)
         return self.step * codes, clipped
 
 

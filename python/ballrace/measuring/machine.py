@@ -60,17 +60,17 @@ class Machine:
         SceneError
             The angle of the shaft is needed, and not known.
         """
-        # All phases are drawn first, so that one setting does not change the numbers of another.
-        phases = rng.uniform(0.0, 2.0 * np.pi, (3, 64))
+        # A stream for each, so that one does not change the numbers of another.
+        noise, swelling, shaft, mains = rng.spawn(4)
         total = np.zeros(source.x.size)
         if self.noise_density > 0.0:
-            total += white_noise(self.noise_density, source.fs, source.x.size, rng)
+            total += white_noise(self.noise_density, source.fs, source.x.size, noise)
         if self.modulation and self.noise_density > 0.0:
-            total *= 1.0 + _orders(self.modulation, source.needed_angle(), phases[0])
+            total *= 1.0 + _orders(self.modulation, source.needed_angle(), swelling)
         if self.shaft:
-            total += _orders(self.shaft, source.needed_angle(), phases[1])
+            total += _orders(self.shaft, source.needed_angle(), shaft)
         turn = 2.0 * np.pi * self.mains_frequency * source.t
-        return total + _orders(self.mains, turn, phases[2])
+        return total + _orders(self.mains, turn, mains)
 
 
 def white_noise(
@@ -81,9 +81,9 @@ def white_noise(
 
 
 def _orders(
-    amplitudes: tuple[float, ...], angle: NDArray[np.float64], phases: NDArray[np.float64]
+    amplitudes: tuple[float, ...], angle: NDArray[np.float64], rng: np.random.Generator
 ) -> NDArray[np.float64]:
     total = np.zeros(angle.size)
-    for k, amplitude in enumerate(amplitudes):
-        total += amplitude * np.cos((k + 1) * angle + phases[k % phases.size])
+    for k, amplitude in enumerate(amplitudes, start=1):
+        total += amplitude * np.cos(k * angle + rng.uniform(0.0, 2.0 * np.pi))
     return total
