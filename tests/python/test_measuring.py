@@ -336,3 +336,45 @@ def test_what_is_refused_says_the_field(make: object, field: str) -> None:
     with pytest.raises(br.SceneError) as refused:
         make()  # type: ignore[operator]
     assert refused.value.path == field
+
+
+# ------------------------------------------------------------------------------- coloured noise, keywords, tables
+
+
+def test_coloured_noise_has_its_density() -> None:
+    f = np.linspace(0.0, 25_000.0, 101)
+    density = 1e-3 * (1.0 + np.sin(f / 4000.0)) + 1e-5
+    machine = m.Machine(noise_density=(f, density))
+    x = br.measure(np.zeros(1_000_000), machine=machine, fs=FS, seed=3).x
+    at, found = scipy.signal.welch(x, FS, nperseg=1000)
+    wanted = np.interp(at, f, density)
+    strong = wanted[2:-2] > 1e-4
+    np.testing.assert_allclose(found[2:-2][strong], wanted[2:-2][strong], rtol=0.2)
+    assert np.mean(found[2:-2]) == pytest.approx(np.mean(wanted[2:-2]), rel=0.01)
+    # From the first sample on.
+    assert x[:2000].std() == pytest.approx(x.std(), rel=0.1)
+    for bad in ((f, density[:-1]), (f[::-1], density), (f, -density), (f,)):
+        with pytest.raises(br.SceneError, match="noise_density"):
+            m.Machine(noise_density=bad)  # type: ignore[arg-type]
+
+
+def test_stages_may_be_given_one_by_one() -> None:
+    x = sine(500.0, 0.1)
+    stages = {"housing": HOUSING, "sensor": m.Sensor()}
+    chain = m.Chain(**stages)  # type: ignore[arg-type]
+    assert np.array_equal(
+        br.measure(x, fs=FS, housing=HOUSING, sensor=m.Sensor()).x, br.measure(x, chain, fs=FS).x
+    )
+    without = br.measure(x, chain, fs=FS, housing=None)
+    assert without.chain.stages == ("sensor",)
+    with pytest.raises(TypeError, match="hosing"):
+        br.measure(x, fs=FS, hosing=HOUSING)  # type: ignore[call-arg]
+
+
+def test_a_table_tells_the_numbers_of_chains() -> None:
+    found = m.table({"a": CHAIN, "b": m.Chain(logger=m.Logger(range=5.0))})
+    first, second = found.rows(named=True)
+    assert first["housing.modes[1].frequency"] == 3100.0
+    assert first["machine.shaft[0]"] == 1.0
+    assert (first["logger.range"], second["logger.range"]) == (20.0, 5.0)
+    assert second["housing.direct"] is None

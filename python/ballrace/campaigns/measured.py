@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +10,8 @@ import numpy as np
 
 from .._features import features
 from ..errors import SceneError
-from ..measuring import Chain, Measurement, measure
+from ..measuring import Measurement, measure
+from ..measuring.tables import Chains, named_chains
 from ..scene import Scene
 from ..signals import Signals
 
@@ -20,10 +20,7 @@ if TYPE_CHECKING:
 
     import polars as pl
 
-__all__ = ["Chains", "Measured", "features_table", "measured", "windows_table"]
-
-Chains = Chain | Mapping[str, Chain] | Sequence[Chain]
-"""A chain, some by their names, or some that are numbered from 0."""
+__all__ = ["Measured", "features_table", "measured", "windows_table"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -67,7 +64,7 @@ def measured(
     SceneError
         There is no chain, or no such number of them.
     """
-    named = _named(chains)
+    named = named_chains(chains)
     if per_case is not None and not 1 <= per_case <= len(named):
         raise SceneError("per_case", str(per_case), f"None, or 1 to {len(named)}, the chains")
     for case_id, out in runs:
@@ -117,16 +114,6 @@ def windows_table(lines: Iterator[Measured], length: int, hop: int | None) -> pl
     if not frames:
         raise SceneError("length", str(length), "at most the samples of a measurement")
     return pl.concat(frames)
-
-
-def _named(chains: Chains) -> dict[str, Chain]:
-    if isinstance(chains, Chain):
-        chains = [chains]
-    pairs = chains.items() if isinstance(chains, Mapping) else enumerate(chains)
-    named = {str(name): chain for name, chain in pairs}
-    if not named or not all(isinstance(chain, Chain) for chain in named.values()):
-        raise SceneError("chains", repr(chains), "at least one Chain of ballrace.measuring")
-    return named
 
 
 def _drawn(names: list[str], count: int | None, key: str) -> list[str]:

@@ -11,7 +11,7 @@ from .._parquet import collected
 from .._text import printable
 from ..scene import Scene
 from .cases import apply
-from .measured import Chains, Measured, as_signals, features_table, measured, windows_table
+from .measured import Measured, as_signals, features_table, measured, windows_table
 from .store import BASE, BUDGET, Store
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     import polars as pl
 
+    from ..measuring.tables import Chains
     from ..signals import Signals
 
 __all__ = ["Campaign"]
@@ -219,7 +220,8 @@ class Campaign:
     ) -> pl.DataFrame:
         """Return the features of all cases as measuring chains show them, a line a case and chain.
 
-        Join it with the manifest by ``case_id`` for labels and parameters.
+        Join it with the manifest by ``case_id`` for labels and parameters, and with
+        :func:`ballrace.measuring.table` by ``chain`` for those of the chains.
 
         Parameters
         ----------

@@ -20,11 +20,13 @@ seed, a stage at a time: leaving one out does not change the noise of another.
 ``source``    the signal: columns of a run along the sensor's direction, or an array; the shaft's angle
 ``housing``   from ring to sensor: modes, a measured frequency response, or an impulse response
 ``machine``   what else shakes there: harmonics of shaft and mains, noise, modulated by the shaft
+``noise``     of a given density
 ``sensor``    mounted resonance and lower limit of the accelerometer
 ``logger``    anti-aliasing, sampling rate, noise of the electronics, range, quantisation
 ``tacho``     pulses of a tachometer
 ``mixing``    onto a measured healthy record
 ``chain``     the stages one after the other
+``tables``    several chains, by their names
 ============  ==================================================================================
 
 Housing and sensor are linear and are applied to the spectrum, the record padded until their ringing has died
@@ -41,6 +43,7 @@ from .logger import Logger
 from .machine import Machine
 from .mixing import mix_into
 from .sensor import Sensor
+from .tables import table
 from .tacho import Tacho
 
 __all__ = [
@@ -57,4 +60,5 @@ __all__ = [
     "measure",
     "mix_into",
     "random_housing",
+    "table",
 ]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,6 +66,18 @@ class Chain:
     def stages(self) -> tuple[str, ...]:
         """Names of the stages that it has, in order."""
         return tuple(name for name in _KINDS if getattr(self, name) is not None)
+
+
+class _Stages(TypedDict, total=False):
+    """The fields of a chain."""
+
+    direction: tuple[float, float, float] | None
+    body: str
+    housing: AnyHousing | None
+    machine: Machine | None
+    sensor: Sensor | None
+    logger: Logger | None
+    tacho: Tacho | None
 
 
 _KINDS: dict[str, tuple[type, ...]] = {
@@ -133,6 +145,7 @@ def measure(
     fs: float | None = None,
     shaft: ArrayLike | None = None,
     seed: int = 0,
+    **stages: Unpack[_Stages],
 ) -> Measurement:
     """Take an acceleration through a measuring chain.
 
@@ -149,6 +162,8 @@ def measure(
         the inner ring was recorded, or its speed is constant.
     seed : int
         The same seed gives the same noise, phases and jitter.
+    **stages
+        Fields of the chain, as of :class:`ballrace.measuring.Chain`; they replace those of `chain`.
 
     Returns
     -------
@@ -164,11 +179,11 @@ def measure(
     --------
     >>> import ballrace as br, numpy as np
     >>> x = np.sin(2 * np.pi * 100.0 * np.arange(5000) / 50_000.0)
-    >>> measured = br.measure(x, br.measuring.Chain(logger=br.measuring.Logger(range=0.5)), fs=50_000.0)
+    >>> measured = br.measure(x, fs=50_000.0, logger=br.measuring.Logger(range=0.5))
     >>> measured.x.max(), round(measured.clipped, 2)
     (np.float64(0.5), 0.67)
     """
-    chain = Chain() if chain is None else chain
+    chain = replace(Chain() if chain is None else chain, **stages)
     if isinstance(of, Signals):
         if fs is not None:
             raise SceneError("fs", repr(fs), "None: the signals of a run know it")

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import SceneError
 from .checks import positive
-from .machine import white_noise
+from .noise import noise
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -104,7 +104,7 @@ class Logger:
     ) -> tuple[NDArray[np.float64], float]:
         """Return the signal with noise, clipped and quantised, and the share of samples that were clipped."""
         if self.noise_density > 0.0:
-            x = x + white_noise(self.noise_density, fs, x.size, rng)
+            x = x + noise(self.noise_density, fs, x.size, rng)
         if self.range is None:
             return x, 0.0
         clipped = float(np.mean(np.abs(x) > self.range))
