@@ -8,6 +8,7 @@ slow reference; ISO 281, ``C = 1.3 f_c (cos α)^0.7 Z^(2/3) D^1.8`` in mm, with 
 from __future__ import annotations
 
 import math
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -161,6 +162,19 @@ def test_an_unknown_name_says_what_is_near(name: str, near: str) -> None:
     assert near in refused.value.allowed
     assert name not in br.catalogue
     assert br.catalogue.get(name) is None
+
+
+def test_a_bearing_and_its_error_go_to_other_processes() -> None:
+    row = br.catalogue["6205"]
+    again = pickle.loads(pickle.dumps(row))
+    assert again == row
+    assert hash(again) == hash(row)
+    with pytest.raises(br.SceneError) as refused:
+        br.bearing("6299")
+    error = pickle.loads(pickle.dumps(refused.value))
+    assert str(error) == str(refused.value)
+    with pytest.raises(TypeError):
+        row.sources["balls"] = "another"  # type: ignore[index]
 
 
 def test_find_and_tables() -> None:

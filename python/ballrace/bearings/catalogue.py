@@ -5,13 +5,13 @@ from __future__ import annotations
 import csv
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from importlib import resources
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Literal, get_args
 
 from .. import frequencies
+from .._document import Part
 from ..errors import SceneError
 from .names import near, resolved
 from .sources import BOUNDARY, CONFORMITY, SOURCES
@@ -26,7 +26,7 @@ Kind = Literal["deep_groove", "angular_contact"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bearing:
+class Bearing(Part):
     """A bearing of the catalogue, one row of balls.
 
     Attributes
@@ -65,7 +65,7 @@ class Bearing:
     inner_conformity: float
     dynamic_rating: float
     static_rating: float
-    sources: Mapping[str, str]
+    sources: Mapping[str, str] = field(hash=False)
 
     @property
     def orders(self) -> frequencies.Orders:
@@ -183,7 +183,7 @@ def _bearing(line: dict[str, str]) -> Bearing:
         inner_conformity=0.52,
         dynamic_rating=float(line["c_n"]),
         static_rating=float(line["c0_n"]),
-        sources=MappingProxyType(sources),
+        sources=sources,
     )
 
 

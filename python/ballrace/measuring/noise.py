@@ -10,7 +10,6 @@ import numpy as np
 from ..errors import SceneError
 from .checks import finite_row, positive
 from .housing import MeasuredResponse
-from .linear import passed
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -44,8 +43,8 @@ def noise(density: Density, fs: float, size: int, rng: np.random.Generator) -> N
     """Return normal noise of a one-sided power spectral density, linear in amplitude between its frequencies."""
     if not isinstance(density, tuple):
         return math.sqrt(0.5 * density * fs) * rng.standard_normal(size)
+    # Filtered as if it went round and round, it is as strong at its ends as elsewhere.
     shape = MeasuredResponse(density[0], np.sqrt(np.asarray(density[1])))
-    # What comes before the record, so that it does not begin from rest.
-    before = math.ceil(fs * shape.ringing(fs))
-    white = noise(1.0, fs, before + size, rng)
-    return passed(white, fs, [shape])[before:]
+    spectrum = np.fft.rfft(noise(1.0, fs, size, rng))
+    f = np.arange(spectrum.size, dtype=np.float64) * (fs / size)
+    return np.fft.irfft(spectrum * shape.transfer(f, fs), size)
