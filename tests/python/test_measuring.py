@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import subprocess
+import sys
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -390,3 +392,22 @@ def test_a_table_tells_the_numbers_of_chains() -> None:
     assert first["machine.shaft[0]"] == 1.0
     assert (first["logger.range"], second["logger.range"]) == (20.0, 5.0)
     assert second["housing.direct"] is None
+
+
+def test_scipy_is_needed_by_the_logger_alone() -> None:
+    """Nothing imports it before; where there is none, the message says how to come by it."""
+    script = """
+import sys
+import numpy as np
+import ballrace as br
+br.measure(np.zeros(100), fs=1e4, housing=br.measuring.random_housing(1), sensor=br.measuring.Sensor())
+assert "scipy" not in sys.modules
+sys.modules["scipy"] = None
+try:
+    br.measure(np.zeros(100), fs=1e4, logger=br.measuring.Logger(fs=5e3))
+except ImportError as error:
+    assert "ballrace[signal]" in str(error)
+else:
+    raise AssertionError
+"""
+    subprocess.run([sys.executable, "-c", script], check=True)
