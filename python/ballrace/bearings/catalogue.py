@@ -5,16 +5,15 @@ from __future__ import annotations
 import csv
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from importlib import resources
 from typing import TYPE_CHECKING, Literal, get_args
 
 from .. import frequencies
-from .._document import Part
 from ..errors import SceneError
 from .names import near, resolved
-from .sources import BOUNDARY, CONFORMITY, SOURCES
+from .sources import BOUNDARY, CONFORMITY, SOURCES, Sources
 
 if TYPE_CHECKING:
     import polars as pl
@@ -26,7 +25,7 @@ Kind = Literal["deep_groove", "angular_contact"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bearing(Part):
+class Bearing:
     """A bearing of the catalogue, one row of balls.
 
     Attributes
@@ -47,9 +46,8 @@ class Bearing(Part):
         Groove radius over ball diameter.
     dynamic_rating, static_rating : float
         Basic load ratings C of ISO 281 and C₀ of ISO 76 [N].
-    sources : mapping of str to str
-        Where the numbers come from: ``balls``, ``pitch_diameter``, ``boundary``, ``conformity``, ``ratings``. What
-        is not published begins with ``estimated`` or ``assumed``.
+    sources : Sources
+        Where the numbers come from. What is not published begins with ``estimated`` or ``assumed``.
     """
 
     designation: str
@@ -65,7 +63,7 @@ class Bearing(Part):
     inner_conformity: float
     dynamic_rating: float
     static_rating: float
-    sources: Mapping[str, str] = field(hash=False)
+    sources: Sources
 
     @property
     def orders(self) -> frequencies.Orders:
@@ -82,7 +80,7 @@ class Catalogue(Mapping[str, Bearing]):
     --------
     >>> import ballrace as br
     >>> found = br.catalogue["6205-2RS"]
-    >>> found.ball_count, found.sources["balls"]
+    >>> found.ball_count, found.sources.balls
     (9, 'Case Western Reserve University bearing data, drive end (SKF 6205-2RS JEM)')
     >>> [b.designation for b in br.catalogue.find(kind="angular_contact", bore=25e-3)]
     ['7205C', '7205A5', '7205B', '7305B']
@@ -146,7 +144,7 @@ class Catalogue(Mapping[str, Bearing]):
         rows = []
         for row in self._rows.values():
             plain = {k: v for k, v in vars(row).items() if k != "sources"}
-            rows.append(plain | {f"source_{k}": v for k, v in row.sources.items()})
+            rows.append(plain | {f"source_{k}": v for k, v in vars(row.sources).items()})
         return pl.DataFrame(rows)
 
 
@@ -162,13 +160,13 @@ def _bearing(line: dict[str, str]) -> Bearing:
     """Return the bearing of a line of the table, which has millimetres, degrees and newtons."""
     mm = {name: round(1e-3 * float(line[f"{name}_mm"]), 9) for name in _LENGTHS}
     kind: Kind = "angular_contact" if line["kind"] == "angular_contact" else "deep_groove"
-    sources = {
-        "balls": SOURCES[line["from_balls"]],
-        "pitch_diameter": SOURCES[line["from_pitch"]],
-        "boundary": BOUNDARY,
-        "conformity": CONFORMITY,
-        "ratings": SOURCES[line["from_ratings"]],
-    }
+    sources = Sources(
+        balls=SOURCES[line["from_balls"]],
+        pitch_diameter=SOURCES[line["from_pitch"]],
+        boundary=BOUNDARY,
+        conformity=CONFORMITY,
+        ratings=SOURCES[line["from_ratings"]],
+    )
     return Bearing(
         designation=line["designation"],
         kind=kind,

@@ -2,7 +2,28 @@
 
 from __future__ import annotations
 
-__all__ = ["BOUNDARY", "CONFORMITY", "SOURCES"]
+from dataclasses import dataclass
+
+__all__ = ["BOUNDARY", "CONFORMITY", "SOURCES", "Sources"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sources:
+    """Where the numbers of a bearing come from.
+
+    Attributes
+    ----------
+    balls, pitch_diameter, boundary, conformity, ratings : str
+        A sentence each: on number and diameter of the balls; the pitch diameter; bore, outside diameter and width;
+        the radii of the grooves; the load ratings.
+    """
+
+    balls: str
+    pitch_diameter: str
+    boundary: str
+    conformity: str
+    ratings: str
+
 
 BOUNDARY = "ISO 15, as in the makers' tables"
 """Bore, outside diameter and width."""
