@@ -33,6 +33,7 @@ from .errors import (
 from .explanation import Explanation, explain
 from .model import Model
 from .options import Run
+from .recordings import Recording, read
 from .run import simulate
 from .scene import Scene
 from .signals import Record, Signals, Touched
@@ -61,6 +62,7 @@ __all__ = [
     "MemoryLimitError",
     "Model",
     "Record",
+    "Recording",
     "Run",
     "Scene",
     "SceneError",
@@ -77,6 +79,7 @@ __all__ = [
     "latin_hypercube",
     "load_distribution",
     "presets",
+    "read",
     "scatter",
     "scene",
     "simulate",

@@ -1,8 +1,8 @@
 """Signals looked at as vibration analysts do: spectra, envelopes, orders, kurtograms and fault bands.
 
 All functions take plain arrays, measured or simulated, with the sampling rate ``fs`` in hertz, and return
-``(f, value)`` as scipy does. Amplitude spectra are taken under a Hann window without the mean: a sine of amplitude 2
-has a line of height 2.
+``(f, value)`` as scipy does. Amplitude spectra are taken under a Hann window without the mean: a sine of
+amplitude 2 has a line of height 2.
 
 From a record to the race that is damaged:
 

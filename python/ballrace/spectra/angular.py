@@ -123,7 +123,9 @@ def order_spectrum(
 def _checked_turns(angle: ArrayLike, samples: int) -> NDArray[np.float64]:
     turns = np.asarray(angle, dtype=np.float64) / (2.0 * math.pi)
     if turns.shape != (samples,):
-        raise SceneError("angle", f"an array of shape {turns.shape}", f"one angle a sample, ({samples},)")
+        raise SceneError(
+            "angle", f"an array of shape {turns.shape}", f"one angle a sample, ({samples},)"
+        )
     if not np.isfinite(turns).all() or not (np.diff(turns) > 0.0).all():
         raise SceneError("angle", "not rising", "finite, and rising from each sample to the next")
     found: NDArray[np.float64] = turns - turns[0]
@@ -139,5 +141,7 @@ def _rates(turns: NDArray[np.float64], per_turn: int | None) -> tuple[int, int]:
     filtered = max(math.ceil(needed / rate), 1)
     if rate * filtered * turns[-1] > _MOST * turns.size:
         text = f"{needed} samples a turn where it is slowest"
-        raise SceneError("angle", text, "a record without the time in which the shaft all but stands")
+        raise SceneError(
+            "angle", text, "a record without the time in which the shaft all but stands"
+        )
     return rate, filtered

@@ -12,13 +12,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import SceneError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-
-    from numpy.typing import NDArray
 
     from ..frequencies import Orders
 
@@ -98,11 +97,18 @@ class FaultMetrics:
     @property
     def level(self) -> float:
         """Mean level of the harmonics, sidebands aside [dB]: high only if most of them stand out."""
-        return float(np.mean([v for b, v in zip(self.bands, self.levels, strict=True) if not b.sideband]))
+        return float(
+            np.mean([v for b, v in zip(self.bands, self.levels, strict=True) if not b.sideband])
+        )
 
 
 def fault_bands(
-    orders: Orders, shaft: float = 1.0, *, harmonics: int = 3, sidebands: int = 1, slip: float = 0.01
+    orders: Orders,
+    shaft: float = 1.0,
+    *,
+    harmonics: int = 3,
+    sidebands: int = 1,
+    slip: float = 0.01,
 ) -> tuple[FaultBand, ...]:
     """Return the bands in which the lines of defects are to be sought.
 
@@ -199,11 +205,15 @@ def fault_band_metrics(
     """
     f, value = np.asarray(f, dtype=np.float64), np.asarray(value, dtype=np.float64)
     if f.ndim != 1 or f.shape != value.shape or f.size < 2 or not f[1] > f[0] == 0.0:
-        raise SceneError("f", f"arrays of shape {f.shape} and {value.shape}", "a spectrum from 0 up")
+        raise SceneError(
+            "f", f"arrays of shape {f.shape} and {value.shape}", "a spectrum from 0 up"
+        )
     by_fault: dict[Fault, list[FaultBand]] = {}
     for band in bands:
         if band.high > f[-1]:
-            raise SceneError("f", f"up to {f[-1]:g}", f"a spectrum that reaches {band.label}, {band.high:g}")
+            raise SceneError(
+                "f", f"up to {f[-1]:g}", f"a spectrum that reaches {band.label}, {band.high:g}"
+            )
         by_fault.setdefault(band.fault, []).append(band)
     return {fault: _metrics(f, value, tuple(group)) for fault, group in by_fault.items()}
 

@@ -62,6 +62,10 @@ def checked_length(name: str, given: int | None, default: int, longest: int) -> 
     """
     if given is None:
         return default
-    if isinstance(given, bool) or not isinstance(given, int | np.integer) or not 1 <= given <= longest:
+    if (
+        isinstance(given, bool)
+        or not isinstance(given, int | np.integer)
+        or not 1 <= given <= longest
+    ):
         raise SceneError(name, repr(given), f"a whole number of samples from 1 to {longest}")
     return int(given)

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from ..errors import SceneError
 from .checks import checked_length, checked_signal
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
 __all__ = ["psd", "spectrogram"]
@@ -111,7 +110,9 @@ def spectrogram(
     if samples < 4:
         raise SceneError("length", str(samples), "at least 4 samples")
     step = checked_length("hop", hop, max(samples // 4, 1), samples)
-    transform = ShortTimeFFT(hann(samples, sym=False), step, fs, fft_mode="onesided2X", scale_to="psd")
+    transform = ShortTimeFFT(
+        hann(samples, sym=False), step, fs, fft_mode="onesided2X", scale_to="psd"
+    )
     span = transform.lower_border_end[1], transform.upper_border_begin(signal.size)[1]
     value = transform.spectrogram(signal, p0=span[0], p1=max(span[1], span[0] + 1), detr="constant")
     return transform.f, transform.t(signal.size, *span), value

@@ -1,11 +1,11 @@
 """The fast kurtogram: in which band a signal is most impulsive.
 
 A blow rings for a short time at the frequencies of the structure. In a band that holds this ringing and little
-else, the signal is high for short times, so that the kurtosis of its complex envelope z,
-⟨\\|z\\|⁴⟩/⟨\\|z\\|²⟩² − 2, is large; of Gaussian noise it is 0, of a tone −1. The bands are those of a 1/3-binary tree:
-the frequencies from 0 to fs/2 in 1, 2, 3, 4, 6, 8, 12, … equal parts, each by filter and decimation from
-what is above it (J. Antoni, *Fast computation of the kurtogram for the detection of transient faults*,
-Mech. Syst. Signal Process. 21 (2007) 108).
+else, the signal is high for short times, so that the kurtosis of its complex envelope is large: the mean of its
+fourth power over the square of that of its second, less 2. Of Gaussian noise it is 0, of a tone −1. The bands are
+those of a 1/3-binary tree: the frequencies from 0 to fs/2 in 1, 2, 3, 4, 6, 8, 12, … equal parts, each by filter
+and decimation from what is above it (J. Antoni, *Fast computation of the kurtogram for the detection of transient
+faults*, Mech. Syst. Signal Process. 21 (2007) 108).
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .._interrupt import answers_ctrl_c
 from ..errors import SceneError
@@ -23,7 +24,7 @@ from .checks import checked_signal
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
     Complex = NDArray[np.complex128]
 
@@ -121,9 +122,7 @@ def kurtogram(x: ArrayLike, fs: float, narrowest: float | None = None) -> Kurtog
     return _collected(sorted(rows, key=lambda row: row[0]), fs)
 
 
-def _levels(
-    bands: list[Complex], count: int, most: float
-) -> Iterator[tuple[int, list[Complex]]]:
+def _levels(bands: list[Complex], count: int, most: float) -> Iterator[tuple[int, list[Complex]]]:
     """Give the levels below one of ``count`` bands: halves and their halves, and thirds of each but the last."""
     if 3 * count <= most:
         yield 3 * count, [part for band in bands for part in _split(band, 3)]
