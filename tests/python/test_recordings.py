@@ -188,10 +188,11 @@ def test_recordings_of_nothing_are_refused(name: str, fields: dict[str, Any]) ->
 def test_what_a_format_cannot_hold_is_refused_and_leaves_nothing(
     record: br.Recording, tmp_path: Path
 ) -> None:
-    odd = br.Recording(columns={"a.b": [1.0, 2.0], "a_b": [1.0, 2.0]}, fs=0.5)
-    far = br.Recording(columns={"a": [1e300, 0.0]}, fs=8.0)
-    told = br.Recording(columns={"a": [1.0, 2.0]}, fs=1.0, metadata={"a": object()})
-    long = br.Recording(columns={"a" * 81: [1.0, 2.0]}, fs=1.0)
+    x = np.array([1.0, 2.0])
+    odd = br.Recording(columns={"a.b": x, "a_b": x}, fs=0.5)
+    far = br.Recording(columns={"a": 1e300 * x}, fs=8.0)
+    told = br.Recording(columns={"a": x}, fs=1.0, metadata={"a": object()})
+    long = br.Recording(columns={"a" * 81: x}, fs=1.0)
     calls: list[tuple[str, br.Recording, str, Any]] = [
         ("path", record, "a.bz2", None),
         ("path", record, "a", None),

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import pytest
 
 import ballrace as br
 from ballrace import spectra
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
 
 FS = 12_000.0
 TIMES = np.arange(24_000) / FS
@@ -61,7 +67,7 @@ def test_a_chirp_rises_through_the_spectrogram() -> None:
 
 def test_bad_arguments_are_refused() -> None:
     x = np.ones(100)
-    for name, call in (
+    calls: list[tuple[str, Callable[[], object]]] = [
         ("x", lambda: spectra.psd("signal", FS)),
         ("x", lambda: spectra.spectrogram(np.ones((10, 10)), FS)),
         ("fs", lambda: spectra.psd(x, 0.0)),
@@ -71,7 +77,8 @@ def test_bad_arguments_are_refused() -> None:
         ("hop", lambda: spectra.spectrogram(x, FS, 20, 0)),
         ("hop", lambda: spectra.spectrogram(x, FS, 20, 21)),
         ("band", lambda: spectra.envelope_spectrum(x, FS, (0.0, FS))),
-    ):
+    ]
+    for name, call in calls:
         with pytest.raises(br.SceneError) as caught:
             call()
         assert caught.value.path == name

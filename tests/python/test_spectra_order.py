@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import pytest
 
 import ballrace as br
 from ballrace import spectra
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
 
 FS = 8000.0
 T = np.arange(32_000) / FS
@@ -81,7 +87,7 @@ def test_a_simulated_shaft_tells_its_angle() -> None:
 
 
 def test_bad_arguments_are_refused() -> None:
-    for name, call in (
+    calls: list[tuple[str, Callable[[], object]]] = [
         ("angle", lambda: spectra.by_order(T, ANGLE[:-1])),
         ("angle", lambda: spectra.by_order(T, -ANGLE)),
         ("angle", lambda: spectra.by_order(T, np.where(T > 1.0, np.nan, ANGLE))),
@@ -89,7 +95,8 @@ def test_bad_arguments_are_refused() -> None:
         ("angle", lambda: spectra.by_order(T, 2.0 * np.pi * (1e-4 * T + T**4))),
         ("per_turn", lambda: spectra.by_order(T, ANGLE, per_turn=1)),
         ("per_turn", lambda: spectra.order_spectrum(T, ANGLE, per_turn=7.5)),  # type: ignore[arg-type]
-    ):
+    ]
+    for name, call in calls:
         with pytest.raises(br.SceneError) as caught:
             call()
         assert caught.value.path == name

@@ -68,7 +68,7 @@ def read(
     >>> import ballrace as br, pathlib, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = pathlib.Path(folder) / "sensor.csv"
-    ...     _ = path.write_text("t [s];ay [g]\\n0;0.1\\n0.001;0.3\\n0.002;-0.2\\n")
+    ...     _ = path.write_text("t [s];ay [g]\n0;0.1\n0.001;0.3\n0.002;-0.2\n")
     ...     record = br.read(path)
     >>> record.fs, record.units["ay"], record["ay"].tolist()
     (1000.0, 'g', [0.1, 0.3, -0.2])

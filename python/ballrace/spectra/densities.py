@@ -47,6 +47,7 @@ def psd(
     --------
     White noise of variance 4 spreads it over 0 to 500 Hz:
 
+    >>> import numpy as np
     >>> noise = 2.0 * np.random.default_rng(1).normal(size=50_000)
     >>> f, value = psd(noise, 1000.0)
     >>> round(float(np.mean(value)), 3)
@@ -96,6 +97,7 @@ def spectrogram(
     --------
     A tone that rises from 100 to 300 Hz in 4 s:
 
+    >>> import numpy as np
     >>> t = np.arange(4000) / 1000.0
     >>> f, t, value = spectrogram(np.sin(2 * np.pi * (100.0 + 25.0 * t) * t), 1000.0)
     >>> highest = f[np.argmax(value, axis=0)]
