@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import importlib.util
+import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -214,6 +216,28 @@ def test_what_a_format_cannot_hold_is_refused_and_leaves_nothing(
     assert not list(tmp_path.iterdir())
     with pytest.raises(FileNotFoundError):
         record.write(tmp_path / "nowhere" / "a.csv")
+
+
+def test_pickle_and_copy(record: br.Recording) -> None:
+    for again in (pickle.loads(pickle.dumps(record)), copy.deepcopy(record)):
+        same(again, record, "")
+        assert (again.shaft, again.metadata) == (record.shaft, record.metadata)
+
+
+def test_a_failed_write_leaves_what_was_there(
+    record: br.Recording, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def disk_full(path: Path, *_: object, **__: object) -> None:
+        path.write_text("half")
+        raise OSError(28, "No space left on device")
+
+    old = tmp_path / "record.mat"
+    old.write_text("old")
+    monkeypatch.setattr("scipy.io.savemat", disk_full)
+    with pytest.raises(OSError, match="space"):
+        record.write(old)
+    assert old.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [old]
 
 
 @pytest.mark.parametrize("end", [".uff", ".h5"])

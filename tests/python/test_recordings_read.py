@@ -137,6 +137,7 @@ def test_vectors_of_a_mat_file_and_of_version_73(tmp_path: Path) -> None:
         ("1,2\n3,4\n", None, {"column_1": [1.0, 3.0], "column_2": [2.0, 4.0]}, ""),
         ("0.1\t-1e-3\n0.2\t2E3\n", None, {"column_1": [0.1, 0.2], "column_2": [-1e-3, 2e3]}, ""),
         ("ay\tb\n0.1\t1\n0.2\t2\n", None, {"ay": [0.1, 0.2], "b": [1.0, 2.0]}, ""),
+        ("a, b\n0.1, -2\n0.2, 3e1\n", None, {"a": [0.1, 0.2], "b": [-2.0, 30.0]}, ""),
         ("  0.1   -2\n  0.2   -3\n", None, {"column_1": [0.1, 0.2], "column_2": [-2.0, -3.0]}, ""),
         ("\ufefft [s],ay [m/s^2]\r\n0,1\r\n0.001,2\r\n", 1e3, {"ay": [1.0, 2.0]}, "m/s^2"),
     ],
@@ -150,6 +151,19 @@ def test_text_tables(
     assert {name: x.tolist() for name, x in record.items()} == columns
     assert record.fs == pytest.approx(fs or 100.0)
     assert record.units.get("ay", "") == unit
+
+
+def test_text_of_a_german_instrument(tmp_path: Path) -> None:
+    path = tmp_path / "record.txt"
+    path.write_bytes("Zeit [s]\ta [m/s²]\r\n0,00\t1,5\r\n0,01\t-2,5\r\n".encode("cp1252"))
+    record = br.read(path)
+    assert (record.fs, record["a"].tolist(), record.units["a"]) == (100.0, [1.5, -2.5], "m/s²")
+
+
+def test_whole_numbers_that_become_fractions_late(tmp_path: Path) -> None:
+    path = tmp_path / "record.csv"
+    path.write_text("a\n" + "0\n" * 20_000 + "0.5\n")
+    assert br.read(path, fs=1.0)["a"][-1] == 0.5
 
 
 @pytest.mark.parametrize(

@@ -213,6 +213,19 @@ def test_the_healthy_record_has_none(narrowest: float, end: str, fs: float) -> N
     assert named(x, fs, shaft, narrowest) is None
 
 
+def test_levels_of_silence_and_of_short_spectra() -> None:
+    f = np.arange(600.0)
+    bands = spectra.fault_bands(ORDERS, SHAFT, sidebands=0, harmonics=1)
+    assert spectra.fault_band_metrics(f, np.zeros(600), bands)["ball"].level == 0.0
+    alone = np.zeros(600)
+    alone[round(ORDERS.bpfo * SHAFT)] = 1.0
+    found = spectra.fault_band_metrics(f, alone, bands)
+    assert found["outer_race"].level == math.inf
+    assert found["inner_race"].level == 0.0
+    short = spectra.fault_bands(ORDERS, 2.0, harmonics=1, sidebands=0)
+    assert math.isnan(spectra.fault_band_metrics(f[:2] * 12.0, alone[:2], short)["cage"].level)
+
+
 def test_bad_arguments_are_refused() -> None:
     f, value = np.arange(100.0), np.ones(100)
     bands = spectra.fault_bands(ORDERS)

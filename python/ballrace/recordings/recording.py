@@ -76,6 +76,13 @@ class Recording(Columns):
         object.__setattr__(self, "columns", MappingProxyType(columns))
         object.__setattr__(self, "units", MappingProxyType(units))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        told = {"columns": dict(self.columns), "units": dict(self.units)}
+        rest = {
+            name: getattr(self, name) for name in ("fs", "shaft", "source", "metadata", "others")
+        }
+        return _remade, (told | rest,)
+
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         try:
             return self.columns[name]
@@ -116,6 +123,10 @@ class Recording(Columns):
     def _origin(self) -> Origin:
         shaft = self.shaft
         return Origin() if shaft is None else Origin(speed=lambda _: 2.0 * math.pi * shaft)
+
+
+def _remade(fields: dict[str, Any]) -> Recording:
+    return Recording(**fields)
 
 
 def _checked(name: str, x: Any) -> NDArray[np.float64]:

@@ -44,6 +44,11 @@ def sampled(path: Path, columns: Mapping[str, pl.Series], units: Mapping[str, st
 
 
 def _numbers(path: Path, name: str, column: pl.Series) -> NDArray[np.float64]:
+    from .._polars import pl
+
+    if column.dtype == pl.String:
+        # Spaces stand beside the numbers; or it is something else.
+        column = column.str.strip_chars().cast(pl.Float64, strict=False)
     if not column.dtype.is_numeric() or column.null_count():
         raise FileError(str(path), f"the column {name} has other entries than numbers")
     return column.to_numpy().astype(np.float64)

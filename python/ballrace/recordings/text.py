@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 from typing import TYPE_CHECKING
 
@@ -45,17 +46,14 @@ def read(path: Path) -> Samples:
     FileError
         It is no such table.
     """
-    try:
-        with path.open(encoding="utf-8-sig") as file:
-            lines = (line for line in file if line.strip() and not line.startswith("#"))
-            first, second = (next(lines, "").strip() for _ in range(2))
-    except UnicodeDecodeError:
-        raise FileError(str(path), "neither text nor a record of a known format") from None
+    content = _decoded(path)
+    lines = (line for line in content.splitlines() if line.strip() and not line.startswith("#"))
+    first, second = (next(lines, "").strip() for _ in range(2))
     separator = _separator(second or first)
     comma = separator != "," and "," in (second or first)
     names = [name.strip().strip('"') for name in _fields(first, separator)]
     headed = not all(_NUMBER.match(name) for name in names)
-    table = _table(path, separator, headed, comma)
+    table = _table(path, content, separator, headed, comma)
     units = {}
     columns = {}
     for place, column in enumerate(table.get_columns()):
@@ -77,25 +75,27 @@ def _fields(line: str, separator: str) -> list[str]:
     return line.split() if separator == " " else line.split(separator)
 
 
-def _table(path: Path, separator: str, headed: bool, comma: bool) -> pl.DataFrame:
+def _decoded(path: Path) -> str:
+    """Return the text of a file: UTF-8, or else what Western European instruments write."""
+    content = path.read_bytes()
+    if b"\0" in content:
+        raise FileError(str(path), "neither text nor a record of a known format")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return content.decode("cp1252", errors="replace")
+
+
+def _table(path: Path, content: str, separator: str, headed: bool, comma: bool) -> pl.DataFrame:
     from .._polars import pl
 
-    if separator == " ":
-        return _spaced(path, headed)
     try:
+        if separator == " ":
+            rows = np.loadtxt(io.StringIO(content), skiprows=int(headed), ndmin=2)
+            return pl.DataFrame({f"column_{place}": x for place, x in enumerate(rows.T)})
         return pl.read_csv(
-            path, separator=separator, has_header=headed, comment_prefix="#", decimal_comma=comma,
-            infer_schema_length=10_000,
+            content.encode(), separator=separator, has_header=headed, comment_prefix="#",
+            decimal_comma=comma, infer_schema_length=None,
         )  # fmt: skip
-    except (pl.exceptions.PolarsError, pl.exceptions.PanicException) as error:
+    except (ValueError, pl.exceptions.PolarsError, pl.exceptions.PanicException) as error:
         raise FileError(str(path), f"not a table of numbers, or damaged ({error})") from error
-
-
-def _spaced(path: Path, headed: bool) -> pl.DataFrame:
-    from .._polars import pl
-
-    try:
-        rows = np.loadtxt(path, skiprows=int(headed), ndmin=2)
-    except ValueError as error:
-        raise FileError(str(path), f"not a table of numbers, or damaged ({error})") from error
-    return pl.DataFrame({f"column_{place}": x for place, x in enumerate(rows.T)})

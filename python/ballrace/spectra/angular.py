@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._interrupt import answers_ctrl_c
 from ..errors import SceneError
 from .checks import checked_signal
 from .lines import spectrum
@@ -30,6 +31,7 @@ _MOST = 64
 """Samples over the angle for each over time, at most."""
 
 
+@answers_ctrl_c
 def by_order(
     x: ArrayLike, angle: ArrayLike, per_turn: int | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

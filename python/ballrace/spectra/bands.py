@@ -8,6 +8,7 @@ a race twice a turn and goes round with the cage: lines at the multiples of 2·B
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -85,7 +86,8 @@ class FaultMetrics:
         Mean square of what lies in the band, of an amplitude spectrum under a Hann window: a²/2 of a line a.
     levels : ndarray
         Peak over the median of the peaks of ten bands of the same width to either side [dB]. Noise alone has
-        0 dB, give or take 2, however wide the band and long the record.
+        0 dB, give or take 2, however wide the band and long the record. Not a number where a spectrum is too
+        short for any such band.
     """
 
     bands: tuple[FaultBand, ...]
@@ -238,7 +240,14 @@ def _measured(
     starts = (first + side * width for side in range(-_BESIDE, _BESIDE + 1) if side)
     # Not where the mean was removed, which takes two bins under a Hann window, nor beyond the end.
     beside = [value[s : s + width].max() for s in starts if s >= 2 and s + width <= f.size]
-    around = float(np.median(beside)) if beside else 0.0
-    level = 20.0 * np.log10(peak / around) if peak > 0.0 and around > 0.0 else np.nan
+    around = float(np.median(beside)) if beside else math.nan
     power = float(np.sum(value[first:end] ** 2)) / 2.0 / _HANN
-    return peak, float(f[at]), power, float(level)
+    return peak, float(f[at]), power, _decibels(peak, around)
+
+
+def _decibels(value: float, reference: float) -> float:
+    """Return a ratio as a level: infinite over nothing, 0 of nothing over nothing, none without a reference."""
+    if value == reference == 0.0:
+        return 0.0
+    with np.errstate(divide="ignore"):
+        return float(20.0 * np.log10(np.float64(value) / reference))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .._interrupt import answers_ctrl_c
 from ..errors import SceneError
 from .checks import checked_length, checked_signal
 
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["psd", "spectrogram"]
 
 
+@answers_ctrl_c
 def psd(
     x: ArrayLike, fs: float, length: int | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -60,6 +62,7 @@ def psd(
     return welch(signal, fs, nperseg=samples)  # type: ignore[no-any-return]
 
 
+@answers_ctrl_c
 def spectrogram(
     x: ArrayLike, fs: float, length: int | None = None, hop: int | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:

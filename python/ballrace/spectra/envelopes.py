@@ -93,7 +93,7 @@ def squared_envelope_spectrum(
 
 
 def envelope_spectrum(
-    x: ArrayLike, fs: float, band: tuple[float, float] | None = None, *, squared: bool = True
+    x: ArrayLike, fs: float, band: tuple[float, float] | None = None, squared: bool = True
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the spectrum of the envelope of a signal in a band.
 
