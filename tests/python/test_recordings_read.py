@@ -137,6 +137,8 @@ def test_vectors_of_a_mat_file_and_of_version_73(tmp_path: Path) -> None:
         ("1,2\n3,4\n", None, {"column_1": [1.0, 3.0], "column_2": [2.0, 4.0]}, ""),
         ("0.1\t-1e-3\n0.2\t2E3\n", None, {"column_1": [0.1, 0.2], "column_2": [-1e-3, 2e3]}, ""),
         ("ay\tb\n0.1\t1\n0.2\t2\n", None, {"ay": [0.1, 0.2], "b": [1.0, 2.0]}, ""),
+        ("# remark\nt  ay\n0.0  1\n0.5  2\n", 2.0, {"ay": [1.0, 2.0]}, ""),
+        ('"ay, left [g]",b\n1,2\n3,4\n', None, {"ay, left": [1.0, 3.0], "b": [2.0, 4.0]}, ""),
         ("a, b\n0.1, -2\n0.2, 3e1\n", None, {"a": [0.1, 0.2], "b": [-2.0, 30.0]}, ""),
         ("  0.1   -2\n  0.2   -3\n", None, {"column_1": [0.1, 0.2], "column_2": [-2.0, -3.0]}, ""),
         ("\ufefft [s],ay [m/s^2]\r\n0,1\r\n0.001,2\r\n", 1e3, {"ay": [1.0, 2.0]}, "m/s^2"),

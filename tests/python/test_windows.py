@@ -97,7 +97,10 @@ def test_windows_of_many_records_are_one_table(run: br.Signals, tmp_path: Path) 
     record = br.Recording(
         columns={"outer.ay": np.arange(200.0)}, fs=20e3, units={"outer.ay": "m/s^2"}
     )
-    tables = [x.to_windows(50, columns="outer.ay", bearing_id="a") for x in (run, record)]
+    tables = [
+        x.to_windows(50, columns="outer.ay", bearing_id=bearing)
+        for x, bearing in ((run, "a"), (record, None))
+    ]
     path = tmp_path / "windows.parquet"
     pl.concat(tables).write_parquet(path)
     again = pl.read_parquet(path)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import io
+import csv
 import re
 from typing import TYPE_CHECKING
 
@@ -47,11 +47,11 @@ def read(path: Path) -> Samples:
         It is no such table.
     """
     content = _decoded(path)
-    lines = (line for line in content.splitlines() if line.strip() and not line.startswith("#"))
+    lines = (line for line in content.splitlines() if _counts(line))
     first, second = (next(lines, "").strip() for _ in range(2))
     separator = _separator(second or first)
     comma = separator != "," and "," in (second or first)
-    names = [name.strip().strip('"') for name in _fields(first, separator)]
+    names = [name.strip() for name in _fields(first, separator)]
     headed = not all(_NUMBER.match(name) for name in names)
     table = _table(path, content, separator, headed, comma)
     units = {}
@@ -72,7 +72,12 @@ def _separator(line: str) -> str:
 
 
 def _fields(line: str, separator: str) -> list[str]:
-    return line.split() if separator == " " else line.split(separator)
+    return line.split() if separator == " " else next(csv.reader([line], delimiter=separator), [])
+
+
+def _counts(line: str) -> bool:
+    """Whether a line is none of remarks, nor empty."""
+    return bool(line.strip()) and not line.startswith("#")
 
 
 def _decoded(path: Path) -> str:
@@ -91,7 +96,8 @@ def _table(path: Path, content: str, separator: str, headed: bool, comma: bool) 
 
     try:
         if separator == " ":
-            rows = np.loadtxt(io.StringIO(content), skiprows=int(headed), ndmin=2)
+            lines = [line for line in content.splitlines() if _counts(line)][headed:]
+            rows = np.loadtxt(lines, ndmin=2)
             return pl.DataFrame({f"column_{place}": x for place, x in enumerate(rows.T)})
         return pl.read_csv(
             content.encode(), separator=separator, has_header=headed, comment_prefix="#",

@@ -79,6 +79,7 @@ def windows(
     starts = np.arange(0, count - length + 1, hop)
     middles = ((starts + length / 2) / samples.fs).tolist()
     rows = len(starts)
+    kind = pl.String if bearing_id is None else None
     told = {
         "load": [origin.load(at) for at in middles],
         "geometry": [origin.geometry] * rows,
@@ -89,7 +90,7 @@ def windows(
             **{name: _pieces(x, length, hop) for name, x in samples.columns.items()},
             "start": starts / samples.fs,
             "label": pl.Series([origin.label if label is None else label] * rows, dtype=pl.String),
-            "bearing_id": [bearing_id] * rows,
+            "bearing_id": pl.Series([bearing_id] * rows, dtype=kind),
             "speed": pl.Series([origin.speed(at) for at in middles], dtype=pl.Float64),
             **{name: pl.Series(told[name], dtype=kind) for name, kind in _types().items()},
             "sampling_rate": [samples.fs] * rows,
