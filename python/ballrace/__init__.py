@@ -36,6 +36,7 @@ from .measuring import measure
 from .model import Model
 from .operating import FaultFrequencies, fault_frequencies
 from .options import Run
+from .recordings import Recording, read
 from .run import simulate
 from .scene import Scene
 from .signals import Record, Signals, Touched
@@ -67,6 +68,7 @@ __all__ = [
     "MemoryLimitError",
     "Model",
     "Record",
+    "Recording",
     "Run",
     "Scene",
     "SceneError",
@@ -89,6 +91,7 @@ __all__ = [
     "measure",
     "measuring",
     "presets",
+    "read",
     "scatter",
     "scene",
     "simulate",
