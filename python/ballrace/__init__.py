@@ -14,6 +14,8 @@ All numbers are in SI units, at every face.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from . import defects, frequencies, measuring, presets, scene, spectra
 from ._features import features
 from .bearings import Bearing, Catalogue, bearing, catalogue
@@ -32,6 +34,7 @@ from .errors import (
     SceneWarning,
 )
 from .explanation import Explanation, explain
+from .life import RatingLife, rating_life
 from .measuring import measure
 from .model import Model
 from .operating import FaultFrequencies, fault_frequencies
@@ -48,6 +51,11 @@ from .statics import (
     load_distribution,
     stiffness,
 )
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+    from . import plot
 
 __all__ = [
     "AccuracyWarning",
@@ -67,6 +75,7 @@ __all__ = [
     "LoadDistribution",
     "MemoryLimitError",
     "Model",
+    "RatingLife",
     "Record",
     "Recording",
     "Run",
@@ -90,7 +99,9 @@ __all__ = [
     "load_distribution",
     "measure",
     "measuring",
+    "plot",
     "presets",
+    "rating_life",
     "read",
     "scatter",
     "scene",
@@ -99,3 +110,12 @@ __all__ = [
     "spectra",
     "stiffness",
 ]
+
+
+def __getattr__(name: str) -> ModuleType:
+    """Import the pictures when they are first asked for."""
+    if name == "plot":
+        import importlib
+
+        return importlib.import_module(".plot", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

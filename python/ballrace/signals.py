@@ -335,6 +335,38 @@ class Signals(Columns):
     def _origin(self) -> Origin:
         return origin_of(self.scene, self._provenance.get("version"))
 
+    def report(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        columns: Sequence[str] | None = None,
+        title: str | None = None,
+    ) -> None:
+        """Write a report of the run: one page that needs no network.
+
+        It has the bearing drawn, the operating point, loads, pressures and rating life, the signal with its
+        spectra and the lines of defects, features, what the model held and left out, warnings, and provenance.
+
+        Parameters
+        ----------
+        path : str or path
+            File to write, ``.html``; one of the same name is replaced.
+        columns : sequence of str, optional
+            Columns that are shown; by default ``outer.ay`` if it was recorded.
+        title : str, optional
+            Title of the page; by default the scene's name.
+
+        Raises
+        ------
+        SceneError
+            The name does not end in ``.html``, a column was not recorded, or plotly is not installed.
+        OSError
+            The file cannot be written.
+        """
+        from .report import run_page, write_page
+
+        write_page(path, lambda: run_page(self, columns=columns, title=title))
+
     def write_parquet(self, path: str | os.PathLike[str]) -> None:
         """Write a Parquet file; units, scene, statistics and provenance go into its metadata.
 

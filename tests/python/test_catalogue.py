@@ -17,16 +17,11 @@ from scipy.special import ellipe, ellipkm1
 
 import ballrace as br
 from ballrace.bearings.clearance import radial_clearance
+from ballrace.life import FC
 from reference import hertz
 
 ROWS = list(br.catalogue.values())
 STEEL = {"density": 7850.0, "youngs_modulus": 207e9, "poisson_ratio": 0.3}
-FC = (
-    29.1, 35.8, 40.3, 43.8, 46.7, 49.1, 51.1, 52.8, 54.3, 55.5, 56.6, 57.5, 58.2, 58.8, 59.3, 59.6, 59.8, 59.9,
-    60.0, 59.9, 59.8, 59.6, 59.3, 59.0, 58.6, 58.2, 57.7, 57.1, 56.6, 56.0, 55.3, 54.6, 53.9, 53.2, 52.4, 51.7,
-    50.9, 50.0, 49.2, 48.4,
-)  # fmt: skip
-"""f_c of ISO 281 at D cos α / d_m of 0.01, 0.02, …"""
 
 
 def f0(gamma: float) -> float:

@@ -43,4 +43,4 @@ def test_load_distribution(wheel: br.Scene) -> None:
 
 def test_one_name_is_a_column(out: br.Signals) -> None:
     fig = plot.signals(out, "outer.ay")
-    assert [trace.name for trace in fig.data] == ["outer.ay"]
+    assert [trace.name for trace in fig.data] == ["vertical acceleration, outer ring"]

@@ -16,7 +16,7 @@ from .store import BASE, BUDGET, Store
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     import polars as pl
 
@@ -275,6 +275,40 @@ class Campaign:
         """
         lines = self.measurements(chains, seed=seed, per_case=per_case)
         return windows_table(lines, length, hop)
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Columns of the table that the campaign ran: fields of the scene, and labels."""
+        return tuple(n for n in self._cases.columns if n not in ("case_id", "changes"))
+
+    def report(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        features: Sequence[str] | None = None,
+        title: str | None = None,
+    ) -> None:
+        """Write a report of the campaign: one page that needs no network, with maps, distributions and failures.
+
+        Parameters
+        ----------
+        path : str or path
+            File to write, ``.html``; one of the same name is replaced.
+        features : sequence of str, optional
+            Columns of the manifest that are drawn; by default a line of an envelope, a kurtosis and an rms.
+        title : str, optional
+            Title of the page; by default the folder's name.
+
+        Raises
+        ------
+        SceneError
+            The name does not end in ``.html``, there is no such column, or plotly is not installed.
+        OSError
+            The file cannot be written.
+        """
+        from ..report import campaign_page, write_page
+
+        write_page(path, lambda: campaign_page(self, features=features, title=title))
 
     def status(self) -> str:
         """Return how many cases have finished, failed and are missing, in one line."""
