@@ -255,6 +255,8 @@ def test_a_missing_library_is_named_with_its_extra(
     path.write_text("any")
     with pytest.raises(ImportError, match=NEEDS[end]):
         br.read(path)
+    with pytest.raises(ImportError, match="pip install xarray"):
+        record.to_xarray()
 
 
 def test_import_needs_none_of_the_libraries() -> None:
