@@ -26,7 +26,9 @@ def record() -> br.Recording:
     columns = {"sensor.ay": 30.0 * rng.normal(size=2000), "load": 1e-7 * rng.normal(size=2000)}
     units = {"sensor.ay": "m/s^2"}
     metadata = {"bearing": "6205", "µ": [1, None]}
-    return br.Recording(columns=columns, fs=51_200.0, units=units, shaft=29.95, metadata=metadata)
+    return br.Recording(
+        columns=columns, fs=51_200.0, units=units, shaft=np.float64(29.95), metadata=metadata
+    )
 
 
 def library(end: str) -> None:
@@ -255,6 +257,8 @@ def test_a_missing_library_is_named_with_its_extra(
     path.write_text("any")
     with pytest.raises(ImportError, match=NEEDS[end]):
         br.read(path)
+    with pytest.raises(ImportError, match="pip install xarray"):
+        record.to_xarray()
 
 
 def test_import_needs_none_of_the_libraries() -> None:

@@ -62,7 +62,7 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         ImportError
             pandas is not installed.
         """
-        pandas = needed("pandas", "a pandas table")
+        pandas = needed("pandas", "a pandas table", extra=False)
         return pandas.DataFrame({"t": self.t, **self})
 
     def to_xarray(self) -> xr.Dataset:
@@ -75,7 +75,7 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         ImportError
             xarray is not installed.
         """
-        xarray = needed("xarray", "an xarray data set")
+        xarray = needed("xarray", "an xarray data set", extra=False)
         variables = {name: ("t", self[name], {"units": self.units.get(name, "")}) for name in self}
         time = ("t", self.t, {"units": "s"})
         attributes = {"sampling_rate": self.fs, "told": self._samples().told()}

@@ -116,7 +116,7 @@ class Recording(Columns):
             columns={name: self.columns[name] for name in chosen},
             fs=float(self.fs),
             units={name: self.units[name] for name in chosen},
-            shaft=self.shaft,
+            shaft=None if self.shaft is None else float(self.shaft),
             metadata=dict(self.metadata),
         )
 

@@ -20,6 +20,8 @@ from .samples import Samples
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from numpy.typing import NDArray
+
 _TIME_RESPONSE = 1
 _TIME, _ACCELERATION, _UNKNOWN = 17, 12, 0
 """Kinds of data on an axis, after the format."""
@@ -46,19 +48,13 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
     pyuff = needed("pyuff", path.name)
     shaft = "" if samples.shaft is None else f", shaft {samples.shaft!r} Hz"
     exact = f"sampling rate {samples.fs!r} Hz{shaft}"
-    sets = []
-    for place, (name, x) in enumerate(samples.columns.items(), start=1):
-        unit = samples.units.get(name, "")
-        if len(name.encode()) > _LINE or len(unit.encode()) > _UNIT or not name.strip():
-            allowed = f"names up to {_LINE} characters and units up to {_UNIT} in a Universal File"
-            raise SceneError("columns", f"{name} [{unit}]", allowed)
-        if x.size < 2 or not np.isfinite(x).all():
-            allowed = "at least two numbers, all finite, in a Universal File: others are read as 0"
-            raise SceneError("columns", name, allowed)
-        times = np.arange(x.size) / (samples.fs or 1.0)
-        sets.append(_AXES | {"id1": name, "id5": exact, "rsp_node": place, "x": times, "data": x})
-        sets[-1]["ordinate_axis_units_lab"] = unit or "NONE"
-        sets[-1]["ordinate_spec_data_type"] = _ACCELERATION if unit in _ACCELERATIONS else _UNKNOWN
+    times = np.arange(len(next(iter(samples.columns.values())))) / (samples.fs or 1.0)
+    sets = [
+        _AXES
+        | _ordinate(name, samples.units.get(name, ""), x)
+        | {"id5": exact, "rsp_node": place, "x": times}
+        for place, (name, x) in enumerate(samples.columns.items(), start=1)
+    ]
     try:
         with warnings.catch_warnings():
             # It leaves closing the file to Python, which does so as the call returns.
@@ -68,6 +64,19 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
             pyuff.UFF(str(temporary)).write_sets(sets, mode="add")
     except Exception as error:  # pyuff raises no other, and tells no reason
         raise OSError(errno.EIO, f"cannot be written ({error})", str(path)) from error
+
+
+def _ordinate(name: str, unit: str, x: NDArray[np.float64]) -> dict[str, Any]:
+    """Return what is a column's own in its data set; what the format cannot hold is refused."""
+    if len(name.encode()) > _LINE or len(unit.encode()) > _UNIT or not name.strip():
+        allowed = f"names up to {_LINE} characters and units up to {_UNIT} in a Universal File"
+        raise SceneError("columns", f"{name} [{unit}]", allowed)
+    if x.size < 2 or not np.isfinite(x).all():
+        allowed = "in a Universal File at least two numbers, all finite: others would be read as 0"
+        raise SceneError("columns", name, allowed)
+    kind = _ACCELERATION if unit in _ACCELERATIONS else _UNKNOWN
+    labels = {"ordinate_axis_units_lab": unit or "NONE", "ordinate_spec_data_type": kind}
+    return {"id1": name, "data": x} | labels
 
 
 def read(path: Path) -> Samples:

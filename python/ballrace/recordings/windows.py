@@ -70,11 +70,8 @@ def windows(
 
     count = len(next(iter(samples.columns.values())))
     hop = length if hop is None else hop
-    for name, number, most in (("length", length, count), ("hop", hop, None)):
-        if isinstance(number, bool) or not isinstance(number, int | np.integer) or number < 1:
-            raise SceneError(name, repr(number), "a whole number of samples, at least 1")
-        if most is not None and number > most:
-            raise SceneError(name, str(number), f"no more samples than there are, {most}")
+    _check("length", length, count)
+    _check("hop", hop, None)
     assert samples.fs is not None
     starts = np.arange(0, count - length + 1, hop)
     middles = ((starts + length / 2) / samples.fs).tolist()
@@ -98,6 +95,13 @@ def windows(
             "version": pl.Series([origin.version] * rows, dtype=pl.String),
         }
     )
+
+
+def _check(name: str, number: object, most: int | None) -> None:
+    if isinstance(number, bool) or not isinstance(number, int | np.integer) or number < 1:
+        raise SceneError(name, repr(number), "a whole number of samples, at least 1")
+    if most is not None and number > most:
+        raise SceneError(name, str(number), f"no more samples than there are, {most}")
 
 
 def _pieces(x: NDArray[np.float64], length: int, hop: int) -> pl.Series:

@@ -142,13 +142,7 @@ def fault_bands(
     >>> [band.label for band in bands if band.fault == "ball"][-2:]
     ['4·BSF', '4·BSF + FTF']
     """
-    for name, number, least in (("harmonics", harmonics, 1), ("sidebands", sidebands, 0)):
-        if isinstance(number, bool) or not isinstance(number, int) or number < least:
-            raise SceneError(name, repr(number), f"a whole number, at least {least}")
-    if not 0.0 < shaft < float("inf"):
-        raise SceneError("shaft", str(shaft), "above 0")
-    if not 0.0 <= slip < 0.5:
-        raise SceneError("slip", str(slip), "from 0 to below 0.5")
+    _check(shaft, harmonics, sidebands, slip)
     rates: tuple[tuple[Fault, float, float], ...] = (
         ("outer_race", orders.bpfo, 0.0),
         ("inner_race", orders.bpfi, 1.0),
@@ -162,6 +156,16 @@ def fault_bands(
         for side in (range(-sidebands, sidebands + 1) if beside else (0,))
         if k * rate * (1.0 - slip) + side * beside > 0.0
     )
+
+
+def _check(shaft: float, harmonics: int, sidebands: int, slip: float) -> None:
+    for name, number, least in (("harmonics", harmonics, 1), ("sidebands", sidebands, 0)):
+        if isinstance(number, bool) or not isinstance(number, int) or number < least:
+            raise SceneError(name, repr(number), f"a whole number, at least {least}")
+    if not 0.0 < shaft < float("inf"):
+        raise SceneError("shaft", str(shaft), "above 0")
+    if not 0.0 <= slip < 0.5:
+        raise SceneError("slip", str(slip), "from 0 to below 0.5")
 
 
 def _band(fault: Fault, harmonic: int, sideband: int, centre: float, half: float) -> FaultBand:
