@@ -146,8 +146,8 @@ def _panels() -> go.Figure:
 
     return make_subplots(
         rows=2, cols=2, specs=[[{}, {}], [{"colspan": 2}, None]], column_widths=[0.62, 0.38],
-        row_heights=[0.72, 0.28], vertical_spacing=0.12, horizontal_spacing=0.06,
-        subplot_titles=("seen from the +z side", "cut through the axis"),
+        row_heights=[0.72, 0.28], vertical_spacing=0.12, horizontal_spacing=0.04,
+        subplot_titles=("front view", "section"),
     )  # fmt: skip
 
 
@@ -187,7 +187,9 @@ def _finish(fig: go.Figure, out: Signals, row: int, layout: dict[str, Any]) -> g
     fig.update_xaxes(
         title_text="z / mm", range=[shapes.left - half, shapes.right + half], **plain, row=1, col=2
     )
-    fig.update_yaxes(range=[-reach, reach], scaleanchor="x2", **plain, row=1, col=2)
+    fig.update_yaxes(
+        range=[-reach, reach], scaleanchor="x2", showticklabels=False, **plain, row=1, col=2
+    )
     run = {
         "frame": {"duration": 60, "redraw": False},
         "fromcurrent": True,
@@ -200,11 +202,11 @@ def _finish(fig: go.Figure, out: Signals, row: int, layout: dict[str, Any]) -> g
     ]
     steps = [{"label": f.name, "method": "animate", "args": [[f.name], stop]} for f in fig.frames]
     own = {
-        "updatemenus": [{"type": "buttons", "direction": "left", "buttons": buttons, "x": 0.0, "y": 1.16,
+        "updatemenus": [{"type": "buttons", "direction": "left", "buttons": buttons, "x": 0.0, "y": 1.2,
                          "xanchor": "left", "yanchor": "top", "showactive": False}],
         "sliders": [{"steps": steps, "x": 0.0, "len": 1.0, "y": -0.13, "pad": {"t": 8},
                      "currentvalue": {"prefix": "time / ms: "}, "ticklen": 0, "minorticklen": 0,
                      "font": {"color": "rgba(0,0,0,0)"}}],
     }  # fmt: skip
     own["sliders"][0]["currentvalue"]["font"] = {"color": "#222"}  # type: ignore[index]
-    return finished(fig, layout, height=760, showlegend=False, margin={"t": 120}, **own)
+    return finished(fig, layout, height=760, showlegend=False, margin={"t": 130}, **own)

@@ -28,8 +28,8 @@ __all__ = ["kurtogram", "order_map", "spectrogram"]
 SHADES = "Cividis"
 """From dark to light for everyone, and on paper."""
 
-_SPAN = 60.0
-"""How far below the largest value shades reach [dB]."""
+_TURNS = 5.0
+"""Turns of a window of an order map, at least."""
 
 _CELLS = 600
 """Cells of a map along an axis, at most: what a screen shows."""
@@ -147,10 +147,16 @@ def order_map(
     x = spectra.squared_envelope(signal.x, signal.fs, band) if envelope else signal.x
     turns = of[angle] if isinstance(angle, str) else np.asarray(angle)  # type: ignore[index,call-overload]
     turn, value = spectra.by_order(x, turns, per_turn or math.ceil(2.5 * highest))
-    f, t, power = spectra.spectrogram(value, 1.0 / float(turn[1]))
+    rate_of_turns = 1.0 / float(turn[1])
+    # Windows of some turns, or the sidebands of a fault would flow into its line.
+    length = max(round((4.0 * value.size) ** 0.5), round(_TURNS * rate_of_turns))
+    length = min(length, value.size // 2)
+    f, t, power = spectra.spectrogram(value, rate_of_turns, length, max(length // 16, 1))
     shown = f <= highest
     fig = fig if fig is not None else Figure()
-    fig.add_trace(_shaded(t, f[shown], power[shown], "turn %{x:.1f}, order %{y:.2f}: %{z:.1f} dB"))
+    fig.add_trace(
+        _shaded(t, f[shown], power[shown], "turn %{x:.1f}, order %{y:.2f}: %{z:.1f} dB", 40.0)
+    )
     _fault_orders(fig, of, faults=faults, rates=rates, row=row, highest=highest)
     what = "the squared envelope" if envelope else "the signal"
     fig.update_xaxes(title_text="turns of the shaft")
@@ -247,9 +253,13 @@ def _level(found: Kurtogram, level: float, at: NDArray[np.float64]) -> NDArray[n
 
 
 def _shaded(
-    x: NDArray[np.float64], y: NDArray[np.float64], power: NDArray[np.float64], hover: str
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    power: NDArray[np.float64],
+    hover: str,
+    span: float = 60.0,
 ) -> Any:
-    """Return a heat map in decibels under the largest value, with no more cells than a screen shows."""
+    """Return a heat map in decibels down to ``-span``, with no more cells than a screen shows."""
     from plotly.graph_objects import Heatmap
 
     x, power = x[:: _step(x.size)], power[:, :: _step(x.size)]
@@ -259,9 +269,9 @@ def _shaded(
         power = power[:kept].reshape(-1, every, power.shape[1]).max(axis=1)
         y = y[:kept].reshape(-1, every).mean(axis=1)
     largest = float(power.max(initial=0.0)) or 1.0
-    level = 10.0 * np.log10(np.maximum(power / largest, 10.0 ** (-0.1 * _SPAN)))
+    level = 10.0 * np.log10(np.maximum(power / largest, 10.0 ** (-0.1 * span)))
     return Heatmap(
-        x=x, y=y, z=level.astype(np.float32), colorscale=SHADES, zmin=-_SPAN, zmax=0.0,
+        x=x, y=y, z=level.astype(np.float32), colorscale=SHADES, zmin=-span, zmax=0.0,
         colorbar={"title": {"text": "dB"}, "thickness": 14}, hovertemplate=hover + "<extra></extra>",
     )  # fmt: skip
 

@@ -59,9 +59,15 @@ class Moving:
         for name, defect in self._scene.defects.items():
             if defect.on == "outer_race" and defect.row == self._row:
                 yield self._on_race(defect, name, 0.0)
-        scale = {"color": [0.0], "cmin": 0.0, "cmax": self._largest, "colorscale": SHADES, "size": 1e-3,
-                 "showscale": True,
-                 "colorbar": {"title": {"text": "load / N"}, "thickness": 12, "len": 0.6, "y": 0.68}}  # fmt: skip
+        title = {"text": "load / N", "side": "top"}
+        bar = {
+            "title": title, "thickness": 10, "len": 0.45, "nticks": 4, "orientation": "h",
+            "x": 1.0, "xanchor": "right", "y": 1.08, "yanchor": "bottom",
+        }  # fmt: skip
+        scale = {
+            "color": [0.0], "cmin": 0.0, "cmax": self._largest, "colorscale": SHADES, "size": 1e-3,
+            "showscale": True, "colorbar": bar,
+        }  # fmt: skip
         yield Scatter(x=[None], y=[None], mode="markers", marker=scale, hoverinfo="skip")
 
     def section_still(self) -> Iterator[Any]:

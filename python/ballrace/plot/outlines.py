@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from ..scene import Row, Scene
 
-__all__ = ["Outlines", "circle", "groove", "outlines"]
+__all__ = ["Outlines", "circle", "groove", "on_groove", "outlines"]
 
 Array = NDArray[np.float64]
 
@@ -78,17 +78,28 @@ def outlines(scene: Scene) -> Outlines:
 def groove(row: Row, race: Literal["outer", "inner"], angles: Array) -> Array:
     """Return points of a groove by their angles from its middle towards +z, shape (n, 2)."""
     outward = 1.0 if race == "outer" else -1.0
+    z, radius, r = _centre(row, race)
+    points = np.column_stack([z + r * np.sin(angles), radius + outward * r * np.cos(angles)])
+    return 1e3 * points
+
+
+def on_groove(row: Row, race: Literal["outer", "inner"], z: Array) -> Array:
+    """Return the points of a groove at axial places from the row's plane [m], shape (n, 2)."""
+    middle, _, r = _centre(row, race)
+    return groove(row, race, np.arcsin(np.clip((row.axial_position + z - middle) / r, -1.0, 1.0)))
+
+
+def _centre(row: Row, race: Literal["outer", "inner"]) -> tuple[float, float, float]:
+    """Return axial place and radius of a groove's centre, and its own radius [m], as the model has them."""
+    outward = 1.0 if race == "outer" else -1.0
     conformity = row.outer_conformity if race == "outer" else row.inner_conformity
     off = (conformity - 0.5) * row.ball_diameter
-    # Centres of the grooves as the model has them: see the theory of a row.
     radius = 0.5 * row.pitch_diameter - outward * (
         off * math.cos(row.contact_angle) - 0.25 * row.clearance
     )
     z = row.axial_position - outward * row.side * off * math.sin(row.contact_angle)
     z += row.side * row.axial_preload if race == "inner" else 0.0
-    r = conformity * row.ball_diameter
-    points = np.column_stack([z + r * np.sin(angles), radius + outward * r * np.cos(angles)])
-    return 1e3 * points
+    return z, radius, conformity * row.ball_diameter
 
 
 def circle(z: float, radius: float, size: float) -> Array:

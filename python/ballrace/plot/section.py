@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ..operating import operating_angle
-from .outlines import circle, groove, outlines
+from .outlines import circle, on_groove, outlines
 from .races import placed
 from .style import COLOURS, finished
 
@@ -156,13 +156,11 @@ def _defect(fig: go.Figure, row: Row, defect: Defect, name: str, shapes: Outline
     degrees = math.degrees(math.atan2(math.sin(defect.angle), math.cos(defect.angle)))
     half = 1.0 if math.sin(defect.angle) >= 0.0 else -1.0
     race: Literal["outer", "inner"] = "inner" if defect.on == "inner_race" else "outer"
-    z = placed(row, defect)
-    radius = 0.5 * row.ball_diameter
-    ends = [np.arcsin(np.clip((z + s * 0.5 * defect.length) / radius, -1, 1)) for s in (-1, 1)]
+    along = np.linspace(-0.5, 0.5, 21) * defect.length + placed(row, defect)
     if defect.on == "ball":
-        half, points = 1.0, _on_ball(row, np.linspace(ends[0], ends[1], 21))
+        half, points = 1.0, _on_ball(row, along)
     else:
-        points = groove(row, race, np.linspace(ends[0], ends[1], 21))
+        points = on_groove(row, race, along)
     _line(fig, points[:, 0].tolist(), (half * points[:, 1]).tolist(), color=COLOURS[1], width=6)
     where = {"outer_race": "outer race", "inner_race": "inner race"}.get(
         defect.on, f"ball {defect.ball}"
@@ -174,8 +172,10 @@ def _defect(fig: go.Figure, row: Row, defect: Defect, name: str, shapes: Outline
     )  # fmt: skip
 
 
-def _on_ball(row: Row, angles: Array) -> Array:
+def _on_ball(row: Row, z: Array) -> Array:
+    """Return points of the ball's outside at axial places from its centre [m]."""
     r = 0.5e3 * row.ball_diameter
+    angles = np.arcsin(np.clip(1e3 * z / r, -1.0, 1.0))
     centre = np.array([1e3 * row.axial_position, 0.5e3 * row.pitch_diameter])
     return centre + r * np.column_stack([np.sin(angles), np.cos(angles)])
 
