@@ -10,6 +10,7 @@ import pytest
 import ballrace as br
 from ballrace import demo, paper
 from ballrace.report import Page
+from ballrace.spectra.bands import Fault
 from browser import Browser, opened
 
 pytestmark = pytest.mark.filterwarnings("ignore::ballrace.SceneWarning")
@@ -85,7 +86,7 @@ def _pictures(out: br.Signals, rising: br.Signals, folder: Path) -> None:
     balls = br.scene.MotionProbe(body="row0.ball0", components=("x", "y"))
     probe = br.scene.SlicesProbe(balls=(1,), races=("outer",), times=(0.0, 2e-4))
     dipping = br.simulate(wheel.replace({"probes.b": balls, "probes.s": probe}), duration=0.03)
-    everything = ("outer_race", "inner_race", "ball", "cage")
+    everything: tuple[Fault, ...] = ("outer_race", "inner_race", "ball", "cage")
     page = Page("Pictures")
     for fig in (
         br.plot.section(wheel, operating=True),

@@ -154,8 +154,7 @@ def test_fault_lines_stand_at_the_operating_angle() -> None:
 
 
 def test_no_two_faults_look_alike_without_colour(faulty: br.Signals) -> None:
-    four = ("outer_race", "inner_race", "ball", "cage")
-    fig = plot.envelope_spectrum(faulty, faults=four)
+    fig = plot.envelope_spectrum(faulty, faults=("outer_race", "inner_race", "ball", "cage"))
     lines = fig.data[1:]
     assert (
         len({line.line.dash for line in lines}) == len({line.marker.symbol for line in lines}) == 4
@@ -274,7 +273,7 @@ def test_one_row_of_several_cases(wheel: br.Scene) -> None:
 
 def test_bad_arguments_are_named(faulty: br.Signals, animated: br.Signals, wheel: br.Scene) -> None:
     x = faulty["outer.ay"]
-    for path, call in {
+    calls: dict[str, Callable[[], object]] = {
         "fs": lambda: plot.psd(x),
         "faults": lambda: plot.impacts(faulty, faults=["rollers"]),  # type: ignore[list-item]
         "rates": lambda: plot.impacts(x, fs=1e4, faults=["ball"]),
@@ -287,7 +286,8 @@ def test_bad_arguments_are_named(faulty: br.Signals, animated: br.Signals, wheel
         "start": lambda: plot.animation(animated, start=1.0),
         "out": lambda: plot.animation(faulty),
         "column": lambda: plot.campaign_map(pl.DataFrame({"a": [1.0]}), "a", "b", "a"),
-    }.items():
+    }
+    for path, call in calls.items():
         with pytest.raises(br.SceneError) as caught:
             call()
         assert caught.value.path == path

@@ -42,8 +42,8 @@ class Case:
     loads : LoadDistribution
         Loads of the healthy bearing.
     slices : dict of str to ndarray
-        Slices of the ball of row 0 at -90°, on the outer race of the healthy bearing: ``z``, ``width`` [m] and
-        ``force`` [N].
+        Slices of the ball of row 0 at -90°, on the outer race of the healthy bearing: ``z``, ``width`` [m] and the
+        radial ``force`` [N].
     zone : Zone
         The contact zone that they make.
     seconds : float
@@ -67,7 +67,7 @@ class Case:
 
     @property
     def within(self) -> float:
-        """Force of the slices within the spall's length [N]."""
+        """Radial force of the slices within the spall's length [N]."""
         low, high = self.spall
         z, force = self.slices["z"], self.slices["force"]
         return float(force[(z >= low) & (z <= high)].sum())

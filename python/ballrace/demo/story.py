@@ -89,7 +89,7 @@ def _zones(made: Page, cases: Mapping[str, Case]) -> None:
         share = f"{100.0 * case.within / zone.force:.0f}" if zone.force > 0.0 else "–"
         rows.append([label, f"{zone.force:.0f}", *cells, f"{case.within:.0f}", share])
     header = [
-        "case", "ball load, N", "zone from, mm", "middle, mm", "to, mm", "on the spall's place, N", "share, %",
+        "case", "radial force, N", "zone from, mm", "middle, mm", "to, mm", "on the spall's place, N", "share, %",
     ]  # fmt: skip
     made.table(header, rows)
 
@@ -159,9 +159,9 @@ def _told(made: Page, none: Case, towards: Case, away: Case) -> None:
     change = 100.0 * (louder / before - 1.0)
     told = (
         f"Thrust of 3 kN towards the faulted row moves the middle of the contact by {moved:.2f} mm onto the spall "
-        f"and loads the ball more ({loads}): impacts go from {before:.1f} to {louder:.1f} m/s², {change:+.0f} %. "
-        f"Thrust away from it takes the load off the row ({away.zone.force:.0f} N) and the contact off the spall: "
-        f"{softer:.1f} m/s² are left. The spall is the same; a radial model, in which a ball meets a race in its "
-        "middle plane whatever the thrust, could not tell these three apart."
+        f"and presses the ball harder ({loads} radially): impacts go from {before:.1f} to {louder:.1f} m/s², "
+        f"{change:+.0f} %. Thrust away from it takes the load off the row ({away.zone.force:.0f} N) and the contact "
+        f"off the spall: {softer:.1f} m/s² are left. The spall is the same; a radial model, in which a ball meets a "
+        "race in its middle plane whatever the thrust, could not tell these three apart."
     )
     made.text(told.replace("-", "−"))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -45,9 +44,7 @@ def add_loads(page: Page, scene: Scene) -> None:
     page.section("Loads, pressures and life")
     healthy = scene.replace({"defects": {}})
     try:
-        with warnings.catch_warnings():  # those of the run stand at the top
-            warnings.simplefilter("ignore")
-            eq, around = equilibrium(healthy), load_distribution(healthy)
+        eq, around = equilibrium(healthy), load_distribution(healthy)
     except BallraceError as error:
         page.warning(f"no static solution: {error}")
         return
@@ -92,9 +89,7 @@ def _add_pressures(page: Page, eq: Equilibrium, rows: int) -> None:
 
 def _add_life(page: Page, scene: Scene) -> None:
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            life = rating_life(scene)
+        life = rating_life(scene)
     except BallraceError as error:
         page.text(f"No rating life: {error}.")
         return

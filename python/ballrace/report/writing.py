@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import importlib.util
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .._files import check_writable, whole
-from ..errors import SceneError
+from ..errors import SceneError, SceneWarning
 
 if TYPE_CHECKING:
     import os
@@ -36,6 +37,9 @@ def write_page(path: str | os.PathLike[str], make: Callable[[], Page]) -> None:
         raise SceneError(
             "path", str(path), 'plotly, which is not installed: pip install "ballrace[plot]"'
         )
-    text = make().html()
+    with warnings.catch_warnings():
+        # What a run was warned of stands on its page; its scene is not to warn again.
+        warnings.simplefilter("ignore", SceneWarning)
+        text = make().html()
     with whole(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
