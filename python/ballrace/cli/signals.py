@@ -35,6 +35,11 @@ _STRONGEST = 10
 
 def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     """Add both subcommands."""
+    _add_report(commands)
+    _add_spectrum(commands)
+
+
+def _add_report(commands: Commands[argparse.ArgumentParser]) -> None:
     report = added(
         commands, "report", "write a report of a run or a campaign: one page that needs no network",
         "ballrace report out.parquet -o report.html", _report,
@@ -51,6 +56,9 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
         help="signals of a run, or features of a campaign, that are shown (default: chosen)",
     )  # fmt: skip
     report.add_argument("--title", help="title of the page (default: name of the scene or folder)")
+
+
+def _add_spectrum(commands: Commands[argparse.ArgumentParser]) -> None:
     spectrum = added(
         commands, "spectrum", "print the strongest lines of a signal's envelope spectrum, or write it whole",
         "ballrace spectrum out.parquet --column outer.ay --band 2000 6000 -o spectrum.html", _spectrum,

@@ -160,8 +160,8 @@ def _told(made: Page, none: Case, towards: Case, away: Case) -> None:
     told = (
         f"Thrust of 3 kN towards the faulted row moves the middle of the contact by {moved:.2f} mm onto the spall "
         f"and presses the ball harder ({loads} radially): impacts go from {before:.1f} to {louder:.1f} m/s², "
-        f"{change:+.0f} %. Thrust away from it takes the load off the row ({away.zone.force:.0f} N) and the contact "
-        f"off the spall: {softer:.1f} m/s² are left. The spall is the same; a radial model, in which a ball meets a "
-        "race in its middle plane whatever the thrust, could not tell these three apart."
+        f"{change:+.0f} %. Thrust away from it takes the load off the row ({away.zone.force:.0f} N) and the "
+        f"contact off the spall: {softer:.1f} m/s² are left. The spall is the same; a radial model, in which a "
+        "ball meets a race in its middle plane whatever the thrust, could not tell these three apart."
     )
     made.text(told.replace("-", "−"))

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import SceneError
+from ..errors import EquilibriumError, SceneError
 from ..operating import FaultFrequencies, fault_frequencies
 from ..recordings.columns import Columns
 from ..scene import SpeedDrive
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from ..scene import Scene
+    from ..signals import Signals
     from ..spectra.bands import Fault
 
 __all__ = ["Source", "faults_of", "rates_of", "scene_of", "source"]
@@ -76,12 +77,20 @@ def scene_of(of: object) -> Scene | None:
 
 
 def rates_of(of: object, rates: FaultFrequencies | None, row: int) -> FaultFrequencies | None:
-    """Return the fault frequencies at the operating angle: those given, or of the run's scene."""
+    """Return the fault frequencies: those given, or of the run's scene at its operating contact angle.
+
+    Where no equilibrium tells that angle, it is the nominal one; where the speed changes there are none.
+    """
     scene = scene_of(of)
-    constant = scene is not None and isinstance(scene.drive, SpeedDrive)
-    if rates is None and constant and isinstance(scene.drive.speed, float):  # type: ignore[union-attr]
-        return fault_frequencies(of, row=row)  # type: ignore[arg-type]
-    return rates
+    if rates is not None or scene is None or not isinstance(scene.drive, SpeedDrive):
+        return rates
+    if not isinstance(scene.drive.speed, int | float) or scene.drive.speed == 0.0:
+        return None
+    known = cast("Signals", of)
+    try:
+        return fault_frequencies(known, row=row)
+    except EquilibriumError:
+        return fault_frequencies(known, row=row, operating=False)
 
 
 _ALL: tuple[Literal["outer_race", "inner_race", "ball"], ...] = ("outer_race", "inner_race", "ball")

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..errors import BallraceError
-from ..operating import FaultFrequencies, fault_frequencies
 from . import words
 from .bearing import add_bearing, add_loads
 from .page import Page
@@ -46,11 +44,13 @@ def run_page(
 
 
 def _add_frequencies(page: Page, out: Signals) -> None:
+    from ..plot.sources import rates_of
+
     rows = []
     for row in range(len(out.scene.rows)):
-        found = frequencies_of(out, row)
+        found = rates_of(out, None, row)
         if found is None:
-            page.text("The speed changes in time: fault frequencies stand at their orders.")
+            page.text("No constant speed: fault frequencies stand at their orders.")
             return
         hertz = (found.shaft, found.ftf, found.bpfo, found.bpfi, 2.0 * found.bsf)
         rows.append(
@@ -61,14 +61,6 @@ def _add_frequencies(page: Page, out: Signals) -> None:
     )
     header = ["row", "contact angle", "shaft, Hz", "FTF, Hz", "BPFO, Hz", "BPFI, Hz", "2·BSF, Hz"]
     page.table(header, rows)
-
-
-def frequencies_of(out: Signals, row: int) -> FaultFrequencies | None:
-    """Return the fault frequencies of a row; None where the speed changes or nothing holds the load."""
-    try:
-        return fault_frequencies(out, row=row)
-    except BallraceError:
-        return None
 
 
 def _add_defects(page: Page, out: Signals) -> None:
