@@ -381,3 +381,12 @@ def test_a_terminal_gets_no_parquet(
 ) -> None:
     monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
     assert "no text to read" in refused(capsys, "run", str(scene_file), "-o", "-")
+
+
+def test_explain_draws_the_scene(
+    capsys: pytest.CaptureFixture[str], scene_file: Path, tmp_path: Path
+) -> None:
+    assert main(["explain", str(scene_file), "--drawing", "scene.html"]) == 0
+    assert "contact angle" in (tmp_path / "scene.html").read_text(encoding="utf-8")
+    capsys.readouterr()
+    assert "html" in refused(capsys, "explain", str(scene_file), "--drawing", "scene.svg")

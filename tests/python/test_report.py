@@ -163,3 +163,26 @@ def test_a_scene_in_words() -> None:
     assert ("Cage", "none") in words.model(quiet)
     assert ("Friction", "none") in words.model(quiet)
     assert [what for what, _ in words.bearing(scene)] == ["Row 0", "Row 1", "Defect"]
+
+
+FIXED = br.scene.Support(x="fixed", y="fixed", z="fixed")
+ODD: dict[str, dict[str, object]] = {
+    "held": {
+        "outer_ring.support": FIXED, "inner_ring.support": FIXED, "rows[0].clearance": -1e-5, "probes": {},
+    },
+    "torque": {"drive": br.scene.TorqueDrive(value=0.01, initial_speed=100.0)},
+    "still": {"drive": br.scene.SpeedDrive(0.0)},
+    "backwards": {"drive": br.scene.SpeedDrive(-188.0)},
+    "varying": {"loads.radial.force": br.scene.Sine(mean=500.0, amplitude=100.0, frequency=10.0, phase=0.0)},
+    "large balls": {"rows[0].ball_count": 6, "rows[0].ball_diameter": 0.0105, "name": "own"},
+    "arch": {"rows[0].outer_arch": br.scene.GothicArch(shim_angle=0.3)},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ODD)
+@pytest.mark.parametrize("duration", [4e-5, 0.02])
+@pytest.mark.filterwarnings("ignore::ballrace.SceneWarning")
+def test_every_scene_that_runs_has_a_report(name: str, duration: float, tmp_path: Path) -> None:
+    out = br.simulate(br.bearing("6205").replace(ODD[name]), duration=duration, settle=0.0)
+    out.report(tmp_path / "r.html")
+    assert "Provenance" in told(tmp_path / "r.html")

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .._text import printable
 from ..explanation import explain
+from ..report.writing import check_page
 from ..statics import Equilibrium, equilibrium, load_distribution, stiffness
 from .arguments import Commands, add_scene, added, read_scene
 from .tables import numbers, print_table
@@ -44,6 +46,10 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     )  # fmt: skip
     add_scene(told)
     told.add_argument("--json", action="store_true", help="print it as JSON")
+    told.add_argument(
+        "--drawing", type=Path, metavar="FILE",
+        help="write the bearing cut through its axis, too, with parts, angle, loads and defects named: .html",
+    )  # fmt: skip
 
 
 def _equilibrium(options: argparse.Namespace) -> None:
@@ -108,5 +114,12 @@ def _equilibrium_json(options: argparse.Namespace, scene: Scene, eq: Equilibrium
 
 
 def _explain(options: argparse.Namespace) -> None:
-    told = explain(read_scene(options.scene))
+    if options.drawing is not None:
+        check_page(options.drawing, "drawing")
+    scene = read_scene(options.scene)
+    told = explain(scene)
+    if options.drawing is not None:
+        from .. import plot
+
+        plot.write(plot.section(scene), options.drawing)
     print(json.dumps(told.to_dict(), indent=2) if options.json else printable(str(told)).rstrip())

@@ -52,11 +52,18 @@ def add_signal(page: Page, out: Signals, name: str) -> None:
         page.figure(plot.signals(out, name), "the signal over time; the speed changes.")
         _add_order_map(page, out, name)
         return
-    hits = "; marks where hits of a defect are expected, one period apart at the operating contact angle."
-    page.figure(plot.impacts(out, name), f"the signal over time{hits}")
     if out.n_samples < _SHORT:
+        page.figure(plot.signals(out, name), "the signal over time.")
         page.text(f"{out.n_samples} samples are too few for spectra.")
         return
+    hits = "marks where hits of a defect are expected, one period apart at the operating contact angle."
+    page.figure(plot.impacts(out, name), f"the signal over time; {hits}")
+    _add_spectra(page, out, name)
+
+
+def _add_spectra(page: Page, out: Signals, name: str) -> None:
+    from .. import plot
+
     turns = out.n_samples / out.fs * abs(float(out.scene.drive.speed)) / 6.2832  # type: ignore[union-attr,arg-type]
     found = spectra.kurtogram(out[name], out.fs, narrowest=min(out.fs / 8.0, 2000.0))
     page.figure(

@@ -16,7 +16,25 @@ if TYPE_CHECKING:
 
     from .page import Page
 
-__all__ = ["write_page"]
+__all__ = ["check_page", "write_page"]
+
+
+def check_page(path: Path, name: str = "path") -> None:
+    """Refuse a place where no page can be written, given as ``name``.
+
+    Raises
+    ------
+    SceneError
+        The name does not end in ``.html``, or plotly is not installed.
+    OSError
+        The file cannot be written.
+    """
+    if path.suffix.lower() not in (".html", ".htm"):
+        raise SceneError(name, str(path), "a file that ends in .html, which is what is written")
+    check_writable(path)
+    if importlib.util.find_spec("plotly") is None:
+        allowed = 'plotly, which is not installed: pip install "ballrace[plot]"'
+        raise SceneError(name, str(path), allowed)
 
 
 def write_page(path: str | os.PathLike[str], make: Callable[[], Page]) -> None:
@@ -30,13 +48,7 @@ def write_page(path: str | os.PathLike[str], make: Callable[[], Page]) -> None:
         The file cannot be written.
     """
     path = Path(path)
-    if path.suffix.lower() not in (".html", ".htm"):
-        raise SceneError("path", str(path), "a file that ends in .html, which is what is written")
-    check_writable(path)
-    if importlib.util.find_spec("plotly") is None:
-        raise SceneError(
-            "path", str(path), 'plotly, which is not installed: pip install "ballrace[plot]"'
-        )
+    check_page(path)
     with warnings.catch_warnings():
         # What a run was warned of stands on its page; its scene is not to warn again.
         warnings.simplefilter("ignore", SceneWarning)
