@@ -19,7 +19,7 @@ from plotly.subplots import make_subplots
 import ballrace as br
 from ballrace import plot
 from ballrace._ellipse import axis_ratio, semi_axes
-from ballrace.plot.outlines import outlines
+from ballrace.plot.outlines import groove, outlines
 
 
 def test_signals(out: br.Signals) -> None:
@@ -126,11 +126,11 @@ def test_impacts_stand_where_blows_are() -> None:
     """Truth: blows at known times."""
     fs, rates = 20_000.0, br.fault_frequencies("6205", 1797.0)
     t = np.arange(10_000) / fs
-    since = (t - 0.004) % (1.0 / rates.bpfo)
+    since = (t - 0.002) % (1.0 / rates.bpfo)
     x = np.exp(-900.0 * since) * np.sin(2 * np.pi * 3000.0 * since)
     fig = plot.impacts(x, fs=fs, rates=rates, faults=["outer_race"])
     marks = np.asarray(fig.data[1].x)
-    wanted = 0.004 + np.arange(-1, 60) / rates.bpfo
+    wanted = 0.002 + np.arange(-1, 60) / rates.bpfo
     away = np.abs(marks[:, None] - wanted).min(axis=1)
     assert away.max() < 1e-3  # the envelope's oscillation is highest a little after the blow begins
     np.testing.assert_allclose(np.diff(marks), 1.0 / rates.bpfo)
@@ -221,6 +221,17 @@ def test_section_leans_the_way_of_the_model(wheel: br.Scene) -> None:
     given = outlines(br.bearing("6205"))
     assert (given.outside, given.bore, given.assumed) == (26.0, 12.5, False)
     assert outlines(wheel).assumed
+
+
+def test_grooves_touch_the_balls_at_the_contact_angle() -> None:
+    """Truth: without clearance ball and race share a point there, on either side."""
+    rows = [*br.presets.wheel_bearing().rows, br.bearing("7205B").rows[0]]
+    for row in rows:
+        centre = np.array([1e3 * row.axial_position, 0.5e3 * row.pitch_diameter])
+        lean = row.side * row.contact_angle
+        out = 0.5e3 * row.ball_diameter * np.array([np.sin(lean), np.cos(lean)])
+        np.testing.assert_allclose(groove(row, "outer", np.array([lean]))[0], centre + out)
+        np.testing.assert_allclose(groove(row, "inner", np.array([-lean]))[0], centre - out)
 
 
 def test_orbit_is_seen_from_the_outer_ring(faulty: br.Signals) -> None:
