@@ -146,5 +146,5 @@ def _page(paper: Paper) -> str:
     made.table(HEADER, rows(paper))
     for title, fig in figures.items():
         made.section(title)
-        made.figure(fig, title.partition(": ")[2] + ".")
+        made.figure(fig, None)
     return made.html()

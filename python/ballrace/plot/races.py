@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
     from ..scene import Defect, Row, Scene
 
+    Array = NDArray[np.float64]
+
 __all__ = ["unrolled"]
 
 _WIDER = 5.0
@@ -106,18 +108,26 @@ def _contacts(
             text=f"{load[k]:.0f} N, {1e-6 * pressure[k]:.0f} MPa, {2e3 * across[k]:.2f} × {2e3 * along[k]:.2f} mm",
         )  # fmt: skip
         fig.add_trace(ellipse, row=place, col=1)
-    text = [f"{force:.0f} N" if force >= 1.0 else "" for force in load]
-    centre = np.where(load > 0.0, z + across * cosine, 0.0)
-    labels = Scatter(
-        x=angle, y=1e3 * centre, mode="text", text=text, textposition="top center",
-        textfont={"size": 10}, hoverinfo="skip", cliponaxis=False,
-    )  # fmt: skip
+    for k in np.flatnonzero(load >= 1.0):
+        # Upright, so that those of neighbours do not meet on a narrow page.
+        fig.add_annotation(
+            x=angle[k], y=1e3 * (z[k] + across[k] * cosine[k]), text=f"{load[k]:.0f} N", textangle=-90,
+            yanchor="bottom", showarrow=False, font={"size": 10}, row=place, col=1,
+        )  # fmt: skip
+    low, high = _extent(load, z, across * cosine)
+    fig.update_yaxes(range=[low - 0.1 * (high - low), high + 0.5 * (high - low)], row=place, col=1)
     free = Scatter(
         x=angle[load <= 0.0], y=np.zeros(int((load <= 0.0).sum())), mode="markers",
         hovertemplate="no load<extra></extra>", marker={"symbol": "circle-open", "size": 8, "color": "#888"},
     )  # fmt: skip
-    fig.add_trace(labels, row=place, col=1)
     fig.add_trace(free, row=place, col=1)
+
+
+def _extent(load: Array, z: Array, reach: Array) -> tuple[float, float]:
+    """Return between which axial places contacts lie, the row's plane with them [mm]."""
+    loaded = load > 0.0
+    ends = np.concatenate([[-1e-4, 1e-4], (z - reach)[loaded], (z + reach)[loaded]])
+    return 1e3 * float(ends.min()), 1e3 * float(ends.max())
 
 
 def _defect(fig: go.Figure, row: Row, name: str, defect: Defect, place: int) -> None:

@@ -75,8 +75,8 @@ class Page:
         )
         self._parts.append(f'<div class="wide"><table><tr>{head}</tr>{body}</table></div>')
 
-    def figure(self, fig: go.Figure, caption: str) -> None:
-        """Add a figure with what it shows; it is numbered."""
+    def figure(self, fig: go.Figure, caption: str | None) -> None:
+        """Add a figure with what it shows, numbered; without that under a title of its own."""
         from ..plot import CONFIG
 
         self._figures += 1
@@ -84,7 +84,9 @@ class Page:
             full_html=False, include_plotlyjs=False, config=CONFIG, auto_play=False, default_width="100%",
             div_id=f"figure-{self._figures}",
         )  # fmt: skip
-        told = f"<figcaption>Figure {self._figures}: {escape(caption)}</figcaption>"
+        told = ""
+        if caption is not None:
+            told = f"<figcaption>Figure {self._figures}: {escape(caption)}</figcaption>"
         self._parts.append(f"<figure>{drawn}{told}</figure>")
 
     def folded(self, title: str, text: str) -> None:

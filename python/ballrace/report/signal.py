@@ -72,7 +72,8 @@ def _add_spectra(page: Page, out: Signals, name: str) -> None:
     )
     page.figure(
         plot.kurtogram(found),
-        "kurtosis of bands of the signal; where it is high, single hits stand out.",
+        "kurtosis of bands of the signal; where it is high, single hits stand out. A simulated signal has no "
+        "noise, so a band with next to no power may win: see the power spectral density.",
     )
     low, high = found.best
     best = f"spectrum of the squared envelope in the kurtogram's best band, {low:.0f} to {high:.0f} Hz."
