@@ -14,8 +14,11 @@ All numbers are in SI units, at every face.
 
 from __future__ import annotations
 
-from . import frequencies, presets, scene, spectra
+from typing import TYPE_CHECKING
+
+from . import defects, frequencies, measuring, presets, scene, spectra
 from ._features import features
+from .bearings import Bearing, Catalogue, bearing, catalogue
 from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
 from .errors import (
     AccuracyWarning,
@@ -31,8 +34,12 @@ from .errors import (
     SceneWarning,
 )
 from .explanation import Explanation, explain
+from .life import RatingLife, rating_life
+from .measuring import measure
 from .model import Model
+from .operating import FaultFrequencies, fault_frequencies
 from .options import Run
+from .recordings import Recording, read
 from .run import simulate
 from .scene import Scene
 from .signals import Record, Signals, Touched
@@ -45,22 +52,32 @@ from .statics import (
     stiffness,
 )
 
+if TYPE_CHECKING:
+    from types import ModuleType
+
+    from . import plot
+
 __all__ = [
     "AccuracyWarning",
     "BallraceError",
+    "Bearing",
     "BudgetError",
     "Campaign",
     "CampaignError",
     "CampaignWarning",
+    "Catalogue",
     "Equilibrium",
     "EquilibriumError",
     "Explanation",
+    "FaultFrequencies",
     "FileError",
     "IntegrationError",
     "LoadDistribution",
     "MemoryLimitError",
     "Model",
+    "RatingLife",
     "Record",
+    "Recording",
     "Run",
     "Scene",
     "SceneError",
@@ -68,15 +85,24 @@ __all__ = [
     "Signals",
     "Stiffness",
     "Touched",
+    "bearing",
     "campaign",
+    "catalogue",
+    "defects",
     "equilibrium",
     "explain",
+    "fault_frequencies",
     "features",
     "frequencies",
     "grid",
     "latin_hypercube",
     "load_distribution",
+    "measure",
+    "measuring",
+    "plot",
     "presets",
+    "rating_life",
+    "read",
     "scatter",
     "scene",
     "simulate",
@@ -84,3 +110,12 @@ __all__ = [
     "spectra",
     "stiffness",
 ]
+
+
+def __getattr__(name: str) -> ModuleType:
+    """Import the pictures when they are first asked for."""
+    if name == "plot":
+        import importlib
+
+        return importlib.import_module(".plot", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -9,7 +9,7 @@ from . import _core
 from ._interrupt import answers_ctrl_c
 from .errors import SceneError
 from .scene.scene import checked_scene
-from .spectra import checked_signal
+from .spectra.checks import checked_signal
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -10,25 +9,28 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
-from numpy.typing import NDArray
-
 from . import _core
 from ._features import feature_options
-from ._files import whole
+from ._files import PARQUET, whole
 from ._interrupt import heard_once
 from ._parquet import read_sealed, scan_sealed, seal, writing_to
 from ._record import Scanned, described, metadata, samples, unless_damaged
 from ._text import printable
+from .recordings.columns import Columns, no_column
+from .recordings.samples import Samples
+from .recordings.scenes import origin_of, shaft_of
 from .scene import Scene, Surface
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Sequence
 
+    import numpy as np
     import polars as pl
+    from numpy.typing import NDArray
 
     from ._core import _Signals
+    from .recordings.windows import Origin
 
 __all__ = ["Record", "Signals", "Touched"]
 
@@ -112,7 +114,7 @@ class Touched:
         return self.touched / self.passes if self.passes else None
 
 
-class Signals(Mapping[str, NDArray[np.float64]]):
+class Signals(Columns):
     """Signals of a run on a uniform grid of times: a mapping from the names of columns to arrays.
 
     Made by :func:`ballrace.simulate` or :meth:`read_parquet`.
@@ -169,11 +171,7 @@ class Signals(Mapping[str, NDArray[np.float64]]):
         try:
             return self._columns[name]
         except KeyError:
-            near = difflib.get_close_matches(str(name), self._columns, n=5, cutoff=0.4)
-            hint = (
-                f"near are {', '.join(near)}" if near else f"there are {', '.join(self._columns)}"
-            )
-            raise KeyError(f"no column {name!r}; {hint}") from None
+            raise no_column(name, self._columns) from None
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
@@ -183,11 +181,6 @@ class Signals(Mapping[str, NDArray[np.float64]]):
 
     def __contains__(self, name: object) -> bool:
         return name in self._columns
-
-    def __eq__(self, other: object) -> bool:
-        return self is other
-
-    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         size = f"{len(self)} columns, {self.n_samples} samples at {self._fs:g} Hz"
@@ -318,11 +311,61 @@ class Signals(Mapping[str, NDArray[np.float64]]):
         found = _core.run_features(self, self._fs, self.scene.to_json(), pressure, options)
         return dict(found)
 
-    def to_polars(self) -> pl.DataFrame:
-        """Return a table with the time ``t`` and all columns."""
-        from ._polars import pl
+    def write(
+        self,
+        path: str | os.PathLike[str],
+        columns: str | Iterable[str] | Mapping[str, str] | None = None,
+    ) -> None:
+        """Write as :meth:`Recording.write` does; all columns into Parquet as :meth:`write_parquet` does."""
+        if columns is None and Path(path).suffix.lower() in PARQUET and Path(path).suffix:
+            self.write_parquet(path)
+        else:
+            super().write(path, columns)
 
-        return pl.DataFrame({"t": self.t, **self._columns})
+    def _samples(self, names: Iterable[str] | None = None) -> Samples:
+        chosen = list(self if names is None else names)
+        return Samples(
+            columns={name: self[name] for name in chosen},
+            fs=float(self._fs),
+            units={name: self._units[name] for name in chosen},
+            shaft=shaft_of(self.scene),
+            metadata={"scene": self.scene.to_dict(), "provenance": self._provenance.to_dict()},
+        )
+
+    def _origin(self) -> Origin:
+        return origin_of(self.scene, self._provenance.get("version"))
+
+    def report(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        columns: Sequence[str] | None = None,
+        title: str | None = None,
+    ) -> None:
+        """Write a report of the run: one page that needs no network.
+
+        It has the bearing drawn, the operating point, loads, pressures and rating life, the signal with its
+        spectra and the lines of defects, features, what the model held and left out, warnings, and provenance.
+
+        Parameters
+        ----------
+        path : str or path
+            File to write, ``.html``; one of the same name is replaced.
+        columns : sequence of str, optional
+            Columns that are shown; by default ``outer.ay`` if it was recorded.
+        title : str, optional
+            Title of the page; by default the scene's name.
+
+        Raises
+        ------
+        SceneError
+            The name does not end in ``.html``, a column was not recorded, or plotly is not installed.
+        OSError
+            The file cannot be written.
+        """
+        from .report import run_page, write_page
+
+        write_page(path, lambda: run_page(self, columns=columns, title=title))
 
     def write_parquet(self, path: str | os.PathLike[str]) -> None:
         """Write a Parquet file; units, scene, statistics and provenance go into its metadata.

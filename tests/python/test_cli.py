@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import importlib.util
+import json
 import os
 import re
 import stat
@@ -11,6 +12,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import jsonschema
 import numpy as np
 import pytest
 
@@ -60,7 +62,7 @@ def test_demo(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     out = br.Signals.read_parquet(folder / "axial_3000N.parquet")
     assert out.scene == br.presets.wheel_bearing(3000.0)
     page = (folder / "demo.html").read_text(encoding="utf-8")
-    assert "Load of each ball" in page
+    assert "Why thrust makes a spall louder" in page
     # Self-contained: no script is fetched.
     assert not re.search(r"<script[^>]*\ssrc=", page)
 
@@ -197,7 +199,6 @@ def test_outputs_that_cannot_be_meant(
         assert "another file than the scene" in refused(capsys, "run", good, "-o", str(same))
     for name in ("out.csv", "out.mat", "out.html", "out.toml"):
         assert "a file that ends in .parquet" in refused(capsys, "run", good, "-o", name)
-    assert "no text to stream" in refused(capsys, "run", good, "-o", "-")
     assert scene_file.read_text() == text
     assert set(tmp_path.iterdir()) == before
 
@@ -230,3 +231,162 @@ def test_a_link_is_followed(tmp_path: Path, out: br.Signals) -> None:
     out.write_parquet(link)
     assert link.is_symlink()
     assert br.Signals.read_parquet(tmp_path / "far" / "real.parquet").names == out.names
+
+
+COMMANDS = (
+    "demo", "paper", "run", "scene", "equilibrium", "explain", "report", "spectrum", "frequencies", "schema",
+    "doctor",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_says_what_it_does_with_one_example(
+    capsys: pytest.CaptureFixture[str], command: str
+) -> None:
+    with pytest.raises(SystemExit) as stop:
+        main([command, "--help"])
+    assert stop.value.code == 0
+    text = capsys.readouterr().out
+    assert f"ballrace {command}" in text.partition("example: ")[2]
+    assert len(text.splitlines()[2]) > 20 or len(text.splitlines()) > 8
+
+
+def test_version(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stop:
+        main(["--version"])
+    assert stop.value.code == 0
+    assert re.fullmatch(r"ballrace \d+\.\d+\.\d+\S*\n", capsys.readouterr().out)
+
+
+def test_frequencies(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["frequencies", "SKF 6205-2RS", "--rpm", "1797"]) == 0
+    lines = dict(line.split() for line in capsys.readouterr().out.splitlines()[2:])
+    wanted = br.fault_frequencies("6205", 1797.0)
+    assert float(lines["BPFO"]) == pytest.approx(wanted.bpfo, abs=5e-5)
+    assert main(["frequencies", "6205", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["BPFI"] == pytest.approx(wanted.orders.bpfi)
+    assert told["unit"] == "per turn"
+    assert "6205" in refused(capsys, "frequencies", "62055")
+    assert "speed_rpm" in refused(capsys, "frequencies", "6205", "--rpm", "0")
+
+
+def test_schema_knows_the_scenes_that_there_are(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["schema"]) == 0
+    schema = json.loads(capsys.readouterr().out)
+    validate = jsonschema.Draft202012Validator(schema)
+    for name in br.presets.names():
+        document = json.loads(getattr(br.presets, name)().to_json())
+        assert list(validate.iter_errors(document)) == []
+    document["rows"][0]["balls"] = 9
+    (error,) = validate.iter_errors(document)
+    assert "balls" in error.message
+
+
+def test_schema_names_every_field(capsys: pytest.CaptureFixture[str]) -> None:
+    """Truth: a document with every field written out has no key that the schema lacks, and no more."""
+    assert main(["schema"]) == 0
+    schema = json.loads(capsys.readouterr().out)
+    document = json.loads(br.presets.wheel_bearing().to_json())
+    assert set(document) <= set(schema["properties"])
+    assert set(document["rows"][0]) <= set(schema["$defs"]["Row"]["properties"])
+    assert schema["$defs"]["Iso16281"]["required"] == ["iso16281"]
+    assert all("description" in field for field in schema["$defs"]["Row"]["properties"].values())
+
+
+def test_doctor(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["doctor"]) == 0
+    text = capsys.readouterr().out
+    assert "vector instructions: " in text
+    assert text.endswith("all is well\n")
+
+
+def test_report_of_a_file_and_a_folder(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, out: br.Signals, wheel: br.Scene
+) -> None:
+    out.write_parquet(tmp_path / "out.parquet")
+    assert main(["report", "out.parquet", "-o", "a.html", "--title", "Mine"]) == 0
+    assert "<h1>Mine</h1>" in (tmp_path / "a.html").read_text(encoding="utf-8")
+    br.campaign(br.grid({"loads.axial.force": [0.0]}), "runs", scene=wheel, duration=0.001)
+    assert main(["report", "runs", "-o", "b.html"]) == 0
+    assert "Campaign runs" in (tmp_path / "b.html").read_text(encoding="utf-8")
+    capsys.readouterr()
+    before = set(tmp_path.iterdir())
+    assert "html" in refused(capsys, "report", "out.parquet", "-o", "a.pdf")
+    assert "none.parquet" in refused(capsys, "report", "none.parquet", "-o", "c.html")
+    assert "quiet" in refused(capsys, "report", "out.parquet", "-o", "c.html", "--columns", "quiet")
+    assert set(tmp_path.iterdir()) == before
+
+
+@pytest.fixture
+def blows(tmp_path: Path) -> Path:
+    """A measured record: blows at the inner race's rate of a 6205 at 1797 rev/min."""
+    rate, fs = br.fault_frequencies("6205", 1797.0).bpfi, 12_000.0
+    since = (np.arange(24_000) / fs) % (1.0 / rate)
+    x = np.exp(-800.0 * since) * np.sin(2 * np.pi * 3000.0 * since)
+    br.Recording(columns={"sensor": x}, fs=fs).write(tmp_path / "blows.wav")
+    return tmp_path / "blows.wav"
+
+
+def test_spectrum(capsys: pytest.CaptureFixture[str], tmp_path: Path, blows: Path) -> None:
+    named = ["--bearing", "6205", "--rpm", "1797"]
+    assert main(["spectrum", str(blows), *named]) == 0
+    first = capsys.readouterr().out.splitlines()[1].split()
+    assert float(first[0]) == pytest.approx(162.2, abs=0.5)
+    assert first[2] == "BPFI"
+    assert main(["spectrum", str(blows), "-o", "-", "--band", "2000", "4000"]) == 0
+    rows = np.array(
+        [line.split(",") for line in capsys.readouterr().out.splitlines()[1:]], dtype=float
+    )
+    x = br.read(blows)["sensor"]
+    f, value = br.spectra.envelope_spectrum(x, 12_000.0, (2000.0, 4000.0))
+    np.testing.assert_allclose(rows, np.column_stack([f, value]))
+    assert main(["spectrum", str(blows), "--plain", "-o", "s.csv"]) == 0
+    assert (tmp_path / "s.csv").read_text().startswith("frequency,value")
+    assert main(["spectrum", str(blows), *named, "-o", "s.html"]) == 0
+    assert "BPFI" in (tmp_path / "s.html").read_text(encoding="utf-8")
+    capsys.readouterr()
+    assert "band" in refused(capsys, "spectrum", str(blows), "--band", "9000", "1000")
+    assert "column" in refused(capsys, "spectrum", str(blows), "--column", "x")
+    assert "csv" in refused(capsys, "spectrum", str(blows), "-o", "s.pdf")
+    assert "plain" in refused(capsys, "spectrum", str(blows), "--plain", "-o", "t.html")
+    assert not (tmp_path / "t.html").exists()
+
+
+def test_streams(tmp_path: Path) -> None:
+    """A scene, its signals and their report through pipes, without a file between."""
+    command = f"{sys.executable} -m ballrace"
+    line = (
+        f"{command} scene deep-groove-6205 | {command} run - -o - --duration 0.02 --method dormand-prince"
+        f" | {command} report - -o r.html"
+    )
+    done = subprocess.run(line, shell=True, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "r.html" in done.stdout
+    assert "6205" in (tmp_path / "r.html").read_text(encoding="utf-8")
+    scene = br.presets.deep_groove_6205()
+    for text in (scene.to_json(), scene.to_toml()):
+        piped = subprocess.run(
+            [sys.executable, "-m", "ballrace", "equilibrium", "-", "--json"],
+            input=text, capture_output=True, text=True, check=True,
+        )  # fmt: skip
+        balls = json.loads(piped.stdout)["balls"]
+        np.testing.assert_allclose(
+            [b["outer_load"] for b in balls], br.equilibrium(scene).outer_load
+        )
+
+
+def test_a_terminal_gets_no_parquet(
+    capsys: pytest.CaptureFixture[str], scene_file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
+    assert "no text to read" in refused(capsys, "run", str(scene_file), "-o", "-")
+
+
+def test_explain_draws_the_scene(
+    capsys: pytest.CaptureFixture[str], scene_file: Path, tmp_path: Path
+) -> None:
+    assert main(["explain", str(scene_file), "--drawing", "scene.html"]) == 0
+    assert "contact angle" in (tmp_path / "scene.html").read_text(encoding="utf-8")
+    capsys.readouterr()
+    assert "html" in refused(capsys, "explain", str(scene_file), "--drawing", "scene.svg")

@@ -157,7 +157,7 @@ CALLS = {
         "br.campaign({'rows[0].clearance': [1e-6 * i for i in range(1000)]}, tempfile.mkdtemp(), scene=scene)",
     ),
     "grid": (TABLE, "for _ in range(1000): br.grid({'a': range(2000), 'b': range(2000)})"),
-    "envelope": (TABLE, "br.spectra.envelope(x, 50e3)"),
+    "envelope": (TABLE, "br.spectra.envelope_spectrum(x, 50e3)"),
     "line": (TABLE, "br.spectra.line(x=x, fs=50e3, near=100.0, width=5.0)"),
 }  # fmt: skip
 """Calls that take longer than half a second, by the program they stand in."""

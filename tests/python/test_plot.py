@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Literal
+
 import numpy as np
+import plotly.graph_objects as go
+import polars as pl
+import pytest
 from plotly.subplots import make_subplots
 
 import ballrace as br
 from ballrace import plot
+from ballrace._ellipse import axis_ratio, semi_axes
+from ballrace.plot.outlines import groove, outlines
 
 
 def test_signals(out: br.Signals) -> None:
@@ -43,4 +56,261 @@ def test_load_distribution(wheel: br.Scene) -> None:
 
 def test_one_name_is_a_column(out: br.Signals) -> None:
     fig = plot.signals(out, "outer.ay")
-    assert [trace.name for trace in fig.data] == ["outer.ay"]
+    assert [trace.name for trace in fig.data] == ["vertical acceleration, outer ring"]
+
+
+@pytest.fixture(scope="module")
+def faulty() -> br.Signals:
+    """A spall of an outer race, with a ball that passes it."""
+    defect = br.defects.spall(on="outer_race", width_mm=1.0)
+    scene = br.bearing("6205", radial_load=1000.0, defects=defect)
+    ball = br.scene.MotionProbe(body="row0.ball0", components=("x", "y"))
+    return br.simulate(scene.replace({"probes.ball": ball}), duration=0.1)
+
+
+@pytest.fixture(scope="module")
+def animated(wheel: br.Scene) -> br.Signals:
+    ready = wheel.replace({"probes": br.plot.probes(wheel)})
+    return br.simulate(ready, duration=0.004, settle=0.0)
+
+
+def test_pictures_come_with_the_package_and_plotly_when_drawn() -> None:
+    code = (
+        "import sys, ballrace as br; heavy = {'plotly', 'scipy', 'polars'};"
+        "assert not heavy & set(sys.modules); br.plot.CONFIG; assert 'plotly' not in sys.modules;"
+        "br.plot.section(br.presets.wheel_bearing()); assert 'plotly' in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+    assert "plot" in br.__all__
+    with pytest.raises(AttributeError, match="no attribute 'plots'"):
+        br.plots  # noqa: B018
+
+
+def drawn(faulty: br.Signals, wheel: br.Scene) -> dict[str, Callable[..., go.Figure]]:
+    eq = br.equilibrium(wheel)
+    found = br.spectra.kurtogram(faulty["outer.ay"], faulty.fs, narrowest=2000.0)
+    table = pl.DataFrame({"a": [1.0, 2.0], "b": [1.0, 1.0], "c": [3.0, 4.0]})
+    return {
+        "impacts": partial(plot.impacts, faulty),
+        "envelope_spectrum": partial(plot.envelope_spectrum, faulty),
+        "psd": partial(plot.psd, faulty),
+        "spectrogram": partial(plot.spectrogram, faulty),
+        "order_map": partial(plot.order_map, faulty, highest=5.0),
+        "kurtogram": partial(plot.kurtogram, found),
+        "orbit": partial(plot.orbit, faulty),
+        "ball_path": partial(plot.ball_path, faulty),
+        "section": partial(plot.section, wheel),
+        "campaign_map": partial(plot.campaign_map, table, "a", "b", "c"),
+        "distribution": partial(plot.distribution, table, "c"),
+        "unrolled": lambda fig=None, **layout: plot.unrolled(
+            wheel, eq, fig=None if fig is None else make_subplots(rows=2), **layout
+        ),
+    }
+
+
+def test_each_draws_into_a_figure_and_takes_a_layout(faulty: br.Signals, wheel: br.Scene) -> None:
+    for name, draw in drawn(faulty, wheel).items():
+        fig = draw(title="Own", height=333)
+        assert (fig.layout.title.text, fig.layout.height) == ("Own", 333), name
+        own = go.Figure()
+        again = draw(fig=own)
+        assert name == "unrolled" or again is own, name
+        assert len(again.data) == len(fig.data) > 0, name
+        titles = [a.title.text for a in fig.select_xaxes()] + [
+            a.title.text for a in fig.select_yaxes()
+        ]
+        assert all(text is None or "_" not in text for text in titles), name
+
+
+def test_impacts_stand_where_blows_are() -> None:
+    """Truth: blows at known times."""
+    fs, rates = 20_000.0, br.fault_frequencies("6205", 1797.0)
+    t = np.arange(10_000) / fs
+    since = (t - 0.002) % (1.0 / rates.bpfo)
+    x = np.exp(-900.0 * since) * np.sin(2 * np.pi * 3000.0 * since)
+    fig = plot.impacts(x, fs=fs, rates=rates, faults=["outer_race"])
+    marks = np.asarray(fig.data[1].x)
+    wanted = 0.002 + np.arange(-1, 60) / rates.bpfo
+    away = np.abs(marks[:, None] - wanted).min(axis=1)
+    assert away.max() < 1e-3  # the envelope's oscillation is highest a little after the blow begins
+    np.testing.assert_allclose(np.diff(marks), 1.0 / rates.bpfo)
+    assert fig.data[1].marker.symbol == "triangle-down"
+    assert len(plot.impacts(x, fs=fs).data) == 1  # nothing is known of the bearing
+
+
+def test_fault_lines_stand_at_the_operating_angle() -> None:
+    scene = br.bearing("6205", radial_load=300.0, axial_load=300.0)
+    defect = br.defects.spall(on="ball", width_mm=0.5)
+    out = br.simulate(scene.replace({"defects.d": defect}), duration=0.05)
+    rates = br.fault_frequencies(out)
+    fig = plot.envelope_spectrum(out, harmonics=2)
+    lines = np.asarray(fig.data[1].x[::3], dtype=float)
+    wanted = [2 * k * rates.bsf + side * rates.ftf for k in (1, 2) for side in (-1, 0, 1)]
+    np.testing.assert_allclose(lines, wanted)
+    nominal = br.fault_frequencies(out, operating=False)
+    assert abs(rates.bsf / nominal.bsf - 1.0) > 1e-3
+    assert fig.data[1].line.dash == "dot"
+    assert fig.layout.annotations[1].text == "2·BSF"
+
+
+def test_no_two_faults_look_alike_without_colour(faulty: br.Signals) -> None:
+    fig = plot.envelope_spectrum(faulty, faults=("outer_race", "inner_race", "ball", "cage"))
+    lines = fig.data[1:]
+    assert (
+        len({line.line.dash for line in lines}) == len({line.marker.symbol for line in lines}) == 4
+    )
+
+
+def test_spectra_lie_over_each_other_in_one_figure(faulty: br.Signals) -> None:
+    fig = plot.envelope_spectrum(faulty, faults=(), limit=400.0, name="one")
+    fig = plot.envelope_spectrum(faulty, band=(2000.0, 8000.0), limit=400.0, name="two", fig=fig)
+    assert [trace.name for trace in fig.data[:2]] == ["one", "two"]
+    assert fig.data[0].line.dash != fig.data[1].line.dash
+
+
+def test_ellipses_are_those_of_hertz() -> None:
+    """Truth: Brewe and Hamrock's fit of the axes, κ = 1.0339 (R_y/R_x)^0.636, within 3 % of the integrals."""
+    for name in ("6205", "7205B", "6310"):
+        row = br.bearing(name).rows[0]
+        gamma = row.ball_diameter * np.cos(row.contact_angle) / row.pitch_diameter
+        races: tuple[Literal["outer", "inner"], ...] = ("outer", "inner")
+        for race, rolling, f in zip(
+            races, (1 / (1 + gamma), 1 / (1 - gamma)), (row.outer_conformity, row.inner_conformity), strict=True
+        ):  # fmt: skip
+            fitted = 1.0339 * (rolling / (1.0 - 0.5 / f)) ** 0.636
+            assert axis_ratio(row, race) == pytest.approx(fitted, rel=0.03)
+    eq = br.equilibrium(br.bearing("6205", radial_load=2000.0))
+    a, b = semi_axes(row, "inner", eq.inner_load, eq.inner_pressure)
+    loaded = eq.inner_load > 0.0
+    area = np.pi * a * b * eq.inner_pressure
+    np.testing.assert_allclose(area[loaded], 1.5 * eq.inner_load[loaded])
+    assert not a[~loaded].any()
+
+
+def test_unrolled_has_the_contacts_in_their_places(wheel: br.Scene) -> None:
+    eq = br.equilibrium(wheel)
+    fig = plot.unrolled(wheel, eq)
+    heaviest = int(np.argmax(np.where(eq.row == 0, eq.outer_load, 0.0)))
+    text = f"{eq.outer_load[heaviest]:.0f} N"
+    (ellipse,) = [
+        d for d in fig.data if d.yaxis == "y" and (d.text or "").__str__().startswith(text)
+    ]
+    middle = 0.5 * (max(ellipse.y) + min(ellipse.y))
+    row = wheel.rows[0]
+    assert middle == pytest.approx(1e3 * (eq.outer_zone_centre[heaviest] - row.axial_position))
+    angle = 0.5 * (max(ellipse.x) + min(ellipse.x))
+    assert np.cos(np.radians(angle) - eq.angle[heaviest]) == pytest.approx(1.0)
+    (box,) = [d for d in fig.data if str(d.text).startswith("spall")]
+    assert (min(box.y), max(box.y)) == (pytest.approx(1.57), pytest.approx(3.07))
+
+
+def test_section_leans_the_way_of_the_model(wheel: br.Scene) -> None:
+    """Row 0, side +1, touches its outer race towards +z, where its spall lies: on the groove, at the bottom."""
+    fig = plot.section(wheel)
+    spall = next(d for d in fig.data if d.line.width == 6)
+    middle = float(np.mean(spall.x)) - 1e3 * wheel.rows[0].axial_position
+    assert middle == pytest.approx(2.32, abs=0.02)
+    assert max(spall.x) - min(spall.x) == pytest.approx(1.5)
+    assert max(spall.y) < 0.0
+    row = wheel.rows[0]
+    reach = 1e3 * (0.5 * row.pitch_diameter + 0.5 * row.ball_diameter)
+    assert -reach < min(spall.y) < -reach + 0.6
+    dashed = [d for d in fig.data if d.line.dash == "dash"]
+    assert dashed[0].x[1] > dashed[0].x[0]  # row 0, from inside to outside at the top
+    assert dashed[2].x[1] < dashed[2].x[0]
+    given = outlines(br.bearing("6205"))
+    assert (given.outside, given.bore, given.assumed) == (26.0, 12.5, False)
+    assert outlines(wheel).assumed
+
+
+def test_grooves_touch_the_balls_at_the_contact_angle() -> None:
+    """Truth: without clearance ball and race share a point there, on either side."""
+    rows = [*br.presets.wheel_bearing().rows, br.bearing("7205B").rows[0]]
+    for row in rows:
+        centre = np.array([1e3 * row.axial_position, 0.5e3 * row.pitch_diameter])
+        lean = row.side * row.contact_angle
+        out = 0.5e3 * row.ball_diameter * np.array([np.sin(lean), np.cos(lean)])
+        np.testing.assert_allclose(groove(row, "outer", np.array([lean]))[0], centre + out)
+        np.testing.assert_allclose(groove(row, "inner", np.array([-lean]))[0], centre - out)
+
+
+def test_orbit_is_seen_from_the_outer_ring(faulty: br.Signals) -> None:
+    relative, absolute = plot.orbit(faulty), plot.orbit(faulty, relative=False, skip=0.05)
+    first = 1e6 * (faulty["inner.x"] - faulty["outer.x"])[0]
+    assert relative.data[1].x[0] == pytest.approx(first)
+    late = int(np.searchsorted(faulty.t, 0.05))
+    assert absolute.data[1].y[0] == pytest.approx(1e6 * faulty["inner.y"][late])
+
+
+def test_a_ball_dips_into_the_spall(faulty: br.Signals) -> None:
+    fig = plot.ball_path(faulty)
+    x, y = (np.asarray(values) for values in (fig.data[0].x, fig.data[0].y))
+    inside = np.abs(x) < 0.5
+    assert y[inside].max() > 2.0 > 2.0 * np.abs(y[x < -1.0]).max()
+    with pytest.raises(br.SceneError, match="defect"):
+        plot.ball_path(faulty, "scratch")
+
+
+def test_frames_have_the_balls_where_the_run_has_them(animated: br.Signals) -> None:
+    fig = plot.animation(animated, frames=5, title="T")
+    assert len(fig.frames) == 5
+    last = fig.frames[-1]
+    ball = last.data[1]  # after the cage
+    end = animated.n_samples - 1
+    middle = 0.5 * (max(ball.x) + min(ball.x))
+    assert middle == pytest.approx(1e3 * animated["row0_ball0.x"][end], abs=1e-3)
+    size = max(ball.x) - min(ball.x)
+    assert size == pytest.approx(1e3 * animated.scene.rows[0].ball_diameter, rel=1e-3)
+    bars = next(d for d in last.data if d.name == "load")
+    loads = [animated[f"row0.ball{b}.outer.load"][end] for b in range(13)]
+    x, y = (np.asarray(values).reshape(13, 3) for values in (bars.x, bars.y))
+    lengths = np.hypot(x[:, 1] - x[:, 0], y[:, 1] - y[:, 0])
+    np.testing.assert_allclose(lengths / lengths.max(), loads / np.max(loads), atol=1e-3)
+    assert last.traces == tuple(range(len(fig.data) - len(last.data), len(fig.data)))
+
+
+def test_slices_of_a_run(out: br.Signals) -> None:
+    fig = plot.slice_forces(out)
+    assert out.slices is not None
+    assert len(fig.data) == out.slices.select("time", "race").unique().height
+    assert sum(fig.data[0].y) == pytest.approx(out.slices["force"][: len(fig.data[0].y)].sum())
+
+
+def test_one_row_of_several_cases(wheel: br.Scene) -> None:
+    loads = br.load_distribution(wheel, positions=2)
+    fig = plot.load_distribution({"a": loads, "b": br.equilibrium(wheel)}, row=1)
+    assert [(t.name, t.line.dash) for t in fig.data] == [("a", "solid"), ("b", "dash")]
+
+
+def test_bad_arguments_are_named(faulty: br.Signals, animated: br.Signals, wheel: br.Scene) -> None:
+    x = faulty["outer.ay"]
+    calls: dict[str, Callable[[], object]] = {
+        "fs": lambda: plot.psd(x),
+        "faults": lambda: plot.impacts(faulty, faults=["rollers"]),  # type: ignore[list-item]
+        "rates": lambda: plot.impacts(x, fs=1e4, faults=["ball"]),
+        "limit": lambda: plot.envelope_spectrum(faulty, limit=-1.0),
+        "highest": lambda: plot.order_map(faulty, highest=0.0),
+        "skip": lambda: plot.orbit(faulty, skip=1.0),
+        "cases": lambda: plot.slice_forces(faulty),
+        "row": lambda: plot.load_distribution(br.equilibrium(wheel), row=2),
+        "frames": lambda: plot.animation(animated, frames=1),
+        "start": lambda: plot.animation(animated, start=1.0),
+        "out": lambda: plot.animation(faulty),
+        "column": lambda: plot.campaign_map(pl.DataFrame({"a": [1.0]}), "a", "b", "a"),
+    }
+    for path, call in calls.items():
+        with pytest.raises(br.SceneError) as caught:
+            call()
+        assert caught.value.path == path
+    with pytest.raises(KeyError, match=r"outer\.aq"):
+        plot.psd(faulty, "outer.aq")
+
+
+def test_a_page_of_one_figure_is_whole(tmp_path: Path, wheel: br.Scene) -> None:
+    plot.write(plot.section(wheel), tmp_path / "section.html")
+    text = (tmp_path / "section.html").read_text(encoding="utf-8")
+    assert "plotly.js v" in text
+    assert not re.search(r"<script[^>]*\ssrc=", text)
+    assert '"displaylogo": false' in text
+    with pytest.raises(FileNotFoundError):
+        plot.write(plot.section(wheel), tmp_path / "nowhere" / "section.html")

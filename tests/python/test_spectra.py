@@ -130,7 +130,7 @@ def test_blows_give_lines_at_their_rate() -> None:
 def test_swelling_blows_have_sidebands() -> None:
     x = blows(161.683, 3.0, strength=0.6, swing=29.9325)
     squared = spectra.squared_envelope(x, FS, band=(1500.0, 5500.0))
-    frequencies, value = spectra.envelope(x, FS, band=(1500.0, 5500.0))
+    frequencies, value = spectra.squared_envelope_spectrum(x, FS, band=(1500.0, 5500.0))
     for k in (1, 2):
         for side in (-1, 1):
             expected = k * 161.683 + side * 29.9325

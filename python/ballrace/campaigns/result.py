@@ -11,12 +11,17 @@ from .._parquet import collected
 from .._text import printable
 from ..scene import Scene
 from .cases import apply
+from .measured import Measured, as_signals, features_table, measured, windows_table
 from .store import BASE, BUDGET, Store
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Iterator, Sequence
 
     import polars as pl
+
+    from ..measuring.tables import Chains
+    from ..signals import Signals
 
 __all__ = ["Campaign"]
 
@@ -149,13 +154,161 @@ class Campaign:
         SceneError
             The case failed because it has none that is usable.
         """
+        return Scene.from_json(self._applied(case_id)[0])
+
+    def _applied(self, case_id: str) -> tuple[str, str]:
+        """Return the scene of a case and the arguments of its run, as JSON."""
         rows = self._cases.filter(case_id=case_id)
         if rows.is_empty():
             raise KeyError(f"no case {case_id!r}")
         changes: dict[str, Any] = json.loads(rows["changes"][0])
         identity = self._store.identity
-        scene, _ = apply(changes, identity["scenes"], identity["run"])
-        return Scene.from_json(scene)
+        return apply(changes, identity["scenes"], identity["run"])
+
+    def run_of(self, case_id: str) -> Signals:
+        """Return the signals of a case with their scene and sampling rate, for functions that take a run.
+
+        Units, statistics and provenance are empty: the manifest has what a campaign keeps of them.
+
+        Raises
+        ------
+        KeyError
+            There is no such case with signals.
+        CampaignError
+            The shard that holds them is missing or damaged.
+        """
+        table = self.signals(case_id)
+        scene, run = self._applied(case_id)
+        return as_signals(table, json.loads(run)["fs"], Scene.from_json(scene))
+
+    def measurements(
+        self, chains: Chains, *, seed: int = 0, per_case: int | None = None
+    ) -> Iterator[Measured]:
+        """Measure every case whose signals were kept, one after the other; nothing is run again.
+
+        Parameters
+        ----------
+        chains : Chain, mapping of str to Chain, or sequence of Chain
+            Measuring chains, such as one for each of many housings; those without a name are numbered from 0.
+        seed : int
+            Every case and chain has its own noise, which follows from this seed.
+        per_case : int, optional
+            How many of the chains, drawn by chance, measure each case; by default all.
+
+        Yields
+        ------
+        Measured
+            ``case_id``, ``chain``, ``scene`` and ``measurement``.
+
+        Raises
+        ------
+        SceneError
+            An argument is not usable, or a column was not recorded.
+        """
+        kept = self.manifest.drop_nulls("signals")["case_id"].unique(maintain_order=True)
+        runs = ((case_id, self.run_of(case_id)) for case_id in kept)
+        return measured(runs, chains, seed=seed, per_case=per_case)
+
+    def measure(
+        self,
+        chains: Chains,
+        *,
+        seed: int = 0,
+        per_case: int | None = None,
+        skip: float = 0.0,
+        band: tuple[float, float] | None = None,
+    ) -> pl.DataFrame:
+        """Return the features of all cases as measuring chains show them, a line a case and chain.
+
+        Join it with the manifest by ``case_id`` for labels and parameters, and with
+        :func:`ballrace.measuring.table` by ``chain`` for those of the chains.
+
+        Parameters
+        ----------
+        chains, seed, per_case
+            As for :meth:`measurements`.
+        skip, band
+            As for :func:`ballrace.features`.
+
+        Returns
+        -------
+        DataFrame
+            ``case_id``, ``chain``, ``seed``, ``sampling_rate`` [Hz], ``clipped`` and the features
+            ``sensor.rms``, ….
+
+        Raises
+        ------
+        SceneError
+            An argument is not usable, or a column was not recorded.
+        """
+        lines = self.measurements(chains, seed=seed, per_case=per_case)
+        return features_table(lines, skip, band)
+
+    def windows(
+        self,
+        chains: Chains,
+        length: int,
+        hop: int | None = None,
+        *,
+        seed: int = 0,
+        per_case: int | None = None,
+    ) -> pl.DataFrame:
+        """Return windows of all cases as measuring chains show them, a line a window.
+
+        Parameters
+        ----------
+        chains, seed, per_case
+            As for :meth:`measurements`.
+        length, hop : int
+            Samples of a window, and from one to the next; by default they do not overlap.
+
+        Returns
+        -------
+        DataFrame
+            ``case_id``, ``chain``, ``seed``, ``sampling_rate`` [Hz], ``clipped`` (of the whole measurement),
+            ``start`` of the window [s] and ``x``, an array of ``length`` [m/s²].
+
+        Raises
+        ------
+        SceneError
+            An argument is not usable, or no measurement is that long.
+        """
+        lines = self.measurements(chains, seed=seed, per_case=per_case)
+        return windows_table(lines, length, hop)
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Columns of the table that the campaign ran: fields of the scene, and labels."""
+        return tuple(n for n in self._cases.columns if n not in ("case_id", "changes"))
+
+    def report(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        features: Sequence[str] | None = None,
+        title: str | None = None,
+    ) -> None:
+        """Write a report of the campaign: one page that needs no network, with maps, distributions and failures.
+
+        Parameters
+        ----------
+        path : str or path
+            File to write, ``.html``; one of the same name is replaced.
+        features : sequence of str, optional
+            Columns of the manifest that are drawn; by default a line of an envelope, a kurtosis and an rms.
+        title : str, optional
+            Title of the page; by default the folder's name.
+
+        Raises
+        ------
+        SceneError
+            The name does not end in ``.html``, there is no such column, or plotly is not installed.
+        OSError
+            The file cannot be written.
+        """
+        from ..report import campaign_page, write_page
+
+        write_page(path, lambda: campaign_page(self, features=features, title=title))
 
     def status(self) -> str:
         """Return how many cases have finished, failed and are missing, in one line."""

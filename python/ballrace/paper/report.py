@@ -8,6 +8,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from .._files import check_writable, whole
+from ..report.page import Page
 from .simulations import SIGNALS
 from .table import AXIAL_LOADS
 
@@ -136,26 +137,14 @@ def _page(paper: Paper) -> str:
         "Figure 10: normal forces, -3 kN": force(names[2]),
         "Figure 11: vertical acceleration of the outer ring, -3 kN": acceleration(names[2]),
     }
-    parts = [
-        '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>ballrace paper</title>',
-        "<style>body{font-family:sans-serif;max-width:1200px;margin:1rem auto}",
-        "td,th{padding:2px 10px;text-align:right}td:first-child,th:first-child{text-align:left}</style>",
-        "</head><body><h1>A 3D-ball bearing model for simulation of axial load variations</h1>",
-        "<p>The published case, run again: 7 kN radial load, defect on the outer ring, 30 turns a second.",
-        "Accelerations are cut off in the first milliseconds; forces are those at 0.017992 s.",
-        f"Signals are {SIGNALS}.</p>",
-        _html_table(rows(paper)),
-    ]
-    for number, (title, fig) in enumerate(figures.items()):
-        parts.append(f"<h2>{title}</h2>")
-        parts.append(fig.to_html(full_html=False, include_plotlyjs=number == 0))
-    return "\n".join([*parts, "</body></html>"])
-
-
-def _html_table(lines: list[list[str]]) -> str:
-    def row(tag: str, cells: list[str]) -> str:
-        marked = (cell.replace("<", "&lt;") for cell in cells)
-        return "<tr>" + "".join(f"<{tag}>{cell}</{tag}>" for cell in marked) + "</tr>"
-
-    body = [row("th", HEADER), *(row("td", line) for line in lines)]
-    return "<table>" + "".join(body) + "</table>"
+    made = Page("A 3D-ball bearing model for simulation of axial load variations")
+    made.text(
+        "The published case, run again: 7 kN radial load, defect on the outer ring, 30 turns a second. "
+        "Accelerations are cut off in the first milliseconds; forces are those at 0.017992 s. "
+        f"Signals are {SIGNALS}."
+    )
+    made.table(HEADER, rows(paper))
+    for title, fig in figures.items():
+        made.section(title)
+        made.figure(fig, None)
+    return made.html()

@@ -1,9 +1,4 @@
-"""Spectra of signals, and the frequencies of their lines to a fraction of a bin.
-
-A defect speaks in bursts: each blow rings at the frequencies of the structure, and the blows come at the
-rate of the defect. The squared envelope of the ringing keeps the blows and drops the ringing, and its
-spectrum has a line at the rate of the blows and at its multiples (J. Antoni, R. B. Randall, *The spectral
-kurtosis*, Mech. Syst. Signal Process. 20 (2006) 308, on the squared envelope in particular).
+"""Amplitude spectra, and the frequencies of lines to a fraction of a bin.
 
 All functions take plain arrays, remove the mean, weigh with a Hann window and give amplitudes: a sine of
 amplitude 2 has a line of height 2. Lines nearer to each other than four over the length of the record
@@ -17,57 +12,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from . import _core
-from ._interrupt import answers_ctrl_c
-from .errors import SceneError
+from .. import _core
+from .._interrupt import answers_ctrl_c
+from ..errors import SceneError
+from .checks import checked_signal
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["comb", "envelope", "floor", "line", "spectrum", "squared_envelope"]
-
-
-@answers_ctrl_c
-def squared_envelope(
-    x: ArrayLike, fs: float, band: tuple[float, float] | None = None
-) -> NDArray[np.float64]:
-    """Return the squared envelope of a signal in a band: the square of its analytic signal's magnitude.
-
-    Parameters
-    ----------
-    x : array_like, shape (n,)
-        Signal.
-    fs : float
-        Sampling rate [Hz].
-    band : tuple of two floats, optional
-        Lowest and highest frequency [Hz] that count; by default all. The edges are sharp, so the first and
-        the last few periods of the lower edge carry the filter's ringing.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        Squared envelope, in the unit of ``x`` squared.
-
-    Raises
-    ------
-    SceneError
-        An argument is not usable.
-
-    Examples
-    --------
-    >>> t = np.arange(1000) / 1000.0
-    >>> burst = (1.0 + 0.5 * np.cos(2 * np.pi * 7.0 * t)) * np.sin(2 * np.pi * 200.0 * t)
-    >>> found = squared_envelope(burst, 1000.0, band=(150.0, 250.0))
-    >>> bool(np.allclose(found, (1.0 + 0.5 * np.cos(2 * np.pi * 7.0 * t)) ** 2))
-    True
-    """
-    signal = checked_signal(x, fs)
-    low, high = (0.0, fs / 2.0) if band is None else band
-    if not 0.0 <= low < high <= fs / 2.0:
-        raise SceneError("band", str(band), f"two rising frequencies from 0 to fs/2, {fs / 2.0:g}")
-    return _core.squared_envelope(signal, fs, None if band is None else (low, high))
+__all__ = ["comb", "floor", "line", "spectrum"]
 
 
 @answers_ctrl_c
@@ -98,26 +53,6 @@ def spectrum(x: ArrayLike, fs: float) -> tuple[NDArray[np.float64], NDArray[np.f
     signal = checked_signal(x, fs)
     f = np.fft.rfftfreq(signal.size, 1.0 / fs)
     return f.astype(np.float64, copy=False), _core.amplitudes(signal, signal.size)
-
-
-def envelope(
-    x: ArrayLike, fs: float, band: tuple[float, float] | None = None
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the spectrum of the squared envelope of a signal in a band.
-
-    Parameters
-    ----------
-    x, fs, band
-        As for :func:`squared_envelope`.
-
-    Returns
-    -------
-    f : ndarray
-        Frequencies, from 0 to fs/2 [Hz].
-    value : ndarray
-        Amplitudes, in the unit of ``x`` squared.
-    """
-    return spectrum(squared_envelope(x, fs, band), fs)
 
 
 def line(x: ArrayLike, fs: float, near: float, width: float) -> tuple[float, float]:
@@ -274,26 +209,6 @@ def floor(
     if not near.any():
         raise SceneError("at", str(at), "within the spectrum, and width above its resolution")
     return at, float(np.median(value[near]))
-
-
-def checked_signal(x: ArrayLike, fs: float) -> NDArray[np.float64]:
-    """Return a signal as the core reads it.
-
-    Raises
-    ------
-    SceneError
-        It is no row of finite numbers, or too short, or its sampling rate is not usable.
-    """
-    signal = np.asarray(x, dtype=np.float64)
-    if signal.ndim != 1 or signal.size < 8:
-        raise SceneError(
-            "x", f"an array of shape {signal.shape}", "an array of shape (n,), n at least 8"
-        )
-    if not np.isfinite(signal).all():
-        raise SceneError("x", "not a number, or infinite, at places", "finite everywhere")
-    if not 0.0 < fs < math.inf:
-        raise SceneError("fs", str(fs), "above 0")
-    return signal
 
 
 def _summit(function: Callable[[float], float], middle: float, span: float) -> float:

@@ -1,0 +1,160 @@
+"""A scene of a bearing of the catalogue: what a user would choose who knows no more than its name and load."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from ..errors import SceneError
+from ..scene import (
+    Cage,
+    Coulomb,
+    Defect,
+    Load,
+    MotionProbe,
+    Ring,
+    Row,
+    Scene,
+    SpeedDrive,
+    Spring,
+    Support,
+)
+from .catalogue import Bearing, catalogue
+from .clearance import radial_clearance
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+__all__ = ["bearing"]
+
+_HALF_THE_BALLS = 1.22
+"""Thrust over Fr tan α with which half of the balls carry (Sjövall's integrals at ε = 0.5)."""
+
+_OF_6205 = (52e-3**2 - 39.04e-3**2) * 15e-3
+"""What the outer ring of a 6205 has of metal, but for a factor [m³]."""
+
+
+def bearing(
+    name: str | Bearing,
+    *,
+    radial_load: float | None = None,
+    axial_load: float | None = None,
+    speed_rpm: float = 1800.0,
+    clearance: str | float = "CN",
+    defects: Defect | Mapping[str, Defect] | None = None,
+) -> Scene:
+    """Return a scene of a bearing of the catalogue, ready to run.
+
+    It is built as :func:`ballrace.presets.deep_groove_6205` is: Hertz's law, Coulomb friction, a cage of pressed
+    steel with some play; the outer ring in a stiff housing (near 5 kHz, damped at 5 %, whatever the size), the
+    inner ring on a shaft; the motion of both rings recorded. What it assumes is in the fields of the scene, all of
+    which :meth:`ballrace.Scene.replace` changes.
+
+    Parameters
+    ----------
+    name : str or Bearing
+        Designation, such as ``"6205"``, ``"SKF 6205-2RS"`` or ``"7205B"``.
+    radial_load : float, optional
+        Load on the inner ring along -y [N]; by default a tenth of the static load rating.
+    axial_load : float, optional
+        Load on the inner ring along +z [N], of either sign on a deep groove bearing and by default none there. An
+        angular contact bearing holds it towards +z alone, and a radial load only together with it: more than
+        ``radial_load * tan(contact_angle)``. By default the opposed bearing gives it the thrust under which half
+        of its balls carry, 1.22 times that.
+    speed_rpm : float
+        Speed of the inner ring [rev/min].
+    clearance : {"C2", "CN", "C3", "C4"} or float
+        Of a deep groove bearing: the middle of a class of ISO 5753-1, or a diametral clearance [m]. Fits take
+        some of it. Angular contact bearings have none: their contact angle says it.
+    defects : Defect, or mapping of str to Defect
+        Defects, as :mod:`ballrace.defects` makes them; a single one is named ``defect``.
+
+    Raises
+    ------
+    SceneError
+        The name is not known (the message has those near), or an argument is not usable.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> scene = br.bearing("6205", radial_load=500.0, speed_rpm=1797.0,
+    ...                    defects=br.defects.spall(on="inner_race", width_mm=0.5))
+    >>> eq = br.equilibrium(scene)
+    >>> out = br.simulate(scene, duration=0.002)
+    """
+    made = name if isinstance(name, Bearing) else catalogue[name]
+    radial = 0.1 * made.static_rating if radial_load is None else _load("radial_load", radial_load)
+    axial = _thrust(made, radial, axial_load)
+    if not math.isfinite(speed_rpm):
+        raise SceneError("speed_rpm", str(speed_rpm), "a speed [rev/min]")
+    named = {"defect": defects} if isinstance(defects, Defect) else dict(defects or {})
+    size = (made.outside_diameter**2 - made.pitch_diameter**2) * made.width / _OF_6205
+    return Scene(
+        name=made.designation,
+        rows=(_row(made, clearance),),
+        outer_ring=_ring(made.outside_diameter, made, 1e8 * size, 300.0 * size, None),
+        # With 1 kg of shaft in a 6205, damped by its surroundings.
+        inner_ring=_ring(made.bore, made, 0.0, 300.0 * size, 1.0 * size),
+        friction=Coulomb(coefficient=0.05, slip_speed=0.1),
+        cage=Cage(stiffness=1e6, damping=20.0, play=0.1e-3),
+        loads={
+            "radial": Load(ring="inner", direction=(0.0, -1.0, 0.0), force=radial),
+            "axial": Load(ring="inner", direction=(0.0, 0.0, 1.0), force=axial),
+        },
+        drive=SpeedDrive(speed_rpm * math.pi / 30.0),
+        defects=named,
+        probes={"outer": MotionProbe(body="outer"), "inner": MotionProbe(body="inner")},
+    ).validate()
+
+
+def _row(made: Bearing, clearance: str | float) -> Row:
+    deep = made.kind == "deep_groove"
+    if not (deep or clearance == "CN"):
+        allowed = (
+            "left away: the clearance of an angular contact bearing follows from its contact angle"
+        )
+        raise SceneError("clearance", repr(clearance), allowed)
+    return Row(
+        ball_count=made.ball_count,
+        ball_diameter=made.ball_diameter,
+        pitch_diameter=made.pitch_diameter,
+        outer_conformity=made.outer_conformity,
+        inner_conformity=made.inner_conformity,
+        contact_angle=made.contact_angle,
+        clearance=radial_clearance(made.bore, clearance) if deep else 0.0,
+        # A ball on the load line at the start.
+        start_angle=-math.pi / 2.0,
+    )
+
+
+def _ring(
+    diameter: float, made: Bearing, stiffness: float, damping: float, mass: float | None
+) -> Ring:
+    held = Spring(stiffness=stiffness, damping=damping)
+    support = Support(x=held, y=held, z=held)
+    return Ring(mass=mass, diameter=diameter, width=made.width, support=support)
+
+
+def _thrust(made: Bearing, radial: float, axial: float | None) -> float:
+    """Return the axial load, which an angular contact bearing needs to hold together."""
+    least = radial * math.tan(made.contact_angle)
+    if axial is None:
+        return _HALF_THE_BALLS * least
+    axial = _load("axial_load", axial)
+    if made.kind == "angular_contact" and not (axial > least or axial == radial == 0.0):
+        allowed = (
+            f"above {least:.4g} N towards +z, radial_load * tan(contact angle): with less the rings of a "
+            f"{made.designation} come apart; by default its opposed bearing gives it what half of the balls need"
+        )
+        raise SceneError("axial_load", f"{axial:g}", allowed)
+    return axial
+
+
+def _load(name: str, value: float) -> float:
+    if (
+        isinstance(value, bool)
+        or not math.isfinite(value)
+        or (name == "radial_load" and value < 0.0)
+    ):
+        raise SceneError(name, repr(value), "a load [N], the radial one along -y and from 0")
+    return float(value)

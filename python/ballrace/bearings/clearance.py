@@ -1,0 +1,61 @@
+"""Radial internal clearance of deep groove ball bearings, ISO 5753-1."""
+
+from __future__ import annotations
+
+import math
+
+from ..errors import SceneError
+
+__all__ = ["CLASSES", "radial_clearance"]
+
+CLASSES = ("C2", "CN", "C3", "C4")
+
+# Bore up to and including [mm], then least and largest clearance of C2, CN, C3, C4 [µm].
+_TABLE = (
+    (10.0, ((0, 7), (2, 13), (8, 23), (14, 29))),
+    (18.0, ((0, 9), (3, 18), (11, 25), (18, 33))),
+    (24.0, ((0, 10), (5, 20), (13, 28), (20, 36))),
+    (30.0, ((1, 11), (5, 20), (13, 28), (23, 41))),
+    (40.0, ((1, 11), (6, 20), (15, 33), (28, 46))),
+    (50.0, ((1, 11), (6, 23), (18, 36), (30, 51))),
+    (65.0, ((1, 15), (8, 28), (23, 43), (38, 61))),
+    (80.0, ((1, 15), (10, 30), (25, 51), (46, 71))),
+    (100.0, ((1, 18), (12, 36), (30, 58), (53, 84))),
+)
+
+
+def radial_clearance(bore: float, clearance: str | float) -> float:
+    """Return the diametral clearance of a deep groove bearing [m]: the middle of a class, or a number as it is.
+
+    Parameters
+    ----------
+    bore : float
+        Bore [m].
+    clearance : {"C2", "CN", "C3", "C4"} or float
+        Class of ISO 5753-1, before mounting; or the clearance [m].
+
+    Raises
+    ------
+    SceneError
+        There is no such class, or the bore is beyond the table.
+
+    Examples
+    --------
+    >>> round(1e6 * radial_clearance(25e-3, "CN"), 2)
+    12.5
+    """
+    if not isinstance(clearance, str):
+        if isinstance(clearance, bool) or not math.isfinite(clearance):
+            raise SceneError(
+                "clearance", repr(clearance), "a number [m], or one of " + ", ".join(CLASSES)
+            )
+        return float(clearance)
+    if clearance not in CLASSES:
+        raise SceneError(
+            "clearance", repr(clearance), "a number [m], or one of " + ", ".join(CLASSES)
+        )
+    for largest, limits in _TABLE:
+        if bore <= largest * (1e-3 + 1e-12):
+            low, high = limits[CLASSES.index(clearance)]
+            return 0.5e-6 * (low + high)
+    raise SceneError("clearance", clearance, "a number [m]: the table ends at a bore of 100 mm")

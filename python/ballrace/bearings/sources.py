@@ -1,0 +1,49 @@
+"""Where the numbers of the catalogue come from, by the words in its table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+__all__ = ["BOUNDARY", "CONFORMITY", "SOURCES", "Sources"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sources:
+    """Where the numbers of a bearing come from.
+
+    Attributes
+    ----------
+    balls, pitch_diameter, boundary, conformity, ratings : str
+        A sentence each: on number and diameter of the balls; the pitch diameter; bore, outside diameter and width;
+        the radii of the grooves; the load ratings.
+    """
+
+    balls: str
+    pitch_diameter: str
+    boundary: str
+    conformity: str
+    ratings: str
+
+
+BOUNDARY = "ISO 15, as in the makers' tables"
+"""Bore, outside diameter and width."""
+
+CONFORMITY = (
+    "assumed: the largest that ISO 76 rates, 0.52 inside and 0.53 outside; makers do not publish it"
+)
+"""Groove radii."""
+
+SOURCES = {
+    "ratings": "estimated: the set of 1/64 inch balls that has the printed ratings by ISO 76 and ISO 281",
+    "mean": "estimated: the mean of bore and outside diameter; 0 to 1 % more in real bearings",
+    "nsk": "NSK rolling bearing tables",
+    "nsk_precision": "NSK super-precision tables",
+    "cwru": "Case Western Reserve University bearing data, drive end (SKF 6205-2RS JEM)",
+    "paderborn": "Paderborn University KAt data (its 6203; CWRU's fan end gives 6.746 on 28.5 mm)",
+    "pronostia": "FEMTO-ST PRONOSTIA data (NSK 6804)",
+    "xjtu": "XJTU-SY data (LDK UER204)",
+    "spectraquest": "SpectraQuest, with the Ottawa data: 0.3125 inch on 1.516 inch (others print 39.3 mm)",
+    "size205": "assumed: as of a 6205, whose balls it has",
+    "harris": "T. A. Harris, Rolling Bearing Analysis, the 218 angular contact bearing",
+}
+"""Sentence by the word in ``bearings.csv``."""

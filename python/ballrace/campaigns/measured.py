@@ -1,0 +1,143 @@
+"""The kept signals of a campaign through measuring chains, without running anything again."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .._features import features
+from ..errors import SceneError
+from ..measuring import Measurement, measure
+from ..measuring.tables import Chains, named_chains
+from ..scene import Scene
+from ..signals import Signals
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import polars as pl
+
+__all__ = ["Measured", "features_table", "measured", "windows_table"]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Measured:
+    """A case as one chain measures it.
+
+    Attributes
+    ----------
+    case_id, chain : str
+        The case, and the name of the chain.
+    scene : Scene
+        The scene of the case.
+    measurement : Measurement
+        What was measured.
+    """
+
+    case_id: str
+    chain: str
+    scene: Scene
+    measurement: Measurement
+
+    def labels(self) -> dict[str, Any]:
+        """Return what a line of a table says of it."""
+        found = self.measurement
+        return {
+            "case_id": self.case_id,
+            "chain": self.chain,
+            "seed": found.seed,
+            "sampling_rate": found.fs,
+            "clipped": found.clipped,
+        }
+
+
+def measured(
+    runs: Iterator[tuple[str, Signals]], chains: Chains, *, seed: int, per_case: int | None
+) -> Iterator[Measured]:
+    """Measure runs, each with the id of its case, with every chain or some of them.
+
+    Raises
+    ------
+    SceneError
+        There is no chain, or no such number of them.
+    """
+    named = named_chains(chains)
+    if per_case is not None and not 1 <= per_case <= len(named):
+        raise SceneError("per_case", str(per_case), f"None, or 1 to {len(named)}, the chains")
+    for case_id, out in runs:
+        for name in _drawn(list(named), per_case, f"{seed}/{case_id}"):
+            own = _number(f"{seed}/{case_id}/{name}")
+            found = measure(out, named[name], seed=own)
+            yield Measured(case_id=case_id, chain=name, scene=out.scene, measurement=found)
+
+
+def features_table(
+    lines: Iterator[Measured], skip: float, band: tuple[float, float] | None
+) -> pl.DataFrame:
+    """Return a line for each measurement: its labels, and its features as ``sensor.rms`` and so on."""
+    from .._polars import pl
+
+    rows = []
+    for line in lines:
+        x, fs = line.measurement.x, line.measurement.fs
+        found = features(x, fs, name="sensor", scene=line.scene, skip=skip, band=band)
+        rows.append(line.labels() | found)
+    return pl.DataFrame(rows, infer_schema_length=None)
+
+
+def windows_table(lines: Iterator[Measured], length: int, hop: int | None) -> pl.DataFrame:
+    """Return a table with a line for each window of each measurement.
+
+    Raises
+    ------
+    SceneError
+        The length or the hop is not usable.
+    """
+    from .._polars import pl
+
+    hop = length if hop is None else hop
+    for name, value in (("length", length), ("hop", hop)):
+        if isinstance(value, bool) or value < 1:
+            raise SceneError(name, repr(value), "a number of samples, from 1")
+    frames = []
+    for line in lines:
+        x = line.measurement.x
+        starts = np.arange(0, x.size - length + 1, hop)
+        cut = np.lib.stride_tricks.sliding_window_view(x, length)[starts] if starts.size else None
+        if cut is not None:
+            labels = {name: [value] * starts.size for name, value in line.labels().items()}
+            times = line.measurement.start + starts / line.measurement.fs
+            frames.append(pl.DataFrame(labels | {"start": times, "x": cut}))
+    if not frames:
+        raise SceneError("length", str(length), "at most the samples of a measurement")
+    return pl.concat(frames)
+
+
+def _drawn(names: list[str], count: int | None, key: str) -> list[str]:
+    """Return all names, or some of them by chance, in their order."""
+    if count is None:
+        return names
+    rng = np.random.default_rng(_number(key))
+    return [names[i] for i in sorted(rng.choice(len(names), count, replace=False))]
+
+
+def _number(key: str) -> int:
+    """Return a seed that belongs to a text, the same everywhere."""
+    return int.from_bytes(hashlib.blake2b(key.encode(), digest_size=6).digest(), "big")
+
+
+def as_signals(table: pl.DataFrame, fs: float, scene: Scene) -> Signals:
+    """Return the kept samples of a case as signals of its scene."""
+    columns = {name: table[name].to_numpy() for name in table.columns if name != "t"}
+    return Signals(
+        fs=fs,
+        t=table["t"].to_numpy(),
+        columns=columns,
+        units={},
+        scene=scene.to_json(),
+        stats={},
+        provenance={},
+    )

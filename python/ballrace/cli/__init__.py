@@ -1,0 +1,62 @@
+"""The command ``ballrace``."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import sys
+from typing import TYPE_CHECKING
+
+from .._text import printable
+from ..campaigns.cli import add_command as add_campaign
+from ..errors import BallraceError, SceneError
+from . import about, papers, running, signals, standing
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["main"]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command and return its exit status.
+
+    0 is success, 1 a run that failed, 2 bad input (nothing was written), 130 Ctrl-C.
+    """
+    options = _parser().parse_args(arguments)
+    try:
+        options.command(options)
+        sys.stdout.flush()
+    except KeyboardInterrupt as error:
+        return _fail(str(error) or "interrupted", 130)
+    except BrokenPipeError:
+        # The reader of our output has gone: nothing more to say, also not while Python shuts down.
+        with contextlib.suppress(OSError, ValueError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except SceneError as error:
+        return _fail(str(error), 2)
+    except BallraceError as error:
+        return _fail(str(error), 1)
+    except OSError as error:
+        place = f"{error.filename}: " if error.filename else ""
+        return _fail(f"{place}{error.strerror or error}", 2)
+    return 0
+
+
+def _fail(message: str, status: int) -> int:
+    print(f"ballrace: {' '.join(printable(message).split())}", file=sys.stderr)
+    return status
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="ballrace", description="Ball bearings simulated in three dimensions."
+    )
+    parser.add_argument("--version", action="version", version=f"ballrace {about.version()}")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    for room in (papers, running, standing, signals, about):
+        room.add_commands(commands)
+    add_campaign(commands)
+    return parser

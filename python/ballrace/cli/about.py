@@ -1,0 +1,99 @@
+"""``ballrace frequencies``, ``ballrace schema`` and ``ballrace doctor``."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import importlib.util
+import json
+import platform
+import sys
+from typing import TYPE_CHECKING
+
+from .. import _core
+from ..bearings import catalogue
+from ..errors import BallraceError
+from ..operating import fault_frequencies
+from ..presets import deep_groove_6205
+from ..run import simulate
+from ..scene.schema import schema
+from .arguments import Commands, added
+from .tables import print_table
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_commands", "version"]
+
+_EXTRAS = {
+    "numpy": "", "polars": "", "scipy": "", "plotly": "plot", "h5py": "io", "pyuff": "io",
+    "distributed": "campaign",
+}  # fmt: skip
+"""Libraries by the extra that installs them; without one they always are."""
+
+
+def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
+    """Add the subcommands."""
+    found = added(
+        commands, "frequencies", "print the fault frequencies of a bearing of the catalogue",
+        "ballrace frequencies 6205 --rpm 1797", _frequencies,
+    )  # fmt: skip
+    found.add_argument("bearing", metavar="NAME", help="designation, such as 6205 or 7205B")
+    found.add_argument(
+        "--rpm", type=float, help="speed of the inner ring, rev/min (default: orders of the shaft)"
+    )
+    found.add_argument("--json", action="store_true", help="print them as JSON")
+    added(
+        commands, "schema", "print the JSON Schema of scenes, for editors and other programs",
+        "ballrace schema > scene.schema.json", _schema,
+    )  # fmt: skip
+    added(commands, "doctor", "say what is installed, and try a run", "ballrace doctor", _doctor)
+
+
+def version() -> str:
+    """Return the installed version."""
+    return importlib.metadata.version("ballrace")
+
+
+def _frequencies(options: argparse.Namespace) -> None:
+    row = catalogue[options.bearing]
+    rates = fault_frequencies(row, 60.0 if options.rpm is None else options.rpm)
+    unit = "per turn" if options.rpm is None else "Hz"
+    values = {
+        "shaft": rates.shaft, "FTF": rates.ftf, "BPFO": rates.bpfo, "BPFI": rates.bpfi, "BSF": rates.bsf,
+        "2·BSF": 2.0 * rates.bsf,
+    }  # fmt: skip
+    if options.json:
+        told = {"bearing": row.designation, "speed_rpm": options.rpm, "unit": unit, **values}
+        print(json.dumps(told, indent=2, ensure_ascii=False))
+        return
+    ball, pitch = 1e3 * row.ball_diameter, 1e3 * row.pitch_diameter
+    print(f"{row.designation}: {row.ball_count} balls of {ball:g} mm on {pitch:g} mm")
+    print_table(["", unit], [[name, f"{value:.4f}"] for name, value in values.items()])
+
+
+def _schema(options: argparse.Namespace) -> None:
+    del options
+    print(json.dumps(schema(), indent=2))
+
+
+def _doctor(options: argparse.Namespace) -> None:
+    del options
+    print(f"ballrace {version()}, Python {platform.python_version()}, {platform.platform()}")
+    print(f"threads: {_core.available_threads()}")
+    lines = []
+    for name, extra in _EXTRAS.items():
+        there = importlib.util.find_spec(name) is not None
+        told = (
+            importlib.metadata.version(name)
+            if there
+            else f'missing: pip install "ballrace[{extra}]"'
+        )
+        lines.append([name, told])
+    print_table(["library", "version"], lines)
+    out = simulate(deep_groove_6205(), duration=0.002)
+    distrust = out.provenance.distrust
+    print(f"vector instructions: {out.provenance.simd}" + (f" ({distrust})" if distrust else ""))
+    print(f"a run of 2 ms took {1e3 * out.stats.wall_time:.0f} ms, {out.stats.nfev} evaluations")
+    if sys.version_info < (3, 11) or distrust:
+        raise BallraceError("something of the above is not as it should be")
+    print("all is well")

@@ -1,0 +1,66 @@
+"""Arguments that several subcommands have, and what stands behind them."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..errors import SceneError
+from ..scene import Scene
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["Commands", "add_scene", "added", "read_scene"]
+
+Commands = argparse._SubParsersAction
+
+
+def added(
+    commands: Commands[argparse.ArgumentParser],
+    name: str,
+    does: str,
+    example: str,
+    command: Callable[[argparse.Namespace], None],
+) -> argparse.ArgumentParser:
+    """Add a subcommand that says what it does with one example."""
+    parser = commands.add_parser(
+        name,
+        help=does,
+        description=f"{does[0].upper()}{does[1:]}.",
+        epilog=f"example: {example}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.set_defaults(command=command)
+    return parser
+
+
+def add_scene(parser: argparse.ArgumentParser) -> None:
+    """Add the argument of a scene."""
+    parser.add_argument(
+        "scene",
+        type=Path,
+        metavar="SCENE",
+        help="scene, a .toml or .json file; - reads standard input",
+    )
+
+
+def read_scene(path: Path) -> Scene:
+    """Read a scene from a file, or from standard input where the name is ``-``: TOML, or JSON if it begins so.
+
+    Raises
+    ------
+    SceneError
+        It is no usable scene.
+    OSError
+        The file cannot be read.
+    """
+    if str(path) != "-":
+        return Scene.load(path)
+    try:
+        text = sys.stdin.buffer.read().decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise SceneError("scene", "standard input", f"text in UTF-8 ({error})") from error
+    return Scene.from_json(text) if text.lstrip().startswith("{") else Scene.from_toml(text)

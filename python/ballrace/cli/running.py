@@ -1,0 +1,102 @@
+"""``ballrace run`` and ``ballrace scene``."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, get_args
+
+from .. import presets
+from .._files import check_output
+from .._text import printable
+from ..campaigns.cli import add_budget
+from ..errors import SceneError
+from ..options import ARGUMENTS, Run
+from ..run import simulate
+from ..scene import Method
+from .arguments import Commands, add_scene, added, read_scene
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_commands"]
+
+_DEFAULTS = Run()
+_RUN_OPTIONS: dict[str, dict[str, Any]] = {
+    "duration": {
+        "type": float, "metavar": "SECONDS", "help": "simulated time (default: %(default)s)",
+    },
+    "fs": {"type": float, "metavar": "HZ", "help": "sampling rate (default: %(default)g)"},
+    "start": {
+        "choices": ("equilibrium", "rolling"), "help": "where the run starts (default: %(default)s)",
+    },
+    "rtol": {"type": float, "help": "relative tolerance (default: the scene's)"},
+    "accuracy": {
+        "type": float, "help": "error of accelerations to stay below, in place of --rtol",
+    },
+    "method": {"choices": get_args(Method), "help": "method of integration (default: the scene's)"},
+    "settle": {
+        "type": float, "metavar": "SECONDS",
+        "help": "time before t = 0 in which the start dies down (default: as long as the scene needs; 0: none)",
+    },
+    "threads": {"type": int, "help": "threads (default: chosen; no influence on the result)"},
+    "bandwidth": {
+        "choices": ("auto", "none"),
+        "help": "auto: signals through a low-pass of 0.4 fs; none: point samples (default: %(default)s)",
+    },
+}  # fmt: skip
+"""Options of a run beside its budget, by the names of its arguments."""
+
+
+def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
+    """Add both subcommands."""
+    run = added(
+        commands, "run", "run a scene and write its signals to a Parquet file",
+        "ballrace scene deep-groove-6205 | ballrace run - -o out.parquet --duration 0.5", _run,
+    )  # fmt: skip
+    add_scene(run)
+    run.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="FILE",
+        help="Parquet file to write; - writes it to a pipe on standard output",
+    )  # fmt: skip
+    for name, option in _RUN_OPTIONS.items():
+        run.add_argument(f"--{name}", default=getattr(_DEFAULTS, name), **option)
+    add_budget(run, "the run")
+    scene = added(
+        commands, "scene", "print a ready-made scene as TOML, to start from",
+        "ballrace scene wheel-bearing > scene.toml", _scene,
+    )  # fmt: skip
+    scene.add_argument(
+        "name", metavar="NAME", type=lambda name: name.replace("-", "_"), choices=presets.names(),
+        help=" or ".join(name.replace("_", "-") for name in presets.names()),
+    )  # fmt: skip
+
+
+def _run(options: argparse.Namespace) -> None:
+    streamed = str(options.output) == "-"
+    if streamed and sys.stdout.isatty():
+        raise SceneError("output", "-", "a pipe or the name of a file; Parquet is no text to read")
+    if not streamed:
+        check_output(options.output, read=None if str(options.scene) == "-" else options.scene)
+    options.bandwidth = None if options.bandwidth == "none" else options.bandwidth
+    arguments = {name: getattr(options, name) for name in ARGUMENTS}
+    scene = read_scene(options.scene)
+    if not streamed:
+        out = simulate(scene, **arguments, progress=True, out=options.output)
+        print(f"{printable(str(options.output))}: {len(out)} columns, {out.n_samples} samples")
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "out.parquet"
+        simulate(scene, **arguments, progress=True, out=path)
+        with path.open("rb") as file:
+            shutil.copyfileobj(file, sys.stdout.buffer)
+
+
+def _scene(options: argparse.Namespace) -> None:
+    print(
+        f"# The preset {options.name} of ballrace; SI units. What each field means: help(ballrace.scene)."
+    )
+    print(f"# Run it: ballrace run {options.name}.toml -o {options.name}.parquet\n")
+    print(getattr(presets, options.name)().to_toml(), end="")

@@ -1,0 +1,207 @@
+"""``ballrace report`` and ``ballrace spectrum``: what a file of signals holds."""
+
+from __future__ import annotations
+
+import csv
+import shutil
+import sys
+import tempfile
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .. import spectra
+from .._files import check_writable, whole
+from .._text import printable
+from ..campaigns import Campaign
+from ..errors import SceneError
+from ..operating import fault_frequencies
+from ..recordings import read
+from ..signals import Signals
+from .arguments import Commands, added
+from .tables import print_table
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Iterator
+
+    from ..operating import FaultFrequencies
+    from ..recordings.columns import Columns
+
+__all__ = ["add_commands"]
+
+_STRONGEST = 10
+
+
+def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
+    """Add both subcommands."""
+    _add_report(commands)
+    _add_spectrum(commands)
+
+
+def _add_report(commands: Commands[argparse.ArgumentParser]) -> None:
+    report = added(
+        commands, "report", "write a report of a run or a campaign: one page that needs no network",
+        "ballrace report out.parquet -o report.html", _report,
+    )  # fmt: skip
+    report.add_argument(
+        "file", type=Path, metavar="FILE",
+        help="Parquet file of a run, or folder of a campaign; - reads a file from standard input",
+    )  # fmt: skip
+    report.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="FILE", help="page to write, .html"
+    )
+    report.add_argument(
+        "--columns", nargs="+", metavar="COLUMN",
+        help="signals of a run, or features of a campaign, that are shown (default: chosen)",
+    )  # fmt: skip
+    report.add_argument("--title", help="title of the page (default: name of the scene or folder)")
+
+
+def _add_spectrum(commands: Commands[argparse.ArgumentParser]) -> None:
+    spectrum = added(
+        commands, "spectrum", "print the strongest lines of a signal's envelope spectrum, or write it whole",
+        "ballrace spectrum out.parquet --column outer.ay --band 2000 6000 -o spectrum.html", _spectrum,
+    )  # fmt: skip
+    spectrum.add_argument(
+        "file", type=Path, metavar="FILE",
+        help="signals: Parquet, CSV, WAV, MATLAB, UFF58, HDF5; - reads Parquet from standard input",
+    )  # fmt: skip
+    spectrum.add_argument(
+        "--column", help="column (default: outer.ay if there is one, else the first)"
+    )
+    spectrum.add_argument(
+        "--band",
+        type=float,
+        nargs=2,
+        metavar=("LOW", "HIGH"),
+        help="band of the envelope, Hz (default: all)",
+    )
+    spectrum.add_argument(
+        "--plain", action="store_true", help="of the signal itself, not of its envelope"
+    )
+    spectrum.add_argument(
+        "--bearing", metavar="NAME", help="of the catalogue, for fault lines of a measured signal"
+    )
+    spectrum.add_argument(
+        "--rpm", type=float, help="speed, for fault lines of a measured signal, rev/min"
+    )
+    spectrum.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE",
+        help=".csv of all lines, or .html; - prints the CSV",
+    )
+
+
+@contextmanager
+def _local(path: Path) -> Iterator[Path]:
+    """Give the name of a file, into which standard input goes where the name is ``-``."""
+    if str(path) != "-":
+        yield path
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        local = Path(folder) / "stdin.parquet"
+        with local.open("wb") as file:
+            shutil.copyfileobj(sys.stdin.buffer, file)
+        yield local
+
+
+def _report(options: argparse.Namespace) -> None:
+    with _local(options.file) as path:
+        if path.is_dir():
+            done = Campaign.open(path)
+            done.report(options.output, features=options.columns, title=options.title)
+        else:
+            out = Signals.read_parquet(path)
+            out.report(options.output, columns=options.columns, title=options.title)
+    print(f"{printable(str(options.output))}: {options.output.stat().st_size / 1e6:.1f} MB")
+
+
+def _spectrum(options: argparse.Namespace) -> None:
+    band = None if options.band is None else (options.band[0], options.band[1])
+    if options.plain and band is not None:
+        raise SceneError("band", str(band), "left away with --plain: it is that of the envelope")
+    if options.output is not None and str(options.output) != "-":
+        if options.output.suffix.lower() not in (".csv", ".html"):
+            raise SceneError("output", str(options.output), "a file that ends in .csv or .html")
+        check_writable(options.output)
+    with _local(options.file) as path:
+        out = _read(path)
+        rates = _rates(out, options.bearing, options.rpm)
+        name = options.column or ("outer.ay" if "outer.ay" in out else next(iter(out)))
+        if name not in out:
+            raise SceneError("column", repr(name), f"one of {', '.join(out)}")
+        if options.output is not None and options.output.suffix.lower() == ".html":
+            _write_page(out, name, band, rates, options)
+            return
+        x, fs = out[name], out.fs
+        found = spectra.spectrum(x, fs) if options.plain else spectra.envelope_spectrum(x, fs, band)
+    lines = zip(found[0].tolist(), found[1].tolist(), strict=True)
+    if options.output is None:
+        _print_strongest(list(lines), rates)
+    elif str(options.output) == "-":
+        csv.writer(sys.stdout, lineterminator="\n").writerows([("frequency", "value"), *lines])
+    else:
+        with whole(options.output) as temporary, temporary.open("w", newline="") as file:
+            csv.writer(file).writerows([("frequency", "value"), *lines])
+
+
+def _read(path: Path) -> Columns:
+    """Read a run, which knows its scene, or a record."""
+    try:
+        return (
+            Signals.read_parquet(path)
+            if path.suffix.lower() in (".parquet", ".pq", "")
+            else read(path)
+        )
+    except SceneError:
+        raise
+    except Exception as error:
+        if type(error).__name__ != "FileError":
+            raise
+        return read(path)
+
+
+def _rates(out: Columns, bearing: str | None, rpm: float | None) -> FaultFrequencies | None:
+    if bearing is not None:
+        shaft = getattr(out, "shaft", None)
+        return fault_frequencies(bearing, rpm if rpm is not None or shaft is None else 60.0 * shaft)
+    if isinstance(out, Signals):
+        try:
+            return fault_frequencies(out, rpm)
+        except SceneError:
+            return None  # the speed changes
+    return None
+
+
+def _write_page(
+    out: Columns, name: str, band: tuple[float, float] | None, rates: FaultFrequencies | None,
+    options: argparse.Namespace,
+) -> None:  # fmt: skip
+    from .. import plot
+
+    if options.plain:
+        raise SceneError("plain", "True", "a .csv file: the page shows the envelope with its lines")
+    plot.write(plot.envelope_spectrum(out, name, band=band, rates=rates), options.output)
+    print(f"{printable(str(options.output))}: {options.output.stat().st_size / 1e6:.1f} MB")
+
+
+def _print_strongest(lines: list[tuple[float, float]], rates: FaultFrequencies | None) -> None:
+    """Print the highest summits, with the nearest fault line within a line's width of each."""
+    inner = range(1, len(lines) - 1)
+    summits = [k for k in inner if lines[k - 1][1] < lines[k][1] >= lines[k + 1][1]]
+    summits.sort(key=lambda k: -lines[k][1])
+    width = 2.0 * (lines[1][0] - lines[0][0])
+    bands = (
+        () if rates is None else spectra.fault_bands(rates.orders, abs(rates.shaft), harmonics=5)
+    )
+    rows = []
+    for k in summits[:_STRONGEST]:
+        f, value = lines[k]
+        near = sorted(
+            (abs(b.centre - f), b.label) for b in bands if b.low - width <= f <= b.high + width
+        )
+        rows.append([f"{f:.2f}", f"{value:.4g}", near[0][1] if near else ""])
+    print_table(["frequency Hz", "value", "near"], rows)

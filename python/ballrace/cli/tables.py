@@ -1,0 +1,25 @@
+"""Tables as text."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["numbers", "print_table"]
+
+
+def numbers(values: NDArray[np.float64], digits: int) -> list[str]:
+    """Return numbers with some decimals, a dash for what is none."""
+    return [f"{value:.{digits}f}" if np.isfinite(value) else "-" for value in values]
+
+
+def print_table(header: list[str], lines: list[list[str]]) -> None:
+    """Print a table, its first column to the left and the others to the right."""
+    widths = [max(len(line[i]) for line in [header, *lines]) for i in range(len(header))]
+    for first, *rest in [header, *lines]:
+        cells = (cell.rjust(width) for cell, width in zip(rest, widths[1:], strict=True))
+        print("  ".join([first.ljust(widths[0]), *cells]))

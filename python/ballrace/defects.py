@@ -1,0 +1,175 @@
+"""Defects as they are spoken of: a spall, a dent, a line, with sizes in millimetres.
+
+Each is a :class:`ballrace.scene.Defect`, placed where the contact runs unless ``axial_offset`` says otherwise; put
+them into a scene by name: ``br.bearing("6205", defects={"spall": spall(on="inner_race", width_mm=1.0)})``.
+
+>>> import ballrace as br
+>>> spall(on="outer_race", width_mm=1.0).width
+0.001
+>>> dent(on="ball", diameter_mm=0.2, ball=3).width.widths[0]
+0.0
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from .errors import SceneError
+from .scene import Defect, Floor, WidthProfile
+
+if TYPE_CHECKING:
+    from .scene import AxialOffset, Surface, Width
+
+__all__ = ["dent", "line", "spall"]
+
+_DOWN = -math.pi / 2.0
+"""Where a load along -y presses the balls into the outer race."""
+
+_CHORDS = 16
+"""Pieces that the outline of a dent is drawn with."""
+
+
+def spall(
+    *,
+    on: Surface,
+    width_mm: float,
+    length_mm: float = 2.0,
+    depth_mm: float | None = None,
+    edge_radius_mm: float = 0.3,
+    angle: float = _DOWN,
+    axial_offset: AxialOffset = "contact",
+    row: int = 0,
+    ball: int | None = None,
+) -> Defect:
+    """Return a spall: a rectangle of the surface is gone.
+
+    Parameters
+    ----------
+    on : {"outer_race", "inner_race", "ball"}
+        Which surface.
+    width_mm, length_mm : float
+        Extent along the rolling direction, and across it [mm].
+    depth_mm : float, optional
+        Depth of its floor [mm]; by default so deep that no ball meets it. A shallow floor is a bed of ten bumps.
+    edge_radius_mm : float
+        How far its edges are rolled over: radius of the fault circles there [mm].
+    angle : float
+        Angular place on the body, counter-clockwise from its own x axis [rad]; by default where a load along -y
+        presses on the outer race.
+    axial_offset : float or "contact"
+        Axial place of its middle [m], or where the contact runs, as of :class:`ballrace.scene.Defect`.
+    row, ball : int
+        Row, and of a ball defect which ball; by default the first of each.
+
+    Raises
+    ------
+    SceneError
+        A number is not usable. What depends on the bearing is checked with the scene.
+    """
+    _positive(width_mm=width_mm, length_mm=length_mm, edge_radius_mm=edge_radius_mm)
+    floor = None
+    if depth_mm is not None:
+        _positive(depth_mm=depth_mm)
+        floor = Floor(depth=1e-3 * depth_mm, elements=10)
+    return Defect(
+        on=on,
+        row=row,
+        ball=_ball(on, ball),
+        angle=angle,
+        axial_offset=axial_offset,
+        length=1e-3 * length_mm,
+        width=1e-3 * width_mm,
+        edge_radius=1e-3 * edge_radius_mm,
+        floor=floor,
+    )
+
+
+def dent(
+    *,
+    on: Surface,
+    diameter_mm: float,
+    edge_radius_mm: float = 0.3,
+    angle: float = _DOWN,
+    axial_offset: AxialOffset = "contact",
+    row: int = 0,
+    ball: int | None = None,
+) -> Defect:
+    """Return a round pit, as an electric spark or a hard particle leaves; parameters as of :func:`spall`.
+
+    Parameters
+    ----------
+    diameter_mm : float
+        Diameter of its outline [mm].
+    on, edge_radius_mm, angle, axial_offset, row, ball
+        As for :func:`spall`.
+
+    Raises
+    ------
+    SceneError
+        A number is not usable.
+    """
+    _positive(diameter_mm=diameter_mm, edge_radius_mm=edge_radius_mm)
+    return Defect(
+        on=on,
+        row=row,
+        ball=_ball(on, ball),
+        angle=angle,
+        axial_offset=axial_offset,
+        length=1e-3 * diameter_mm,
+        width=_round(1e-3 * diameter_mm),
+        edge_radius=1e-3 * edge_radius_mm,
+    )
+
+
+def line(
+    *,
+    on: Surface,
+    width_mm: float = 0.2,
+    length_mm: float = 2.0,
+    edge_radius_mm: float = 0.05,
+    angle: float = _DOWN,
+    axial_offset: AxialOffset = "contact",
+    row: int = 0,
+    ball: int | None = None,
+) -> Defect:
+    """Return a narrow line with sharp edges across the rolling direction, as an engraver or a wire leaves it.
+
+    Parameters
+    ----------
+    on, width_mm, length_mm, edge_radius_mm, angle, axial_offset, row, ball
+        As for :func:`spall`, which it is but for its sizes.
+
+    Raises
+    ------
+    SceneError
+        A number is not usable.
+    """
+    return spall(
+        on=on,
+        width_mm=width_mm,
+        length_mm=length_mm,
+        edge_radius_mm=edge_radius_mm,
+        angle=angle,
+        axial_offset=axial_offset,
+        row=row,
+        ball=ball,
+    )
+
+
+def _round(diameter: float) -> Width:
+    """Return the widths of a disc along its axial places."""
+    turn = [math.pi * (k / _CHORDS - 1.0) for k in range(_CHORDS + 1)]
+    positions = tuple(0.5 * diameter * math.cos(t) for t in turn)
+    widths = tuple(abs(diameter * math.sin(t)) for t in turn)
+    return WidthProfile(positions=positions, widths=(0.0, *widths[1:-1], 0.0))
+
+
+def _ball(on: Surface, ball: int | None) -> int | None:
+    return 0 if on == "ball" and ball is None else ball
+
+
+def _positive(**sizes: float) -> None:
+    for name, size in sizes.items():
+        if not 0.0 < size < math.inf:
+            raise SceneError(name, repr(size), "above 0 [mm]")

@@ -1,0 +1,64 @@
+"""A measuring chain: what lies between a ring that shakes and the numbers in a file.
+
+:func:`ballrace.measure` takes a simulated or a measured acceleration through the stages below in this order,
+each of which may be left out; without any the numbers stay as they are. All that is random follows from one
+seed, a stage at a time: leaving one out does not change the noise of another.
+
+>>> import ballrace as br
+>>> mode = br.measuring.Mode(frequency=2800.0, damping=0.03, residue=0.5)
+>>> chain = br.measuring.Chain(
+...     housing=br.measuring.Housing(modes=(mode,), direct=0.5),
+...     machine=br.measuring.Machine(noise_density=1e-3, shaft=(0.2, 0.1)),
+...     logger=br.measuring.Logger(fs=12_000.0, range=50.0, bits=16),
+... )
+>>> out = br.simulate(br.bearing("6205", speed_rpm=1797.0), duration=0.02)
+>>> measured = br.measure(out, chain, seed=1)
+>>> measured.fs, measured.x.shape
+(12000.0, (240,))
+
+============  ==================================================================================
+``source``    the signal: columns of a run along the sensor's direction, or an array; the shaft's angle
+``housing``   from ring to sensor: modes, a measured frequency response, or an impulse response
+``machine``   what else shakes there: harmonics of shaft and mains, noise, modulated by the shaft
+``noise``     of a given density
+``sensor``    mounted resonance and lower limit of the accelerometer
+``logger``    anti-aliasing, sampling rate, noise of the electronics, range, quantisation
+``tacho``     pulses of a tachometer
+``mixing``    onto a measured healthy record
+``chain``     the stages one after the other
+``tables``    several chains, by their names
+============  ==================================================================================
+
+Housing and sensor are linear and are applied to the spectrum, the record padded until their ringing has died
+down: for signals within the band that the sampling rate can hold, as simulated ones are, that is their
+frequency response exactly, at every frequency, where recursive filters (held or impulse-invariant) miss by some
+percent at a tenth of the sampling rate. They are at rest as the record begins.
+"""
+
+from __future__ import annotations
+
+from .chain import Chain, Measurement, measure
+from .housing import Housing, ImpulseResponse, MeasuredResponse, Mode, random_housing
+from .logger import Logger
+from .machine import Machine
+from .mixing import mix_into
+from .sensor import Sensor
+from .tables import table
+from .tacho import Tacho
+
+__all__ = [
+    "Chain",
+    "Housing",
+    "ImpulseResponse",
+    "Logger",
+    "Machine",
+    "MeasuredResponse",
+    "Measurement",
+    "Mode",
+    "Sensor",
+    "Tacho",
+    "measure",
+    "mix_into",
+    "random_housing",
+    "table",
+]

@@ -1,0 +1,230 @@
+"""The stages, one after the other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, TypedDict, Unpack
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import SceneError
+from ..signals import Signals
+from .housing import AnyHousing, Housing, ImpulseResponse, MeasuredResponse
+from .linear import passed
+from .logger import Logger
+from .machine import Machine
+from .mixing import mix_into
+from .sensor import Sensor
+from .source import Source, of_array, of_signals
+from .tacho import Tacho
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+__all__ = ["Chain", "Measurement", "measure"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Chain:
+    """A measuring chain; what is None is left out.
+
+    Attributes
+    ----------
+    direction : tuple of three floats, or None
+        Direction of the sensor, x right, y up, z along the axis; its length does not matter. None: y.
+    body : str
+        The body whose acceleration reaches it, such as ``outer``.
+    housing : Housing, MeasuredResponse, ImpulseResponse or None
+        Between the body and the sensor.
+    machine : Machine or None
+        What the machine adds.
+    sensor : Sensor or None
+        The accelerometer.
+    logger : Logger or None
+        The data logger.
+    tacho : Tacho or None
+        The tachometer.
+    """
+
+    direction: tuple[float, float, float] | None = None
+    body: str = "outer"
+    housing: AnyHousing | None = None
+    machine: Machine | None = None
+    sensor: Sensor | None = None
+    logger: Logger | None = None
+    tacho: Tacho | None = None
+
+    def __post_init__(self) -> None:
+        for name, kinds in _KINDS.items():
+            stage = getattr(self, name)
+            if not (stage is None or isinstance(stage, kinds)):
+                allowed = " or ".join(kind.__name__ for kind in kinds)
+                raise SceneError(name, repr(stage), f"{allowed} of ballrace.measuring, or None")
+
+    @property
+    def stages(self) -> tuple[str, ...]:
+        """Names of the stages that it has, in order."""
+        return tuple(name for name in _KINDS if getattr(self, name) is not None)
+
+
+class _Stages(TypedDict, total=False):
+    """The fields of a chain."""
+
+    direction: tuple[float, float, float] | None
+    body: str
+    housing: AnyHousing | None
+    machine: Machine | None
+    sensor: Sensor | None
+    logger: Logger | None
+    tacho: Tacho | None
+
+
+_KINDS: dict[str, tuple[type, ...]] = {
+    "housing": (Housing, MeasuredResponse, ImpulseResponse),
+    "machine": (Machine,),
+    "sensor": (Sensor,),
+    "logger": (Logger,),
+    "tacho": (Tacho,),
+}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Measurement:
+    """What a chain made of a signal.
+
+    Attributes
+    ----------
+    x : ndarray, shape (n,)
+        The acceleration [m/s²].
+    fs : float
+        Sampling rate [Hz].
+    start : float
+        Time of the first sample [s].
+    unit : str
+        Unit of ``x``.
+    pulses : ndarray, shape (n_pulses,)
+        Times of the tachometer's pulses [s]; empty without one.
+    clipped : float
+        Share of the samples that were beyond the range.
+    chain : Chain
+        What was applied.
+    seed : int
+        With which seed.
+    """
+
+    x: NDArray[np.float64]
+    fs: float
+    start: float = 0.0
+    unit: str = "m/s^2"
+    pulses: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
+    clipped: float = 0.0
+    chain: Chain = Chain()
+    seed: int = 0
+
+    def __repr__(self) -> str:
+        by = ", ".join(self.chain.stages) or "no stage"
+        return f"<Measurement of {self.x.size} samples at {self.fs:g} Hz by {by}>"
+
+    @property
+    def t(self) -> NDArray[np.float64]:
+        """Times of the samples, shape (n,) [s]."""
+        return self.start + np.arange(self.x.size) / self.fs
+
+    def mix_into(
+        self, background: ArrayLike, snr_db: float, *, seed: int | None = None
+    ) -> NDArray[np.float64]:
+        """Return it on top of a measured background; as :func:`ballrace.measuring.mix_into`."""
+        return mix_into(self.x, background, snr_db, seed=seed)
+
+
+def measure(
+    of: Signals | ArrayLike,
+    chain: Chain | None = None,
+    *,
+    fs: float | None = None,
+    shaft: ArrayLike | None = None,
+    seed: int = 0,
+    **stages: Unpack[_Stages],
+) -> Measurement:
+    """Take an acceleration through a measuring chain.
+
+    Parameters
+    ----------
+    of : Signals, or array_like, shape (n,) or (n, 3)
+        Signals of a run; or an acceleration [m/s²], or those along x, y, z.
+    chain : Chain, optional
+        The stages. Without any the numbers stay as they are.
+    fs : float, optional
+        Sampling rate of an array [Hz].
+    shaft : float or array_like, shape (n,), optional
+        Frequency of the shaft [Hz] or its angle [rad], for what follows it. Signals know it where the motion of
+        the inner ring was recorded, or its speed is constant.
+    seed : int
+        The same seed gives the same noise, phases and jitter.
+    **stages
+        Fields of the chain, as of :class:`ballrace.measuring.Chain`; they replace those of `chain`.
+
+    Returns
+    -------
+    Measurement
+        Signal, sampling rate, pulses of the tachometer.
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable, or a column was not recorded.
+
+    Examples
+    --------
+    >>> import ballrace as br, numpy as np
+    >>> x = np.sin(2 * np.pi * 100.0 * np.arange(5000) / 50_000.0)
+    >>> measured = br.measure(x, fs=50_000.0, logger=br.measuring.Logger(range=0.5))
+    >>> measured.x.max(), round(measured.clipped, 2)
+    (np.float64(0.5), 0.67)
+    """
+    chain = replace(Chain() if chain is None else chain, **stages)
+    if isinstance(of, Signals):
+        if fs is not None:
+            raise SceneError("fs", repr(fs), "None: the signals of a run know it")
+        source = of_signals(of, chain.body, chain.direction, shaft)
+    else:
+        source = of_array(of, fs, shaft, chain.direction)
+    # A stream of its own for each stage.
+    streams = [np.random.default_rng([stage, *_words(seed)]) for stage in range(3)]
+    x, rate = _sensed(source, chain, streams[0]), source.fs
+    clipped = 0.0
+    if chain.logger is not None:
+        x, rate = chain.logger.sampled(x, rate)
+        x, clipped = chain.logger.digitised(x, rate, streams[1])
+    pulses = np.zeros(0)
+    if chain.tacho is not None:
+        pulses = chain.tacho.times(source.t, source.needed_angle(), streams[2])
+    start = float(source.t[0])
+    return Measurement(
+        x=x, fs=rate, start=start, pulses=pulses, clipped=clipped, chain=chain, seed=seed
+    )
+
+
+def _sensed(source: Source, chain: Chain, rng: np.random.Generator) -> NDArray[np.float64]:
+    """Return what the sensor gives."""
+    housing = () if chain.housing is None else (chain.housing,)
+    sensor = () if chain.sensor is None else (chain.sensor,)
+    if chain.machine is None:
+        # Housing and sensor in one go.
+        return passed(source.x, source.fs, (*housing, *sensor))
+    shaken = passed(source.x, source.fs, housing) + chain.machine.added(source, rng)
+    return passed(shaken, source.fs, sensor)
+
+
+def _words(seed: int) -> tuple[int, ...]:
+    """Return a seed as numpy takes it.
+
+    Raises
+    ------
+    SceneError
+        It is none.
+    """
+    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
+        raise SceneError("seed", repr(seed), "a whole number from 0")
+    return (int(seed),)

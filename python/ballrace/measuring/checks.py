@@ -1,0 +1,59 @@
+"""Arguments of the stages, checked as they are made."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import SceneError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["finite_row", "positive", "rising"]
+
+
+def positive(name: str, value: float, *, zero: bool = False, below: float = math.inf) -> None:
+    """Refuse what is not a number above 0, or from 0, and below a bound.
+
+    Raises
+    ------
+    SceneError
+        Names the field.
+    """
+    if isinstance(value, bool) or not (0.0 < value < below or (zero and value == 0.0)):
+        bound = "" if math.isinf(below) else f", below {below:g}"
+        raise SceneError(name, repr(value), f"{'from' if zero else 'above'} 0{bound}")
+
+
+def finite_row(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return numbers as an array of one dimension.
+
+    Raises
+    ------
+    SceneError
+        They are none, or not all finite.
+    """
+    try:
+        row = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise SceneError(name, type(values).__name__, "numbers") from None
+    if row.ndim != 1 or row.size == 0 or not np.isfinite(row).all():
+        raise SceneError(name, f"an array of shape {row.shape}", "finite numbers, shape (n,)")
+    return row
+
+
+def rising(name: str, values: Sequence[float] | NDArray[np.float64]) -> None:
+    """Refuse numbers that do not rise from 0 or above.
+
+    Raises
+    ------
+    SceneError
+        Names the field.
+    """
+    if values[0] < 0.0 or not (np.diff(values) > 0.0).all():
+        raise SceneError(name, "numbers that do not rise", "strictly rising, from 0")

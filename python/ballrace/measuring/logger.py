@@ -1,0 +1,128 @@
+"""The data logger."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import SceneError
+from .checks import positive
+from .noise import noise
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["Logger"]
+
+_STOP = 80.0
+"""Attenuation of the anti-aliasing filter [dB]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Logger:
+    """A data logger: anti-aliasing filter, sampling, noise of its electronics, range and resolution.
+
+    Attributes
+    ----------
+    fs : float or None
+        Sampling rate [Hz]; None: that of the signal.
+    bandwidth : float or None
+        Up to where it is flat [Hz], below half the sampling rate; from 1.25 times that, or from half the rate, on
+        it is down by 80 dB. None: 0.4 ``fs`` where the rate changes, and no filter where it does not.
+    noise_density : float
+        White noise of the electronics, its one-sided power spectral density [(m/s²)²/Hz].
+    range : float or None
+        What is beyond ± this is clipped [m/s²]; None: nothing.
+    bits : int or None
+        Resolution, 2 to 32 bits over the range; None: not quantised.
+    """
+
+    fs: float | None = None
+    bandwidth: float | None = None
+    noise_density: float = 0.0
+    range: float | None = None
+    bits: int | None = None
+
+    def __post_init__(self) -> None:
+        positive("logger.noise_density", self.noise_density, zero=True)
+        if self.fs is not None:
+            positive("logger.fs", self.fs)
+        if self.bandwidth is not None:
+            positive("logger.bandwidth", self.bandwidth)
+        if self.range is not None:
+            positive("logger.range", self.range)
+        if self.bits is not None and not 2 <= self.bits <= 32:
+            raise SceneError("logger.bits", str(self.bits), "2 to 32")
+        if self.bits is not None and self.range is None:
+            raise SceneError("logger.range", "None", "the range that the bits resolve [m/s²]")
+
+    @property
+    def step(self) -> float | None:
+        """Step of the quantisation [m/s²]; None without."""
+        return None if self.range is None or self.bits is None else 2.0 * self.range / 2**self.bits
+
+    def sampled(self, x: NDArray[np.float64], fs: float) -> tuple[NDArray[np.float64], float]:
+        """Return the signal behind the anti-aliasing filter at the logger's rate, and that rate [Hz].
+
+        Linear phase, no delay; the record is taken as 0 beyond its ends.
+
+        Raises
+        ------
+        SceneError
+            Rate or bandwidth do not fit the signal.
+        """
+        rate = self.fs or fs
+        if self.bandwidth is None and rate == fs:
+            return x, fs
+        ratio = Fraction(rate / fs).limit_denominator(2000)
+        if abs(float(ratio) * fs / rate - 1.0) > 1e-9:
+            raise SceneError("logger.fs", f"{rate:g}", f"a ratio of small whole numbers to {fs:g}")
+        from .._scipy import signal
+
+        up, down = ratio.numerator, ratio.denominator
+        flat = self._flat(rate, fs)
+        taps = _lowpass(flat, min(1.25 * flat, 0.5 * rate, 0.5 * fs), up * fs)
+        if up == down:  # of which resample_poly makes a copy, unfiltered
+            return np.asarray(signal.oaconvolve(x, taps, mode="same")), rate
+        return np.asarray(signal.resample_poly(x, up, down, window=taps)), rate
+
+    def _flat(self, rate: float, fs: float) -> float:
+        lower = min(rate, fs)
+        flat = 0.4 * lower if self.bandwidth is None else self.bandwidth
+        if not flat < 0.499 * lower:
+            raise SceneError(
+                "logger.bandwidth", f"{flat:g}", f"below half the rate, {0.5 * lower:g}"
+            )
+        return flat
+
+    def digitised(
+        self, x: NDArray[np.float64], fs: float, rng: np.random.Generator
+    ) -> tuple[NDArray[np.float64], float]:
+        """Return the signal with noise, clipped and quantised, and the share of samples that were clipped."""
+        if self.noise_density > 0.0:
+            x = x + noise(self.noise_density, fs, x.size, rng)
+        if self.range is None:
+            return x, 0.0
+        clipped = float(np.mean(np.abs(x) > self.range))
+        if self.step is None:
+            return np.clip(x, -self.range, self.range), clipped
+        # A converter has one code more below zero than above.
+        codes = np.rint(x / self.step)
+        codes = np.clip(codes, -self.range / self.step, self.range / self.step - 1.0)
+        return self.step * codes, clipped
+
+
+def _lowpass(flat: float, stop: float, fs: float) -> NDArray[np.float64]:
+    """Return a linear-phase filter, flat to a frequency and down by 80 dB from another on."""
+    from .._scipy import signal
+
+    nyquist = 0.5 * fs
+    count, beta = signal.kaiserord(_STOP, (stop - flat) / nyquist)
+    taps = signal.firwin(
+        2 * math.ceil(count / 2) + 1, 0.5 * (flat + stop) / nyquist, window=("kaiser", beta)
+    )
+    return np.asarray(taps)

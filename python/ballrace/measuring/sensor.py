@@ -1,0 +1,62 @@
+"""The accelerometer."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .checks import positive
+from .housing import Mode
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["Sensor"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sensor:
+    """An accelerometer on its mount: a mass on a spring, and the lower limit of its amplifier.
+
+    Attributes
+    ----------
+    resonance : float or None
+        Mounted resonance [Hz]: some 5 kHz by hand, 10 kHz on a magnet, 30 kHz screwed on; None: none.
+    damping : float
+        Its damping ratio.
+    lower_limit : float or None
+        Frequency at which a coupling capacitor takes 3 dB off [Hz]; None: it reads constant accelerations.
+    """
+
+    resonance: float | None = 30_000.0
+    damping: float = 0.02
+    lower_limit: float | None = None
+
+    def __post_init__(self) -> None:
+        positive("sensor.damping", self.damping, below=1.0)
+        if self.resonance is not None:
+            positive("sensor.resonance", self.resonance)
+        if self.lower_limit is not None:
+            positive("sensor.lower_limit", self.lower_limit)
+
+    def transfer(self, f: NDArray[np.float64], fs: float) -> NDArray[np.complex128]:
+        """Return the frequency response."""
+        total = np.ones(f.shape, dtype=np.complex128)
+        if self.resonance is not None:
+            total *= self._mode(self.resonance).transfer(f)
+        if self.lower_limit is not None:
+            total *= 1.0j * f / (self.lower_limit + 1.0j * f)
+        return total
+
+    def ringing(self, fs: float) -> float:
+        """Time in which it dies down to a millionth [s]."""
+        time = 0.0 if self.resonance is None else self._mode(self.resonance).ringing
+        if self.lower_limit is not None:
+            time += math.log(1e6) / (2.0 * math.pi * self.lower_limit)
+        return time
+
+    def _mode(self, resonance: float) -> Mode:
+        return Mode(frequency=resonance, damping=self.damping)

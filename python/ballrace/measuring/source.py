@@ -1,0 +1,155 @@
+"""The signal at the beginning of the chain."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import SceneError
+from ..scene import MotionProbe, SpeedDrive
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from ..scene import Scene
+    from ..signals import Signals
+
+__all__ = ["Source", "of_array", "of_signals", "shaft_rate"]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Source:
+    """An acceleration [m/s²] at even times [s], and the angle of the shaft [rad] if it is known."""
+
+    x: NDArray[np.float64]
+    t: NDArray[np.float64]
+    fs: float
+    angle: NDArray[np.float64] | None
+
+    def needed_angle(self) -> NDArray[np.float64]:
+        """Return the angle of the shaft [rad].
+
+        Raises
+        ------
+        SceneError
+            It is not known.
+        """
+        if self.angle is None:
+            raise SceneError(
+                "shaft", "None", "the frequency of the shaft [Hz], or its angles [rad], shape (n,)"
+            )
+        return self.angle
+
+
+def of_array(
+    x: ArrayLike,
+    fs: float | None,
+    shaft: ArrayLike | None,
+    direction: tuple[float, float, float] | None,
+) -> Source:
+    """Return the source that an array is, of shape (n,), or (n, 3) of three axes.
+
+    Raises
+    ------
+    SceneError
+        It is no signal, or there is no sampling rate.
+    """
+    if fs is None or isinstance(fs, bool) or not 0.0 < fs < math.inf:
+        raise SceneError("fs", repr(fs), "the sampling rate of the array [Hz]")
+    signal = np.asarray(x, dtype=np.float64)
+    if signal.ndim == 2 and signal.shape[1] == 3:
+        signal = signal @ np.asarray(unit(direction or (0.0, 1.0, 0.0)))
+    elif direction is not None:
+        raise SceneError(
+            "direction", repr(direction), "None, or an array of shape (n, 3) of three axes"
+        )
+    if signal.ndim != 1 or signal.size < 2 or not np.isfinite(signal).all():
+        raise SceneError(
+            "x", f"an array of shape {signal.shape}", "finite numbers, shape (n,) or (n, 3)"
+        )
+    t = np.arange(signal.size) / fs
+    return Source(x=signal.copy(), t=t, fs=float(fs), angle=_angle(shaft, t))
+
+
+def of_signals(
+    out: Signals,
+    body: str,
+    direction: tuple[float, float, float] | None,
+    shaft: ArrayLike | None,
+) -> Source:
+    """Return the acceleration of a body along a direction.
+
+    Raises
+    ------
+    SceneError
+        It was not recorded.
+    """
+    parts = unit(direction or (0.0, 1.0, 0.0))
+    name = probe_of(out.scene, body)
+    x = np.zeros(out.n_samples)
+    for axis, part in zip("xyz", parts, strict=True):
+        if part != 0.0:
+            if f"{name}.a{axis}" not in out:
+                wanted = f'a probe MotionProbe(body="{body}") with the component a{axis}'
+                raise SceneError("direction", repr(direction), wanted)
+            x += part * out[f"{name}.a{axis}"]
+    angle = _angle(shaft, out.t) if shaft is not None else _shaft_angle(out)
+    return Source(x=x, t=out.t, fs=out.fs, angle=angle)
+
+
+def probe_of(scene: Scene, body: str) -> str:
+    """Return the name under which the motion of a body is recorded."""
+    probes = scene.probes.items()
+    names = [
+        name for name, probe in probes if isinstance(probe, MotionProbe) and probe.body == body
+    ]
+    return names[0] if names else body
+
+
+def unit(direction: tuple[float, float, float]) -> tuple[float, ...]:
+    """Return a direction with the length 1.
+
+    Raises
+    ------
+    SceneError
+        It is none.
+    """
+    vector = np.asarray(direction, dtype=np.float64)
+    length = float(np.linalg.norm(vector)) if vector.shape == (3,) else math.nan
+    if not 0.0 < length < math.inf:
+        raise SceneError("direction", repr(direction), "three numbers, not all 0")
+    return tuple((vector / length).tolist())
+
+
+def shaft_rate(scene: Scene) -> float | None:
+    """Return the frequency of the inner ring [Hz], if it is given and constant."""
+    if isinstance(scene.drive, SpeedDrive) and isinstance(scene.drive.speed, int | float):
+        return float(scene.drive.speed) / (2.0 * math.pi)
+    return None
+
+
+def _shaft_angle(out: Signals) -> NDArray[np.float64] | None:
+    recorded = f"{probe_of(out.scene, 'inner')}.theta"
+    if recorded in out:
+        return out[recorded]
+    rate = shaft_rate(out.scene)
+    return None if rate is None else 2.0 * np.pi * rate * out.t
+
+
+def _angle(shaft: ArrayLike | None, t: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    if shaft is None:
+        return None
+    given = np.asarray(shaft, dtype=np.float64)
+    if given.ndim == 0 and np.isfinite(given):
+        return 2.0 * np.pi * float(given) * t
+    if given.shape != t.shape or not np.isfinite(given).all():
+        raise SceneError(
+            "shaft",
+            f"an array of shape {given.shape}",
+            f"a frequency [Hz], or {t.size} angles [rad]",
+        )
+    return given

@@ -1,0 +1,66 @@
+"""Several chains, by their names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields, is_dataclass
+from typing import TYPE_CHECKING, Any
+
+from ..errors import SceneError
+from .chain import Chain
+
+if TYPE_CHECKING:
+    import polars as pl
+
+__all__ = ["Chains", "named_chains", "table"]
+
+Chains = Chain | Mapping[str, Chain] | Sequence[Chain]
+"""A chain, some by their names, or some that are numbered from 0."""
+
+
+def named_chains(chains: Chains) -> dict[str, Chain]:
+    """Return chains by their names.
+
+    Raises
+    ------
+    SceneError
+        There is none, or something else.
+    """
+    if isinstance(chains, Chain):
+        chains = [chains]
+    pairs = chains.items() if isinstance(chains, Mapping) else enumerate(chains)
+    named = {str(name): chain for name, chain in pairs}
+    if not named or not all(isinstance(chain, Chain) for chain in named.values()):
+        raise SceneError("chains", repr(chains), "at least one Chain of ballrace.measuring")
+    return named
+
+
+def table(chains: Chains) -> pl.DataFrame:
+    """Return the numbers of measuring chains, a line each and a column for each field that has one somewhere.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> housings = {f"housing {k}": br.measuring.Chain(housing=br.measuring.random_housing(k)) for k in range(3)}
+    >>> found = br.measuring.table(housings)
+    >>> found.height, found.columns[:3]
+    (3, ['chain', 'body', 'housing.modes[0].frequency'])
+    """
+    from .._polars import pl
+
+    rows: list[dict[str, float | str]] = []
+    for name, chain in named_chains(chains).items():
+        rows.append({"chain": name, **dict(_entries(chain, ""))})
+    return pl.DataFrame(rows, infer_schema_length=None)
+
+
+def _entries(part: Any, path: str) -> Iterator[tuple[str, float | str]]:
+    """Yield dotted paths and values of the fields that hold one number or word."""
+    if is_dataclass(part):
+        for entry in fields(part):
+            yield from _entries(getattr(part, entry.name), f"{path}.{entry.name}".lstrip("."))
+    elif isinstance(part, tuple):
+        for i, value in enumerate(part):
+            yield from _entries(value, f"{path}[{i}]")
+    elif isinstance(part, int | float | str):
+        yield path, part

@@ -1,0 +1,180 @@
+"""Fault frequencies of a bearing as it runs: at the contact angle under its load, with the slip of its cage.
+
+Where the outer ring stands still and the balls roll, the load alone moves the frequencies from the nominal
+ones: thrust opens the contact angle, which raises BPFO and lowers BPFI. Slip makes the cage slower than rolling
+would, lowers BPFO and raises BPFI. A cage with play, or a clearance in which unloaded balls drop, can make it
+faster: negative slip.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from . import frequencies
+from .bearings import Bearing, catalogue
+from .errors import SceneError
+from .scene import MotionProbe, Scene, SpeedDrive
+from .signals import Signals
+from .statics import equilibrium
+
+if TYPE_CHECKING:
+    from .scene import Row
+
+__all__ = ["FaultFrequencies", "fault_frequencies"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class FaultFrequencies:
+    """Frequencies of a row of balls at a speed.
+
+    Attributes
+    ----------
+    shaft : float
+        Frequency of the inner ring f_r [Hz].
+    ftf, bpfo, bpfi, bsf : float
+        Cage, ball passes on the outer and the inner race, spin of a ball in the cage [Hz]. A defect on a ball
+        meets the races at twice ``bsf``.
+    contact_angle : float
+        The angle they are of [rad].
+    slip : float or None
+        How far the cage stays behind rolling at this angle, as a share of it; None where it was not measured.
+    """
+
+    shaft: float
+    ftf: float
+    bpfo: float
+    bpfi: float
+    bsf: float
+    contact_angle: float
+    slip: float | None = None
+
+    @property
+    def orders(self) -> frequencies.Orders:
+        """The same in multiples of the shaft's frequency."""
+        hertz = frequencies.Orders(ftf=self.ftf, bpfo=self.bpfo, bpfi=self.bpfi, bsf=self.bsf)
+        return hertz.at(1.0 / self.shaft)
+
+
+def fault_frequencies(
+    of: str | Bearing | Scene | Signals,
+    speed_rpm: float | None = None,
+    *,
+    row: int = 0,
+    operating: bool = True,
+) -> FaultFrequencies:
+    """Return the fault frequencies of a bearing.
+
+    Parameters
+    ----------
+    of : str, Bearing, Scene or Signals
+        A designation of the catalogue or a bearing of it: at the nominal contact angle, since no load is given. A
+        scene: at the contact angle under its load. Signals of a run: with the cage's slip as well, if a probe
+        records the motion of a ball of the row (``MotionProbe(body="row0.ball0", components=("x", "y"))``).
+    speed_rpm : float, optional
+        Speed of the inner ring [rev/min]; by default that of the scene, if it is given and constant.
+    row : int
+        Row of balls, from 0.
+    operating : bool
+        False: at the nominal contact angle and without slip.
+
+    Returns
+    -------
+    FaultFrequencies
+        In hertz; in orders by ``.orders``.
+
+    Raises
+    ------
+    SceneError
+        The bearing is not known, there is no such row, or the speed has to be given.
+    EquilibriumError
+        The bearing cannot carry its load.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> found = br.fault_frequencies("6205", 1797.0)
+    >>> round(found.bpfo, 2), round(found.bpfi, 2)
+    (107.36, 162.19)
+    >>> loaded = br.fault_frequencies(br.bearing("6205", radial_load=300.0, axial_load=200.0, speed_rpm=1797.0))
+    >>> bool(loaded.bpfo > found.bpfo), bool(loaded.bpfi < found.bpfi)
+    (True, True)
+    """
+    if isinstance(of, str):
+        of = catalogue[of]
+    if isinstance(of, Bearing):
+        if speed_rpm is None:
+            raise SceneError("speed_rpm", "None", "the speed of the inner ring [rev/min]")
+        return _rolling(of, of.contact_angle, _shaft(speed_rpm))
+    scene = of.scene if isinstance(of, Signals) else of
+    if not isinstance(scene, Scene):
+        raise SceneError("of", f"a {type(of).__name__}", "a designation, Bearing, Scene or Signals")
+    if not 0 <= row < len(scene.rows):
+        raise SceneError("row", str(row), f"a row, 0 to {len(scene.rows) - 1}")
+    shaft = _shaft(speed_rpm) if speed_rpm is not None else _constant_speed(scene)
+    if not operating:
+        return _rolling(scene.rows[row], scene.rows[row].contact_angle, shaft)
+    driven = replace(scene, drive=SpeedDrive(2.0 * math.pi * shaft))
+    found = _rolling(scene.rows[row], operating_angle(driven, row), shaft)
+    cage = cage_frequency(of, row) if isinstance(of, Signals) else None
+    return found if cage is None else _slipping(found, cage, scene.rows[row].ball_count)
+
+
+def operating_angle(scene: Scene, row: int = 0) -> float:
+    """Return the contact angle of a row under load: the mean of both races, by the loads of the balls [rad].
+
+    Without load it is the nominal one.
+    """
+    found = equilibrium(scene)
+    of_row = found.row == row
+    loads = np.concatenate([found.outer_load[of_row], found.inner_load[of_row]])
+    angles = np.abs(np.concatenate([found.outer_angle[of_row], found.inner_angle[of_row]]))
+    loaded = loads > 0.0
+    # Where balls only touch the outer race, thrown there, nothing drives them.
+    if not (found.inner_load[of_row] > 0.0).any():
+        return scene.rows[row].contact_angle
+    return float(np.average(angles[loaded], weights=loads[loaded]))
+
+
+def cage_frequency(out: Signals, row: int = 0) -> float | None:
+    """Return how often a row goes round, by the balls whose motion was recorded [Hz]; None without one."""
+    rates = []
+    for name, probe in out.scene.probes.items():
+        of_row = isinstance(probe, MotionProbe) and probe.body.startswith(f"row{row}.")
+        if of_row and f"{name}.x" in out and f"{name}.y" in out:
+            angle = np.unwrap(np.arctan2(out[f"{name}.y"], out[f"{name}.x"]))
+            rates.append(np.polyfit(out.t, angle, 1)[0] / (2.0 * math.pi))
+    return float(np.mean(rates)) if rates else None
+
+
+def _rolling(of: Bearing | Row, angle: float, shaft: float) -> FaultFrequencies:
+    hertz = frequencies.orders(of.ball_count, of.ball_diameter, of.pitch_diameter, angle).at(shaft)
+    return FaultFrequencies(shaft=shaft, contact_angle=angle, **vars(hertz))
+
+
+def _slipping(rolling: FaultFrequencies, cage: float, balls: int) -> FaultFrequencies:
+    """Return the frequencies with a measured cage; the spin of the balls stays that of rolling."""
+    return replace(
+        rolling,
+        ftf=cage,
+        bpfo=balls * cage,
+        bpfi=balls * (rolling.shaft - cage),
+        slip=1.0 - cage / rolling.ftf,
+    )
+
+
+def _shaft(speed_rpm: float) -> float:
+    if isinstance(speed_rpm, bool) or not math.isfinite(speed_rpm) or speed_rpm == 0.0:
+        raise SceneError("speed_rpm", repr(speed_rpm), "a speed of the inner ring [rev/min], not 0")
+    return speed_rpm / 60.0
+
+
+def _constant_speed(scene: Scene) -> float:
+    if isinstance(scene.drive, SpeedDrive) and isinstance(scene.drive.speed, int | float):
+        return _shaft(scene.drive.speed * 30.0 / math.pi)
+    raise SceneError(
+        "speed_rpm", "None", "the speed [rev/min]: that of the scene is not given, or changes"
+    )

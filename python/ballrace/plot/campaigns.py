@@ -1,0 +1,164 @@
+"""Pictures of many cases."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import SceneError
+from .maps import SHADES
+from .names import feature, parameter
+from .style import COLOURS, MARKERS, finished
+
+if TYPE_CHECKING:
+    import plotly.graph_objects as go
+    import polars as pl
+
+    from ..campaigns import Campaign
+
+__all__ = ["campaign_map", "distribution"]
+
+
+def campaign_map(
+    done: Campaign | pl.DataFrame,
+    x: str,
+    y: str,
+    value: str,
+    *,
+    logarithmic: bool = False,
+    fig: go.Figure | None = None,
+    **layout: Any,
+) -> go.Figure:
+    """Draw a feature of a campaign over two of its parameters; a cell is the mean of its cases.
+
+    Parameters
+    ----------
+    done : Campaign or DataFrame
+        A campaign, or its manifest.
+    x, y : str
+        Columns of parameters, with a few values each.
+    value : str
+        Column of the feature.
+    logarithmic : bool
+        Whether shades follow the decimal logarithm.
+    fig : plotly.graph_objects.Figure, optional
+        Figure to draw into.
+    **layout
+        For ``fig.update_layout``.
+
+    Raises
+    ------
+    SceneError
+        There is no such column.
+
+    Examples
+    --------
+    >>> import polars as pl, ballrace as br
+    >>> table = pl.DataFrame({"load": [1.0, 2.0], "width": [0.1, 0.1], "rms": [3.0, 4.0]})
+    >>> fig = br.plot.campaign_map(table, "load", "width", "rms")
+    >>> fig.data[0].z.tolist()
+    [[3.0, 4.0]]
+    """
+    from plotly.graph_objects import Figure, Heatmap
+
+    from .._polars import pl
+
+    table = _table(done, (x, y, value)).drop_nulls([x, y, value])
+    mean = table.group_by(x, y).agg(pl.col(value).mean())
+    across, up = (np.unique(mean[name].to_numpy()) for name in (x, y))
+    z = np.full((up.size, across.size), np.nan)
+    places = (np.searchsorted(a, mean[name].to_numpy()) for a, name in ((up, y), (across, x)))
+    z[tuple(places)] = mean[value].to_numpy()
+    shown = np.log10(np.where(z > 0.0, z, np.nan)) if logarithmic else z
+    fig = fig if fig is not None else Figure()
+    told = feature(value)
+    named = f"log₁₀ of {told}" if logarithmic else told
+    few = z.size <= 64
+    labels = [["–" if np.isnan(v) else f"{v:.3g}" for v in line] for line in z]
+    fig.add_trace(
+        Heatmap(
+            x=[f"{v:.6g}" for v in across], y=[f"{v:.6g}" for v in up], z=shown, colorscale=SHADES,
+            text=labels, colorbar={"thickness": 14, "title": {"text": named, "side": "right"}},
+            texttemplate="%{text}" if few else None,
+            hovertemplate=f"{x} %{{x}}, {y} %{{y}}: %{{text}}<extra></extra>",
+        )
+    )  # fmt: skip
+    fig.update_xaxes(title_text=parameter(x), type="category")
+    fig.update_yaxes(title_text=parameter(y), type="category")
+    return finished(fig, layout, height=420)
+
+
+def distribution(
+    done: Campaign | pl.DataFrame,
+    value: str,
+    by: str | None = None,
+    *,
+    fig: go.Figure | None = None,
+    **layout: Any,
+) -> go.Figure:
+    """Draw how a feature is distributed over the cases of a campaign, a box for each value of a column.
+
+    Parameters
+    ----------
+    done : Campaign or DataFrame
+        A campaign, or its manifest.
+    value : str
+        Column of the feature.
+    by : str, optional
+        Column by whose values cases are told apart, such as ``fault_outer_race``.
+    fig : plotly.graph_objects.Figure, optional
+        Figure to draw into.
+    **layout
+        For ``fig.update_layout``.
+
+    Raises
+    ------
+    SceneError
+        There is no such column.
+
+    Examples
+    --------
+    >>> import polars as pl, ballrace as br
+    >>> table = pl.DataFrame({"rms": [3.0, 4.0, 9.0], "faulty": [False, False, True]})
+    >>> [box.name for box in br.plot.distribution(table, "rms", by="faulty").data]
+    ['faulty: no', 'faulty: yes']
+    """
+    from plotly.graph_objects import Box, Figure
+
+    table = _table(done, (value,) if by is None else (value, by)).drop_nulls(value)
+    groups = {"all cases": table}
+    if by is not None:
+        parts = table.sort(by).group_by(by, maintain_order=True)
+        of = _FAULTS.get(by, parameter(by))
+        groups = {f"{of}: {_named(key)}": part for (key,), part in parts}
+    fig = fig if fig is not None else Figure()
+    for number, (name, part) in enumerate(groups.items()):
+        style = {"color": COLOURS[number % len(COLOURS)], "symbol": MARKERS[number % len(MARKERS)]}
+        points = "all" if part.height <= 200 else "outliers"
+        box = Box(y=part[value].to_numpy(), name=name, boxpoints=points, marker=style, jitter=0.5)
+        fig.add_trace(box)
+    fig.update_yaxes(title_text=feature(value))
+    return finished(fig, layout, height=400, showlegend=False)
+
+
+_FAULTS = {
+    f"fault_{on}": f"contact met a defect of the {on.replace('_', ' ')}"
+    for on in ("outer_race", "inner_race", "ball")
+}
+
+
+def _named(key: object) -> str:
+    return (
+        {True: "yes", False: "no", None: "not known"}.get(key, str(key))
+        if key is None or isinstance(key, bool)
+        else str(key)
+    )
+
+
+def _table(done: Campaign | pl.DataFrame, names: tuple[str, ...]) -> pl.DataFrame:
+    table: pl.DataFrame = done.manifest if hasattr(done, "manifest") else done
+    for name in names:
+        if name not in table.columns:
+            raise SceneError("column", repr(name), f"one of {', '.join(table.columns)}")
+    return table

@@ -1,0 +1,72 @@
+"""Fault lines drawn over a spectrum: a dash, a marker and labels for each fault."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..spectra.bands import fault_bands
+from .style import SYMBOLS
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import plotly.graph_objects as go
+
+    from ..operating import FaultFrequencies
+    from ..spectra.bands import Fault, FaultBand
+
+__all__ = ["add_lines", "bands_of"]
+
+
+def bands_of(
+    rates: FaultFrequencies,
+    faults: Sequence[Fault],
+    harmonics: int,
+    sidebands: int,
+    limit: float,
+    *,
+    orders: bool = False,
+) -> list[FaultBand]:
+    """Return the lines of some faults below a limit, in hertz or in orders."""
+    shaft = 1.0 if orders else abs(rates.shaft)
+    found = fault_bands(rates.orders, shaft, harmonics=harmonics, sidebands=sidebands)
+    return [band for band in found if band.fault in faults and band.centre <= limit]
+
+
+def add_lines(fig: go.Figure, bands: Sequence[FaultBand], top: float, *, unit: str = "Hz") -> None:
+    """Draw lines from 0 to ``top`` where bands have their middle, with a marker and a label on top.
+
+    The labels are upright, so that those of neighbours do not meet. With several faults in one picture only the
+    harmonics are labelled; sidebands tell their name under the pointer.
+    """
+    from plotly.graph_objects import Scatter
+
+    faults = list(dict.fromkeys(band.fault for band in bands))
+    for fault in faults:
+        own = [band for band in bands if band.fault == fault]
+        name, colour, dash, marker = SYMBOLS[fault]
+        first = next((b for b in own if b.harmonic == 1 and not b.sideband), own[0])
+        text = [part for band in own for part in (band.label, band.label, None)]
+        trace = Scatter(
+            x=[part for band in own for part in (band.centre, band.centre, None)],
+            y=[part for _ in own for part in (0.0, top, None)],
+            mode="lines+markers",
+            line={"color": colour, "width": 1.3, "dash": dash},
+            marker={"symbol": marker, "size": [part for _ in own for part in (0, 8, 0)]},
+            text=text,
+            name=f"{name}, {first.centre:.4g} {unit}",
+            hovertemplate="%{text}: %{x:.5g} " + unit + "<extra></extra>",
+            opacity=0.85,
+        )
+        fig.add_trace(trace)
+        for band in own:
+            if len(faults) == 1 or not band.sideband:
+                _label(fig, band, colour)
+
+
+def _label(fig: go.Figure, band: FaultBand, colour: str) -> None:
+    size = 10 if band.sideband else 11
+    fig.add_annotation(
+        x=band.centre, y=1.0, xref="x", yref="y domain", yanchor="bottom", textangle=-90, showarrow=False,
+        text=band.label.replace("f_r", "f<sub>r</sub>"), font={"size": size, "color": colour},
+    )  # fmt: skip

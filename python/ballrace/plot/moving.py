@@ -1,0 +1,219 @@
+"""What moves in the animation of a bearing, picture by picture."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .maps import SHADES
+from .outlines import circle, outlines
+from .style import COLOURS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ..scene import Defect
+    from ..signals import Signals
+
+__all__ = ["Moving"]
+
+Array = NDArray[np.float64]
+
+_INK = "#333333"
+_TURN = np.linspace(0.0, 2.0 * np.pi, 25)
+_BAR = 0.3
+"""Longest bar of a load over the outside radius."""
+
+
+class Moving:
+    """Traces of a run: those that stand still, and those of a sample."""
+
+    def __init__(self, out: Signals, row: int) -> None:
+        self._out, self._row, self._scene = out, row, out.scene
+        self._of_row = out.scene.rows[row]
+        self._shapes = outlines(out.scene)
+        self._balls = self._of_row.ball_count
+        loads = [
+            self._load(r, b) for r, of in enumerate(out.scene.rows) for b in range(of.ball_count)
+        ]
+        self._largest = max(float(load.max()) for load in loads) or 1.0
+
+    def still(self) -> Iterator[Any]:
+        """Give what stands still in the front view: circles of the races, defects of the outer race, a scale."""
+        from plotly.graph_objects import Scatter
+
+        row, shapes = self._of_row, self._shapes
+        pitch, half = 0.5e3 * row.pitch_diameter, 0.5e3 * row.ball_diameter
+        turn = np.linspace(0.0, 2.0 * np.pi, 121)
+        for radius, width in (
+            (shapes.outside, 1.2),
+            (pitch + half, 2.0),
+            (pitch - half, 2.0),
+            (shapes.bore, 1.2),
+        ):
+            yield Scatter(x=radius * np.cos(turn), y=radius * np.sin(turn), mode="lines",
+                          line={"color": _INK, "width": width}, hoverinfo="skip")  # fmt: skip
+        for name, defect in self._scene.defects.items():
+            if defect.on == "outer_race" and defect.row == self._row:
+                yield self._on_race(defect, name, 0.0)
+        title = {"text": "load / N", "side": "top"}
+        bar = {
+            "title": title, "thickness": 10, "len": 0.45, "nticks": 4, "orientation": "h",
+            "x": 1.0, "xanchor": "right", "y": 1.08, "yanchor": "bottom",
+        }  # fmt: skip
+        scale = {
+            "color": [0.0], "cmin": 0.0, "cmax": self._largest, "colorscale": SHADES, "size": 1e-3,
+            "showscale": True, "colorbar": bar,
+        }  # fmt: skip
+        yield Scatter(x=[None], y=[None], mode="markers", marker=scale, hoverinfo="skip")
+
+    def section_still(self) -> Iterator[Any]:
+        """Give the rings in the section."""
+        from plotly.graph_objects import Scatter
+
+        for half in (1.0, -1.0):
+            for outline, colour in (
+                (self._shapes.outer, "#dfe6ee"),
+                (self._shapes.inner, "#cfd9e4"),
+            ):
+                yield Scatter(x=outline[:, 0], y=half * outline[:, 1], fill="toself", fillcolor=colour,
+                              mode="lines", line={"color": _INK, "width": 1}, hoverinfo="skip")  # fmt: skip
+
+    def at(self, k: int) -> Iterator[tuple[int, Any]]:
+        """Give the traces of a sample with the panel, 1 or 2, that each belongs to."""
+        places = np.array([self._place(self._row, ball, k) for ball in range(self._balls)])
+        yield 1, self._cage(places)
+        for ball in range(self._balls):
+            yield 1, self._ball(places[ball], self._load(self._row, ball)[k])
+        yield 1, self._bars(places, k)
+        yield 1, self._turned(k)
+        for name, defect in self._scene.defects.items():
+            if defect.row == self._row and defect.on != "outer_race":
+                yield 1, self._carried(defect, name, k)
+        for row in range(len(self._scene.rows)):
+            for half in (1.0, -1.0):
+                yield 2, self._cut(row, half, k)
+
+    def _load(self, row: int, ball: int) -> Array:
+        return self._out[f"row{row}.ball{ball}.outer.load"]
+
+    def _place(self, row: int, ball: int, k: int) -> tuple[float, float, float]:
+        x, y, z = (1e3 * self._out[f"row{row}_ball{ball}.{axis}"][k] for axis in "xyz")
+        return x, y, z
+
+    def _shade(self, load: float) -> str:
+        from plotly.colors import sample_colorscale
+
+        return str(sample_colorscale(SHADES, [min(max(load / self._largest, 0.0), 1.0)])[0])
+
+    def _ball(self, place: Array, load: float) -> Any:
+        r = 0.5e3 * self._of_row.ball_diameter
+        return _filled(
+            place[0] + r * np.cos(_TURN), place[1] + r * np.sin(_TURN), self._shade(load)
+        )
+
+    def _bars(self, places: Array, k: int) -> Any:
+        """Bars from the outside, as long as the loads on the outer race are large."""
+        from plotly.graph_objects import Scatter
+
+        angle = np.arctan2(places[:, 1], places[:, 0])
+        load = np.array([self._load(self._row, ball)[k] for ball in range(self._balls)])
+        inside = 1.04 * self._shapes.outside
+        outside = inside + _BAR * self._shapes.outside * load / self._largest
+        gap = np.full(angle.size, np.nan)
+        x = np.column_stack([inside * np.cos(angle), outside * np.cos(angle), gap]).ravel()
+        y = np.column_stack([inside * np.sin(angle), outside * np.sin(angle), gap]).ravel()
+        line = {"color": _INK, "width": 4}
+        return Scatter(
+            x=_short(x), y=_short(y), mode="lines", line=line, name="load", hoverinfo="skip"
+        )
+
+    def _cage(self, places: Array) -> Any:
+        """Bars of the cage: arcs on the pitch circle between neighbouring balls."""
+        from plotly.graph_objects import Scatter
+
+        angle = np.arctan2(places[:, 1], places[:, 0])
+        radius = 0.5e3 * self._of_row.pitch_diameter
+        pitch, free = 2.0 * math.pi / self._balls, 0.56e3 * self._of_row.ball_diameter / radius
+        within = np.linspace(free, pitch - free, 5)
+        arcs = np.append(angle[:, None] + within, np.full((self._balls, 1), np.nan), axis=1).ravel()
+        line = {"color": "#8a6d3b", "width": 4}
+        x, y = _short(radius * np.cos(arcs)), _short(radius * np.sin(arcs))
+        return Scatter(x=x, y=y, mode="lines", line=line, name="cage", hoverinfo="skip")
+
+    def _turned(self, k: int) -> Any:
+        """Mark the inner ring, which shows how far the shaft has turned."""
+        from plotly.graph_objects import Scatter
+
+        angle = float(self._out["inner.theta"][k])
+        ends = np.array(
+            [self._shapes.bore, 0.5e3 * (self._of_row.pitch_diameter - self._of_row.ball_diameter)]
+        )
+        line = {"color": _INK, "width": 3}
+        x, y = _short(ends * math.cos(angle)), _short(ends * math.sin(angle))
+        return Scatter(x=x, y=y, mode="lines", line=line, name="shaft", hoverinfo="skip")
+
+    def _carried(self, defect: Defect, name: str, k: int) -> Any:
+        """Draw a defect that moves with the inner ring or a ball."""
+        if defect.on == "inner_race":
+            return self._on_race(defect, name, float(self._out["inner.theta"][k]))
+        x, y, _ = self._place(self._row, int(defect.ball or 0), k)
+        turned = defect.angle + float(self._out[f"row{self._row}_ball{defect.ball}.theta"][k])
+        radius = 0.5e3 * self._of_row.ball_diameter
+        half = 0.5 * _width(defect) * 1e3 / radius
+        return _mark((x, y), radius, turned, half, name)
+
+    def _on_race(self, defect: Defect, name: str, turned: float) -> Any:
+        outward = 1.0 if defect.on == "outer_race" else -1.0
+        radius = 0.5e3 * (self._of_row.pitch_diameter + outward * self._of_row.ball_diameter)
+        half = 0.5e3 * _width(defect) / radius
+        return _mark((0.0, 0.0), radius, defect.angle + turned, half, name)
+
+    def _cut(self, row: int, half: float, k: int) -> Any:
+        """Cut the ball that is nearest to the plane, at the top or at the bottom; between two there is none."""
+        of_row = self._scene.rows[row]
+        places = np.array([self._place(row, ball, k) for ball in range(of_row.ball_count)])
+        near = np.where(half * places[:, 1] > 0.0, np.abs(places[:, 0]), np.inf)
+        ball = int(np.argmin(near))
+        square = (0.5e3 * of_row.ball_diameter) ** 2 - near[ball] ** 2
+        if not square > 0.0:
+            return _filled(np.zeros(1), np.zeros(1), "#ffffff")
+        ring = circle(places[ball, 2], places[ball, 1], math.sqrt(square))[::3]
+        return _filled(ring[:, 0], ring[:, 1], self._shade(self._load(row, ball)[k]))
+
+
+def _width(defect: Defect) -> float:
+    return defect.width if isinstance(defect.width, float) else max(defect.width.widths)
+
+
+def _mark(centre: tuple[float, float], radius: float, angle: float, half: float, name: str) -> Any:
+    """Draw a thick piece of a circle; at least two degrees, so that it is seen."""
+    from plotly.graph_objects import Scatter
+
+    arc = np.linspace(angle - max(half, 0.02), angle + max(half, 0.02), 7)
+    line = {"color": COLOURS[1], "width": 7}
+    px = _short(centre[0] + radius * np.cos(arc))
+    py = _short(centre[1] + radius * np.sin(arc))
+    return Scatter(x=px, y=py, mode="lines", line=line, name=name, hovertemplate=name)
+
+
+def _filled(x: Array, y: Array, colour: str) -> Any:
+    from plotly.graph_objects import Scatter
+
+    line = {"color": _INK, "width": 1}
+    return Scatter(
+        x=_short(x),
+        y=_short(y),
+        fill="toself",
+        fillcolor=colour,
+        mode="lines",
+        line=line,
+        hoverinfo="skip",
+    )
+
+
+def _short(values: Array) -> NDArray[np.float32]:
+    return np.asarray(values, dtype=np.float32)

@@ -1,0 +1,121 @@
+"""Where a picture's signal comes from: a column of a run or a recording, or an array."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import EquilibriumError, SceneError
+from ..operating import FaultFrequencies, fault_frequencies
+from ..recordings.columns import Columns
+from ..scene import SpeedDrive
+from ..spectra.checks import checked_signal
+from .style import unit, words
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import ArrayLike
+
+    from ..scene import Scene
+    from ..signals import Signals
+    from ..spectra.bands import Fault
+
+__all__ = ["Source", "faults_of", "rates_of", "scene_of", "source"]
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A signal, and what is known of it."""
+
+    x: NDArray[np.float64]
+    fs: float
+    start: float
+    unit: str
+    words: str
+
+    @property
+    def t(self) -> NDArray[np.float64]:
+        """Times [s]."""
+        return self.start + np.arange(self.x.size) / self.fs
+
+
+def source(of: Columns | ArrayLike, column: str | None, fs: float | None) -> Source:
+    """Return the signal that is meant.
+
+    Parameters
+    ----------
+    of : Signals, Recording or array_like
+        Where it stands.
+    column : str, optional
+        Column; by default ``outer.ay`` if there is one, else the first.
+    fs : float, optional
+        Sampling rate [Hz], of an array.
+
+    Raises
+    ------
+    SceneError
+        The sampling rate of an array is missing, or the signal is not usable.
+    KeyError
+        There is no such column.
+    """
+    if isinstance(of, Columns):
+        name = column or ("outer.ay" if "outer.ay" in of else next(iter(of)))
+        x, start = of[name], float(of.t[0]) if of.t.size else 0.0
+        return Source(checked_signal(x, of.fs), of.fs, start, unit(of.units[name]), words(name))
+    if fs is None:
+        raise SceneError("fs", "None", "the sampling rate of the array [Hz]")
+    return Source(checked_signal(np.asarray(of), fs), fs, 0.0, "", "signal")
+
+
+def scene_of(of: object) -> Scene | None:
+    """Return the scene that a signal is of; None of a measured one."""
+    return getattr(of, "scene", None)
+
+
+def rates_of(of: object, rates: FaultFrequencies | None, row: int) -> FaultFrequencies | None:
+    """Return the fault frequencies: those given, or of the run's scene at its operating contact angle.
+
+    Where no equilibrium tells that angle, it is the nominal one; where the speed changes there are none.
+    """
+    scene = scene_of(of)
+    if rates is not None or scene is None or not isinstance(scene.drive, SpeedDrive):
+        return rates
+    if not isinstance(scene.drive.speed, int | float) or scene.drive.speed == 0.0:
+        return None
+    known = cast("Signals", of)
+    try:
+        return fault_frequencies(known, row=row)
+    except EquilibriumError:
+        return fault_frequencies(known, row=row, operating=False)
+
+
+_ALL: tuple[Literal["outer_race", "inner_race", "ball"], ...] = ("outer_race", "inner_race", "ball")
+
+
+def faults_of(of: object, faults: Iterable[Fault] | None, row: int) -> tuple[Fault, ...]:
+    """Return the faults whose lines are drawn: those given, those of the scene, or all of races and balls.
+
+    Raises
+    ------
+    SceneError
+        There is no such fault.
+    """
+    if faults is not None:
+        chosen = tuple(faults)
+        for fault in chosen:
+            if fault not in (*_ALL, "cage"):
+                raise SceneError("faults", repr(fault), f"some of {', '.join(_ALL)}, cage")
+        return chosen
+    scene = scene_of(of)
+    own = {d.on for d in scene.defects.values() if d.row == row} if scene is not None else set()
+    return tuple(fault for fault in _ALL if fault in own) or _ALL
+
+
+def row_of(of: object) -> int:
+    """Return the row of the first defect of a scene, else 0."""
+    scene = scene_of(of)
+    return next((d.row for d in scene.defects.values()), 0) if scene is not None else 0

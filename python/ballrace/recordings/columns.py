@@ -1,0 +1,213 @@
+"""What runs and recordings have in common: columns at one sampling rate, which go elsewhere."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import SceneError
+from .libraries import needed
+from .windows import Origin, windows
+from .writing import write
+
+if TYPE_CHECKING:
+    import os
+
+    import pandas as pd
+    import polars as pl
+    import xarray as xr
+
+    from .samples import Samples
+
+__all__ = ["Columns", "no_column"]
+
+
+class Columns(Mapping[str, NDArray[np.float64]]):
+    """A mapping from the names of columns to arrays, all at one sampling rate."""
+
+    if TYPE_CHECKING:
+
+        @property
+        def fs(self) -> float:
+            """Sampling rate [Hz]."""
+
+        @property
+        def t(self) -> NDArray[np.float64]:
+            """Times [s]."""
+
+        @property
+        def units(self) -> Mapping[str, str]:
+            """Unit of each column."""
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def to_polars(self) -> pl.DataFrame:
+        """Return a table with the time ``t`` and all columns."""
+        from .._polars import pl
+
+        return pl.DataFrame({"t": self.t, **self})
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return a pandas table with the time ``t`` and all columns.
+
+        Raises
+        ------
+        ImportError
+            pandas is not installed.
+        """
+        pandas = needed("pandas", "a pandas table", extra=False)
+        return pandas.DataFrame({"t": self.t, **self})
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return an xarray data set: a variable a column over the coordinate ``t``, with units as attributes.
+
+        Its own attributes are ``sampling_rate`` and ``told``, a JSON text of what else is known.
+
+        Raises
+        ------
+        ImportError
+            xarray is not installed.
+        """
+        xarray = needed("xarray", "an xarray data set", extra=False)
+        variables = {name: ("t", self[name], {"units": self.units.get(name, "")}) for name in self}
+        time = ("t", self.t, {"units": "s"})
+        attributes = {"sampling_rate": self.fs, "told": self._samples().told()}
+        found: xr.Dataset = xarray.Dataset(variables, coords={"t": time}, attrs=attributes)
+        return found
+
+    def to_windows(
+        self,
+        length: int,
+        hop: int | None = None,
+        *,
+        columns: str | Iterable[str] | None = None,
+        label: str | None = None,
+        bearing_id: str | int | None = None,
+    ) -> pl.DataFrame:
+        """Return pieces of equal length as a table for learning, a row a window.
+
+        Each row tells all of itself, as tables of Hugging Face's ``datasets`` do; write them with
+        ``write_parquet``. Split such data by ``bearing_id``, or it leaks.
+
+        Parameters
+        ----------
+        length : int
+            Samples of a window.
+        hop : int, optional
+            Samples from one window to the next; by default ``length``. A rest shorter than a window is left out.
+        columns : str or iterable of str, optional
+            Which columns; by default all accelerations (in m/s² or g), or all columns where there are none.
+        label : str, optional
+            What is damaged; by default the surfaces with defects in the scene of a run, such as ``"outer_race"``
+            or ``"inner_race+ball"``, and ``"healthy"`` without. Of a recording it is not known.
+        bearing_id : str or int, optional
+            Which bearing it is.
+
+        Returns
+        -------
+        polars.DataFrame
+            A list of samples a column by its name, ``start`` [s], ``label``, ``bearing_id``, ``speed`` of the
+            inner ring [rad/s], ``load``, ``geometry`` and ``defect`` (lists of the scene's loads, rows and
+            defects, in SI units), ``sampling_rate`` [Hz], ``units`` by column, and the ``version`` that
+            simulated it. Loads and speed are those at the window's middle; null is what is not known.
+
+        Raises
+        ------
+        SceneError
+            An argument is not usable.
+
+        Examples
+        --------
+        >>> import ballrace as br
+        >>> out = br.simulate(br.presets.deep_groove_6205(), duration=0.02, fs=10_000.0)
+        >>> table = out.to_windows(64, 32, columns="outer.ay", bearing_id="A")
+        >>> table.height, table["outer.ay"][0].len(), table["label"][0]
+        (5, 64, 'healthy')
+        """
+        names = self._chosen(columns)
+        return windows(
+            self._samples(names), self._origin(), length, hop, label=label, bearing_id=bearing_id
+        )
+
+    def write(
+        self,
+        path: str | os.PathLike[str],
+        columns: str | Iterable[str] | Mapping[str, str] | None = None,
+    ) -> None:
+        """Write a file of the format that its name ends in: CSV, WAV, ``.mat``, UFF58, HDF5 or Parquet.
+
+        The file appears at once when it is whole; one of the same name is replaced. :func:`ballrace.read` reads it
+        back: the same numbers (of 32 bits in WAV), rate and units.
+
+        Parameters
+        ----------
+        path : path
+            File that ends in .csv, .txt, .wav, .mat, .uff, .unv, .h5, .hdf5, .parquet or .pq.
+        columns : str, iterable of str or mapping of str to str, optional
+            Which columns, or which by which new names: ``{"outer.ay": "DE"}`` gives a ``.mat`` file the keys
+            ``X001_DE_time`` and ``X001RPM`` of the Case Western Reserve University's. By default all.
+
+        Raises
+        ------
+        SceneError
+            An argument is not usable, or the format cannot hold the columns; nothing was written.
+        ImportError
+            The library for this format is not installed (extra ``io``).
+        OSError
+            The folder does not exist or is not writable, or the disk is full.
+
+        Examples
+        --------
+        >>> import ballrace as br, pathlib, tempfile
+        >>> out = br.simulate(br.presets.deep_groove_6205(), duration=0.001)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = pathlib.Path(folder) / "run.mat"
+        ...     out.write(path, columns={"outer.ay": "DE"})
+        ...     again = br.read(path)
+        >>> again.fs, again.units["DE"], bool((again["DE"] == out["outer.ay"]).all())
+        (50000.0, 'm/s^2', True)
+        """
+        if isinstance(columns, Mapping):
+            samples = self._samples(self._chosen(columns))
+            samples.columns = {columns[old]: x for old, x in samples.columns.items()}
+            samples.units = {columns[old]: unit for old, unit in samples.units.items()}
+            if len(samples.columns) < len(columns):
+                raise SceneError("columns", str(dict(columns)), "a new name each")
+        else:
+            samples = self._samples(None if columns is None else self._chosen(columns))
+        write(samples, path)
+
+    def _chosen(self, columns: str | Iterable[str] | None) -> list[str]:
+        if columns is None:
+            accelerations = [name for name in self if self.units.get(name) in ("m/s^2", "g")]
+            return accelerations or list(self)
+        names = [columns] if isinstance(columns, str) else list(columns)
+        for name in names:
+            if name not in self:
+                raise SceneError("columns", str(name), f"columns: {', '.join(self)}")
+        if not names:
+            raise SceneError("columns", "none", "at least one column")
+        return names
+
+    def _samples(self, names: Iterable[str] | None = None) -> Samples:
+        """Return some of the columns, or all, with what files tell of them."""
+        raise NotImplementedError
+
+    def _origin(self) -> Origin:
+        """Return what windows tell of where they come from."""
+        raise NotImplementedError
+
+
+def no_column(name: object, columns: Iterable[str]) -> KeyError:
+    """Return the error for a column that is not there; it names near ones."""
+    columns = list(columns)
+    near = difflib.get_close_matches(str(name), columns, n=5, cutoff=0.4)
+    hint = f"near are {', '.join(near)}" if near else f"there are {', '.join(columns)}"
+    return KeyError(f"no column {name!r}; {hint}")

@@ -1,0 +1,22 @@
+"""Libraries that only some formats need."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+
+def needed(module: str, what: str, extra: bool = True) -> Any:
+    """Import a library; where it is missing, say how to install it: by the extra ``io``, or by itself.
+
+    Raises
+    ------
+    ImportError
+        It is not installed.
+    """
+    try:
+        return importlib.import_module(module)
+    except ImportError as error:
+        install = '"ballrace[io]"' if extra else module
+        text = f"{what} needs {module} ({error}): pip install {install}"
+        raise ImportError(text, name=module) from error

@@ -1,0 +1,61 @@
+"""Parquet: tables with a column a signal, from us (runs and recordings) or from others."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .._interrupt import heard_once
+from .._parquet import read_sealed, seal, writing_to
+from .._record import described, unless_damaged
+from .._record import samples as column_of
+from ..scene import Scene
+from .samples import Samples, from_told
+from .scenes import shaft_of
+from .tables import sampled
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+_TOLD = "ballrace.recording"
+"""Entry of the metadata that tells of the columns."""
+
+
+def write(samples: Samples, temporary: Path, path: Path) -> None:
+    """Write times and columns, what is told of them in the metadata, and a hash of it all."""
+    from .._polars import pl
+
+    count = len(next(iter(samples.columns.values())))
+    times = np.arange(count) / (samples.fs or 1.0)
+    table = pl.DataFrame({"t": times, **samples.columns})
+    told = {_TOLD: samples.told()}
+    with writing_to(path):
+        heard_once(lambda: table.write_parquet(temporary, metadata=told))
+    with temporary.open("r+b") as file:
+        seal(file)
+
+
+def read(path: Path) -> Samples:
+    """Read a table with its metadata where they are ours.
+
+    Raises
+    ------
+    FileError
+        It is damaged, or no Parquet.
+    """
+    table, entries = unless_damaged(path, lambda: read_sealed(path))
+    if _TOLD in entries:
+        columns = {name: column_of(path, table, name) for name in table.columns}
+        return from_told(path, entries[_TOLD], columns)
+    if "ballrace" not in entries:
+        return sampled(path, {name: table[name] for name in table.columns}, {})
+    told = described(path, entries, table.columns)
+    return Samples(
+        columns={name: column_of(path, table, name) for name in told["units"]},
+        fs=told["fs"],
+        units=told["units"],
+        shaft=shaft_of(Scene.from_json(told["scene"])),
+        metadata={"scene": json.loads(told["scene"]), "provenance": told["provenance"]},
+    )

@@ -1,0 +1,102 @@
+"""Files of measured records."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..errors import SceneError
+from . import hierarchical, matlab, parquet, sound, text, universal
+from .formats import by_contents
+from .recording import Recording
+
+if TYPE_CHECKING:
+    import os
+
+    from .samples import Samples
+
+__all__ = ["read"]
+
+_READERS = {
+    "csv": text.read, "wav": sound.read, "mat": matlab.read, "uff": universal.read,
+    "hdf5": hierarchical.read, "parquet": parquet.read,
+}  # fmt: skip
+
+
+def read(
+    path: str | os.PathLike[str],
+    fs: float | None = None,
+    format: str | None = None,  # noqa: A002
+) -> Recording:
+    r"""Read a measured record, or one that ``write`` wrote.
+
+    Read are ``.mat`` files of the Case Western Reserve University (columns ``DE``, ``FE``, ``BA``), of Paderborn
+    University (``vibration_1``, …; slower ones in ``others``), of the MFPT society (``acceleration``) and plain
+    ones with vectors; CSV with or without header, times and units (``ay [m/s^2]``), with commas, semicolons,
+    tabs or spaces; WAV (whole numbers as shares of the full scale); Universal Files with data sets 58; HDF5; and
+    Parquet, also that of runs.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    fs : float, optional
+        Sampling rate [Hz]; needed where the file does not tell it. Files of the Case Western Reserve University
+        never do: it is 12 or 48 kHz, by the page that a record was taken from.
+    format : {"csv", "wav", "mat", "uff", "hdf5", "parquet"}, optional
+        By default what the name ends in, or else how the file begins.
+
+    Returns
+    -------
+    Recording
+        Columns with sampling rate, units and shaft rate as far as the file tells them.
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable, or ``fs`` missing, or another than the file tells.
+    FileError
+        The file is damaged, or has no record; the message says what of it.
+    ImportError
+        The library for this format is not installed (extra ``io``).
+    OSError
+        The file cannot be read.
+
+    Examples
+    --------
+    >>> import ballrace as br, pathlib, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "sensor.csv"
+    ...     _ = path.write_text("t [s];ay [g]\n0;0.1\n0.001;0.3\n0.002;-0.2\n")
+    ...     record = br.read(path)
+    >>> record.fs, record.units["ay"], record["ay"].tolist()
+    (1000.0, 'g', [0.1, 0.3, -0.2])
+    """
+    path = Path(path)
+    if fs is not None and not 0.0 < fs < math.inf:
+        raise SceneError("fs", str(fs), "above 0")
+    if format is not None and format not in _READERS:
+        raise SceneError("format", repr(format), f"one of {', '.join(_READERS)}")
+    with path.open("rb"):
+        pass
+    samples = _READERS[format or by_contents(path)](path)
+    return _recording(path, samples, fs)
+
+
+def _recording(path: Path, samples: Samples, fs: float | None) -> Recording:
+    told = samples.fs
+    if told is not None and fs is not None and not math.isclose(fs, told, rel_tol=1e-3):
+        raise SceneError("fs", str(fs), f"what {path.name} tells, {told:g} Hz, or left out")
+    rate = fs if told is None else told
+    if rate is None:
+        raise SceneError("fs", "None", f"the sampling rate [Hz], which {path.name} does not tell")
+    return Recording(
+        columns=samples.columns,
+        fs=rate,
+        units=samples.units,
+        shaft=samples.shaft,
+        source=str(path),
+        metadata=samples.metadata,
+        others=tuple(_recording(path, other, None) for other in samples.others),
+    )

@@ -1,0 +1,76 @@
+"""What a file of a record holds, before it is known to suffice; and as text beside its samples."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import FileError, SceneError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+
+@dataclass(kw_only=True)
+class Samples:
+    """Columns of one length at one sampling rate, and what is told of them.
+
+    Attributes
+    ----------
+    columns : dict of str to ndarray
+        Columns, each of shape (n,).
+    fs : float or None
+        Sampling rate [Hz]; None where the file does not tell it.
+    units : dict of str to str
+        Unit of a column; absent or empty where the file does not tell it.
+    shaft : float or None
+        Mean rate of the shaft [Hz]; None where it is not told.
+    metadata : dict
+        What else is told, as JSON can hold it.
+    others : list of Samples
+        Columns at other rates.
+    """
+
+    columns: dict[str, NDArray[np.float64]]
+    fs: float | None = None
+    units: dict[str, str] = field(default_factory=dict)
+    shaft: float | None = None
+    metadata: dict[str, Any] = field(default_factory=dict)
+    others: list[Samples] = field(default_factory=list)
+
+    def told(self) -> str:
+        """Return as JSON all but the samples: ``columns`` in their order with their units, ``fs`` and so on."""
+        units = {name: self.units.get(name, "") for name in self.columns}
+        entries = {"columns": units, "fs": self.fs, "shaft": self.shaft, "metadata": self.metadata}
+        try:
+            return json.dumps(entries)
+        except (TypeError, ValueError) as error:
+            raise SceneError("metadata", f"({error})", "what JSON can hold") from None
+
+
+def from_told(path: Path, text: str, columns: Mapping[str, NDArray[np.float64]]) -> Samples:
+    """Return columns with what :meth:`Samples.told` said of them.
+
+    Raises
+    ------
+    FileError
+        The text says nothing of the kind, or not of these columns.
+    """
+    try:
+        entries = json.loads(text)
+        units = {str(name): str(unit) for name, unit in entries["columns"].items()}
+        return Samples(
+            columns={name: columns[name] for name in units},
+            fs=float(entries["fs"]),
+            units=units,
+            shaft=None if entries["shaft"] is None else float(entries["shaft"]),
+            metadata=dict(entries["metadata"]),
+        )
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        reason = f"damaged: what it tells of its columns cannot be read ({error!r})"
+        raise FileError(str(path), reason) from error

@@ -1,0 +1,139 @@
+"""Universal File Format, data sets 58 (time responses), by pyuff.
+
+The format's own step of time has six digits, so the exact rate stands in the fifth line of text; without it
+the rate is taken to the five digits that are sure.
+"""
+
+from __future__ import annotations
+
+import errno
+import re
+import warnings
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import FileError, SceneError
+from .libraries import needed
+from .samples import Samples
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+_TIME_RESPONSE = 1
+_TIME, _ACCELERATION, _UNKNOWN = 17, 12, 0
+"""Kinds of data on an axis, after the format."""
+
+_ACCELERATIONS = ("m/s^2", "g")
+
+_AXES = {
+    "type": 58, "binary": 1, "func_type": _TIME_RESPONSE, "rsp_dir": 0, "ref_node": 0, "ref_dir": 0,
+    "z_axis_value": 0.0, "abscissa_spacing": 1, "abscissa_spec_data_type": _TIME,
+    "abscissa_axis_lab": "Time", "abscissa_axis_units_lab": "s", "orddenom_spec_data_type": _UNKNOWN,
+    "z_axis_spec_data_type": _UNKNOWN,
+}  # fmt: skip
+"""What all data sets of a record have: real numbers at equal steps of time."""
+
+_LINE = 80
+_UNIT = 20
+"""Most characters of a line of text, and of a unit."""
+
+_EXACT = re.compile(r"sampling rate (?P<fs>\S+) Hz(, shaft (?P<shaft>\S+) Hz)?")
+
+
+def write(samples: Samples, temporary: Path, path: Path) -> None:
+    """Write a binary data set a column, with 64 bits a number."""
+    pyuff = needed("pyuff", path.name)
+    shaft = "" if samples.shaft is None else f", shaft {samples.shaft!r} Hz"
+    exact = f"sampling rate {samples.fs!r} Hz{shaft}"
+    times = np.arange(len(next(iter(samples.columns.values())))) / (samples.fs or 1.0)
+    sets = [
+        _AXES
+        | _ordinate(name, samples.units.get(name, ""), x)
+        | {"id5": exact, "rsp_node": place, "x": times}
+        for place, (name, x) in enumerate(samples.columns.items(), start=1)
+    ]
+    try:
+        with warnings.catch_warnings():
+            # It leaves closing the file to Python, which does so as the call returns.
+            warnings.simplefilter("ignore", ResourceWarning)
+            # Its mode "overwrite" would keep of each data set what stands after the samples.
+            temporary.unlink(missing_ok=True)
+            pyuff.UFF(str(temporary)).write_sets(sets, mode="add")
+    except Exception as error:  # pyuff raises no other, and tells no reason
+        raise OSError(errno.EIO, f"cannot be written ({error})", str(path)) from error
+
+
+def _ordinate(name: str, unit: str, x: NDArray[np.float64]) -> dict[str, Any]:
+    """Return what is a column's own in its data set; what the format cannot hold is refused."""
+    if len(name.encode()) > _LINE or len(unit.encode()) > _UNIT or not name.strip():
+        allowed = f"names up to {_LINE} characters and units up to {_UNIT} in a Universal File"
+        raise SceneError("columns", f"{name} [{unit}]", allowed)
+    if x.size < 2 or not np.isfinite(x).all():
+        allowed = "in a Universal File at least two numbers, all finite: others would be read as 0"
+        raise SceneError("columns", name, allowed)
+    kind = _ACCELERATION if unit in _ACCELERATIONS else _UNKNOWN
+    labels = {"ordinate_axis_units_lab": unit or "NONE", "ordinate_spec_data_type": kind}
+    return {"id1": name, "data": x} | labels
+
+
+def read(path: Path) -> Samples:
+    """Read all time responses of the rate and length that the first has.
+
+    Raises
+    ------
+    FileError
+        It is damaged, no Universal File, or has no time response.
+    """
+    pyuff = needed("pyuff", path.name)
+    if path.read_bytes()[-16:].split()[-1:] != [b"-1"]:
+        raise FileError(str(path), "not a Universal File, or damaged: it does not end as one")
+    try:
+        found = pyuff.UFF(str(path)).read_sets()
+    except Exception as error:
+        raise FileError(str(path), f"not a Universal File, or damaged ({error})") from error
+    sets = [s for s in (found if isinstance(found, list) else [found]) if _is_response(s)]
+    if not sets:
+        raise FileError(str(path), "has no time response (data set 58)")
+    samples = Samples(columns={})
+    for data in sets:
+        _take(path, data, samples)
+    return samples
+
+
+def _is_response(data: Any) -> bool:
+    """Whether a data set is a response; of sets that it does not know, pyuff gives none."""
+    return (
+        isinstance(data, dict)
+        and data.get("type") == 58
+        and data.get("func_type") == _TIME_RESPONSE
+    )
+
+
+def _take(path: Path, data: dict[str, Any], samples: Samples) -> None:
+    """Add a data set to the columns; one of another rate or length than the first to the others."""
+    x = np.asarray(data["data"], dtype=np.float64)
+    if x.size != data["num_pts"] or x.size < 2:
+        raise FileError(str(path), f"damaged: {x.size} numbers where {data['num_pts']} should be")
+    exact = _EXACT.search(data["id5"])
+    fs = float(exact["fs"]) if exact else _rate(path, data)
+    rest = samples
+    if samples.columns and (fs, x.size) != (samples.fs, next(iter(samples.columns.values())).size):
+        rest = Samples(columns={})
+        samples.others.append(rest)
+    name = data["id1"].strip()
+    if name in ("", "NONE") or name in rest.columns:
+        name = f"{name}_{data['rsp_node']}".removeprefix("NONE").lstrip("_")
+    unit = data["ordinate_axis_units_lab"].strip()
+    rest.columns[name], rest.fs = x, fs
+    rest.units[name] = "" if unit == "NONE" else unit
+    rest.shaft = float(exact["shaft"]) if exact and exact["shaft"] else None
+
+
+def _rate(path: Path, data: dict[str, Any]) -> float:
+    step = float(data["abscissa_inc"] if data["abscissa_spacing"] else np.diff(data["x"]).mean())
+    if not 0.0 < step < float("inf"):
+        raise FileError(str(path), f"damaged: a step of {step} s between samples")
+    return float(f"{1.0 / step:.5g}")

@@ -1,0 +1,126 @@
+"""Windows of a record as a table, a row a window, each with what it is of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import SceneError
+
+if TYPE_CHECKING:
+    import polars as pl
+    from numpy.typing import NDArray
+
+    from .samples import Samples
+
+Told = list[dict[str, Any]] | None
+"""Entries of a nested column; None where nothing is known."""
+
+
+def _unknown(_time: float) -> Any:
+    return None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Origin:
+    """What is known of where samples come from; by default nothing.
+
+    Attributes
+    ----------
+    speed : function of a time [s]
+        Speed of the inner ring [rad/s].
+    load : function of a time [s]
+        Loads: ``name``, ``ring``, ``direction``, ``force`` [N].
+    geometry : list of dict or None
+        Rows: ``ball_count``, ``ball_diameter`` [m], ``pitch_diameter`` [m], ``contact_angle`` [rad].
+    defect : list of dict or None
+        Defects: ``name``, ``on``, ``row``, ``ball``, ``angle`` [rad], ``width`` [m], ``length`` [m].
+    version : str or None
+        The version of this package that simulated it.
+    """
+
+    speed: Callable[[float], float | None] = field(default=_unknown)
+    load: Callable[[float], Told] = field(default=_unknown)
+    geometry: Told = None
+    defect: Told = None
+    version: str | None = None
+
+    @property
+    def label(self) -> str | None:
+        """Name of what is damaged."""
+        if self.defect is None:
+            return None
+        return "+".join(sorted({str(defect["on"]) for defect in self.defect})) or "healthy"
+
+
+def windows(
+    samples: Samples,
+    origin: Origin,
+    length: int,
+    hop: int | None,
+    *,
+    label: str | None,
+    bearing_id: str | int | None,
+) -> pl.DataFrame:
+    """Return the table that :meth:`Columns.to_windows` describes."""
+    from .._polars import pl
+
+    count = len(next(iter(samples.columns.values())))
+    hop = length if hop is None else hop
+    _check("length", length, count)
+    _check("hop", hop, None)
+    assert samples.fs is not None
+    starts = np.arange(0, count - length + 1, hop)
+    middles = ((starts + length / 2) / samples.fs).tolist()
+    rows = len(starts)
+    kind = pl.String if bearing_id is None else None
+    told = {
+        "load": [origin.load(at) for at in middles],
+        "geometry": [origin.geometry] * rows,
+        "defect": [origin.defect] * rows,
+    }
+    return pl.DataFrame(
+        {
+            **{name: _pieces(x, length, hop) for name, x in samples.columns.items()},
+            "start": starts / samples.fs,
+            "label": pl.Series([origin.label if label is None else label] * rows, dtype=pl.String),
+            "bearing_id": pl.Series([bearing_id] * rows, dtype=kind),
+            "speed": pl.Series([origin.speed(at) for at in middles], dtype=pl.Float64),
+            **{name: pl.Series(told[name], dtype=kind) for name, kind in _types().items()},
+            "sampling_rate": [samples.fs] * rows,
+            "units": [{name: samples.units.get(name, "") for name in samples.columns}] * rows,
+            "version": pl.Series([origin.version] * rows, dtype=pl.String),
+        }
+    )
+
+
+def _check(name: str, number: object, most: int | None) -> None:
+    if isinstance(number, bool) or not isinstance(number, int | np.integer) or number < 1:
+        raise SceneError(name, repr(number), "a whole number of samples, at least 1")
+    if most is not None and number > most:
+        raise SceneError(name, str(number), f"no more samples than there are, {most}")
+
+
+def _pieces(x: NDArray[np.float64], length: int, hop: int) -> pl.Series:
+    from .._polars import pl
+
+    view = np.lib.stride_tricks.sliding_window_view(x, length)[::hop]
+    return pl.Series(values=np.ascontiguousarray(view)).cast(pl.List(pl.Float64))
+
+
+def _types() -> dict[str, Any]:
+    """Return the types of the nested columns, which the first rows need not show."""
+    from .._polars import pl
+
+    number, text, whole = pl.Float64, pl.String, pl.Int64
+    geometry = dict.fromkeys(("ball_diameter", "pitch_diameter", "contact_angle"), number)
+    sizes = dict.fromkeys(("angle", "width", "length"), number)
+    fields: dict[str, dict[str, Any]] = {
+        "load": {"name": text, "ring": text, "direction": pl.List(number), "force": number},
+        "geometry": {"ball_count": whole, **geometry},
+        "defect": {"name": text, "on": text, "row": whole, "ball": whole, **sizes},
+    }
+    return {name: pl.List(pl.Struct(of_entry)) for name, of_entry in fields.items()}

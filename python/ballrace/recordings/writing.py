@@ -1,0 +1,38 @@
+"""Columns into a file, whole or not at all."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .._files import whole
+from . import hierarchical, matlab, parquet, sound, text, universal
+from .formats import by_name
+
+if TYPE_CHECKING:
+    import os
+
+    from .samples import Samples
+
+_WRITERS = {
+    "csv": text.write, "wav": sound.write, "mat": matlab.write, "uff": universal.write,
+    "hdf5": hierarchical.write, "parquet": parquet.write,
+}  # fmt: skip
+
+
+def write(samples: Samples, path: str | os.PathLike[str]) -> None:
+    """Write a file of the format that its name ends in; what it cannot hold is refused before.
+
+    Raises
+    ------
+    SceneError
+        It ends in none, or cannot hold these columns.
+    ImportError
+        The library for this format is not installed.
+    OSError
+        It cannot be written.
+    """
+    path = Path(path)
+    writer = _WRITERS[by_name(path)]
+    with whole(path) as temporary:
+        writer(samples, temporary, path)

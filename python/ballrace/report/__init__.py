@@ -1,0 +1,19 @@
+"""Reports: one page of a run or of a campaign that needs no network, with figures, tables and what to trust.
+
+>>> import ballrace as br, pathlib, tempfile
+>>> out = br.simulate(br.bearing("6205"), duration=0.05)
+>>> with tempfile.TemporaryDirectory() as folder:
+...     path = pathlib.Path(folder) / "report.html"
+...     out.report(path)
+...     "Loads, pressures and life" in path.read_text(encoding="utf-8")
+True
+"""
+
+from __future__ import annotations
+
+from .campaign import campaign_page
+from .page import Page
+from .run import run_page
+from .writing import write_page
+
+__all__ = ["Page", "campaign_page", "run_page", "write_page"]

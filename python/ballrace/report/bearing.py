@@ -1,0 +1,119 @@
+"""The bearing of a report: drawn, and what its contacts carry."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import BallraceError
+from ..life import RatingLife, rating_life
+from ..statics import Equilibrium, equilibrium, load_distribution
+from . import words
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+    from .page import Page
+
+__all__ = ["add_bearing", "add_loads"]
+
+
+def add_bearing(page: Page, scene: Scene) -> None:
+    """Add a drawing of the bearing and its measures."""
+    from .. import plot
+    from ..plot.outlines import outlines
+
+    page.section("The bearing")
+    page.told(words.bearing(scene))
+    assumed = (
+        " Its boundary dimensions are not given, and drawn as common."
+        if outlines(scene).assumed
+        else ""
+    )
+    page.figure(
+        plot.section(scene),
+        f"the bearing cut through its axis, at its nominal contact angle.{assumed}",
+    )
+
+
+def add_loads(page: Page, scene: Scene) -> None:
+    """Add the loads of the balls, pressures, and rating life; or why there are none."""
+    from .. import plot
+
+    page.section("Loads, pressures and life")
+    healthy = scene.replace({"defects": {}})
+    try:
+        eq, around = equilibrium(healthy), load_distribution(healthy)
+    except BallraceError as error:
+        page.warning(f"no static solution: {error}")
+        return
+    page.text(
+        "At rest in the cage's frame, without defects, under the loads at their first instant."
+    )
+    page.figure(
+        plot.load_distribution(around), "load of a ball on the outer race wherever it stands."
+    )
+    for row in range(len(scene.rows)):
+        told = (
+            "contacts on both races, unrolled, with their forces; defects in red with their names."
+        )
+        name = f" Row {row}." if len(scene.rows) > 1 else ""
+        page.figure(plot.unrolled(scene, eq, row=row), told + name)
+    _add_pressures(page, eq, len(scene.rows))
+    _add_life(page, scene)
+
+
+def _add_pressures(page: Page, eq: Equilibrium, rows: int) -> None:
+    table = []
+    for row in range(rows):
+        for race in ("outer", "inner"):
+            own = eq.row == row
+            load = getattr(eq, f"{race}_load")[own]
+            angles = np.abs(getattr(eq, f"{race}_angle")[own][load > 0.0])
+            spread = (
+                f"{words.degrees(angles.min())} to {words.degrees(angles.max())}"
+                if angles.size
+                else "–"
+            )
+            pressure = 1e-6 * float(getattr(eq, f"{race}_pressure")[own].max())
+            loaded = f"{np.count_nonzero(load > 0.0)} of {load.size}"
+            cells = [loaded, f"{load.max():.0f}", f"{pressure:.0f}", spread]
+            table.append([f"row {row}, {race} race", *cells])
+    page.table(
+        ["contacts", "loaded", "largest load, N", "largest Hertz pressure, MPa", "contact angles"],
+        table,
+    )
+    page.text("The static load rating of ball bearings (ISO 76) stands for a pressure of 4200 MPa.")
+
+
+def _add_life(page: Page, scene: Scene) -> None:
+    try:
+        life = rating_life(scene)
+    except BallraceError as error:
+        page.text(f"No rating life: {error}.")
+        return
+    page.told(_life(life))
+    page.text(
+        "Both lives are of the bearing without its defects, at 90 % reliability; lubrication and contamination "
+        "(a_ISO of ISO 281) are no part of the model. ISO 281 takes one equivalent load; ISO/TS 16281 takes "
+        "the load of every ball, so clearance and contact angles count."
+    )
+
+
+def _life(life: RatingLife) -> list[tuple[str, str]]:
+    told = [("Basic dynamic load rating C", f"{words.large(life.rating)} N ({life.source})")]
+    if life.equivalent_load is not None and life.basic is not None:
+        told.append(("Equivalent load P, ISO 281", f"{words.large(life.equivalent_load)} N"))
+        told.append(("Basic rating life L₁₀, ISO 281", _turns(life, life.basic)))
+    told.append(("Basic reference rating life L₁₀ᵣ, ISO/TS 16281", _turns(life, life.reference)))
+    return told
+
+
+def _turns(life: RatingLife, turns: float) -> str:
+    if math.isinf(turns):
+        return "unlimited: no load"
+    hours = life.hours(turns)
+    return f"{words.number(1e-6 * turns)} million turns" + (
+        f", {words.large(hours)} h" if hours else ""
+    )

@@ -1,0 +1,108 @@
+"""A page: headings, text, tables and figures in one file that needs no network."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    import plotly.graph_objects as go
+
+__all__ = ["Page"]
+
+_STYLE = """
+:root { color-scheme: light }
+body { font: 16px/1.5 system-ui, "Segoe UI", Helvetica, Arial, sans-serif; color: #222; background: #fff;
+       max-width: 1100px; margin: 0 auto; padding: 1rem; overflow-wrap: break-word }
+h1 { font-size: 1.7rem; line-height: 1.2 } h2 { font-size: 1.25rem; margin: 2.2rem 0 .4rem }
+p, ul { max-width: 46rem } .wide { overflow-x: auto }
+table { border-collapse: collapse; font-size: .92rem; margin: .5rem 0 }
+th, td { text-align: right; padding: .2rem .8rem; border-bottom: 1px solid #ddd; vertical-align: top }
+th { border-bottom: 2px solid #888 } th:first-child, td:first-child { text-align: left; padding-left: 0 }
+table.told td { text-align: left } figure { margin: .6rem 0 1.2rem }
+figcaption { font-size: .9rem; color: #444; max-width: 46rem }
+.warning { border-left: 4px solid #c8452f; padding: .1rem 0 .1rem .8rem }
+pre { font-size: .8rem; overflow-x: auto }
+@media print { figure, table { break-inside: avoid } }
+"""
+
+
+class Page:
+    """A page that is written from top to bottom; what it is given is text, not HTML.
+
+    Examples
+    --------
+    >>> page = Page("A <bearing>")
+    >>> page.text("It turns.")
+    >>> "<h1>A &lt;bearing&gt;</h1>" in page.html()
+    True
+    """
+
+    def __init__(self, title: str) -> None:
+        self._title = escape(title)
+        self._parts = [f"<h1>{self._title}</h1>"]
+        self._figures = 0
+
+    def section(self, title: str) -> None:
+        """Begin a section."""
+        self._parts.append(f"<h2>{escape(title)}</h2>")
+
+    def text(self, text: str) -> None:
+        """Add a paragraph."""
+        self._parts.append(f"<p>{escape(text)}</p>")
+
+    def warning(self, text: str) -> None:
+        """Add a paragraph that stands out, by its bar and its first word."""
+        self._parts.append(f'<p class="warning"><strong>Warning:</strong> {escape(text)}</p>')
+
+    def points(self, items: Iterable[str]) -> None:
+        """Add a list."""
+        lines = "".join(f"<li>{escape(item)}</li>" for item in items)
+        self._parts.append(f"<ul>{lines}</ul>")
+
+    def told(self, entries: Iterable[tuple[str, str]]) -> None:
+        """Add a table of two columns, what and its value."""
+        lines = "".join(f"<tr><td>{escape(a)}</td><td>{escape(b)}</td></tr>" for a, b in entries)
+        self._parts.append(f'<div class="wide"><table class="told">{lines}</table></div>')
+
+    def table(self, header: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+        """Add a table of numbers, the first column names."""
+        head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
+        body = "".join(
+            "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows
+        )
+        self._parts.append(f'<div class="wide"><table><tr>{head}</tr>{body}</table></div>')
+
+    def figure(self, fig: go.Figure, caption: str | None) -> None:
+        """Add a figure with what it shows, numbered; without that under a title of its own."""
+        from ..plot import CONFIG
+
+        self._figures += 1
+        drawn = fig.to_html(
+            full_html=False, include_plotlyjs=False, config=CONFIG, auto_play=False, default_width="100%",
+            div_id=f"figure-{self._figures}",
+        )  # fmt: skip
+        told = ""
+        if caption is not None:
+            told = f"<figcaption>Figure {self._figures}: {escape(caption)}</figcaption>"
+        self._parts.append(f"<figure>{drawn}{told}</figure>")
+
+    def folded(self, title: str, text: str) -> None:
+        """Add a text in its own lines, closed until it is asked for."""
+        self._parts.append(
+            f"<details><summary>{escape(title)}</summary><pre>{escape(text)}</pre></details>"
+        )
+
+    def html(self) -> str:
+        """Return the page; plotly.js stands in it once, if there is a figure."""
+        from plotly.offline import get_plotlyjs
+
+        script = f"<script>{get_plotlyjs()}</script>" if self._figures else ""
+        head = (
+            '<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'
+            f'<link rel="icon" href="data:,"><title>{self._title}</title><style>{_STYLE}</style>{script}'
+        )
+        body = "\n".join(self._parts)
+        return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n<body>\n{body}\n</body></html>\n'

@@ -1,0 +1,132 @@
+"""The report of a run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from . import words
+from .bearing import add_bearing, add_loads
+from .page import Page
+from .signal import add_features, add_signal, chosen
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ..signals import Signals
+
+__all__ = ["add_model", "add_provenance", "run_page"]
+
+
+def run_page(
+    out: Signals, *, columns: Sequence[str] | None = None, title: str | None = None
+) -> Page:
+    """Return the report of a run as a page; see :meth:`ballrace.Signals.report`."""
+    names = chosen(out, columns)
+    scene = out.scene
+    page = Page(title or scene.name or "A bearing")
+    page.text(
+        f"{out.n_samples} samples at {out.fs:g} Hz, {out.n_samples / out.fs:.4g} s of simulated time."
+    )
+    for warning in out.warnings:
+        page.warning(warning)
+    add_bearing(page, scene)
+    page.section("Operating point")
+    page.told(words.operation(scene))
+    _add_frequencies(page, out)
+    add_loads(page, scene)
+    for name in names:
+        add_signal(page, out, name)
+    add_features(page, out, names)
+    _add_defects(page, out)
+    add_model(page, out)
+    add_provenance(page, out)
+    return page
+
+
+def _add_frequencies(page: Page, out: Signals) -> None:
+    from ..plot.sources import rates_of
+
+    rows = []
+    for row in range(len(out.scene.rows)):
+        found = rates_of(out, None, row)
+        if found is None:
+            page.text("No constant speed: fault frequencies stand at their orders.")
+            return
+        hertz = (found.shaft, found.ftf, found.bpfo, found.bpfi, 2.0 * found.bsf)
+        rows.append(
+            [f"{row}", words.degrees(found.contact_angle), *(words.number(f) for f in hertz)]
+        )
+    page.text(
+        "Fault frequencies at the contact angle under load; a ball's defect is hit twice a turn."
+    )
+    header = ["row", "contact angle", "shaft, Hz", "FTF, Hz", "BPFO, Hz", "BPFI, Hz", "2·BSF, Hz"]
+    page.table(header, rows)
+
+
+def _add_defects(page: Page, out: Signals) -> None:
+    met = out.defects if "defects" in out.provenance else {}
+    if not met:
+        return
+    page.section("What became of the defects")
+    rows = [
+        [
+            name,
+            f"{one.touched} of {one.passes}",
+            f"{one.largest_load:.0f}",
+            f"{1e3 * one.axial_offset:.3f}".replace("-", "−"),
+            "–"
+            if one.contact_offset is None
+            else f"{1e3 * one.contact_offset:.3f}".replace("-", "−"),
+        ]
+        for name, one in met.items()
+    ]
+    page.table(
+        [
+            "defect",
+            "passes that met it",
+            "largest load there, N",
+            "its middle, mm",
+            "contact ran at, mm",
+        ],
+        rows,
+    )
+
+
+def add_model(page: Page, out: Signals) -> None:
+    """Add what the model holds, and what it left out."""
+    page.section("What the model held, and what it left out")
+    page.told(words.model(out.scene))
+    left = out.provenance.to_dict().get("left_out", [])
+    if left:
+        page.text("Left out of the integration, and why:")
+        page.points(f"{one['what']}: {one['reason']}" for one in left)
+    page.text(
+        "In no model of this package: tilting rings, a lubricant film, heat; balls spin about the bearing's "
+        "axis only."
+    )
+
+
+_PROVENANCE = {
+    "version": "Version", "method": "Method", "rtol": "Relative tolerance", "max_step": "Largest step, s",
+    "start": "Start", "settled": "Settled before t = 0, s", "bandwidth": "Flat up to, Hz",
+    "simd": "Vector instructions", "architecture": "Processor",
+}  # fmt: skip
+_STATISTICS = {
+    "accepted": "Steps", "rejected": "Steps rejected", "nfev": "Evaluations of the equations",
+    "acceleration_residual": "Residual of accelerations", "truncated_contacts": "Contacts beyond a shoulder",
+    "wall_time": "Wall time, s",
+}  # fmt: skip
+
+
+def add_provenance(page: Page, out: Signals) -> None:
+    """Add what made the signals, and the scene itself."""
+    page.section("Provenance")
+    told = []
+    for record, names in ((out.provenance, _PROVENANCE), (out.stats, _STATISTICS)):
+        known = record.to_dict()
+        for key, what in names.items():
+            if known.get(key) is not None:
+                value = known[key]
+                told.append((what, words.number(value) if isinstance(value, float) else str(value)))
+    page.told(told)
+    page.folded("The scene, as TOML", out.scene.to_toml())

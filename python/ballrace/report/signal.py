@@ -1,0 +1,130 @@
+"""The signals of a report: over time, their spectra, and their features."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .. import spectra
+from ..errors import BallraceError, SceneError
+from ..scene import SpeedDrive
+from . import words
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ..signals import Signals
+    from .page import Page
+
+__all__ = ["add_features", "add_signal", "chosen"]
+
+_SHORT = 512
+"""Samples below which spectra say nothing."""
+
+
+def chosen(out: Signals, columns: Sequence[str] | None) -> tuple[str, ...]:
+    """Return the columns that a report shows: those asked for, or one acceleration.
+
+    Raises
+    ------
+    SceneError
+        A column was not recorded.
+    """
+    for name in columns or ():
+        if name not in out:
+            raise SceneError("columns", repr(name), f"some of {', '.join(out.names)}")
+    if columns is not None:
+        return tuple(columns)
+    accelerations = [name for name in out.names if out.units[name] == "m/s^2"]
+    preferred = [name for name in ("outer.ay", "inner.ay") if name in accelerations]
+    return tuple((preferred or accelerations or list(out.names))[:1])
+
+
+def add_signal(page: Page, out: Signals, name: str) -> None:
+    """Add a signal over time with expected hits, its envelope spectrum with lines, and where its energy lies."""
+    from .. import plot
+    from ..plot.style import words as in_words
+
+    page.section(f"Signal: {in_words(name)}")
+    constant = isinstance(out.scene.drive, SpeedDrive) and isinstance(
+        out.scene.drive.speed, int | float
+    )
+    if not constant:
+        page.figure(plot.signals(out, name), "the signal over time; the speed changes.")
+        _add_order_map(page, out, name)
+        return
+    if out.n_samples < _SHORT:
+        page.figure(plot.signals(out, name), "the signal over time.")
+        page.text(f"{out.n_samples} samples are too few for spectra.")
+        return
+    hits = "marks where hits of a defect are expected, one period apart at the operating contact angle."
+    page.figure(plot.impacts(out, name), f"the signal over time; {hits}")
+    _add_spectra(page, out, name)
+
+
+def _add_spectra(page: Page, out: Signals, name: str) -> None:
+    from .. import plot
+
+    turns = out.n_samples / out.fs * abs(float(out.scene.drive.speed)) / 6.2832  # type: ignore[union-attr,arg-type]
+    found = spectra.kurtogram(out[name], out.fs, narrowest=min(out.fs / 8.0, 2000.0))
+    page.figure(
+        plot.envelope_spectrum(out, name),
+        f"spectrum of the squared envelope, over {turns:.1f} turns of the shaft, with the lines of defects.",
+    )
+    page.figure(
+        plot.kurtogram(found),
+        "kurtosis of bands of the signal; where it is high, single hits stand out. A simulated signal has no "
+        "noise, so a band with next to no power may win: see the power spectral density.",
+    )
+    low, high = found.best
+    best = f"spectrum of the squared envelope in the kurtogram's best band, {low:.0f} to {high:.0f} Hz."
+    page.figure(plot.envelope_spectrum(out, name, band=found.best), best)
+    page.figure(plot.psd(out, name, band=found.best), "power spectral density.")
+    page.figure(plot.spectrogram(out, name), "power in time, in decibels under its largest value.")
+
+
+def _add_order_map(page: Page, out: Signals, name: str) -> None:
+    from .. import plot
+
+    try:
+        fig = plot.order_map(out, column=name)
+    except (BallraceError, KeyError) as error:
+        page.text(f"No order map: {error}.")
+        return
+    page.figure(
+        fig,
+        "orders of the squared envelope over the turns of the shaft, with those of the defects.",
+    )
+
+
+_FEATURES = {
+    "rms": "root mean square", "peak": "peak", "crest_factor": "crest factor", "kurtosis": "kurtosis",
+}  # fmt: skip
+_LINES = {"ftf": "FTF", "bpfo": "BPFO", "bpfi": "BPFI", "2bsf": "2·BSF"}
+
+
+def add_features(page: Page, out: Signals, names: Sequence[str]) -> None:
+    """Add the features of the chosen columns, as a campaign's table has them."""
+    from ..plot.style import unit
+
+    accelerations = [name for name in names if out.units[name] == "m/s^2"]
+    if not accelerations:
+        return
+    page.section("Features")
+    found = out.features(columns=accelerations)
+    for name in accelerations:
+        shape = [
+            (what, words.number(found.get(f"{name}.{key}"))) for key, what in _FEATURES.items()
+        ]
+        page.told([("column", f"{name}, {unit(out.units[name])}"), *shape])
+        rows = []
+        for row in range(len(out.scene.rows)):
+            for key, what in _LINES.items():
+                stem = f"{name}.row{row}.{key}"
+                tails = ("", "_harmonics", "_envelope", "_envelope_harmonics")
+                if any(stem + tail in found for tail in tails):
+                    rows.append(
+                        [f"row {row}, {what}", *(words.number(found.get(stem + t)) for t in tails)]
+                    )
+        header = ["line at", "signal", "with harmonics", "squared envelope", "with harmonics"]
+        if rows:
+            page.table(header, rows)

@@ -1,0 +1,152 @@
+"""Numbers and parts of a scene in words, for tables."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from ..scene import (
+    AccurateSlices,
+    FittedSlices,
+    FixedSlices,
+    Iso16281,
+    SpeedDrive,
+    TorqueDrive,
+)
+
+if TYPE_CHECKING:
+    from ..scene import Defect, Scene
+
+__all__ = ["bearing", "degrees", "large", "model", "number", "operation"]
+
+
+def number(value: float | None, digits: int = 4) -> str:
+    """Return a number with some significant digits.
+
+    Examples
+    --------
+    >>> number(1234.5678), number(None), number(-1e-7)
+    ('1235', '–', '−1e−07')
+    """
+    if value is None or math.isnan(value):
+        return "–"
+    return f"{value:.{digits}g}".replace("-", "−")
+
+
+def large(value: float) -> str:
+    """Return a large number with thin spaces between thousands.
+
+    Examples
+    --------
+    >>> large(1234567.0).split()
+    ['1', '234', '567']
+    """
+    return "∞" if math.isinf(value) else f"{value:,.0f}".replace(",", "\u202f")
+
+
+def degrees(angle: float) -> str:
+    """Return an angle [rad] in degrees."""
+    return f"{math.degrees(angle):.1f}°".replace("-", "−")
+
+
+def bearing(scene: Scene) -> list[tuple[str, str]]:
+    """Return what there is to know of the rows of balls."""
+    told = []
+    for k, row in enumerate(scene.rows):
+        of = f"Row {k}" if len(scene.rows) > 1 else "Balls"
+        angle = f"contact angle {degrees(row.contact_angle)}, " if row.contact_angle else ""
+        text = (
+            f"{row.ball_count} balls of {1e3 * row.ball_diameter:.4g} mm on a pitch circle of "
+            f"{1e3 * row.pitch_diameter:.4g} mm, {angle}conformities {row.outer_conformity:.4g} outside and "
+            f"{row.inner_conformity:.4g} inside, diametral clearance {1e6 * row.clearance:.3g} µm"
+        )
+        told.append((of, text.replace("-", "−")))
+    return [*told, *(("Defect", _defect(name, defect)) for name, defect in scene.defects.items())]
+
+
+def _defect(name: str, defect: Defect) -> str:
+    surface = {"outer_race": "outer race", "inner_race": "inner race"}.get(
+        defect.on, f"ball {defect.ball}"
+    )
+    width = defect.width if isinstance(defect.width, float) else max(defect.width.widths)
+    place = "where the contact runs"
+    if not isinstance(defect.axial_offset, str):
+        place = f"{1e3 * defect.axial_offset:.3f} mm from the row's plane"
+    text = (
+        f"{name}: on the {surface} of row {defect.row}, at {degrees(defect.angle)}, {place}; "
+        f"{1e3 * width:.3g} mm along the race, {1e3 * defect.length:.3g} mm across"
+    )
+    return text.replace("-", "−")
+
+
+def operation(scene: Scene) -> list[tuple[str, str]]:
+    """Return loads and speed."""
+    told = []
+    for name, load in scene.loads.items():
+        x, y, z = load.direction
+        force = f"{load.force:.5g} N" if isinstance(load.force, int | float) else "changes in time"
+        text = f"{force} on the {load.ring} ring along ({x:.3g}, {y:.3g}, {z:.3g})"
+        told.append((f"Load, {name}", text.replace("-", "−")))
+    return [*told, ("Speed", _speed(scene.drive)), *_unbalances(scene)]
+
+
+def _unbalances(scene: Scene) -> list[tuple[str, str]]:
+    return [
+        (f"Unbalance, {name}", f"{1e6 * u.moment:.4g} g·mm on the {u.ring} ring")
+        for name, u in scene.unbalances.items()
+    ]
+
+
+def _speed(drive: SpeedDrive | TorqueDrive) -> str:
+    if isinstance(drive, TorqueDrive):
+        return f"driven by a torque, from {drive.initial_speed:.4g} rad/s"
+    if isinstance(drive.speed, int | float):
+        return f"{drive.speed * 30.0 / math.pi:.5g} rev/min, inner ring".replace("-", "−")
+    return "changes in time, inner ring"
+
+
+def model(scene: Scene) -> list[tuple[str, str]]:
+    """Return what of physics a scene holds."""
+    contact = scene.contact
+    law = "ISO/TS 16281 slices" if isinstance(contact.law, Iso16281) else "Hertz"
+    friction = scene.friction
+    cage = scene.cage
+    told = [
+        (
+            "Contact",
+            f"{law}, {_slices(contact.slices)}; Hunt–Crossley damping {contact.damping:.3g} s/m",
+        ),
+        ("Friction", friction if isinstance(friction, str) else _fields(friction)),
+        ("Cage", "none" if cage is None else _fields(cage)),
+        ("Outer ring", _held(scene.outer_ring.support)),
+        ("Inner ring", _held(scene.inner_ring.support)),
+    ]
+    return [(what, text.replace("-", "−")) for what, text in told]
+
+
+def _slices(slices: FixedSlices | FittedSlices | AccurateSlices) -> str:
+    match slices:
+        case FixedSlices():
+            return f"{slices.count} fixed slices a ball"
+        case FittedSlices():
+            return f"{slices.count} fitted nodes a zone"
+    return f"nodes fitted to an accuracy of {slices.accuracy:.1g}"
+
+
+def _fields(part: Any) -> str:
+    name = type(part).__name__
+    values = {k: v for k, v in vars(part).items() if isinstance(v, int | float)}
+    return f"{name}: " + ", ".join(f"{k.replace('_', ' ')} {v:.4g}" for k, v in values.items())
+
+
+def _held(support: Any) -> str:
+    parts = []
+    for axis in "xyz":
+        mount = getattr(support, axis)
+        if mount is None or isinstance(mount, str):
+            parts.append(f"{axis} {mount or 'as usual'}")
+        else:
+            parts.append(
+                f"{axis} spring {mount.stiffness:.3g} N/m, damper {mount.damping:.3g} N s/m"
+            )
+    return "; ".join(parts)

@@ -1,0 +1,57 @@
+"""A page into its file."""
+
+from __future__ import annotations
+
+import importlib.util
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .._files import check_writable, whole
+from ..errors import SceneError, SceneWarning
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable
+
+    from .page import Page
+
+__all__ = ["check_page", "write_page"]
+
+
+def check_page(path: Path, name: str = "path") -> None:
+    """Refuse a place where no page can be written, given as ``name``.
+
+    Raises
+    ------
+    SceneError
+        The name does not end in ``.html``, or plotly is not installed.
+    OSError
+        The file cannot be written.
+    """
+    if path.suffix.lower() not in (".html", ".htm"):
+        raise SceneError(name, str(path), "a file that ends in .html, which is what is written")
+    check_writable(path)
+    if importlib.util.find_spec("plotly") is None:
+        allowed = 'plotly, which is not installed: pip install "ballrace[plot]"'
+        raise SceneError(name, str(path), allowed)
+
+
+def write_page(path: str | os.PathLike[str], make: Callable[[], Page]) -> None:
+    """Make a page and write it, whole or not at all.
+
+    Raises
+    ------
+    SceneError
+        The name does not end in ``.html``, or plotly is not installed.
+    OSError
+        The file cannot be written.
+    """
+    path = Path(path)
+    check_page(path)
+    with warnings.catch_warnings():
+        # What a run was warned of stands on its page; its scene is not to warn again.
+        warnings.simplefilter("ignore", SceneWarning)
+        text = make().html()
+    with whole(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")

@@ -1,0 +1,48 @@
+"""Signals looked at as vibration analysts do: spectra, envelopes, orders, kurtograms and fault bands.
+
+All functions take plain arrays, measured or simulated, with the sampling rate ``fs`` in hertz, and return
+``(f, value)`` as scipy does. Amplitude spectra are taken under a Hann window without the mean: a sine of
+amplitude 2 has a line of height 2.
+
+From a record to the race that is damaged:
+
+>>> import ballrace as br, numpy as np
+>>> fs, orders = 16_000.0, br.frequencies.orders(9, 7.94e-3, 39.04e-3)
+>>> since = (np.arange(32_000) / fs) % (1.0 / (orders.bpfo * 30.0))
+>>> x = np.exp(-800.0 * since) * np.sin(2 * np.pi * 3000.0 * since)
+>>> x += 0.3 * np.random.default_rng(1).normal(size=x.size)
+>>> band = kurtogram(x, fs, narrowest=500.0).best
+>>> f, value = squared_envelope_spectrum(x, fs, band)
+>>> found = fault_band_metrics(f, value, fault_bands(orders, shaft=30.0))
+>>> max(found, key=lambda fault: found[fault].level)
+'outer_race'
+"""
+
+from __future__ import annotations
+
+from .angular import by_order, order_spectrum
+from .bands import FaultBand, FaultMetrics, fault_band_metrics, fault_bands
+from .densities import psd, spectrogram
+from .envelopes import envelope_spectrum, squared_envelope, squared_envelope_spectrum
+from .kurtograms import Kurtogram, kurtogram
+from .lines import comb, floor, line, spectrum
+
+__all__ = [
+    "FaultBand",
+    "FaultMetrics",
+    "Kurtogram",
+    "by_order",
+    "comb",
+    "envelope_spectrum",
+    "fault_band_metrics",
+    "fault_bands",
+    "floor",
+    "kurtogram",
+    "line",
+    "order_spectrum",
+    "psd",
+    "spectrogram",
+    "spectrum",
+    "squared_envelope",
+    "squared_envelope_spectrum",
+]

@@ -1,0 +1,257 @@
+"""Where a defect's lines are to be expected in a spectrum, and what stands there.
+
+A defect of the outer race gives lines at the multiples of BPFO. One of the inner race turns with the shaft in and
+out of the load, so its lines at the multiples of BPFI have others a shaft's rate beside them. One of a ball meets
+a race twice a turn and goes round with the cage: lines at the multiples of 2·BSF, others FTF beside them
+(R. B. Randall, J. Antoni, *Rolling element bearing diagnostics*, Mech. Syst. Signal Process. 25 (2011) 485).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import SceneError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from ..frequencies import Orders
+
+__all__ = ["Fault", "FaultBand", "FaultMetrics", "fault_band_metrics", "fault_bands"]
+
+Fault = Literal["outer_race", "inner_race", "ball", "cage"]
+"""What is damaged."""
+
+_BESIDE = 10
+"""Bands of the same width to either side, by which a band is judged."""
+
+_HANN = 1.5
+"""Equivalent noise bandwidth of the Hann window [bins]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FaultBand:
+    """A line that a defect may have, and the band within which slip moves it.
+
+    Attributes
+    ----------
+    fault : {"outer_race", "inner_race", "ball", "cage"}
+        What is damaged.
+    harmonic : int
+        Multiple of its fault frequency: BPFO, BPFI, 2·BSF or FTF.
+    sideband : int
+        How many rates of the shaft (inner race) or of the cage (ball) beside it.
+    centre, low, high : float
+        Kinematic place of the line and edges of the band, in orders or [Hz].
+    """
+
+    fault: Fault
+    harmonic: int
+    sideband: int
+    centre: float
+    low: float
+    high: float
+
+    @property
+    def label(self) -> str:
+        """Name of the line as on a spectrum: ``2·BPFI − f_r``."""
+        name = {"outer_race": "BPFO", "inner_race": "BPFI", "ball": "2·BSF", "cage": "FTF"}
+        times = "" if self.harmonic == 1 else f"{self.harmonic}·"
+        line = times + name[self.fault] if self.fault != "ball" else f"{2 * self.harmonic}·BSF"
+        if self.sideband == 0:
+            return line
+        beside = "FTF" if self.fault == "ball" else "f_r"
+        many = "" if abs(self.sideband) == 1 else f"{abs(self.sideband)}·"
+        return f"{line} {'+' if self.sideband > 0 else '−'} {many}{beside}"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FaultMetrics:
+    """What a spectrum has in the bands of one fault; each array has an entry a band.
+
+    Attributes
+    ----------
+    bands : tuple of FaultBand
+        The bands.
+    peak : ndarray
+        Highest value in the band, in the unit of the spectrum.
+    frequency : ndarray
+        Where it stands, in the unit of the spectrum's frequencies.
+    power : ndarray
+        Mean square of what lies in the band, of an amplitude spectrum under a Hann window: a²/2 of a line a.
+    levels : ndarray
+        Peak over the median of the peaks of ten bands of the same width to either side [dB]. Noise alone has
+        0 dB, give or take 2, however wide the band and long the record. Not a number where a spectrum is too
+        short for any such band.
+    """
+
+    bands: tuple[FaultBand, ...]
+    peak: NDArray[np.float64]
+    frequency: NDArray[np.float64]
+    power: NDArray[np.float64]
+    levels: NDArray[np.float64]
+
+    @property
+    def level(self) -> float:
+        """Mean level of the harmonics, sidebands aside [dB]: high only if most of them stand out."""
+        return float(
+            np.mean([v for b, v in zip(self.bands, self.levels, strict=True) if not b.sideband])
+        )
+
+
+def fault_bands(
+    orders: Orders,
+    shaft: float = 1.0,
+    *,
+    harmonics: int = 3,
+    sidebands: int = 1,
+    slip: float = 0.01,
+) -> tuple[FaultBand, ...]:
+    """Return the bands in which the lines of defects are to be sought.
+
+    Parameters
+    ----------
+    orders : Orders
+        Kinematic orders of the row, from :func:`ballrace.frequencies.orders`.
+    shaft : float
+        Rate of the shaft: 1 gives bands in orders, its frequency [Hz] bands in hertz.
+    harmonics : int
+        Multiples of each fault frequency, from 1 to this.
+    sidebands : int
+        Sidebands to either side: of the shaft for the inner race, of the cage for a ball, none for others.
+    slip : float
+        Share by which a fault frequency may lie off its kinematic value, by slip and by the contact angle: half
+        the width of the first harmonic's bands; the others are wider as they are higher.
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> bands = fault_bands(br.frequencies.orders(9, 7.94e-3, 39.04e-3), shaft=29.95, harmonics=2)
+    >>> [(band.label, round(band.centre, 1)) for band in bands if band.fault == "inner_race"][:3]
+    [('BPFI − f_r', 132.2), ('BPFI', 162.2), ('BPFI + f_r', 192.1)]
+    >>> [band.label for band in bands if band.fault == "ball"][-2:]
+    ['4·BSF', '4·BSF + FTF']
+    """
+    _check(shaft, harmonics, sidebands, slip)
+    rates: tuple[tuple[Fault, float, float], ...] = (
+        ("outer_race", orders.bpfo, 0.0),
+        ("inner_race", orders.bpfi, 1.0),
+        ("ball", 2.0 * orders.bsf, orders.ftf),
+        ("cage", orders.ftf, 0.0),
+    )
+    return tuple(
+        _band(fault, k, side, (k * rate + side * beside) * shaft, k * rate * slip * shaft)
+        for fault, rate, beside in rates
+        for k in range(1, harmonics + 1)
+        for side in (range(-sidebands, sidebands + 1) if beside else (0,))
+        if k * rate * (1.0 - slip) + side * beside > 0.0
+    )
+
+
+def _check(shaft: float, harmonics: int, sidebands: int, slip: float) -> None:
+    for name, number, least in (("harmonics", harmonics, 1), ("sidebands", sidebands, 0)):
+        if isinstance(number, bool) or not isinstance(number, int) or number < least:
+            raise SceneError(name, repr(number), f"a whole number, at least {least}")
+    if not 0.0 < shaft < float("inf"):
+        raise SceneError("shaft", str(shaft), "above 0")
+    if not 0.0 <= slip < 0.5:
+        raise SceneError("slip", str(slip), "from 0 to below 0.5")
+
+
+def _band(fault: Fault, harmonic: int, sideband: int, centre: float, half: float) -> FaultBand:
+    return FaultBand(
+        fault=fault, harmonic=harmonic, sideband=sideband,
+        centre=centre, low=centre - half, high=centre + half,
+    )  # fmt: skip
+
+
+def fault_band_metrics(
+    f: NDArray[np.float64], value: NDArray[np.float64], bands: Iterable[FaultBand]
+) -> dict[Fault, FaultMetrics]:
+    """Return what a spectrum has in the bands of each fault.
+
+    Parameters
+    ----------
+    f, value : ndarray, shape (n,)
+        An amplitude spectrum at equal steps from 0, in hertz or orders as the bands are; of a squared envelope, as
+        a rule.
+    bands : iterable of FaultBand
+        From :func:`fault_bands`. A band takes in the bins that reach into it, one at least.
+
+    Returns
+    -------
+    dict of str to FaultMetrics
+        By fault, in the order of the bands.
+
+    Raises
+    ------
+    SceneError
+        The spectrum is none, or ends below a band.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> bands = fault_bands(br.frequencies.orders(9, 7.94e-3, 39.04e-3), shaft=30.0)
+    >>> t = np.arange(24_000) / 12_000.0
+    >>> x = sum(np.cos(2 * np.pi * k * 107.5 * t) for k in (1, 2, 3))
+    >>> x = x + np.random.default_rng(1).normal(size=t.size)
+    >>> found = fault_band_metrics(*br.spectra.spectrum(x, 12_000.0), bands)
+    >>> found["outer_race"].frequency.tolist(), found["outer_race"].level > 20 > found["ball"].level
+    ([107.5, 215.0, 322.5], True)
+    """
+    f, value = np.asarray(f, dtype=np.float64), np.asarray(value, dtype=np.float64)
+    if f.ndim != 1 or f.shape != value.shape or f.size < 2 or not f[1] > f[0] == 0.0:
+        raise SceneError(
+            "f", f"arrays of shape {f.shape} and {value.shape}", "a spectrum from 0 up"
+        )
+    by_fault: dict[Fault, list[FaultBand]] = {}
+    for band in bands:
+        if band.high > f[-1]:
+            raise SceneError(
+                "f", f"up to {f[-1]:g}", f"a spectrum that reaches {band.label}, {band.high:g}"
+            )
+        by_fault.setdefault(band.fault, []).append(band)
+    return {fault: _metrics(f, value, tuple(group)) for fault, group in by_fault.items()}
+
+
+def _metrics(
+    f: NDArray[np.float64], value: NDArray[np.float64], bands: tuple[FaultBand, ...]
+) -> FaultMetrics:
+    rows = [_measured(f, value, band) for band in bands]
+    peak, frequency, power, levels = np.array(rows).T
+    return FaultMetrics(bands=bands, peak=peak, frequency=frequency, power=power, levels=levels)
+
+
+def _measured(
+    f: NDArray[np.float64], value: NDArray[np.float64], band: FaultBand
+) -> tuple[float, float, float, float]:
+    """Return peak, its frequency, power and level of a band."""
+    first = max(round(band.low / f[1]), 1)
+    end = max(round(band.high / f[1]), first) + 1
+    at = first + int(np.argmax(value[first:end]))
+    peak = float(value[at])
+    width = end - first
+    starts = (first + side * width for side in range(-_BESIDE, _BESIDE + 1) if side)
+    # Not where the mean was removed, which takes two bins under a Hann window, nor beyond the end.
+    beside = [value[s : s + width].max() for s in starts if s >= 2 and s + width <= f.size]
+    around = float(np.median(beside)) if beside else math.nan
+    power = float(np.sum(value[first:end] ** 2)) / 2.0 / _HANN
+    return peak, float(f[at]), power, _decibels(peak, around)
+
+
+def _decibels(value: float, reference: float) -> float:
+    """Return a ratio as a level: infinite over nothing, 0 of nothing over nothing, none without a reference."""
+    if value == reference == 0.0:
+        return 0.0
+    with np.errstate(divide="ignore"):
+        return float(20.0 * np.log10(np.float64(value) / reference))

@@ -1,0 +1,84 @@
+"""A campaign's signals through many housings, without running anything again."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import ballrace as br
+from ballrace import measuring as m
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+CHAINS = {
+    f"housing {seed}": m.Chain(
+        housing=m.random_housing(seed),
+        machine=m.Machine(noise_density=1e-2),
+        logger=m.Logger(fs=12_500.0),
+    )
+    for seed in range(3)
+}
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory: pytest.TempPathFactory) -> br.Campaign:
+    folder: Path = tmp_path_factory.mktemp("campaign")
+    spall = br.defects.spall(on="outer_race", width_mm=1.0)
+    scene = br.bearing("6205", radial_load=1000.0, speed_rpm=6000.0, defects=spall)
+    cases = br.grid({"loads.radial.force": [800.0, 1200.0]})
+    return br.campaign(
+        cases, folder, scene=scene, duration=0.02, fs=25_000.0, settle=0.0, keep="signals", progress=False
+    )  # fmt: skip
+
+
+def test_every_case_meets_every_chain(done: br.Campaign) -> None:
+    table = done.measure(CHAINS, seed=1)
+    assert table.height == 6
+    pairs = table.select("case_id", "chain").rows()
+    assert pairs == [(case, name) for case in done.manifest["case_id"] for name in CHAINS]
+    assert table["sampling_rate"].unique().to_list() == [12_500.0]
+    # Housings differ, and so does their noise.
+    assert table["sensor.rms"].n_unique() == 6
+    assert table["seed"].n_unique() == 6
+    assert done.manifest.join(table, on="case_id").height == 6
+
+
+def test_a_line_is_the_measurement_of_the_run(done: br.Campaign) -> None:
+    line = done.measure(CHAINS, seed=1).row(4, named=True)
+    out = br.simulate(done.scene(line["case_id"]), duration=0.02, fs=25_000.0, settle=0.0)
+    alone = br.measure(out, CHAINS[line["chain"]], seed=line["seed"])
+    wanted = br.features(alone.x, alone.fs, name="sensor", scene=out.scene)
+    assert {name: line[name] for name in wanted} == wanted
+
+
+def test_windows_are_cut_from_the_measurement(done: br.Campaign) -> None:
+    table = done.windows(CHAINS, 64, 32, seed=1)
+    first = next(iter(done.measurements(CHAINS, seed=1))).measurement
+    each = (first.x.size - 64) // 32 + 1
+    assert table.height == 6 * each
+    row = table.row(2, named=True)
+    assert row["start"] == pytest.approx(first.start + 64 / 12_500.0)
+    assert np.array_equal(row["x"], first.x[64:128])
+
+
+def test_some_chains_for_each_case(done: br.Campaign) -> None:
+    table = done.measure(list(CHAINS.values()), seed=3, per_case=2)
+    assert table.height == 4
+    assert table.equals(done.measure(list(CHAINS.values()), seed=3, per_case=2))
+    assert set(table["chain"]) <= {"0", "1", "2"}
+
+
+def test_what_is_refused(done: br.Campaign) -> None:
+    with pytest.raises(br.SceneError, match="chains"):
+        done.measure({})
+    with pytest.raises(br.SceneError, match="per_case"):
+        done.measure(CHAINS, per_case=4)
+    with pytest.raises(br.SceneError, match="length"):
+        done.windows(CHAINS, 10**6)
+    with pytest.raises(br.SceneError, match="hop"):
+        done.windows(CHAINS, 10, 0)
+    with pytest.raises(br.SceneError, match="direction"):
+        done.measure(m.Chain(body="row0.ball0"))

@@ -1,0 +1,413 @@
+"""The stages of the measuring chain, each against what it must be."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+import scipy.signal
+
+import ballrace as br
+from ballrace import measuring as m
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+FS = 50_000.0
+MODES = (
+    m.Mode(frequency=900.0, damping=0.05, residue=0.4),
+    m.Mode(frequency=3100.0, damping=0.02, residue=-0.3),
+    m.Mode(frequency=9000.0, damping=0.03, residue=0.2),
+)
+HOUSING = m.Housing(modes=MODES, direct=0.7)
+
+
+def sine(f: float, seconds: float = 1.0) -> NDArray[np.float64]:
+    t: NDArray[np.float64] = np.arange(round(seconds * FS)) / FS
+    return np.sin(2.0 * np.pi * f * t)
+
+
+def response(x: NDArray[np.float64], f: float, fs: float = FS) -> complex:
+    """Complex amplitude over that of a unit sine, from the settled second half: whole periods."""
+    x = x[x.size // 2 :]
+    t = (np.arange(x.size) + x.size) / fs
+    return complex(2.0 / x.size * np.sum(x * np.exp(-2.0j * np.pi * f * t)) * 1.0j)
+
+
+def by_formula(f: float) -> complex:
+    """Transfer of the housing, from its modes' poles: equation of motion of each, Laplace's s = i ω."""
+    s, total = 2.0j * math.pi * f, complex(HOUSING.direct)
+    for mode in MODES:
+        w = 2.0 * math.pi * mode.frequency
+        total += mode.residue * w**2 / (s**2 + 2.0 * mode.damping * w * s + w**2)
+    return total
+
+
+# ------------------------------------------------------------------------------- linear stages
+
+
+@pytest.mark.parametrize(
+    "f", [20.0, 900.0, 2000.0, 3100.0, 5000.0, 9000.0, 15_000.0, 20_000.0, 24_000.0]
+)
+def test_a_sine_comes_with_the_gain_and_phase_of_the_modes(f: float) -> None:
+    found = response(br.measure(sine(f), m.Chain(housing=HOUSING), fs=FS).x, f)
+    assert abs(found / by_formula(f) - 1.0) < 1e-3
+
+
+def test_a_mode_answers_a_knock_as_its_equation_of_motion() -> None:
+    """A soft knock, well within the band, against scipy's integration of x'' + 2ζωx' + ω²x = ω²a."""
+    t = np.arange(2000) / FS
+    knock = np.exp(-0.5 * ((t - 0.004) / 0.0004) ** 2)
+    mode = MODES[0]
+    w = 2.0 * math.pi * mode.frequency
+    system = scipy.signal.lti([mode.residue * w**2], [1.0, 2.0 * mode.damping * w, w**2])
+    fine = np.linspace(0.0, t[-1], 20 * (t.size - 1) + 1)
+    wanted = scipy.signal.lsim(system, np.exp(-0.5 * ((fine - 0.004) / 0.0004) ** 2), fine)[1][::20]
+    found = br.measure(knock, m.Chain(housing=m.Housing(modes=(mode,))), fs=FS).x
+    np.testing.assert_allclose(found, wanted, atol=1e-4 * np.abs(wanted).max())
+
+
+def test_ringing_does_not_come_round_to_the_beginning() -> None:
+    x = np.zeros(1000)
+    x[-1] = 1.0
+    slow = m.Housing(modes=(m.Mode(frequency=50.0, damping=0.005),))
+    # Only what a sharp end of a band-limited signal has before itself.
+    assert np.abs(br.measure(x, m.Chain(housing=slow), fs=FS).x[:900]).max() < 1e-5
+
+
+def test_a_measured_response_is_its_interpolation() -> None:
+    f = np.arange(0.0, 25_001.0, 10.0)
+    h = HOUSING.transfer(f, FS)
+    measured = br.measure(sine(2000.0), m.Chain(housing=m.MeasuredResponse(f, h)), fs=FS)
+    assert abs(response(measured.x, 2000.0) / by_formula(2000.0) - 1.0) < 1e-3
+    beyond = br.measure(
+        sine(2000.0), m.Chain(housing=m.MeasuredResponse([0.0, 1000.0], [1.0, 1.0])), fs=FS
+    )
+    assert abs(response(beyond.x, 2000.0)) < 1e-3
+
+
+def test_an_impulse_response_is_a_convolution() -> None:
+    rng = np.random.default_rng(1)
+    x, taps = rng.standard_normal(3000), rng.standard_normal(700)
+    found = br.measure(x, m.Chain(housing=m.ImpulseResponse(taps, FS)), fs=FS).x
+    np.testing.assert_allclose(found, np.convolve(x, taps)[:3000], atol=1e-10)
+
+
+def test_the_sensor_has_its_resonance_and_its_lower_limit() -> None:
+    sensor = m.Sensor(resonance=20_000.0, damping=0.025, lower_limit=5.0)
+    top = response(br.measure(sine(20_000.0), m.Chain(sensor=sensor), fs=FS).x, 20_000.0)
+    assert abs(top) == pytest.approx(1.0 / (2.0 * 0.025), rel=1e-3)
+    assert abs(
+        response(br.measure(sine(5.0, 4.0), m.Chain(sensor=sensor), fs=FS).x, 5.0)
+    ) == pytest.approx(math.sqrt(0.5), rel=1e-3)
+
+
+# ------------------------------------------------------------------------------- direction and source
+
+
+def test_direction_projects_the_accelerations() -> None:
+    xyz = np.random.default_rng(2).standard_normal((100, 3))
+    found = br.measure(xyz, m.Chain(direction=(3.0, 0.0, -4.0)), fs=FS).x
+    np.testing.assert_allclose(found, 0.6 * xyz[:, 0] - 0.8 * xyz[:, 2], rtol=1e-12)
+
+
+def test_of_a_run_it_is_that_of_the_recorded_columns() -> None:
+    out = br.simulate(br.bearing("6205", speed_rpm=1797.0), duration=0.01)
+    assert np.array_equal(br.measure(out).x, out["outer.ay"])
+    both = br.measure(out, m.Chain(direction=(1.0, 1.0, 0.0), body="inner")).x
+    np.testing.assert_allclose(
+        both, math.sqrt(0.5) * (out["inner.ax"] + out["inner.ay"]), rtol=1e-12
+    )
+    with pytest.raises(br.SceneError, match=r"row0\.ball0"):
+        br.measure(out, m.Chain(body="row0.ball0"))
+
+
+def test_without_a_stage_the_numbers_stay() -> None:
+    x = np.random.default_rng(3).standard_normal(100)
+    measured = br.measure(x, fs=FS)
+    assert np.array_equal(measured.x, x)
+    assert measured.x is not x
+    assert measured.fs == FS
+    assert (measured.pulses.size, measured.clipped) == (0, 0.0)
+
+
+# ------------------------------------------------------------------------------- logger
+
+
+def test_clipping() -> None:
+    measured = br.measure(sine(100.0), m.Chain(logger=m.Logger(range=0.5)), fs=FS)
+    assert measured.x.max() == 0.5
+    assert measured.x.min() == -0.5
+    # The sine is above one half for two thirds of the time.
+    assert measured.clipped == pytest.approx(2.0 / 3.0, abs=2e-3)
+
+
+def test_quantisation_has_its_step_and_the_noise_of_its_step() -> None:
+    logger = m.Logger(range=2.0, bits=10)
+    assert logger.step == 4.0 / 1024.0
+    x = np.random.default_rng(4).uniform(-1.0, 1.0, 200_000)
+    error = br.measure(x, m.Chain(logger=logger), fs=FS).x - x
+    assert np.unique(np.rint((error + x) / logger.step - (error + x) / logger.step)).tolist() == [
+        0.0
+    ]
+    assert np.abs(error).max() <= 0.5 * logger.step * (1.0 + 1e-9)
+    assert error.var() == pytest.approx(logger.step**2 / 12.0, rel=0.02)
+
+
+def test_the_converters_range_has_one_code_more_below() -> None:
+    logger = m.Logger(range=1.0, bits=3)
+    found = br.measure(np.array([-5.0, 5.0]), m.Chain(logger=logger), fs=FS).x
+    assert found.tolist() == [-1.0, 0.75]
+
+
+@pytest.mark.parametrize("fs", [12_000.0, 25_600.0, 96_000.0])
+def test_resampling_keeps_the_band_and_nothing_beyond(fs: float) -> None:
+    logger = m.Chain(logger=m.Logger(fs=fs))
+    kept = br.measure(sine(1000.0, 2.0), logger, fs=FS)
+    assert kept.fs == fs
+    assert abs(response(kept.x, 1000.0, fs) - 1.0) < 1e-3
+    if fs < FS:
+        # Would fold back into the band.
+        beyond = br.measure(sine(0.5 * fs + 600.0, 2.0), logger, fs=FS).x
+        assert np.abs(beyond[2000:-2000]).max() < 2e-4
+
+
+def test_bandwidth_alone() -> None:
+    chain = m.Chain(logger=m.Logger(bandwidth=8000.0))
+    assert abs(response(br.measure(sine(8000.0), chain, fs=FS).x, 8000.0) - 1.0) < 1e-3
+    assert abs(response(br.measure(sine(10_000.0), chain, fs=FS).x, 10_000.0)) < 2e-4
+
+
+# ------------------------------------------------------------------------------- machine
+
+
+@pytest.mark.parametrize("stage", ["machine", "logger"])
+def test_noise_has_its_density(stage: str) -> None:
+    density = 3e-4
+    stages = {
+        "machine": m.Machine(noise_density=density),
+        "logger": m.Logger(noise_density=density),
+    }
+    x = br.measure(np.zeros(500_000), m.Chain(**{stage: stages[stage]}), fs=FS, seed=5).x  # type: ignore[arg-type]
+    _, found = scipy.signal.welch(x, FS, nperseg=1024)
+    assert np.mean(found[2:-2]) == pytest.approx(density, rel=0.01)
+    assert found[2:-2].std() / density < 0.1
+
+
+def test_noise_keeps_its_density_through_the_logger() -> None:
+    chain = m.Chain(machine=m.Machine(noise_density=1e-2), logger=m.Logger(fs=12_000.0))
+    x = br.measure(np.zeros(1_000_000), chain, fs=FS, seed=6).x
+    f, found = scipy.signal.welch(x, 12_000.0, nperseg=512)
+    assert np.mean(found[(f > 200.0) & (f < 4500.0)]) == pytest.approx(1e-2, rel=0.02)
+
+
+def test_harmonics_of_shaft_and_mains() -> None:
+    machine = m.Machine(shaft=(2.0, 0.5), mains=(0.0, 0.25), mains_frequency=50.0)
+    x = br.measure(np.zeros(50_000), m.Chain(machine=machine), fs=FS, shaft=30.0).x
+    lines = 2.0 * np.abs(np.fft.rfft(x)) / x.size
+    assert [lines[k] for k in (30, 60, 50, 100)] == pytest.approx([2.0, 0.5, 0.0, 0.25], abs=1e-9)
+
+
+def test_modulated_noise_has_lines_of_the_shaft_in_its_envelope() -> None:
+    machine = m.Machine(noise_density=1.0, modulation=(0.3,))
+    x = br.measure(np.zeros(500_000), m.Chain(machine=machine), fs=FS, shaft=30.0, seed=8).x
+    squared = x**2 / np.mean(x**2)
+    line = 2.0 * abs(np.mean(squared * np.exp(-2.0j * np.pi * 30.0 * np.arange(x.size) / FS)))
+    # (1 + m cos)² = 1 + m²/2 + 2 m cos + …
+    assert line == pytest.approx(0.6 / (1.0 + 0.3**2 / 2.0), rel=0.03)
+
+
+# ------------------------------------------------------------------------------- tachometer
+
+
+def test_pulses_of_an_even_shaft() -> None:
+    chain = m.Chain(tacho=m.Tacho(pulses=4))
+    pulses = br.measure(np.zeros(50_000), chain, fs=FS, shaft=30.0).pulses
+    np.testing.assert_allclose(pulses, np.arange(120) / 120.0, atol=1e-9)
+
+
+def test_pulses_of_a_run_up() -> None:
+    t = np.arange(100_000) / FS
+    chain = m.Chain(tacho=m.Tacho())
+    pulses = br.measure(np.zeros(t.size), chain, fs=FS, shaft=2.0 * np.pi * 20.0 * t**2).pulses
+    np.testing.assert_allclose(pulses, np.sqrt(np.arange(pulses.size) / 20.0), atol=1e-6)
+
+
+def test_jitter() -> None:
+    chain = m.Chain(tacho=m.Tacho(pulses=10, jitter=1e-5))
+    pulses = br.measure(np.zeros(1_000_000), chain, fs=FS, shaft=30.0, seed=9).pulses
+    assert (pulses - np.arange(pulses.size) / 300.0).std() == pytest.approx(1e-5, rel=0.05)
+
+
+def test_of_a_run_pulses_follow_the_inner_ring() -> None:
+    out = br.simulate(br.bearing("6205", speed_rpm=3000.0), duration=0.05)
+    pulses = br.measure(out, m.Chain(tacho=m.Tacho(pulses=2))).pulses
+    np.testing.assert_allclose(np.diff(pulses), 0.01, rtol=1e-6)
+
+
+# ------------------------------------------------------------------------------- seeds and mixing
+
+
+CHAIN = m.Chain(
+    housing=HOUSING,
+    machine=m.Machine(noise_density=1e-3, shaft=(1.0,), modulation=(0.2,)),
+    sensor=m.Sensor(),
+    logger=m.Logger(fs=12_000.0, noise_density=1e-5, range=20.0, bits=16),
+    tacho=m.Tacho(jitter=1e-5),
+)
+
+
+def test_a_seed_decides_all_and_stages_do_not_disturb_each_other() -> None:
+    def run(chain: m.Chain, seed: int) -> m.Measurement:
+        return br.measure(sine(500.0, 0.1), chain, fs=FS, shaft=30.0, seed=seed)
+
+    first, again, other = run(CHAIN, 1), run(CHAIN, 1), run(CHAIN, 2)
+    assert np.array_equal(first.x, again.x)
+    assert np.array_equal(first.pulses, again.pulses)
+    assert not np.array_equal(first.x, other.x)
+    quiet = replace(CHAIN, machine=None)
+    assert np.array_equal(run(quiet, 1).pulses, first.pulses)
+    # Noise of one stage is not that of another.
+    jittery = br.measure(
+        np.zeros(50_000),
+        fs=FS,
+        shaft=30.0,
+        logger=m.Logger(noise_density=2.0 / FS),
+        tacho=m.Tacho(jitter=1e-6),
+    )
+    errors = (jittery.pulses - np.arange(30) / 30.0) / 1e-6
+    assert np.abs(np.sort(errors) - np.sort(jittery.x[:30])).max() > 0.1
+    silent = replace(CHAIN, machine=None, logger=m.Logger(noise_density=1.0))
+    without = replace(silent, logger=None)
+    noisy = replace(silent, machine=m.Machine(noise_density=1.0))
+    noise = run(silent, 1).x - run(without, 1).x
+    assert np.allclose(noise, run(noisy, 1).x - run(replace(noisy, logger=None), 1).x)
+
+
+def test_mixing_has_its_ratio_and_leaves_the_background() -> None:
+    rng = np.random.default_rng(11)
+    x, record = sine(300.0, 0.2), 3.0 + 0.7 * rng.standard_normal(40_000)
+    mixed = m.mix_into(x, record, -6.0)
+    added = mixed - record[: x.size]
+    ratio = 10.0 * math.log10(added.var() / record[: x.size].var())
+    assert ratio == pytest.approx(-6.0, abs=1e-9)
+    # Anywhere in the record, by the seed.
+    assert not np.array_equal(m.mix_into(x, record, -6.0, seed=1), mixed)
+    measured = br.measure(x, fs=FS)
+    assert np.array_equal(measured.mix_into(record, -6.0), mixed)
+    with pytest.raises(br.SceneError, match="background"):
+        m.mix_into(x, record[:100], 0.0)
+
+
+def test_random_housings_differ_by_their_seeds() -> None:
+    drawn = [m.random_housing(seed) for seed in range(20)]
+    assert len({housing.modes for housing in drawn}) == 20
+    for housing in drawn:
+        assert all(400.0 <= mode.frequency <= 12_000.0 for mode in housing.modes)
+        assert sum(mode.residue**2 for mode in housing.modes) == pytest.approx(0.25)
+
+
+# ------------------------------------------------------------------------------- what is refused
+
+
+@pytest.mark.parametrize(
+    ("make", "field"),
+    [
+        (lambda: m.Mode(frequency=0.0, damping=0.1), "mode.frequency"),
+        (lambda: m.Mode(frequency=1.0, damping=1.0), "mode.damping"),
+        (lambda: m.Mode(frequency=1.0, damping=0.1, residue=math.nan), "mode.residue"),
+        (lambda: m.Housing(modes=(1,)), "housing.modes"),  # type: ignore[arg-type]
+        (lambda: m.MeasuredResponse([1.0, 0.5], [1.0, 1.0]), "housing.f"),
+        (lambda: m.MeasuredResponse([1.0, 2.0], [1.0]), "housing.h"),
+        (lambda: m.ImpulseResponse([], 1.0), "housing.taps"),
+        (lambda: m.Sensor(resonance=-1.0), "sensor.resonance"),
+        (lambda: m.Machine(noise_density=-1.0), "machine.noise_density"),
+        (lambda: m.Machine(shaft=(math.nan,)), "machine.shaft"),
+        (lambda: m.Logger(bits=16), "logger.range"),
+        (lambda: m.Logger(bits=1, range=1.0), "logger.bits"),
+        (lambda: m.Tacho(pulses=0), "tacho.pulses"),
+        (lambda: m.Chain(housing=m.Sensor()), "housing"),  # type: ignore[arg-type]
+        (lambda: br.measure(np.zeros(10)), "fs"),
+        (lambda: br.measure(np.array([1.0, math.nan]), fs=1.0), "x"),
+        (lambda: br.measure(np.zeros(10), fs=1.0, seed=-1), "seed"),
+        (lambda: br.measure(np.zeros(10), m.Chain(direction=(1.0, 0.0, 0.0)), fs=1.0), "direction"),
+        (lambda: br.measure(np.zeros((10, 3)), m.Chain(direction=(0.0, 0.0, 0.0)), fs=1.0), "direction"),
+        (lambda: br.measure(np.zeros(10), m.Chain(tacho=m.Tacho()), fs=1.0), "shaft"),
+        (lambda: br.measure(np.zeros(10), fs=1.0, shaft=[1.0]), "shaft"),
+        (lambda: br.measure(np.zeros(10), m.Chain(logger=m.Logger(fs=FS / math.pi)), fs=FS), "logger.fs"),
+        (lambda: br.measure(np.zeros(10), m.Chain(logger=m.Logger(bandwidth=FS)), fs=FS), "logger.bandwidth"),
+        (lambda: br.measure(np.zeros(10), m.Chain(housing=m.ImpulseResponse([1.0], 2.0)), fs=FS), "housing.fs"),
+    ],
+)  # fmt: skip
+def test_what_is_refused_says_the_field(make: object, field: str) -> None:
+    with pytest.raises(br.SceneError) as refused:
+        make()  # type: ignore[operator]
+    assert refused.value.path == field
+
+
+# ------------------------------------------------------------------------------- coloured noise, keywords, tables
+
+
+def test_coloured_noise_has_its_density() -> None:
+    f = np.linspace(0.0, 25_000.0, 101)
+    density = 1e-3 * (1.0 + np.sin(f / 4000.0)) + 1e-5
+    machine = m.Machine(noise_density=(f, density))
+    x = br.measure(np.zeros(1_000_000), machine=machine, fs=FS, seed=3).x
+    at, found = scipy.signal.welch(x, FS, nperseg=1000)
+    wanted = np.interp(at, f, density)
+    strong = wanted[2:-2] > 1e-4
+    np.testing.assert_allclose(found[2:-2][strong], wanted[2:-2][strong], rtol=0.2)
+    assert np.mean(found[2:-2]) == pytest.approx(np.mean(wanted[2:-2]), rel=0.01)
+    # At the first and the last sample too.
+    drawn = [br.measure(np.zeros(500), machine=machine, fs=FS, seed=seed).x for seed in range(2000)]
+    for ends in (0, -1):
+        assert np.std([noise[ends] for noise in drawn]) == pytest.approx(x.std(), rel=0.05)
+    for bad in ((f, density[:-1]), (f[::-1], density), (f, -density), (f,)):
+        with pytest.raises(br.SceneError, match="noise_density"):
+            m.Machine(noise_density=bad)  # type: ignore[arg-type]
+
+
+def test_stages_may_be_given_one_by_one() -> None:
+    x = sine(500.0, 0.1)
+    stages = {"housing": HOUSING, "sensor": m.Sensor()}
+    chain = m.Chain(**stages)  # type: ignore[arg-type]
+    assert np.array_equal(
+        br.measure(x, fs=FS, housing=HOUSING, sensor=m.Sensor()).x, br.measure(x, chain, fs=FS).x
+    )
+    without = br.measure(x, chain, fs=FS, housing=None)
+    assert without.chain.stages == ("sensor",)
+    with pytest.raises(TypeError, match="hosing"):
+        br.measure(x, fs=FS, hosing=HOUSING)  # type: ignore[call-arg]
+
+
+def test_a_table_tells_the_numbers_of_chains() -> None:
+    found = m.table({"a": CHAIN, "b": m.Chain(logger=m.Logger(range=5.0))})
+    first, second = found.rows(named=True)
+    assert first["housing.modes[1].frequency"] == 3100.0
+    assert first["machine.shaft[0]"] == 1.0
+    assert (first["logger.range"], second["logger.range"]) == (20.0, 5.0)
+    assert second["housing.direct"] is None
+
+
+def test_scipy_is_needed_by_the_logger_alone() -> None:
+    """Nothing imports it before; where there is none, the message says how to come by it."""
+    script = """
+import sys
+import numpy as np
+import ballrace as br
+br.measure(np.zeros(100), fs=1e4, housing=br.measuring.random_housing(1), sensor=br.measuring.Sensor())
+assert "scipy" not in sys.modules
+sys.modules["scipy"] = None
+try:
+    br.measure(np.zeros(100), fs=1e4, logger=br.measuring.Logger(fs=5e3))
+except ImportError as error:
+    assert "ballrace[signal]" in str(error)
+else:
+    raise AssertionError
+"""
+    subprocess.run([sys.executable, "-c", script], check=True)

@@ -1,0 +1,136 @@
+"""Fault frequencies at the operating contact angle and with measured slip; defects as they are spoken of."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import ballrace as br
+from ballrace.scene import MotionProbe, Ramp, SpeedDrive, Surface, WidthProfile
+
+
+def test_of_a_name_they_are_the_published_ones() -> None:
+    # Case Western Reserve University, 6205 at 1797 rev/min.
+    found = br.fault_frequencies("SKF 6205-2RS", 1797.0)
+    assert (found.shaft, found.contact_angle, found.slip) == (29.95, 0.0, None)
+    assert [found.bpfo, found.bpfi, 2.0 * found.bsf, found.ftf] == pytest.approx(
+        [107.36, 162.19, 141.17, 11.93], abs=6e-3
+    )
+    assert found.orders.bpfo == pytest.approx(3.5848, abs=5e-5)
+    assert br.fault_frequencies(br.catalogue["6205"], 1797.0) == found
+
+
+def test_thrust_opens_the_angle_and_moves_them_as_kinematics_says() -> None:
+    scene = br.bearing("6205", radial_load=0.0, axial_load=500.0, speed_rpm=600.0)
+    found, eq = br.fault_frequencies(scene), br.equilibrium(scene)
+    assert found.contact_angle == pytest.approx(
+        0.5 * float(np.mean(eq.outer_angle) + np.mean(eq.inner_angle)), rel=1e-3
+    )
+    assert math.degrees(found.contact_angle) > 10.0
+    gamma = 7.94 / 39.04 * math.cos(found.contact_angle)
+    assert found.bpfo == pytest.approx(4.5 * 10.0 * (1.0 - gamma), rel=1e-9)
+    nominal = br.fault_frequencies(scene, operating=False)
+    assert nominal.contact_angle == 0.0
+    assert found.bpfo > nominal.bpfo
+    assert found.bpfi < nominal.bpfi
+
+
+def test_of_a_run_the_cage_is_measured() -> None:
+    """Thrust alone, friction and no play: the balls roll at the operating angle, and the cage with them."""
+    scene = br.bearing("6205", radial_load=0.0, axial_load=400.0, speed_rpm=1800.0)
+    probes = {"ball": MotionProbe(body="row0.ball2", components=("x", "y")), **scene.probes}
+    scene = replace(scene.replace({"cage.play": 0.0}), probes=probes)
+    out = br.simulate(scene, duration=0.05, fs=10_000.0)
+    found = br.fault_frequencies(out)
+    turned = np.unwrap(np.arctan2(out["ball.y"], out["ball.x"]))
+    rate = (turned[-1] - turned[0]) / (out.t[-1] - out.t[0]) / (2.0 * math.pi)
+    assert found.ftf == pytest.approx(rate, rel=1e-3)
+    assert found.bpfo == pytest.approx(9.0 * found.ftf)
+    assert found.bpfi == pytest.approx(9.0 * (30.0 - found.ftf))
+    assert found.slip is not None
+    assert abs(found.slip) < 2e-3
+    rolling = br.fault_frequencies(scene)
+    assert found.slip == pytest.approx(1.0 - found.ftf / rolling.ftf)
+    # Nominal kinematics is farther off than rolling at the operating angle.
+    assert abs(br.fault_frequencies(out, operating=False).ftf / rate - 1.0) > 5.0 * abs(found.slip)
+
+
+def test_without_a_balls_motion_there_is_no_slip() -> None:
+    out = br.simulate(br.bearing("6205"), duration=1e-3)
+    assert br.fault_frequencies(out).slip is None
+
+
+def test_what_is_refused() -> None:
+    scene = br.bearing("6205")
+    run_up = replace(scene, drive=SpeedDrive(Ramp(from_=0.0, to=100.0, start=0.0, end=1.0)))
+    for arguments, field in (
+        (("6205",), "speed_rpm"),
+        (("6205", 0.0), "speed_rpm"),
+        ((run_up,), "speed_rpm"),
+        (("62x5", 1.0), "designation"),
+        ((3, 1.0), "of"),
+    ):
+        with pytest.raises(br.SceneError) as refused:
+            br.fault_frequencies(*arguments)
+        assert refused.value.path == field
+    with pytest.raises(br.SceneError, match="row"):
+        br.fault_frequencies(scene, row=1)
+    assert br.fault_frequencies(run_up, 600.0).shaft == 10.0
+
+
+# ------------------------------------------------------------------------------- defects
+
+
+def test_a_spall_lies_where_the_contact_runs_and_is_met() -> None:
+    spall = br.defects.spall(on="outer_race", width_mm=1.2, length_mm=2.0, edge_radius_mm=0.2)
+    assert (spall.width, spall.length, spall.edge_radius) == pytest.approx((1.2e-3, 2e-3, 0.2e-3))
+    assert (spall.axial_offset, spall.floor, spall.ball) == ("contact", None, None)
+    scene = br.bearing("6205", axial_load=400.0, speed_rpm=6000.0, defects={"spall": spall})
+    met = br.simulate(scene, duration=0.01).defects["spall"]
+    assert met.placed == "contact"
+    assert met.share == 1.0
+    assert abs(met.axial_offset) > 1e-4
+
+
+@pytest.mark.parametrize("name", ["6000", "6310", "6804", "7204B", "7218B"])
+@pytest.mark.parametrize("on", ["outer_race", "inner_race"])
+def test_a_spall_fits_any_bearing(name: str, on: Surface) -> None:
+    scene = br.bearing(name, defects=br.defects.spall(on=on, width_mm=0.5))
+    br.simulate(scene, duration=1e-4, settle=0.0)
+
+
+def test_a_dent_is_round() -> None:
+    dent = br.defects.dent(on="outer_race", diameter_mm=1.0)
+    assert isinstance(dent.width, WidthProfile)
+    z, w = np.asarray(dent.width.positions), np.asarray(dent.width.widths)
+    np.testing.assert_allclose(z**2 + (0.5 * w) ** 2, (0.5e-3) ** 2, rtol=1e-9)
+    assert (z[0], z[-1], dent.length) == pytest.approx((-0.5e-3, 0.5e-3, 1e-3))
+    assert w.max() == pytest.approx(1e-3)
+
+
+def test_a_line_is_narrow_and_sharp_and_lies_where_the_contact_runs() -> None:
+    line = br.defects.line(on="inner_race")
+    assert (line.width, line.length, line.edge_radius) == pytest.approx((0.2e-3, 2e-3, 0.05e-3))
+    scene = br.bearing("7205B", speed_rpm=6000.0, defects={"line": line})
+    met = br.simulate(scene, duration=0.01, settle=0.0).defects["line"]
+    assert (met.placed, met.share) == ("contact", 1.0)
+
+
+def test_depth_is_a_floor_and_a_ball_has_a_number() -> None:
+    shallow = br.defects.spall(on="ball", width_mm=1.0, length_mm=1.0, depth_mm=0.05, ball=4)
+    assert shallow.floor is not None
+    assert shallow.floor.depth == pytest.approx(0.05e-3)
+    assert shallow.ball == 4
+    assert br.defects.spall(on="ball", width_mm=1.0).ball == 0
+    br.bearing("6205", defects=shallow)
+
+
+@pytest.mark.parametrize(
+    "sizes", [{"width_mm": 0.0}, {"width_mm": 1.0, "depth_mm": -1.0}, {"width_mm": math.inf}]
+)
+def test_sizes_are_checked_by_their_names(sizes: dict[str, float]) -> None:
+    with pytest.raises(br.SceneError, match="_mm"):
+        br.defects.spall(on="outer_race", **sizes)  # type: ignore[arg-type]
