@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import builtins
 import math
 import subprocess
 import sys
@@ -155,20 +154,6 @@ print(sweeps.run(cases, {str(tmp_path / "runs")!r}).manifest["label"].to_list())
     assert told.stdout == "['a', None]\n", told.stderr
     with pytest.raises(br.SceneError, match="two columns 'label'"):
         run(pd.DataFrame([[1, 2]], columns=["label", "label"]), tmp_path / "twice")
-
-
-@pytest.mark.parametrize("build", [br.sobol, br.latin_hypercube])
-def test_sampled_tables_without_scipy(build: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    original = builtins.__import__
-
-    def without(name: str, *arguments: Any, **options: Any) -> Any:
-        if name.startswith("scipy"):
-            raise ModuleNotFoundError("No module named 'scipy'", name="scipy")
-        return original(name, *arguments, **options)
-
-    monkeypatch.setattr(builtins, "__import__", without)
-    with pytest.raises(ImportError, match=r'pip install "ballrace\[campaign\]"'):
-        build({"loads.axial.force": (0.0, 1.0)}, 4, seed=1)
 
 
 def test_a_new_entry_by_its_path(tmp_path: Path) -> None:

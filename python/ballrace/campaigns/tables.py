@@ -89,7 +89,8 @@ def latin_hypercube(
     >>> sorted((table["loads.axial.force"] // 750).cast(int).to_list())
     [-4, -3, -2, -1, 0, 1, 2, 3]
     """
-    qmc = _qmc()
+    from scipy.stats import qmc
+
     _check(ranges, n)
     return _scaled(qmc.LatinHypercube(len(ranges), rng=seed).random(n), ranges)
 
@@ -117,20 +118,12 @@ def sobol(ranges: Mapping[str, tuple[float, float]], n: int, *, seed: int) -> pl
     >>> br.sobol({"loads.axial.force": (-3e3, 3e3), "rows[0].clearance": (0.0, 2e-5)}, 64, seed=1).shape
     (64, 2)
     """
-    qmc = _qmc()
+    from scipy.stats import qmc
+
     _check(ranges, n)
     if n & (n - 1):
         raise SceneError("n", str(n), "a power of two")
     return _scaled(qmc.Sobol(len(ranges), rng=seed).random(n), ranges)
-
-
-def _qmc() -> Any:
-    try:
-        from scipy.stats import qmc
-    except ImportError as error:
-        text = f'sampled tables need scipy ({error}): pip install "ballrace[campaign]"; grid does without'
-        raise ImportError(text, name="scipy") from error
-    return qmc
 
 
 def _check(ranges: Mapping[str, tuple[float, float]], n: int) -> None:

@@ -81,7 +81,7 @@ class Logger:
         ratio = Fraction(rate / fs).limit_denominator(2000)
         if abs(float(ratio) * fs / rate - 1.0) > 1e-9:
             raise SceneError("logger.fs", f"{rate:g}", f"a ratio of small whole numbers to {fs:g}")
-        from .._scipy import signal
+        from scipy import signal
 
         up, down = ratio.numerator, ratio.denominator
         flat = self._flat(rate, fs)
@@ -118,7 +118,7 @@ class Logger:
 
 def _lowpass(flat: float, stop: float, fs: float) -> NDArray[np.float64]:
     """Return a linear-phase filter, flat to a frequency and down by 80 dB from another on."""
-    from .._scipy import signal
+    from scipy import signal
 
     nyquist = 0.5 * fs
     count, beta = signal.kaiserord(_STOP, (stop - flat) / nyquist)
