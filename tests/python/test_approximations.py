@@ -30,7 +30,7 @@ def spalled() -> br.Scene:
     ("approximations", "states"), [(Approximations(rolling=True), 48), (FLAT, 26)]
 )
 def test_impacts_keep_their_size_and_rate(approximations: Approximations, states: int) -> None:
-    """The free model; bounds as measured in benches/README.md."""
+    """The free model; bounds as measured in benches/records.md."""
     scene, fs = spalled(), 50_000.0
     runs = [
         br.simulate(replace(scene, approximations=wanted), duration=0.2, fs=fs)

@@ -73,7 +73,7 @@ def test_nothing_folds(spalled: br.Scene, fine: br.Signals) -> None:
     """Analytic: most of the power lies above fs/2; point samples hold all of it, ours a millionth."""
     x = fine["outer.ay"][100 * HALF : int(100 * FS * DURATION)]
     frequency, density = signal.welch(x, fine.fs, nperseg=8192)
-    assert density[frequency > FS / 2.0].sum() > 0.7 * density.sum()
+    assert density[frequency > FS / 2.0].sum() > 0.6 * density.sum()
     bandwidths: tuple[Literal["auto"] | None, ...] = (None, "auto")
     points, out = (
         br.simulate(spalled, duration=DURATION, fs=FS, threads=1, bandwidth=bandwidth)["outer.ay"]
@@ -118,7 +118,9 @@ def test_provenance_tells(spalled: br.Scene) -> None:
         return out.provenance.bandwidth, out.provenance.oversampling
 
     # As long as the others: in a tenth of it no ball may have touched the spall, which is warned of.
-    rate = 1.0 / br.simulate(spalled, duration=1e-3).provenance.max_step
+    # Dormand–Prince's cap is one over the highest contact frequency.
+    highest = br.simulate(spalled, duration=1e-3, method="dormand-prince")
+    rate = 1.0 / highest.provenance.max_step
     assert told(FS, "auto") == (0.4 * FS, int(np.ceil(rate / FS)))
     assert told(FS, None) == (None, 1)
     assert told(1e6, "auto") == (0.5e6, 1)

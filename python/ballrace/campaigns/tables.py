@@ -79,8 +79,6 @@ def latin_hypercube(
     ------
     SceneError
         A range or ``n`` is not usable.
-    ImportError
-        scipy is not installed (extra ``campaign``).
 
     Examples
     --------
@@ -109,8 +107,6 @@ def sobol(ranges: Mapping[str, tuple[float, float]], n: int, *, seed: int) -> pl
     ------
     SceneError
         A range or ``n`` is not usable.
-    ImportError
-        scipy is not installed (extra ``campaign``).
 
     Examples
     --------

@@ -13,7 +13,7 @@ __all__ = ["Approximations"]
 class Approximations(Part):
     """Simplifications that change the answer, all off by default.
 
-    What each costs in accuracy is measured in ``benches/README.md``; :func:`ballrace.explain` offers those that
+    What each costs in accuracy is measured in ``benches/records.md``; :func:`ballrace.explain` offers those that
     apply to a scene, and ``out.provenance.left_out`` tells which ones a run made use of.
 
     Attributes
