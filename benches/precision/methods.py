@@ -35,6 +35,7 @@ NAME = "methods"
 CUT = "fitted 6"
 SLIP_SPEEDS = (0.1, 0.001)
 ADAPTIVE = (
+    "adams",
     "dormand-prince",
     "bogacki-shampine",
     "tsitouras",
@@ -48,7 +49,7 @@ FIXED_STEP = {
 PEERS = ("RK45", "DOP853", "Radau", "LSODA")
 PEER_TOLERANCES = (1e-3, 1e-4, 1e-6)
 PATIENCE = 15.0  # s, for a peer
-CAPS = (math.inf, 2.0, 1.5, 1.0, 0.5, 0.25)
+CAPS = (math.inf, 2.0, 1.5, 1.0, 0.8, 0.5, 0.25)
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 TARGETS = (1e-2, 1e-3, 1e-4)
 
@@ -187,11 +188,12 @@ def draw_chart(rows: list[dict[str, Any]], path: Path) -> None:
     ]
     figure, axes = draw.panels(titles, rows=2)
     colours = {
+        "adams": draw.RED,
         "dormand-prince": draw.BLUE,
         "bogacki-shampine": draw.GREEN,
         "tsitouras": draw.PURPLE,
         "verner": draw.BROWN,
-        "implicit-friction": draw.RED,
+        "implicit-friction": draw.GREY,
         "runge-kutta-4": draw.ORANGE,
         "velocity-verlet": draw.BLACK,
         **dict.fromkeys(PEERS, draw.GREY),

@@ -46,11 +46,15 @@ def bearing(slip_speed: float = 0.1, cut: str = "fitted 6") -> br.Scene:
 
 @dataclass(frozen=True)
 class Effort:
-    """How to integrate: method, relative tolerance, step cap in multiples of the default one."""
+    """How to integrate: method, relative tolerance, step cap over one period of the fastest contact (1/ω)."""
 
     method: str = "dormand-prince"
     rtol: float = 1e-6
     cap: float = 1.0
+
+
+#: What a run does by default.
+DEFAULT = Effort("adams", 1e-7, 0.8)
 
 
 def integrated(scene: br.Scene, effort: Effort) -> br.Scene:
@@ -68,8 +72,8 @@ def integrated(scene: br.Scene, effort: Effort) -> br.Scene:
 
 @cache
 def largest_step() -> float:
-    """Return the default step cap of the bearing [s]."""
-    out = br.simulate(bearing(), duration=2e-5, fs=FS, bandwidth=None)
+    """Return Dormand–Prince's step cap for the bearing [s]."""
+    out = br.simulate(bearing(), duration=2e-5, fs=FS, bandwidth=None, method="dormand-prince")
     return float(out.provenance.max_step)
 
 

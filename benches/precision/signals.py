@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from . import draw
-from .setting import Case, Effort, bearing, best, integrated, settled, survey, truth
+from .setting import DEFAULT, Case, Effort, bearing, best, integrated, settled, survey, truth
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -15,18 +15,18 @@ if TYPE_CHECKING:
 NAME = "signals"
 TRUE = "fitted 64"
 OWN = "fitted 6"
-CAPS = (math.inf, 3.0, 2.0, 1.5, 1.0, 0.5, 0.25)
+CAPS = (math.inf, 1.0, 0.8, 0.5, 0.25)
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
 CUTS = (
     *(f"fitted {n}" for n in (4, 6, 8, 12, 16, 24, 32)),
     *(f"fixed {n}" for n in (50, 100, 200, 400)),
 )
 DRAWN = (*(f"fitted {n}" for n in (6, 12, 16, 24, 32)), *(f"fixed {n}" for n in (50, 100, 400)))
-FINE = Effort(cap=0.5, rtol=1e-6)
+FINE = Effort("adams", 1e-8, 0.3)
 EFFORTS = (
-    Effort(cap=2.0, rtol=1e-3),
-    Effort(cap=1.5, rtol=1e-4),
-    Effort(cap=1.0, rtol=1e-5),
+    Effort("adams", 1e-4, 0.8),
+    Effort("adams", 1e-6, 0.8),
+    DEFAULT,
     FINE,
 )
 
@@ -41,7 +41,7 @@ def measure(*, quick: bool) -> list[dict[str, Any]]:
     caps = CAPS[::2] if quick else CAPS
     efforts = EFFORTS[::2] if quick else EFFORTS
     cases = [
-        case("integration", OWN, OWN, Effort(cap=cap, rtol=rtol))
+        case("integration", OWN, OWN, Effort("adams", rtol, cap))
         for cap in caps
         for rtol in tolerances
     ]
@@ -72,7 +72,7 @@ def draw_chart(rows: list[dict[str, Any]], path: Path) -> None:
     figure, (left, right) = draw.panels(
         ["Steps: with the cap any tolerance will do", "Nodes: they decide, not the steps"]
     )
-    colours = {math.inf: draw.RED, 2.0: draw.ORANGE, 1.0: draw.BLUE, 0.25: draw.GREEN}
+    colours = {math.inf: draw.RED, 0.8: draw.BLUE, 0.5: draw.ORANGE, 0.25: draw.GREEN}
     for cap, colour in colours.items():
         mine = [r for r in rows if (r["error_of"], r["cap"]) == ("integration", cap)]
         label = "no cap" if math.isinf(cap) else f"cap × {cap:g}"

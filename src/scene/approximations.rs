@@ -6,7 +6,7 @@ use super::{Drive, Method, Mount, Scene};
 use crate::error::{Error, Result};
 
 /// Simplifications that change the answer, all off by default. What each costs in accuracy is measured in
-/// `benches/README.md`; [`crate::explain()`] offers those that apply to a scene.
+/// `benches/records.md`; [`crate::explain()`] offers those that apply to a scene.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 #[non_exhaustive]
