@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import doctest
 import importlib
+import os
 import pkgutil
 import re
 from pathlib import Path
@@ -13,6 +14,8 @@ import pytest
 import ballrace
 
 README = Path(__file__).parents[2] / "README.md"
+GUIDE = README.parent / "docs"
+RECORDS = Path(os.environ.get("BALLRACE_CWRU") or README.parents[1] / "shared" / "data" / "cwru")
 MODULES = [
     m.name
     for m in pkgutil.walk_packages(ballrace.__path__, "ballrace.")
@@ -20,16 +23,34 @@ MODULES = [
 ]
 
 
-def test_readme_code_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Run the ```python blocks in their order, in one namespace; ```python no-run is left out."""
-    monkeypatch.chdir(tmp_path)
-    text = README.read_text(encoding="utf-8")
-    blocks = list(re.finditer(r"^```python *\n(.*?)^```", text, flags=re.DOTALL | re.MULTILINE))
-    assert blocks, "README.md shows no Python"
-    names: dict[str, object] = {"__name__": "readme"}
+def run_blocks(page: Path, kinds: str) -> None:
+    """Run the ```python blocks of a page in their order, in one namespace, of these kinds and of none."""
+    text = page.read_text(encoding="utf-8")
+    pattern = rf"^```python *(?:{kinds}) *\n(.*?)^```"
+    blocks = list(re.finditer(pattern, text, flags=re.DOTALL | re.MULTILINE))
+    assert blocks, f"{page.name} shows no Python"
+    names: dict[str, object] = {"__name__": page.stem}
     for block in blocks:
         line = text.count("\n", 0, block.start(1))
-        exec(compile("\n" * line + block[1], str(README), "exec"), names)
+        exec(compile("\n" * line + block[1], str(page), "exec"), names)
+
+
+def test_readme_code_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """All but ```python no-run."""
+    monkeypatch.chdir(tmp_path)
+    run_blocks(README, "")
+
+
+@pytest.mark.parametrize("page", sorted(GUIDE.glob("*.md")), ids=lambda page: page.stem)
+def test_guide_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Blocks that want a measured record run where it is."""
+    monkeypatch.chdir(tmp_path)
+    record = RECORDS / "105.mat"
+    if record.is_file():
+        (tmp_path / record.name).symlink_to(record)
+        run_blocks(page, "|record")
+    else:
+        run_blocks(page, "")
 
 
 @pytest.mark.parametrize("name", MODULES)
