@@ -69,7 +69,7 @@ def test_kill_9_loses_no_more_than_is_in_flight(tmp_path: Path) -> None:
     safe = []
     for after, seconds in ((5, 2.5), (7, 0.0), (3, 0.0)):
         before = _done(out) if out.exists() else 0
-        with start(out, count, duration=20e-3, keep="signals") as child:
+        with start(out, count, duration=50e-3, keep="signals") as child:
             seen = read_until(child.stdout, after, seconds)
             child.kill()
             killed = time.time()
@@ -80,9 +80,9 @@ def test_kill_9_loses_no_more_than_is_in_flight(tmp_path: Path) -> None:
     before = _done(out)
     assert before < count
     seen_now: list[Progress] = []
-    done = run(table(count), out, duration=20e-3, keep="signals", progress=seen_now.append)
+    done = run(table(count), out, duration=50e-3, keep="signals", progress=seen_now.append)
     assert (seen_now[-1].before, seen_now[-1].done) == (before, count - before)
-    whole = run(table(count), tmp_path / "whole", duration=20e-3, keep="signals")
+    whole = run(table(count), tmp_path / "whole", duration=50e-3, keep="signals")
     assert same(done, whole)
     assert done.scan().collect().equals(whole.scan().collect())
 
