@@ -1,4 +1,4 @@
-//! Ball bearings simulated in three dimensions: slices, fault circles, adaptive Runge–Kutta.
+//! Ball bearings simulated in three dimensions: slices, fault circles, adaptive steps.
 //!
 //! After P. Tkachuk, J. Strackeljan, *A 3D-ball bearing model for simulation of axial load variations*
 //! (Otto-von-Guericke-Universität Magdeburg); equation numbers in brackets are that paper's.
@@ -39,9 +39,10 @@
 //! * `reduction` ([`Reduction`]) — what a run leaves out, and why.
 //! * [`dynamics`] — the right-hand side: touching contacts by eights of one class of rows, or whole rows where each is one
 //!   formula, summed in one order; smooth plane rows in one loop, without tables between; forces by origin.
-//! * [`implicit`] — velocities solved for at held places, where friction is too stiff for explicit steps: the contacts of a stage,
-//!   their slopes, Newton's method on an arrow of a matrix.
-//! * [`integrate`] — Runge–Kutta pairs as data, step control, dense output. Knows no bearings.
+//! * [`implicit`] — how contacts answer to velocities: the contacts held at their places, their slopes, an arrow of a matrix. By
+//!   it the default method corrects velocities once a step; implicit steps solve for them by Newton's method.
+//! * [`integrate`] — the default method, a predictor–corrector of one evaluation a step; Runge–Kutta pairs as data, step
+//!   control, dense output. Knows no bearings.
 //! * `equilibrium` ([`equilibrium()`], [`stiffness()`], [`load_distribution()`]) — the static solve and what follows
 //!   from it, the places of defects among it; `start` ([`start()`]) — how a run begins.
 //! * `touched` ([`Touched`]) — which defects balls met in a run, and what their contacts carried there.

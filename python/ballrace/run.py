@@ -91,7 +91,7 @@ def simulate(
         given state; chooses nodes, tolerance and step cap, and goes without `rtol`. It does so by pilot runs
         of the first 3 ms, which take as long as 10 to 20 ms of the run itself. ``out.accuracy`` tells what was
         chosen and what errors the pilots showed; ``out.scene`` holds the choice. Fixed slices are kept as they
-        are; the method must be Dormand–Prince, on which the choice is measured.
+        are; the method must be the default, ``"adams"``, on which the choice is measured.
     method : str, optional
         Method of integration; by default ``scene.solver.method``.
     reduce : bool, optional

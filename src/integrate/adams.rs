@@ -33,7 +33,8 @@ pub trait LinearlyImplicit: System {
     fn damp(&mut self, t: f64, y: &[f64], gamma_h: f64, r: &mut [f64]);
 }
 
-/// The method; see above.
+/// The method, for states \[q, v\]; see above. After a start and after every breakpoint the first two steps are of lower order,
+/// which the error estimate keeps short; with fixed steps ([`Options::fixed_step`](super::Options::fixed_step)) nothing does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Adams;
 

@@ -1,5 +1,5 @@
-//! Adaptive Runge–Kutta integration of a smooth-by-pieces system of
-//! ordinary differential equations.
+//! Adaptive integration of a smooth-by-pieces system of ordinary differential
+//! equations: by Runge–Kutta pairs, or by Adams' formulae over the steps behind.
 //!
 //! The room knows nothing of what it integrates. Its parts are orthogonal:
 //!

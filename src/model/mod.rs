@@ -95,6 +95,12 @@ impl RowModel {
         self.pairs.iter().any(|pair| pair.law.traction.is_some())
     }
 
+    /// Whether the forces of its contacts depend on how fast they slip or close.
+    pub fn resists_motion(&self) -> bool {
+        let damps = |pair: &Pair| pair.law.damping.rate() > 0.0;
+        self.has_friction() || self.pairs.iter().any(damps)
+    }
+
     /// Neighbours that the cage links, as indices among all balls: none for one ball, one link for two.
     pub fn links(&self) -> impl Iterator<Item = (usize, usize)> {
         let (first, count) = (self.first, self.count);

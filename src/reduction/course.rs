@@ -199,12 +199,12 @@ impl Orbit {
         }
     }
 
-    /// Radii and their speeds into the kept states, from a state of all bodies.
     /// Whether the balls' distances from the shaft are states.
     pub(super) fn has_states(&self) -> bool {
         self.at.is_some()
     }
 
+    /// Radii and their speeds into the kept states, from a state of all bodies.
     pub(super) fn compress(&self, full: &[f64], y: &mut [f64]) {
         let Some(at) = self.at else { return };
         let kept = y.len() / 2;

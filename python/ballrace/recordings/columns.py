@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+from abc import abstractmethod
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
@@ -196,13 +197,13 @@ class Columns(Mapping[str, NDArray[np.float64]]):
             raise SceneError("columns", "none", "at least one column")
         return names
 
+    @abstractmethod
     def _samples(self, names: Iterable[str] | None = None) -> Samples:
         """Return some of the columns, or all, with what files tell of them."""
-        raise NotImplementedError
 
+    @abstractmethod
     def _origin(self) -> Origin:
         """Return what windows tell of where they come from."""
-        raise NotImplementedError
 
 
 def no_column(name: object, columns: Iterable[str]) -> KeyError:
