@@ -267,10 +267,10 @@ def test_published(full: paper.Paper, key: str) -> None:
 
 @pytest.mark.long
 def test_play_in_the_cage_may_be_what_figure_11_shows(full: paper.Paper) -> None:
-    """With half a millimetre of play lightly loaded balls wander: no clear structure, and impacts grow all the same.
+    """With half a millimetre of play lightly loaded balls wander: no clear structure, and impacts grow.
 
-    By how much is one draw of a chaotic motion: 43, 40 and 29 % at rtol 1e-7, 1e-8 and 1e-9 of the default, 38 and 41 % by
-    Dormand-Prince at 1e-6 and 1e-8, where the paper has 30.
+    By how much is one draw of a chaotic motion: 43, 40 and 29 % at rtol 1e-7, 1e-8 and 1e-9 of the default,
+    38 and 41 % by Dormand-Prince at 1e-6 and 1e-8, where the paper has 30.
     """
     loose = paper.run(lambda load: br.presets.wheel_bearing(load).replace({"cage.play": 0.5e-3}))
     found = {line.target.key: line for line in loose.table}
