@@ -12,7 +12,7 @@ import ballrace as br
 
 from . import draw
 from .contact import times_of_evaluation
-from .setting import COLUMN, Effort, bearing, integrated, settled
+from .setting import COLUMN, DEFAULT, Effort, bearing, integrated, settled
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -32,6 +32,8 @@ CHOICES = (
     ("fitted 6", Effort(cap=math.inf, rtol=1e-2)),
     ("fitted 6", Effort(cap=0.5, rtol=1e-6)),
     ("fitted 6", Effort(method="velocity-verlet", cap=0.5)),
+    *(("fitted 6", Effort("adams", rtol, 0.8)) for rtol in (1e-4, 1e-6)),
+    ("fitted 6", DEFAULT),
 )
 
 
@@ -123,11 +125,14 @@ def draw_chart(rows: list[dict[str, Any]], path: Path) -> None:
     """Draw a panel a feature, with the noise of a single run as a band."""
     figure, axes = draw.panels(["rms", "Kurtosis", "Line at the ball pass of the outer ring"])
     noise, *choices = rows
+    default = [row for row in choices if row["method"] == "adams"]
+    choices = [row for row in choices if row not in default]
     plain = [row for row in choices if row["rtol"] == 1e-4]
     families = (
         ([row for row in plain if row["slices"].startswith("fitted")], draw.BLUE, "o-"),
         ([row for row in plain if row["slices"].startswith("fixed")], draw.ORANGE, "o-"),
         ([row for row in choices if row["rtol"] != 1e-4], draw.GREEN, "o"),
+        (default, draw.RED, "o"),
     )
     for ax, name in zip(axes, FEATURES, strict=True):
         ax.axhspan(1e-6, noise[f"error_{name}"], color="#ececec", zorder=0)
@@ -156,6 +161,8 @@ def label(row: dict[str, Any]) -> str:
     kind, count = row["slices"].split()
     if kind == "fixed":
         return f"{count} slices"
+    if row["method"] == "adams":
+        return f"adams, {row['rtol']:.0e}".replace("e-0", "e-")
     if row["rtol"] == 1e-4:
         return {"4": "4 nodes", "8": "8", "16": "16 nodes"}.get(count, "")
     if row["method"] == "velocity-verlet":

@@ -1,7 +1,7 @@
 //! One knob: tolerance and nodes for a requested accuracy of the accelerations, chosen by pilot runs.
 //!
-//! What a scene needs cannot be told from its numbers: at 1 % a quiet signal under heavy loads wants a tolerance of
-//! 1e-6 and twenty nodes, a light bearing whose balls rattle 1e-9 and six. So the first milliseconds are run with one
+//! What a scene needs cannot be told from its numbers: a quiet signal under heavy loads wants many nodes, a light bearing
+//! whose balls rattle a tight tolerance and few. So the first milliseconds are run with one
 //! setting and with the next finer one, until the two agree to a third of the request: first for the tolerance, then
 //! for the nodes. The difference of neighbours is the error of the coarser, for the finer is several times better.
 

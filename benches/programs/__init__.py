@@ -1,0 +1,1 @@
+"""What `peers.py` measures: one module a program, and how they are measured alike."""
