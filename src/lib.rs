@@ -35,7 +35,7 @@
 //!   place that turns them into offsets ([`Layout`]), arrays, scales. Never changed by a run.
 //! * `forces` — cage, supports, gravity, loads, unbalance, drive: one file each, with force, energy or power, rate for step
 //!   control, and what becomes of it in a run.
-//! * [`inspect`] — questions about a state: what its contacts carry, its energies, its stiffest elements.
+//! * [`inspect`] — questions about a state: what its contacts carry, its energies, its films, its stiffest elements.
 //! * `reduction` ([`Reduction`]) — what a run leaves out, and why.
 //! * [`dynamics`] — the right-hand side: touching contacts by eights of one class of rows, or whole rows where each is one
 //!   formula, summed in one order; smooth plane rows in one loop, without tables between; forces by origin.
@@ -65,6 +65,8 @@
 //! |---|---|---|
 //! | an elastic law | a file in `contact/laws/elastic/`, its variant in the `mod.rs` there, a variant in `scene/contact.rs`; for Python `python/ballrace/scene/contact.py` | doctest values, `tests/contact.rs` |
 //! | a traction law | a file in `contact/laws/traction/`, its variant in the `mod.rs` there, a variant with its numbers in `scene/contact.rs`; for Python as above | dissipation ≥ 0, its slope |
+//! | an oil | an entry of `NAMED_OILS` in `scene/oils.rs` with its source | `tests/lubricant.rs` |
+//! | what oil does | its formula in `contact/laws/film/`; what a contact has of it, `FilmEffect` there | a row of section 12.14, `tests/oil_contact.rs` |
 //! | a force | a file in `forces/`, its entry in `forces/mod.rs`, which names its contribution, a line in `Dynamics::add_applied_forces` | `tests/energy.rs`, power balance |
 //! | a direction of a body | `Dof` and `Layout` in `model/layout.rs`, mass and mount in `model/body.rs`; what carries the four numbers of a contact: `forces/state.rs`, `dynamics/sums.rs`, `dynamics/batch/`, `implicit/` | `model/layout.rs`, momentum |
 //! | what acts along z, or differs by row | `reduction/symmetry.rs`; what contacts share, `RowModel::is_like` | a hair of it in `tests/reduction.rs`, `tests/unlike_rows.rs` |
@@ -117,7 +119,9 @@ pub use equilibrium::{
     Stiffness, compile, equilibrium, load_distribution, stiffness,
 };
 pub use error::{Error, Result};
-pub use explain::{ContactKind, Cost, Explanation, LawExplanation, Variant, explain};
+pub use explain::{
+    ContactKind, Cost, Explanation, LawExplanation, OilExplanation, Variant, explain,
+};
 pub use features::{Feature, FeatureOptions, feature_columns, features, signal_features};
 pub use interrupt::Interrupt;
 pub use model::{Body, BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Race, Scales};

@@ -10,10 +10,12 @@ use ballrace::dynamics::Dynamics;
 use ballrace::dynamics::contributions;
 use ballrace::dynamics::rhs;
 use ballrace::inspect;
-use ballrace::scene::{Defect, Friction, NormalLaw, Scene, Slices, Surface, Waviness, presets};
+use ballrace::scene::{
+    Defect, Friction, GothicArch, Lubricant, NormalLaw, Scene, Slices, Surface, Waviness, presets,
+};
 use ballrace::simd::InstructionSet;
 use ballrace::{Race, Start, start};
-use common::{Noise, through_points};
+use common::{Noise, effects, oiled, through_points};
 
 /// Largest difference of the two evaluations at random states around an equilibrium, over the sum of the contact
 /// loads on a body and 1 kN: the distance of two axes is known to 4e-18 m, which a contact of some 1e8 N/m turns
@@ -117,6 +119,36 @@ fn scenes() -> Vec<(String, Scene)> {
     (hertz.friction, hertz.cage) = (Friction::None, None);
     hertz.defects.clear();
     add("waves without friction, Hertz", hertz);
+    scenes.extend(in_oil());
+    scenes
+}
+
+/// Contacts in oil: tori under both laws, on nodes and slices, defects, arches, and rows in oils of their own.
+fn in_oil() -> Vec<(String, Scene)> {
+    let mut scenes = Vec::new();
+    for law in [NormalLaw::iso16281(), NormalLaw::Hertz] {
+        for slices in [Slices::Fitted(6), Slices::Fixed(70)] {
+            let mut scene = oiled(presets::wheel_bearing(3000.0));
+            (scene.contact.law, scene.contact.slices) = (law.clone(), slices);
+            scenes.push((format!("oil, {law:?} {slices:?}"), scene));
+        }
+    }
+    let mut add = |name: &str, scene: Scene| scenes.push((name.to_owned(), oiled(scene)));
+    let mut scene = presets::wheel_bearing(3000.0);
+    scene.rows[1].inner_waviness = vec![Waviness::new(7, 2e-6, 0.3)];
+    scene.rows[1].lubricant = Some(Lubricant::named("vg32", 300.0));
+    add("oils of two rows, waves", scene);
+    let mut scene = presets::deep_groove_6205(800.0, 200.0, 3000.0);
+    scene.rows[0].outer_arch = Some(GothicArch::new(0.3));
+    add("oil on an arch", scene);
+    let mut scene = presets::deep_groove_6205(800.0, 0.0, 3000.0);
+    scene.friction = Friction::None;
+    let mut rolling = oiled(scene.clone());
+    effects(rolling.lubricant.as_mut().unwrap(), "rolling");
+    let mut damping = rolling.clone();
+    effects(damping.lubricant.as_mut().unwrap(), "damping");
+    scenes.push(("oil that only resists rolling".to_owned(), rolling));
+    scenes.push(("oil that only damps".to_owned(), damping));
     scenes
 }
 

@@ -15,7 +15,7 @@ use ballrace::scene::{
     Waviness, Width, WidthProfile, presets,
 };
 use ballrace::{Bandwidth, Model, Race, Reduction, Run, Start, simulate, start};
-use common::Noise;
+use common::{Noise, effects, oiled};
 
 /// A healthy deep-groove bearing under a radial load.
 fn plane(law: NormalLaw, friction: bool) -> Scene {
@@ -117,6 +117,37 @@ fn whats(reduction: &Reduction) -> Vec<&str> {
         .collect()
 }
 
+/// Those in oil.
+fn scenes_in_oil() -> Vec<(&'static str, Scene, usize)> {
+    let hertz = || NormalLaw::Hertz;
+    let iso = NormalLaw::iso16281;
+    let mut scenes = Vec::new();
+    scenes.push(("plane in oil, Hertz", oiled(plane(hertz(), true)), 62));
+    scenes.push(("plane in oil, ISO", oiled(plane(iso(), true)), 62));
+    let mut scene = oiled(plane(hertz(), false));
+    effects(scene.lubricant.as_mut().unwrap(), "film");
+    scenes.push(("plane with a film alone", scene.clone(), 44));
+    effects(scene.lubricant.as_mut().unwrap(), "rolling");
+    scenes.push(("plane, rolling is resisted", scene, 62));
+    scenes.push((
+        "two rows for one in oil",
+        oiled(mirrored()),
+        2 * (4 * 13 + 4),
+    ));
+    let mut scene = oiled(mirrored());
+    for (name, row, offset) in [("one", 0, 1e-3), ("two", 1, -1e-3)] {
+        let mut defect = spall(Surface::OuterRace, offset);
+        defect.row = row;
+        scene.defects.insert(name.to_owned(), defect);
+    }
+    scenes.push((
+        "two rows in oil with images of a spall",
+        scene,
+        2 * (4 * 13 + 4),
+    ));
+    scenes
+}
+
 /// Scenes by name, with the states that a run keeps of them.
 fn scenes() -> Vec<(&'static str, Scene, usize)> {
     let hertz = || NormalLaw::Hertz;
@@ -203,6 +234,7 @@ fn scenes() -> Vec<(&'static str, Scene, usize)> {
         row.contact_angle = 0.0;
     }
     scenes.push(("two level rows", scene, 2 * (2 * 13 + 4)));
+    scenes.extend(scenes_in_oil());
     let mut scene = plane(hertz(), false);
     scene.rows[0].ball_support.x = Some(Mount::Fixed);
     scenes.push(("balls held in one direction", scene, 2 * (9 + 4)));

@@ -34,6 +34,7 @@ from .errors import (
     SceneWarning,
 )
 from .explanation import Explanation, explain
+from .friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf
 from .life import RatingLife, rating_life
 from .measuring import measure
 from .model import Model
@@ -42,10 +43,12 @@ from .options import Run
 from .recordings import Recording, read
 from .run import simulate
 from .scene import Scene
+from .scene.lubricant import lubricants
 from .signals import Record, Signals, Touched
 from .statics import (
     Equilibrium,
     LoadDistribution,
+    RaceFilm,
     Stiffness,
     equilibrium,
     load_distribution,
@@ -71,10 +74,12 @@ __all__ = [
     "Explanation",
     "FaultFrequencies",
     "FileError",
+    "FrictionTorque",
     "IntegrationError",
     "LoadDistribution",
     "MemoryLimitError",
     "Model",
+    "RaceFilm",
     "RatingLife",
     "Record",
     "Recording",
@@ -94,9 +99,12 @@ __all__ = [
     "fault_frequencies",
     "features",
     "frequencies",
+    "friction_torque_palmgren",
+    "friction_torque_skf",
     "grid",
     "latin_hypercube",
     "load_distribution",
+    "lubricants",
     "measure",
     "measuring",
     "plot",

@@ -20,6 +20,12 @@ from .errors import SceneError
 
 T = TypeVar("T")
 
+LEFT_OUT = MappingProxyType({"left_out": True})
+"""Metadata of a field that a document leaves out where it is None, so that older documents keep their text."""
+
+INSTEAD = "instead"
+"""Metadata of a field: the key that a document may have in its place, only read, and what that means."""
+
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Part:
@@ -111,16 +117,24 @@ def whole_number(path: str, value: object) -> int:
 
 
 def _encode_fields(part: Part, path: str) -> dict[str, Any]:
-    return {key: encode(getattr(part, name), _join(path, key)) for name, key in _names(type(part))}
+    document = {}
+    for name, key, left_out in _names(type(part)):
+        value = getattr(part, name)
+        if not (left_out and value is None):
+            document[key] = encode(value, _join(path, key))
+    return document
 
 
-_NAMES: dict[type, list[tuple[str, str]]] = {}
+_NAMES: dict[type, list[tuple[str, str, bool]]] = {}
 
 
-def _names(kind: type[Part]) -> list[tuple[str, str]]:
-    """Return the names of the fields of a part and their keys in a document."""
+def _names(kind: type[Part]) -> list[tuple[str, str, bool]]:
+    """Return of every field of a part its name, its key in a document, and whether None is left out there."""
     if kind not in _NAMES:
-        _NAMES[kind] = [(field.name, _key(field)) for field in dataclasses.fields(kind)]
+        _NAMES[kind] = [
+            (field.name, _key(field), "left_out" in field.metadata)
+            for field in dataclasses.fields(kind)
+        ]
     return _NAMES[kind]
 
 

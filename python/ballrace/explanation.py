@@ -37,12 +37,16 @@ class Explanation(Record):
         for an ``evaluation`` with the integrator's share and for the ``right_hand_side`` alone, of that for
         ``contacts`` and ``cage`` [s], ``seconds`` for a simulated second.
     variants : list of dict
-        Changes of the scene that would help, the cheapest first: ``change``, ``note`` on what it does to the
-        answer, states ``kept``, estimated ``seconds`` for a simulated second.
+        Changes of the scene that would help, the cheapest first, and those of its oil whether or not: ``change``,
+        ``note`` on what it does to the answer, states ``kept``, estimated ``seconds`` for a simulated second.
     law : Record or None
         What the ``law`` of the contacts implies at the start: the heaviest ``contact``, its ``load`` [N], its
         ``approach`` and ``hertz_approach``, that of Hertz's theory [m], and its largest Hertz ``pressure`` [Pa];
         None where no contact is loaded.
+    oils : list of dict
+        Rows with a lubricant: ``row``, name of the ``oil``, ``temperature`` [K], ``kinematic_viscosity`` [m²/s],
+        whether reference load and speed are ``given`` or those of the equilibrium and the drive (``load_from``,
+        ``speed_from``), and the ``films`` of both races, the fields as of :class:`ballrace.RaceFilm`.
     doubts : list of dict
         Numbers that no bearing is likely to have, and columns that cannot change: ``path``, ``value``, ``usual``.
     defects : list of dict
@@ -65,7 +69,8 @@ class Explanation(Record):
 def explain(scene: Scene) -> Explanation:
     """Tell what a run of a scene integrates and leaves out, what it costs, and what would make it cheaper.
 
-    The scene is compiled and started from equilibrium, and some steps are timed: a fraction of a second.
+    The scene is compiled and started from equilibrium, and some steps are timed: a fraction of a second; with oil
+    up to some seconds.
 
     Parameters
     ----------

@@ -3,8 +3,8 @@
 ISO 281 takes one equivalent load of the whole bearing. ISO/TS 16281 takes the loads of all balls instead, as
 :func:`ballrace.load_distribution` has them, and so knows of clearance, contact angles and rows that share
 unevenly.
-Both are of a healthy bearing, well lubricated and clean: lubricant and dirt (the factor a_ISO) are no part of a
-scene.
+Both are of a healthy bearing, well lubricated and clean: the factor a_ISO of lubricant and dirt is left out, also
+where a scene has an oil.
 """
 
 from __future__ import annotations

@@ -5,13 +5,21 @@ The reason for every number stands in the Rust module ``scene::presets``.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from . import _core
-from .scene import Scene
+from .scene import Lubricant, Scene
+from .scene.lubricant import chosen
 
 __all__ = ["deep_groove_6205", "names", "wheel_bearing"]
 
 
-def wheel_bearing(axial_load: float = 0.0) -> Scene:
+def wheel_bearing(
+    axial_load: float = 0.0,
+    *,
+    lubricant: str | Lubricant | None = None,
+    temperature_c: float | None = None,
+) -> Scene:
     """Return the paper's double-row wheel bearing with a defect on the outer ring.
 
     Two rows of 13 balls under 7 kN radial load, the inner ring at 30 Hz, outer ring defect at -90°.
@@ -20,12 +28,27 @@ def wheel_bearing(axial_load: float = 0.0) -> Scene:
     ----------
     axial_load : float
         Axial load along +z on the inner ring [N]; the paper has 0, +3000 and -3000.
+    lubricant : str or Lubricant, optional
+        Oil by its name (:func:`ballrace.lubricants`) or its numbers; by default none, as in the paper.
+    temperature_c : float, optional
+        Temperature of an oil by name where it enters the contacts [°C].
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable, or a named oil has no temperature.
     """
-    return Scene.from_json(_core.preset_wheel_bearing(axial_load))
+    oil = chosen(lubricant, temperature_c)
+    return _lubricated(_core.preset_wheel_bearing(axial_load), oil)
 
 
 def deep_groove_6205(
-    radial_load: float = 500.0, axial_load: float = 0.0, speed_rpm: float = 1800.0
+    radial_load: float = 500.0,
+    axial_load: float = 0.0,
+    speed_rpm: float = 1800.0,
+    *,
+    lubricant: str | Lubricant | None = None,
+    temperature_c: float | None = None,
 ) -> Scene:
     """Return a healthy deep-groove ball bearing 6205.
 
@@ -35,10 +58,25 @@ def deep_groove_6205(
         Loads on the inner ring along -y and +z [N].
     speed_rpm : float
         Speed of the inner ring [rev/min].
+    lubricant : str or Lubricant, optional
+        Oil by its name (:func:`ballrace.lubricants`) or its numbers; by default the contacts are dry.
+    temperature_c : float, optional
+        Temperature of an oil by name where it enters the contacts [°C].
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable, or a named oil has no temperature.
     """
-    return Scene.from_json(_core.preset_deep_groove_6205(radial_load, axial_load, speed_rpm))
+    oil = chosen(lubricant, temperature_c)
+    return _lubricated(_core.preset_deep_groove_6205(radial_load, axial_load, speed_rpm), oil)
 
 
 def names() -> tuple[str, ...]:
     """Return the names of the presets."""
     return ("wheel_bearing", "deep_groove_6205")
+
+
+def _lubricated(document: str, lubricant: Lubricant | None) -> Scene:
+    scene = Scene.from_json(document)
+    return replace(scene, lubricant=lubricant).validate() if lubricant else scene

@@ -291,8 +291,9 @@ class Signals(Columns):
         Returns
         -------
         dict of str to float or None
-            Those of the columns in their units, squared for an envelope, and ``largest_pressure`` [Pa]. None where
-            the run cannot give one: a line for which it is too short.
+            Those of the columns in their units, squared for an envelope, and ``largest_pressure`` [Pa]; of a
+            ``LubricationProbe`` the least film and λ, ``oil.inner.film_min``, and the mean torque and powers,
+            ``oil.friction_torque_mean``. None where the run cannot give one: a line for which it is too short.
 
         Raises
         ------

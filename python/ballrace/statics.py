@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
@@ -14,6 +15,8 @@ from .errors import SceneError, SceneWarning
 from .scene.scene import checked_scene
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import polars as pl
 
     from .scene import Scene
@@ -21,6 +24,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Equilibrium",
     "LoadDistribution",
+    "RaceFilm",
     "Stiffness",
     "equilibrium",
     "load_distribution",
@@ -29,6 +33,54 @@ __all__ = [
 
 _BALL = ("angle", "radius", "z")
 _CONTACT = ("load", "angle", "deflection", "zone_centre", "pressure")
+
+
+@dataclass(frozen=True, kw_only=True)
+class RaceFilm:
+    """The oil film between a row's balls and one race, at its reference load and speed.
+
+    A film is made for one load and follows the speed of the rings; with a steady drive it is that of a whole run.
+
+    Attributes
+    ----------
+    row : int
+        Row, from 0.
+    race : {"outer", "inner"}
+        The race.
+    film : float
+        Thickness in the middle of a contact [m].
+    minimum_film : float
+        Least thickness, 0.8 of it [m].
+    lambda_ratio : float
+        λ: the film over the roughness of both surfaces.
+    friction : float
+        Friction coefficient at large slip.
+    slip_scale : float
+        Slip at which friction bends from its rise to that [m/s].
+    reference_load : float
+        Load of a contact [N]: the lubricant's, or that of the equilibrium without films.
+    reference_speed : float
+        Speed of the rings against each other [rad/s]: the lubricant's, or the largest of the drive.
+    ellipticity : float
+        Length of the contact's ellipse over its width.
+    moes : float
+        Moes' parameter L.
+    pressure : float
+        Largest Hertz pressure under the reference load [Pa].
+    """
+
+    row: int
+    race: Literal["outer", "inner"]
+    film: float
+    minimum_film: float
+    lambda_ratio: float
+    friction: float
+    slip_scale: float
+    reference_load: float
+    reference_speed: float
+    ellipticity: float
+    moes: float
+    pressure: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -55,6 +107,8 @@ class Equilibrium:
         Largest Hertz pressures, at the centres of the contacts, whatever the law [Pa]; 0 without load. Of the
         smooth race where a ball lies in a defect. The static load rating of ball bearings (ISO 76) stands for
         4.2 GPa.
+    films : tuple of RaceFilm
+        The films of rows with an oil, race by race; empty without.
     iterations : int
         Iterations of the solver.
     warnings : tuple of str
@@ -86,6 +140,7 @@ class Equilibrium:
     iterations: int
     residual: float
     residual_share: float
+    films: tuple[RaceFilm, ...] = ()
     warnings: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
@@ -131,14 +186,20 @@ def equilibrium(scene: Scene) -> Equilibrium:
         A number of the scene is one that no bearing is likely to have, or a contact's pressure exceeds the static
         rating.
     """
-    return Equilibrium(**_warned(dict(_core.equilibrium(checked_scene(scene)._document()))))
+    return _equilibrium(_core.equilibrium(checked_scene(scene)._document()))
 
 
-def _warned(found: dict[str, Any]) -> dict[str, Any]:
+def _equilibrium(told: Mapping[str, Any]) -> Equilibrium:
+    """Return the equilibrium that the core tells; warn the caller of a public function."""
+    films = tuple(RaceFilm(**film) for film in json.loads(told["films"]))
+    return Equilibrium(**{**_warned(dict(told), stacklevel=4), "films": films})
+
+
+def _warned(found: dict[str, Any], *, stacklevel: int = 3) -> dict[str, Any]:
     """Warn the caller of a public function of what the core doubts."""
     found["warnings"] = tuple(found["warnings"])
     for text in found["warnings"]:
-        warnings.warn(text, SceneWarning, stacklevel=3)
+        warnings.warn(text, SceneWarning, stacklevel=stacklevel)
     return found
 
 
@@ -217,7 +278,7 @@ def stiffness(scene: Scene) -> Stiffness:
     return Stiffness(
         inner=found["inner"],
         rings=found["rings"],
-        equilibrium=Equilibrium(**_warned(dict(found["equilibrium"]))),
+        equilibrium=_equilibrium(found["equilibrium"]),
     )
 
 

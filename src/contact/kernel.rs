@@ -10,11 +10,11 @@
 use super::laws::elastic::{ForLaw, Load};
 use super::laws::traction::{Rolling, Sliding};
 use super::profile::{Section, SurfacePoint, Zone};
-use super::{Cut, Law, Rules, Slices};
+use super::{Cut, FilmEffect, Law, Rules, Slices};
 use crate::simd::Number;
 
 /// A whole contact: no shoulder, no end of the ball and no defect cuts its zone.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Whole<T> {
     pub section: Section<T>,
     /// One over the ball's radius \[1/m\].
@@ -302,6 +302,8 @@ pub(super) struct State<T> {
     pub rolling: Rolling<T>,
     /// Radii of ball and groove \[m\].
     pub radii: [T; 2],
+    /// What the film of the contact does.
+    pub oil: FilmEffect<T>,
 }
 
 /// The force of an element (model sections 4 and 5).
@@ -338,7 +340,11 @@ pub(super) fn force<T: Number, const FMA: bool, const SYMMETRIC: bool, const BEN
     } else {
         v_n.mul_add::<FMA>(in_plane, v_z * axial)
     };
-    let damped = of.elastic * law.damping.factor(approach);
+    let factor = match law.film {
+        None => law.damping.factor(approach),
+        Some(_) => law.damping.factor_with(approach, of.oil.damping),
+    };
+    let damped = of.elastic * factor;
     let pressed = damped.or_zero();
     let normal = if law.damping.clamp_pull {
         pressed
@@ -403,6 +409,7 @@ impl<T: Number> State<T> {
             depth: self.depth,
             approach,
             radii: self.radii,
+            bend: self.oil.bend,
         }
     }
 }

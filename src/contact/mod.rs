@@ -21,6 +21,7 @@ mod fault;
 mod frames;
 mod kernel;
 pub mod laws;
+mod oil;
 mod profile;
 mod quadrature;
 mod scalar;
@@ -37,13 +38,18 @@ pub(crate) use fault::{Sight, Sighted};
 pub use frames::Motion;
 pub(crate) use frames::centrifugal;
 pub use laws::elastic::{elliptic, hertz, iso16281};
+pub use laws::film;
+pub(crate) use laws::film::FilmEffect;
+pub use laws::film::Oiled;
 pub use laws::{Cut, Damping, Elastic, Law, Traction};
+pub use oil::OilTouch;
 pub(crate) use profile::{Before, Contour, Curve, Raise, Section};
 pub use profile::{Torus, Waves};
 pub use quadrature::{Rules, Slices};
 pub use scalar::{BallSide, Pair, Shape};
 pub(crate) use stage::{
-    PlaneVector, SlicePack, SlicePacking, StageContacts, StageElements, StageWrench, in_contact,
+    Around, PlaneVector, SlicePack, SlicePacking, StageContacts, StageElements, StageWrench,
+    in_contact,
 };
 pub(crate) use stiffness::Tangent;
 
@@ -158,6 +164,9 @@ pub trait Sink {
 
     /// A force beside those along normals.
     fn aside(&mut self, _force: &Aside) {}
+
+    /// What the oil does in the contact, after its single forces.
+    fn oil(&mut self, _oil: &OilTouch) {}
 
     /// A slice would touch but lies beyond a shoulder.
     fn truncated(&mut self) {}

@@ -3,10 +3,11 @@
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
 
+use super::laws::film::FilmEffect;
 use super::laws::traction::Rolling;
 use super::profile::Section;
 use super::{Cut, Law};
-use crate::simd::{Lanes, Number, Simd, Vector};
+use crate::simd::{Lanes, Number, Simd, Vector, inverse_root};
 
 /// How a ball moves against its ring, or eight balls do.
 #[derive(Debug, Clone, Copy)]
@@ -20,6 +21,8 @@ pub(super) struct Moves<T> {
     pub rolling: Rolling<T>,
     /// A contact's arm from the ball's centre, R(z) − d, is this and σ times the groove's height.
     pub arm: T,
+    /// What its film does.
+    pub oil: FilmEffect<T>,
 }
 
 impl Moves<f64> {
@@ -35,7 +38,7 @@ impl Moves<f64> {
 /// |---|---|---|
 /// | u_t | along the race, c₀ + c₁ u + … + c₄ u⁴ | m/s |
 /// | u_m | along the meridian, m₀ + m₁ u + m₂ u² | m/s |
-/// | w | width of the traction law ([`super::Traction::width`]) | m/s |
+/// | w | width of the traction law ([`super::Traction::width`]); of a film half of the slip at which it bends | m/s |
 /// | h | 1 − b z (1 + (1 − b)/2 z), z = (u/r)²: the force of the element goes like (1 − x²)^β/h, b = 3/4 β on the chord | |
 ///
 /// A model, not the slip itself: by how much it is off, the weights of friction lose exactness and no more.
@@ -44,7 +47,9 @@ pub(super) struct Slip<T> {
     along: [T; 5],
     across: [T; 3],
     /// w².
-    width: f64,
+    width: T,
+    /// w of a film; 0 without.
+    bend: T,
     /// 1/r².
     over: T,
     /// b, and b (1 − b)/2.
@@ -66,9 +71,7 @@ impl<T: Number> Slip<T> {
         let even = c_4.mul_add::<FMA>(v, c_2).mul_add::<FMA>(v, c_0);
         let odd = c_3.mul_add::<FMA>(v, c_1) * u;
         let (across_even, across_odd) = (m_2.mul_add::<FMA>(v, m_0), m_1 * u);
-        let [first, second] = self.fade;
-        let z = v * self.over;
-        let fade = (z * -second + -first).mul_add::<FMA>(z, u.same(1.0));
+        let fade = self.fading::<FMA>(v);
         let fade = fade * fade;
         let plus = self.sum::<FMA>(even + odd, across_even + across_odd);
         let minus = self.sum::<FMA>(even - odd, across_even - across_odd);
@@ -78,8 +81,64 @@ impl<T: Number> Slip<T> {
     /// Of the squares of slip along and across the race and of the width.
     #[inline(always)]
     fn sum<const FMA: bool>(&self, along: T, across: T) -> T {
-        let square = across.mul_add::<FMA>(across, along.same(self.width));
+        let square = across.mul_add::<FMA>(across, self.width);
         along.mul_add::<FMA>(along, square)
+    }
+
+    /// h at u² = v.
+    #[inline(always)]
+    fn fading<const FMA: bool>(&self, v: T) -> T {
+        let [first, second] = self.fade;
+        let z = v * self.over;
+        (z * -second + -first).mul_add::<FMA>(z, v.same(1.0))
+    }
+
+    /// What friction per force and slip goes like: 1/(h √(u² + w²)), of a film 1/(h (w + √(u² + w²))). From the [`Self::square`] at u.
+    #[inline(always)]
+    pub fn peak<const FMA: bool, const FILM: bool>(&self, square: T, u: T) -> T {
+        let over = inverse_root::<T, FMA>(square);
+        if !FILM {
+            return over;
+        }
+        let bend = self.bend * self.fading::<FMA>(u * u);
+        let root = inverse_root::<T, FMA>(square.mul_add::<FMA>(over, bend));
+        root * root
+    }
+
+    /// A number over it.
+    #[inline(always)]
+    pub fn over_peak<const FMA: bool, const FILM: bool>(&self, number: T, square: T, u: T) -> T {
+        let over = inverse_root::<T, FMA>(square);
+        if !FILM {
+            return number * square * over;
+        }
+        let bend = self.bend * self.fading::<FMA>(u * u);
+        number * square.mul_add::<FMA>(over, bend)
+    }
+
+    /// Slips along and across the race as polynomials of x, u = centre + half · x.
+    #[inline(always)]
+    pub fn over_zone<const FMA: bool>(&self, centre: T, half: T) -> ([T; 5], [T; 3]) {
+        let Self {
+            mut along,
+            mut across,
+            ..
+        } = self.from::<FMA>(centre);
+        let mut scale = half;
+        for k in 1..5 {
+            along[k] = along[k] * scale;
+            if k < 3 {
+                across[k] = across[k] * scale;
+            }
+            scale = scale * half;
+        }
+        (along, across)
+    }
+
+    /// h at u, and w of a film.
+    #[inline(always)]
+    pub fn fading_and_bend<const FMA: bool>(&self, u: T) -> (T, T) {
+        (self.fading::<FMA>(u * u), self.bend)
     }
 
     /// The same counted from another u.
@@ -113,7 +172,13 @@ impl<T: Number> Slip<T> {
         section: &Section<T>,
         moves: &Moves<T>,
     ) -> Option<Self> {
-        let width = law.traction?.width();
+        let traction = law.traction?;
+        let bend = moves.oil.bend;
+        let width = if traction.is_film() {
+            bend * bend
+        } else {
+            bend.same(traction.width() * traction.width())
+        };
         let (cos, sin) = section.normal;
         let groove = section.groove::<FMA>(sin);
         let one = cos.same(1.0);
@@ -153,7 +218,8 @@ impl<T: Number> Slip<T> {
                 -((moves.v_z * sin + moves.v_e * cos) * inverse),
                 across * bent,
             ],
-            width: width * width,
+            width,
+            bend,
             over: over * over,
             fade: [fade, 0.5 * fade * (1.0 - fade)],
         })
@@ -169,7 +235,8 @@ impl Slip<Lanes> {
         Slip {
             along: [of(c_0), of(c_1), of(c_2), of(c_3), of(c_4)],
             across: [of(m_0), of(m_1), of(m_2)],
-            width: self.width,
+            width: of(&self.width),
+            bend: of(&self.bend),
             over: of(&self.over),
             fade: self.fade,
         }
@@ -184,8 +251,22 @@ impl Slip<f64> {
             along,
             across,
             width: 1e-4,
+            bend: 0.0,
             over: 2e4,
             fade: [0.8, 0.08],
+        }
+    }
+
+    /// Some slip under a film, for tests.
+    #[cfg(test)]
+    pub fn of_film(along: [f64; 5], across: [f64; 3], bend: f64) -> Self {
+        Self {
+            along,
+            across,
+            width: bend * bend,
+            bend,
+            over: 1.0,
+            fade: [0.0; 2],
         }
     }
 

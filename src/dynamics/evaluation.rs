@@ -17,13 +17,24 @@ impl Dynamics<'_> {
         };
         let contacts = [
             ("contact", Use::Evaluated),
-            ("damping", any(|pair| pair.law.damping.rate() > 0.0)),
-            ("friction", any(|pair| pair.law.traction.is_some())),
+            ("damping", any(|pair| pair.law.damps())),
+            ("friction", any(|pair| pair.law.turns_balls())),
             ("defects", Use::evaluated(!model.scene.defects.is_empty())),
             ("waviness", any(|pair| !pair.waves.is_round())),
         ];
+        let oil = model
+            .is_lubricated()
+            .then_some(("oil film", Use::Evaluated));
         let forces = forces::ALL.map(|force| (force.name, (force.used)(model)));
-        contacts.into_iter().chain(forces).collect()
+        // Dry bearings are not told of what only oil does.
+        let told =
+            |(name, used): &(&str, Use)| *name != forces::drag::FORCE.name || *used != Use::Absent;
+        contacts
+            .into_iter()
+            .chain(oil)
+            .chain(forces)
+            .filter(told)
+            .collect()
     }
 
     /// The rows whose contacts have a part in the motion.

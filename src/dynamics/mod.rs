@@ -3,6 +3,7 @@
 mod batch;
 mod contributions;
 mod evaluation;
+mod films;
 mod kept;
 #[cfg(test)]
 mod lost;
@@ -14,7 +15,7 @@ use std::sync::Arc;
 
 use rayon::ThreadPool;
 
-use crate::forces::{State, Table, cage, drive, gravity, load, support, unbalance};
+use crate::forces::{State, Table, cage, drag, drive, gravity, load, support, unbalance};
 use crate::integrate::System;
 use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Spring};
 use crate::reduction::Reduction;
@@ -22,6 +23,7 @@ use crate::reduction::Reduction;
 pub(crate) use batch::{Batch, Kind, SideConstants, Touching};
 pub use contributions::{contribution_names, contributions};
 
+use films::Films;
 use kept::Kept;
 use planar::{Ground, Planar};
 use rolling::Rolling;
@@ -42,6 +44,8 @@ pub struct Dynamics<'m> {
     /// One over the mass where a direction is free, 0 where it is not.
     mobility: Table,
     pool: Option<Arc<ThreadPool>>,
+    /// Films that follow the rings' speed.
+    films: Option<Films>,
 }
 
 /// What a state vector holds.
@@ -135,6 +139,7 @@ impl<'m> Dynamics<'m> {
             springs: model.springs.clone(),
             mobility,
             pool: None,
+            films: Films::new(model),
         }
     }
 
@@ -150,6 +155,11 @@ impl<'m> Dynamics<'m> {
     /// The model.
     pub fn model(&self) -> &'m Model {
         self.model
+    }
+
+    /// The model with the films of the last evaluation, for what is read of its state.
+    pub(crate) fn coated(&self) -> &Model {
+        self.films.as_ref().map_or(self.model, Films::model)
     }
 
     /// The state that was read last.
@@ -288,18 +298,20 @@ impl<'m> Dynamics<'m> {
 
     /// Adds the forces of the contacts at the state last read.
     pub(crate) fn evaluate_contacts(&mut self) {
-        self.contact_torques = self.contacts.add_to(
-            &mut self.forces,
-            self.model,
-            &self.state,
-            self.pool.as_deref(),
-        );
+        let model = match &mut self.films {
+            None => self.model,
+            Some(films) => films.follow(&self.state, &mut self.contacts),
+        };
+        self.contact_torques =
+            self.contacts
+                .add_to(&mut self.forces, model, &self.state, self.pool.as_deref());
     }
 
-    /// Adds the forces of the cage at the state last read.
+    /// Adds the forces of the cage, and of oil in the balls' way, at the state last read.
     pub(crate) fn evaluate_cage(&mut self) {
         let rows = self.contacts.rows();
-        cage::add(self.model, rows, &self.state, &mut self.forces);
+        cage::add(self.model, rows.clone(), &self.state, &mut self.forces);
+        drag::add(self.model, rows, &self.state, &mut self.forces);
     }
 
     /// Adds the forces that are neither contacts nor constant.

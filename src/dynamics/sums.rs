@@ -1,7 +1,7 @@
 //! What the forces of a contact add up to.
 
 use super::add;
-use crate::contact::{Aside, Sink, Touch};
+use crate::contact::{Aside, OilTouch, Sink, Touch};
 use crate::model::DOFS;
 
 /// Force and moment on ball and ring.
@@ -23,6 +23,12 @@ impl Sink for Sum {
 
     fn aside(&mut self, force: &Aside) {
         let (ball, ring) = force.wrenches();
+        add(&mut self.ball, &ball);
+        add(&mut self.ring, &ring);
+    }
+
+    fn oil(&mut self, touch: &OilTouch) {
+        let (ball, ring) = touch.wrenches();
         add(&mut self.ball, &ball);
         add(&mut self.ring, &ring);
     }
@@ -67,5 +73,11 @@ impl Sink for Named {
         let (ball, ring) = force.wrenches();
         add(&mut self.ball[0], &ball);
         add(&mut self.ring[0], &ring);
+    }
+
+    fn oil(&mut self, touch: &OilTouch) {
+        let (ball, ring) = touch.wrenches();
+        add(&mut self.ball[2], &ball);
+        add(&mut self.ring[2], &ring);
     }
 }

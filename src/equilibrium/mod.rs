@@ -16,6 +16,7 @@ mod ball;
 mod cage;
 mod distribution;
 mod guess;
+mod oil;
 mod place;
 mod polish;
 mod problem;
@@ -29,7 +30,7 @@ mod unknowns;
 use serde::Serialize;
 
 use crate::error::Result;
-use crate::inspect;
+use crate::inspect::{self, RaceFilm};
 use crate::interrupt;
 use crate::model::{BodyId, Dof, Model, Race};
 use crate::reduction::axial_places;
@@ -72,7 +73,10 @@ pub struct Equilibrium {
     pub residual: f64,
     /// The same over the largest load, of a contact or on a ring: at most 1e-4.
     pub residual_share: f64,
-    /// What is unusual about the scene, and about the pressure in its contacts.
+    /// The films of rows with an oil, for the loads of the equilibrium without films and the drive's speed, unless the
+    /// lubricant gives others.
+    pub films: Vec<RaceFilm>,
+    /// What is unusual about the scene, about the pressure in its contacts and about its films.
     pub doubts: Vec<Doubt>,
 }
 
@@ -219,16 +223,17 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
         iterations,
         residual: 0.0,
         residual_share: 0.0,
+        films: inspect::films(model),
         doubts: Vec::new(),
     };
     found.doubts = doubts(&model.scene, &found);
     found
 }
 
-/// Of a scene, and of the pressures in its contacts.
+/// Of a scene, and of the pressures and films in its contacts.
 fn doubts(scene: &Scene, found: &Equilibrium) -> Vec<Doubt> {
-    let pressure = Doubt::pressure(found.largest_pressure());
-    scene.doubts().into_iter().chain(pressure).collect()
+    let of_contacts = inspect::doubts(found.largest_pressure(), &found.films);
+    scene.doubts().into_iter().chain(of_contacts).collect()
 }
 
 /// Solves from the first guess; from the nominal places where there is none, or where it leads to no stable place, such

@@ -2,6 +2,7 @@
 
 mod cost;
 mod law;
+mod oil;
 mod variants;
 
 use std::collections::BTreeMap;
@@ -24,6 +25,7 @@ use crate::touched::{Touched, compiled, is_there};
 
 pub use cost::Cost;
 pub use law::LawExplanation;
+pub use oil::OilExplanation;
 pub use variants::Variant;
 
 /// What a run of a scene does.
@@ -51,11 +53,13 @@ pub struct Explanation {
     pub absent: Vec<&'static str>,
     /// What a run costs, measured here and now.
     pub cost: Cost,
-    /// Changes that would make it cheaper, the cheapest first.
+    /// Changes that would make it cheaper, the cheapest first; those of its oil also where they would not.
     pub variants: Vec<Variant>,
     /// What the law of the contacts implies; absent where none is loaded.
     pub law: Option<LawExplanation>,
-    /// What is unusual about the scene, and about the pressure in its contacts.
+    /// The oils of the rows that have one.
+    pub oils: Vec<OilExplanation>,
+    /// What is unusual about the scene, about the pressure in its contacts and about its films.
     pub doubts: Vec<Doubt>,
     /// Where defects are placed, and what contacts carry there at the healthy bearing's equilibrium: over a turn of
     /// the inner race or the ball past all balls; of one on the outer race with a ball at its angle.
@@ -118,6 +122,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         variants,
         cost,
         law: law::of(&model, &at_start),
+        oils: oil::of(&model)?,
         doubts: at_start.doubts,
         defects: defects(&scene, &placed)?,
         notes: run::note(&model).into_iter().collect(),
@@ -212,6 +217,12 @@ impl fmt::Display for Explanation {
         }
         if let Some(law) = &self.law {
             writeln!(f, "law        {law}")?;
+        }
+        if !self.oils.is_empty() {
+            writeln!(f, "oil")?;
+        }
+        for oil in &self.oils {
+            writeln!(f, "  {oil}")?;
         }
         if !self.defects.is_empty() {
             writeln!(f, "defects    at equilibrium")?;

@@ -8,6 +8,7 @@
 //! | `….bpfi_sidebands`, `….2bsf_sidebands` | the same of the lines a shaft's, a cage's frequency beside it | `lines.rs` |
 //! | `….bpfo_envelope`, `….bpfo_envelope_harmonics`, … | the same lines of its squared envelope | `lines.rs` |
 //! | `row0.outer.load_max`, `.load_min` | extremes of the contact loads of a row \[N\] | `loads.rs` |
+//! | `oil.outer.film_min`, `.lambda_min`, `oil.friction_torque_mean`, `.slip_power_mean`, … | least films, mean torque and losses of a probe `oil` of a row's oil | `lubrication.rs` |
 //! | `largest_pressure` | largest Hertz pressure of any contact at the start or the end of the run \[Pa\] | |
 //!
 //! A feature that a run cannot give (a line below the resolution of its record, a crest factor of silence) is
@@ -15,6 +16,7 @@
 
 mod lines;
 pub(crate) mod loads;
+pub(crate) mod lubrication;
 mod moments;
 mod record;
 mod recorded;

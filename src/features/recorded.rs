@@ -2,7 +2,7 @@
 
 use super::record::Recorded;
 use super::shaft::Shaft;
-use super::{Feature, FeatureOptions, check_record, lines, loads, moments};
+use super::{Feature, FeatureOptions, check_record, lines, loads, lubrication, moments};
 use crate::error::Result;
 use crate::scene::Scene;
 
@@ -18,8 +18,8 @@ pub(crate) fn check_recorded(recorded: &Recorded<'_>, options: &FeatureOptions) 
     check_record(options, duration, recorded.fs)
 }
 
-/// The features of the given columns, then the extremes of the contact loads if they are asked for, and the largest
-/// pressure.
+/// The features of the given columns, then the extremes of the contact loads if they are asked for, what probes of oils
+/// have recorded, and the largest pressure.
 pub(crate) fn features_of(
     recorded: &Recorded<'_>,
     columns: &[String],
@@ -41,6 +41,7 @@ pub(crate) fn features_of(
     if options.contact_loads {
         found.extend(loads::extremes(recorded, first));
     }
+    found.extend(lubrication::of(recorded, first));
     let pressure = recorded.largest_pressure;
     found.push(Feature::new("largest_pressure".to_owned(), pressure));
     found

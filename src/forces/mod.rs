@@ -3,6 +3,7 @@
 //! [`ALL`] lists them; contributions by origin, explanations and energies go through that list and these files.
 
 pub(crate) mod cage;
+pub(crate) mod drag;
 pub(crate) mod drive;
 pub(crate) mod gravity;
 pub(crate) mod load;
@@ -29,8 +30,9 @@ pub(crate) struct Force {
 }
 
 /// All of them, in the order in which they are listed.
-pub(crate) const ALL: [Force; 6] = [
+pub(crate) const ALL: [Force; 7] = [
     cage::FORCE,
+    drag::FORCE,
     support::FORCE,
     gravity::FORCE,
     load::FORCE,

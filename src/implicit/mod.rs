@@ -177,7 +177,7 @@ mod tests {
     use super::*;
     use crate::contact;
     use crate::equilibrium::compile;
-    use crate::scene::{Friction, NormalLaw, Slices, Waviness, presets};
+    use crate::scene::{Friction, Lubricant, NormalLaw, Slices, Waviness, presets};
     use crate::{Model, Scene, Start, start};
 
     fn accelerations(model: &Model, y: &[f64]) -> Vec<f64> {
@@ -253,11 +253,30 @@ mod tests {
         vec![wheel, hertz, traction, pulling, smooth, uneven, unlike]
     }
 
+    fn in_oil(scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        scene.name.push_str(" in oil");
+        scene.lubricant = Some(Lubricant::named("vg68", 328.15));
+        scene
+    }
+
+    /// Whole contacts and some with a defect.
+    fn oiled_wheel() -> Scene {
+        in_oil(&scenes()[0])
+    }
+
+    /// Nothing of the oil but its rolling resistance.
+    fn rolling() -> Scene {
+        let mut scene = in_oil(&scenes()[4]);
+        let only = scene.lubricant.as_mut().unwrap();
+        (only.film, only.damping, only.traction) = (false, false, false);
+        scene
+    }
+
     /// (1 − γh ∂a/∂v) x = r holds for the correction x of any residual r, with ∂a/∂v by central differences.
-    #[test]
-    fn the_matrix_is_the_derivative_of_the_accelerations() {
-        for scene in scenes() {
-            let model = compiled(&scene);
+    fn matrix_is_the_derivative(scenes: &[Scene]) {
+        for scene in scenes {
+            let model = compiled(scene);
             let y = state(&model);
             let half = y.len() / 2;
             let mut dynamics = Dynamics::new(&model);
@@ -297,10 +316,9 @@ mod tests {
 
     /// What comes out solves the equation that was asked for: by a matrix of its own, and then, for a base and
     /// a guess elsewhere, by the one that is there.
-    #[test]
-    fn a_stage_solves_its_equation() {
-        for scene in scenes() {
-            let model = compiled(&scene);
+    fn stage_solves_its_equation(scenes: &[Scene]) {
+        for scene in scenes {
+            let model = compiled(scene);
             let mut y = state(&model);
             let half = y.len() / 2;
             let mut dynamics = Dynamics::new(&model);
@@ -327,5 +345,22 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn the_matrix_is_the_derivative_of_the_accelerations() {
+        matrix_is_the_derivative(&scenes());
+        matrix_is_the_derivative(&[rolling()]);
+    }
+
+    #[test]
+    fn the_matrix_is_the_derivative_in_oil() {
+        matrix_is_the_derivative(&[oiled_wheel()]);
+    }
+
+    #[test]
+    fn a_stage_solves_its_equation() {
+        stage_solves_its_equation(&scenes());
+        stage_solves_its_equation(&[rolling(), oiled_wheel()]);
     }
 }

@@ -3,8 +3,8 @@
 use std::array::from_fn;
 
 use crate::contact::{
-    Motion, PlaneVector, Raise, SlicePack, SlicePacking, StageContacts, StageElements, StageWrench,
-    in_contact,
+    Around, Motion, PlaneVector, Raise, SlicePack, SlicePacking, StageContacts, StageElements,
+    StageWrench, in_contact,
 };
 use crate::dynamics::{SideConstants, Touching};
 use crate::forces::State;
@@ -38,8 +38,10 @@ pub(super) struct StageBatch {
 pub(super) struct Side {
     held: StageContacts,
     nodes: StageElements,
-    /// Slices of contacts that are evaluated alone, and the lanes of these.
+    /// Slices of contacts that are evaluated alone, and the numbers of these.
     packs: Vec<(usize, SlicePack)>,
+    /// These contacts: their lane, and what their slices share.
+    singles: Vec<(usize, Around)>,
     /// Forces on the balls that do not depend on velocities, of waves and of the ends of defects: (x, y, z, about z).
     aside: [Lanes; DOFS],
     /// Whether any touches.
@@ -84,6 +86,7 @@ impl StageBatch {
             let side = &mut self.sides[race];
             side.nodes.clear();
             side.packs.clear();
+            side.singles.clear();
             side.touches = meetings.iter().any(|m| *m != Meeting::Nothing);
             if !side.touches {
                 side.wrenches = StageWrench::default();
@@ -160,6 +163,9 @@ impl Side {
             flat: pair.law.cut().is_flat(),
             aside: [0.0; DOFS],
             count: 0,
+            contacts: &mut self.singles,
+            around: self.held.around.of(lane),
+            is_new: true,
         };
         pair.evaluate(&compiled.side, &at, &rings[race], &mut packing);
         for (sum, part) in self.aside.iter_mut().zip(packing.aside) {
@@ -241,30 +247,35 @@ impl<const SLOPE: bool> Task for StageForces<'_, SLOPE> {
                 of_balls[3] - ring[3],
             ];
             let local = in_contact(&twist, n_e);
+            let held = (&mut side.nodes, &side.held);
+            let found = pair.stage_forces::<FMA, SLOPE>(held, &local, secant, model.instructions);
             let sum = &mut side.wrenches;
-            sum.wrench = [Lanes::ZERO; DOFS];
+            sum.wrench = found.wrench;
             if SLOPE {
-                sum.slope = [[Lanes::ZERO; DOFS]; DOFS];
+                sum.slope = found.slope;
             }
-            for node in side.nodes.iter() {
-                pair.force::<FMA, SLOPE>(node, &side.held.around, &local, secant, sum);
-            }
+            pair.rolling_resistance::<SLOPE>(&side.held.around, &local, sum);
             sum.turn::<SLOPE>(n_e);
             for (wrench, aside) in sum.wrench.iter_mut().zip(side.aside) {
                 *wrench += aside;
             }
-            for (lane, pack) in &side.packs {
-                let mut all = twist;
-                for w in &mut all {
-                    *w = Lanes::all(w[*lane]);
-                }
+            for (contact, pack) in &side.packs {
+                let (lane, around) = &side.singles[*contact];
+                let all = twist.map(|w| Lanes::all(w[*lane]));
                 let mut part = StageWrench::default();
                 let local = in_contact(&all, pack.n_e);
-                let around = side.held.around.of(*lane);
                 let element = (&pack.element, Some(&pack.rolling));
-                pair.force::<FMA, SLOPE>(element, &around, &local, secant, &mut part);
+                pair.force::<FMA, SLOPE>(element, around, &local, secant, &mut part);
                 part.turn::<SLOPE>(pack.n_e);
                 sum.gather::<SLOPE>(*lane, &part);
+            }
+            for (lane, around) in &side.singles {
+                let all = twist.map(|w| Lanes::all(w[*lane]));
+                let n_e = n_e.map(|n| Lanes::all(n[*lane]));
+                let mut part = StageWrench::default();
+                pair.rolling_resistance::<SLOPE>(around, &in_contact(&all, n_e), &mut part);
+                part.turn::<SLOPE>(n_e);
+                sum.add_lane::<SLOPE>(*lane, &part);
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Energies and dissipated powers of a state.
 
-use crate::contact::{Sink, Touch};
+use super::powers::Powers;
+use crate::contact::{OilTouch, Sink, Touch};
 use crate::forces;
 use crate::model::{BodyId, Dof, Model, Race};
 
@@ -17,10 +18,12 @@ pub struct Energy {
     pub cage: f64,
     /// In the field of gravity, 0 at the origin.
     pub gravity: f64,
-    /// Power lost to contact damping.
+    /// Power lost to contact damping, of steel and oil.
     pub damping_power: f64,
-    /// Power lost to friction.
+    /// Power lost to friction where surfaces slip.
     pub friction_power: f64,
+    /// Power lost to the rolling resistance of oil and steel; 0 without a lubricant.
+    pub rolling_power: f64,
     /// Power lost in supports and cage.
     pub support_power: f64,
 }
@@ -32,7 +35,7 @@ impl Energy {
     }
 
     /// Names, units and values, in order.
-    pub fn entries(&self) -> [(&'static str, &'static str, f64); 9] {
+    pub fn entries(&self) -> [(&'static str, &'static str, f64); 10] {
         [
             ("kinetic", "J", self.kinetic),
             ("contact", "J", self.contact),
@@ -42,6 +45,7 @@ impl Energy {
             ("total", "J", self.total()),
             ("damping_power", "W", self.damping_power),
             ("friction_power", "W", self.friction_power),
+            ("rolling_power", "W", self.rolling_power),
             ("support_power", "W", self.support_power),
         ]
     }
@@ -50,8 +54,7 @@ impl Energy {
 #[derive(Default)]
 struct Contacts {
     energy: f64,
-    damping: f64,
-    friction: f64,
+    powers: Powers,
 }
 
 impl Sink for Contacts {
@@ -59,8 +62,11 @@ impl Sink for Contacts {
 
     fn touch(&mut self, touch: &Touch) {
         self.energy += touch.energy;
-        self.damping += (touch.normal - touch.elastic) * touch.approach;
-        self.friction += touch.friction_power;
+        self.powers.touch(touch);
+    }
+
+    fn oil(&mut self, oil: &OilTouch) {
+        self.powers.oil(oil);
     }
 }
 
@@ -91,8 +97,10 @@ pub fn energy(model: &Model, y: &[f64]) -> Energy {
         }
     }
     energy.contact = contacts.energy;
-    energy.damping_power = contacts.damping;
-    energy.friction_power = contacts.friction;
+    let powers = contacts.powers;
+    energy.damping_power = powers.damping;
+    energy.friction_power = powers.slip;
+    energy.rolling_power = powers.rolling;
     energy
 }
 

@@ -42,6 +42,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
             cage_distance: row.pitch_diameter * (PI / row.ball_count as f64).sin(),
             side: f64::from(row.side),
             class: i,
+            drag: 0.0,
         });
         for index in 0..row.ball_count {
             let error = row.diameter_errors.get(index).copied().unwrap_or(0.0);
@@ -123,7 +124,7 @@ fn fit_nodes(model: &mut Model) {
 
 /// Sorts rows into classes: contacts of one class differ in numbers that every contact has of its own, and may be evaluated
 /// side by side.
-fn classify(rows: &mut [RowModel]) {
+pub(super) fn classify(rows: &mut [RowModel]) {
     for row in 0..rows.len() {
         let like = |other: &usize| rows[*other].is_like(&rows[row]);
         rows[row].class = (0..row).find(like).unwrap_or(row);

@@ -8,6 +8,7 @@ mod compile;
 mod demand;
 mod layout;
 mod nodes;
+mod oil;
 mod race;
 mod scales;
 
@@ -63,6 +64,8 @@ pub(crate) struct RowModel {
     pub side: f64,
     /// The first row like it ([`RowModel::is_like`]), which may be itself.
     pub class: usize,
+    /// Drag of a ball over the square of its speed \[N s²/m²\].
+    pub drag: f64,
 }
 
 impl RowModel {
@@ -84,21 +87,20 @@ impl RowModel {
         let alike = |(a, b): (&Pair, &Pair)| {
             discriminant(&a.law.elastic) == discriminant(&b.law.elastic)
                 && (a.shape.is_torus() && b.shape.is_torus() || a.shape == b.shape)
-                && (&a.slices, a.law.damping, a.law.traction)
-                    == (&b.slices, b.law.damping, b.law.traction)
+                && (&a.slices, a.law.damping, a.law.traction, a.law.film)
+                    == (&b.slices, b.law.damping, b.law.traction, b.law.film)
         };
         self.pairs.iter().zip(&other.pairs).all(alike)
     }
 
-    /// Whether its balls rub on either race.
+    /// Whether its balls rub on either race, or are resisted as they roll.
     pub fn has_friction(&self) -> bool {
-        self.pairs.iter().any(|pair| pair.law.traction.is_some())
+        self.pairs.iter().any(|pair| pair.law.turns_balls())
     }
 
     /// Whether the forces of its contacts depend on how fast they slip or close.
     pub fn resists_motion(&self) -> bool {
-        let damps = |pair: &Pair| pair.law.damping.rate() > 0.0;
-        self.has_friction() || self.pairs.iter().any(damps)
+        self.pairs.iter().any(|pair| pair.law.takes_energy())
     }
 
     /// Neighbours that the cage links, as indices among all balls: none for one ball, one link for two.

@@ -96,13 +96,13 @@ impl Sink for Elastic {
 }
 
 /// A ball at the bottom of a healthy groove.
-struct Bottom {
+pub(super) struct Bottom {
     pair: Pair,
     ball: BallSide,
 }
 
 impl Bottom {
-    fn new(pair: &Pair, ball: &BallSide) -> Self {
+    pub fn new(pair: &Pair, ball: &BallSide) -> Self {
         let mut pair = pair.clone();
         pair.change(|flank| {
             (flank.faults, flank.waves) = (Vec::new(), Waves::default());
@@ -136,7 +136,7 @@ impl Bottom {
 
     /// The approach \[m\] at which that force is reached, at most half the ball's radius: nearly a power of it, of 1.5 or
     /// a little more, so that each step leaves a fourteenth of the error at most.
-    fn approach(&self, load: f64) -> f64 {
+    pub fn approach(&self, load: f64) -> f64 {
         const STEPS: usize = 12;
         let radius = self.ball.radius;
         let (least, most) = (1e-9 * radius, 0.5 * radius);

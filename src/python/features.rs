@@ -9,7 +9,7 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use super::errors::OrRaise;
-use crate::features::{Recorded, check_recorded, features_of, loads, transform};
+use crate::features::{Recorded, check_recorded, features_of, loads, lubrication, transform};
 use crate::scene::kinematic_orders;
 use crate::{Error, Feature, FeatureOptions, Scene};
 
@@ -86,6 +86,7 @@ pub(super) fn run_features(
     if options.contact_loads {
         needed.extend(loads::columns(&scene).or_raise(py)?);
     }
+    needed.extend(lubrication::columns(&scene));
     let mut held = Vec::new();
     for name in needed {
         let values: Array<'_> = columns.get_item(&name)?.extract()?;

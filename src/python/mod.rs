@@ -7,6 +7,7 @@ mod answer;
 mod campaign;
 mod errors;
 mod features;
+mod oil;
 mod run;
 mod scene;
 mod statics;
@@ -23,6 +24,8 @@ mod _core {
         amplitudes, feature_columns, hann_weighted, orders, run_features, signal_features,
         squared_envelope,
     };
+    #[pymodule_export]
+    use super::oil::{named_oils, oil};
     #[pymodule_export]
     use super::run::{Model, explain, run_from_json, simulate};
     #[pymodule_export]

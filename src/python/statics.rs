@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::answer::answering;
+use super::errors::to_json;
 use crate::equilibrium::{BallEquilibrium, EquivalentLoads};
 use crate::{Equilibrium, Scene};
 
@@ -101,6 +102,7 @@ fn arrays<'py>(py: Python<'py>, found: &Equilibrium) -> PyResult<Bound<'py, PyDi
         set(&all, name, values, &[found.balls.len()])?;
     }
     all.set_item("iterations", found.iterations)?;
+    all.set_item("films", to_json(&found.films)?)?;
     all.set_item("warnings", told(found))?;
     all.set_item("residual", found.residual)?;
     all.set_item("residual_share", found.residual_share)?;

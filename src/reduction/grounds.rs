@@ -135,7 +135,7 @@ pub(super) fn is_felt(model: &Model, motion: &Prescribed, reason: Reason) -> boo
         // A smooth, round and balanced ring may turn as it likes.
         Reason::Driven => {
             let told = |pair: &Pair| {
-                pair.law.traction.is_some() || !pair.faults.is_empty() || !pair.waves.is_round()
+                pair.law.turns_balls() || !pair.faults.is_empty() || !pair.waves.is_round()
             };
             let inner = model.rows.iter().any(|row| told(&row.pairs[Race::Inner]));
             inner || !model.unbalances.is_empty()

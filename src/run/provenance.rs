@@ -4,6 +4,7 @@ use super::Run;
 use super::method::Choice;
 use super::prepare::Prepared;
 use super::step_limit;
+use crate::inspect::films;
 use crate::integrate::Options;
 use crate::model::Model;
 use crate::reduction::Reduction;
@@ -56,6 +57,7 @@ pub(super) fn provenance(run: &Run, done: Done<'_>) -> Provenance {
         oversampling: done.sampling.oversampling,
         settled: done.prepared.settled.seconds,
         defects: done.defects,
+        films: films(model),
         step_limit: step_limit::largest(solver.method, model),
     }
 }

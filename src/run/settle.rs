@@ -107,7 +107,7 @@ impl Watch for Unseen {
 fn needed(model: &Model, y0: &[f64]) -> f64 {
     let rings = Race::BOTH.map(|race| decay(model, y0, race));
     let slowest = rings.into_iter().fold(0.0, f64::max);
-    let takes_energy = |pair: &Pair| pair.law.traction.is_some() || pair.law.damping.rate() > 0.0;
+    let takes_energy = |pair: &Pair| pair.law.takes_energy();
     let mut pairs = model.rows.iter().flat_map(|row| &row.pairs);
     if slowest.is_infinite() && !pairs.any(takes_energy) {
         return 0.0;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Contact, Friction, Material, defaults};
+use super::{Contact, Friction, Lubricant, Material, defaults};
 
 /// One row of balls between two grooves (geometry of model section 2).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -89,6 +89,9 @@ pub struct Row {
     /// Friction of the row's balls and races; absent: that of the scene.
     #[serde(default)]
     pub friction: Option<Friction>,
+    /// Oil of the row's contacts, in place of the whole of the scene's; absent: that of the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lubricant: Option<Lubricant>,
 }
 
 impl Row {
@@ -129,6 +132,7 @@ impl Row {
             ball_material: None,
             contact: None,
             friction: None,
+            lubricant: None,
         }
     }
 }

@@ -1,11 +1,8 @@
 //! Defects: the race or ball surface is absent over an arc, and fault circles stand at its edges.
 
-use std::fmt;
-
-use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::time::number_or_map;
+use super::time::{number_or_map, number_or_word};
 
 /// A defect of one body (model section 7). It turns with its body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -285,28 +282,6 @@ impl Serialize for AxialOffset {
 
 impl<'de> Deserialize<'de> for AxialOffset {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct NumberOrContact;
-        impl Visitor<'_> for NumberOrContact {
-            type Value = AxialOffset;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "a number [m], or {CONTACT:?}")
-            }
-            fn visit_f64<E>(self, value: f64) -> Result<AxialOffset, E> {
-                Ok(AxialOffset::At(value))
-            }
-            fn visit_i64<E>(self, value: i64) -> Result<AxialOffset, E> {
-                Ok(AxialOffset::At(value as f64))
-            }
-            fn visit_u64<E>(self, value: u64) -> Result<AxialOffset, E> {
-                Ok(AxialOffset::At(value as f64))
-            }
-            fn visit_str<E: Error>(self, text: &str) -> Result<AxialOffset, E> {
-                if text == CONTACT {
-                    return Ok(AxialOffset::Contact);
-                }
-                Err(E::invalid_value(serde::de::Unexpected::Str(text), &self))
-            }
-        }
-        deserializer.deserialize_any(NumberOrContact)
+        number_or_word(deserializer, CONTACT, Self::At, Self::Contact)
     }
 }

@@ -22,7 +22,9 @@ mod defect;
 mod doubt;
 mod fault_lines;
 mod load;
+mod lubricant;
 mod material;
+mod oils;
 mod path;
 pub mod presets;
 mod probe;
@@ -33,6 +35,7 @@ mod validate;
 
 use std::collections::BTreeMap;
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
@@ -43,10 +46,14 @@ pub use approximations::Approximations;
 pub use bearing::{GothicArch, Mount, RaceProfile, Ring, RingName, Row, Support, Waviness};
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
 pub use defect::{AxialOffset, Defect, Floor, Surface, Width, WidthProfile};
+pub(crate) use doubt::FilmJudged;
 pub use doubt::{Doubt, STATIC_PRESSURE};
 pub use fault_lines::kinematic_orders;
 pub use load::{Drive, Load, Unbalance};
+pub use lubricant::{Lubricant, OilLayer};
 pub use material::{Material, Materials};
+pub(crate) use oils::CENTISTOKE;
+pub use oils::{Base, NAMED_OILS, NamedOil, OilSheet, OilSource, Sourced, named_oil};
 pub use probe::{Component, ContactQuantity, Probe};
 pub use solver::{Method, Solver};
 pub use time::{Profile, TimeFunction};
@@ -82,6 +89,9 @@ pub struct Scene {
     /// Friction of balls and races; none by default.
     #[serde(default)]
     pub friction: Friction,
+    /// Oil between balls and races; absent: dry. Its traction takes the place of `friction`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lubricant: Option<Lubricant>,
     /// Cage; absent: the balls are not linked.
     #[serde(default)]
     pub cage: Option<Cage>,
@@ -145,6 +155,7 @@ impl Scene {
             materials: Materials::default(),
             contact: Contact::default(),
             friction: Friction::default(),
+            lubricant: None,
             cage: None,
             drive,
             gravity: defaults::gravity(),
@@ -167,6 +178,19 @@ impl Scene {
         row.friction.as_ref().unwrap_or(&self.friction)
     }
 
+    /// Oil of a row's contacts: its own, or that of the scene; none: dry.
+    pub fn lubricant_of<'a>(&'a self, row: &'a Row) -> Option<&'a Lubricant> {
+        row.lubricant.as_ref().or(self.lubricant.as_ref())
+    }
+
+    /// Speed of the rings against each other that a lubricant's films are computed for, Ω_ref \[rad/s\]: its own, or the
+    /// largest of the drive.
+    pub fn reference_speed_of(&self, lubricant: &Lubricant) -> f64 {
+        lubricant
+            .reference_speed
+            .unwrap_or_else(|| self.drive.peak_speed())
+    }
+
     /// Material of a row's balls: its own, or that of the scene.
     pub fn ball_material_of<'a>(&'a self, row: &'a Row) -> &'a Material {
         row.ball_material.as_ref().unwrap_or(&self.materials.balls)
@@ -178,10 +202,30 @@ impl Scene {
         std::iter::once(&mut self.contact).chain(own)
     }
 
-    /// Leaves all rows without friction.
+    /// Leaves all rows without friction, and without what oil puts in its place.
     pub(crate) fn remove_friction(&mut self) {
         self.friction = Friction::None;
         self.rows.iter_mut().for_each(|row| row.friction = None);
+        for oil in self.lubricants_mut() {
+            (oil.traction, oil.rolling) = (false, false);
+        }
+    }
+
+    /// The lubricants of all rows, as far as they are said: the scene's and the rows' own.
+    pub(crate) fn lubricants_mut(&mut self) -> impl Iterator<Item = &mut Lubricant> {
+        let own = self
+            .rows
+            .iter_mut()
+            .filter_map(|row| row.lubricant.as_mut());
+        self.lubricant.iter_mut().chain(own)
+    }
+
+    /// Leaves all rows without oil, and the probes without those that read it.
+    pub(crate) fn remove_lubricants(&mut self) {
+        self.lubricant = None;
+        self.rows.iter_mut().for_each(|row| row.lubricant = None);
+        self.probes
+            .retain(|_, probe| !matches!(probe, Probe::Lubrication { .. }));
     }
 
     /// Reads a scene from TOML and checks it.
@@ -213,7 +257,7 @@ impl Scene {
             check_length(text, DOCUMENT)?;
             let document = serde_json::from_str(text)
                 .map_err(|e| Error::scene("scene", "not JSON", e.to_string()))?;
-            Self::interpret(&document)
+            interpret(&document, "scene")
         })
     }
 
@@ -242,6 +286,7 @@ impl Scene {
     /// Never: every scene has a JSON form.
     pub fn with(&self, changes: &[(&str, serde_json::Value)]) -> Result<Self> {
         let mut document = serde_json::to_value(self).expect("a scene is a JSON document");
+        path::show_absent(&mut document, "lubricant");
         for (path, value) in changes {
             path::set(&mut document, path, value.clone())?;
         }
@@ -249,22 +294,22 @@ impl Scene {
     }
 
     fn read(document: &serde_json::Value) -> Result<Self> {
-        let scene = Self::interpret(document)?;
+        let scene: Self = interpret(document, "scene")?;
         scene.validate()?;
         Ok(scene)
     }
+}
 
-    fn interpret(document: &serde_json::Value) -> Result<Self> {
-        serde_path_to_error::deserialize(document).map_err(|e| {
-            let place = e.path().to_string();
-            let value =
-                path::get(document, &place).map_or_else(|| "absent".to_owned(), path::short);
-            let place = if place == "." {
-                "scene".to_owned()
-            } else {
-                place
-            };
-            Error::scene(place, value, e.inner().to_string())
-        })
-    }
+/// Reads a document, or a part of one; its messages say where.
+fn interpret<T: DeserializeOwned>(document: &serde_json::Value, part: &str) -> Result<T> {
+    serde_path_to_error::deserialize(document).map_err(|e| {
+        let place = e.path().to_string();
+        let value = path::get(document, &place).map_or_else(|| "absent".to_owned(), path::short);
+        let place = match (part, place.as_str()) {
+            (part, ".") => part.to_owned(),
+            ("scene", place) => place.to_owned(),
+            (part, place) => format!("{part}.{place}"),
+        };
+        Error::scene(place, value, e.inner().to_string())
+    })
 }

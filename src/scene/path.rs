@@ -47,6 +47,20 @@ pub(super) fn set(document: &mut Value, path: &str, value: Value) -> Result<()> 
     Ok(())
 }
 
+/// Names a field of a scene and of its rows that is not written where it is absent, so that [`set`] finds its place.
+pub(super) fn show_absent(scene: &mut Value, field: &str) {
+    let mut parts = vec![&mut *scene];
+    while let Some(part) = parts.pop() {
+        let Some(map) = part.as_object_mut() else {
+            continue;
+        };
+        map.entry(field).or_insert(Value::Null);
+        if let Some(rows) = map.get_mut("rows").and_then(Value::as_array_mut) {
+            parts.extend(rows);
+        }
+    }
+}
+
 /// The value at `path`, if there is one.
 pub(super) fn get<'v>(document: &'v Value, path: &str) -> Option<&'v Value> {
     steps(path)

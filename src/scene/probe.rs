@@ -1,7 +1,7 @@
 //! What a run records. A probe's columns are named after it: probe `outer` of a motion gives `outer.ay`.
 //!
 //! Motion, cage forces and friction torques are signals, filtered before they are sampled unless a run's bandwidth is
-//! [`Raw`](crate::Bandwidth::Raw). Contacts, energies, forces by origin and slices tell a state: always points.
+//! [`Raw`](crate::Bandwidth::Raw). Contacts, energies, films, forces by origin and slices tell a state: always points.
 
 use serde::{Deserialize, Serialize};
 
@@ -50,6 +50,14 @@ pub enum Probe {
     Forces {
         /// `outer`, `inner` or a ball such as `row0.ball3`.
         body: String,
+    },
+    /// Films and losses of a row's oil, as points: `<probe>.outer.film`, `.inner.film` \[m\], `.outer.lambda`, `.inner.lambda`,
+    /// `.friction_torque` \[N m\], `.slip_power`, `.rolling_power`, `.damping_power` \[W\]. The torque resists: it is what the row's
+    /// balls put on the inner ring, positive whichever way the shaft turns.
+    Lubrication {
+        /// Row, from 0; it has a lubricant.
+        #[serde(default)]
+        row: usize,
     },
     /// Forces of the single slices of chosen contacts at chosen times; a table beside the signals.
     Slices {

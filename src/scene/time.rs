@@ -276,3 +276,43 @@ where
         from_map,
     })
 }
+
+/// Reads a plain number as one thing and one word as another.
+pub(super) fn number_or_word<'de, D: Deserializer<'de>, T: Copy>(
+    deserializer: D,
+    word: &'static str,
+    from_number: fn(f64) -> T,
+    of_word: T,
+) -> Result<T, D::Error> {
+    struct Either<T> {
+        word: &'static str,
+        from_number: fn(f64) -> T,
+        of_word: T,
+    }
+    impl<T: Copy> Visitor<'_> for Either<T> {
+        type Value = T;
+        fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            write!(f, "a number [m], or {:?}", self.word)
+        }
+        fn visit_f64<E>(self, value: f64) -> Result<T, E> {
+            Ok((self.from_number)(value))
+        }
+        fn visit_i64<E>(self, value: i64) -> Result<T, E> {
+            Ok((self.from_number)(value as f64))
+        }
+        fn visit_u64<E>(self, value: u64) -> Result<T, E> {
+            Ok((self.from_number)(value as f64))
+        }
+        fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<T, E> {
+            if text == self.word {
+                return Ok(self.of_word);
+            }
+            Err(E::invalid_value(serde::de::Unexpected::Str(text), &self))
+        }
+    }
+    deserializer.deserialize_any(Either {
+        word,
+        from_number,
+        of_word,
+    })
+}

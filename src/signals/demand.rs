@@ -4,7 +4,7 @@ use super::SliceRow;
 use super::blocks::rows_in_memory;
 use super::filter::HALF;
 use crate::dynamics::contribution_names;
-use crate::inspect::Energy;
+use crate::inspect::{Energy, Lubrication};
 use crate::model::{DOFS, RINGS};
 use crate::scene::{Component, ContactQuantity, Probe, Scene, Slices};
 
@@ -66,6 +66,7 @@ impl Demand {
                 },
                 Probe::Energy {} => Energy::default().entries().len(),
                 Probe::Torque {} => RINGS,
+                Probe::Lubrication { .. } => Lubrication::LABELS.len(),
                 Probe::Forces { .. } => DOFS * contribution_names().len(),
                 Probe::Slices {
                     row,
@@ -111,12 +112,13 @@ mod tests {
     use super::super::probes::Probes;
     use super::*;
     use crate::equilibrium::compile;
-    use crate::scene::{RingName, presets};
+    use crate::scene::{Lubricant, RingName, presets};
 
     /// Truth: the columns that are made.
     #[test]
     fn all_columns_are_counted() {
         let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+        scene.lubricant = Some(Lubricant::named("vg68", 328.15));
         let body = || "outer".to_owned();
         let probes = [
             Probe::Motion {
@@ -142,6 +144,7 @@ mod tests {
             Probe::Cage { row: 0 },
             Probe::Energy {},
             Probe::Torque {},
+            Probe::Lubrication { row: 0 },
             Probe::Forces { body: body() },
             Probe::Slices {
                 row: 0,

@@ -21,6 +21,7 @@ mod warning;
 
 use serde::Serialize;
 
+use crate::inspect::RaceFilm;
 use crate::reduction::Omission;
 use crate::scene::{RingName, Scene};
 use crate::simd::Distrust;
@@ -155,6 +156,8 @@ pub struct Provenance {
     pub settled: f64,
     /// What became of the defects that have a width.
     pub defects: Vec<Touched>,
+    /// The films of rows with an oil, at the load and the speed that they are computed for.
+    pub films: Vec<RaceFilm>,
     /// Largest step by which the method is stable and accurate in this scene \[s\]; `frequency_cap` keeps below it.
     pub step_limit: f64,
 }

@@ -5,7 +5,7 @@ use super::filter::Kind;
 use crate::dynamics::{Dynamics, contribution_names, contributions};
 use crate::equilibrium::compile;
 use crate::error::Result;
-use crate::inspect::{self, Energy};
+use crate::inspect::{self, Energy, Lubrication};
 use crate::model::{BodyId, Dof, Model, Race};
 use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene};
 
@@ -36,6 +36,9 @@ pub(super) enum Reader {
     },
     Energy,
     Torque,
+    Lubrication {
+        row: usize,
+    },
     Forces {
         body: BodyId,
     },
@@ -110,6 +113,12 @@ impl Probes {
                 }
                 self.needs_rhs = true;
                 Reader::Torque
+            }
+            Probe::Lubrication { row } => {
+                for (label, unit) in Lubrication::LABELS {
+                    self.column(format!("{name}.{label}"), unit, None);
+                }
+                Reader::Lubrication { row: *row }
             }
             Probe::Forces { body } => self.forces(name, body_of(body)),
             Probe::Slices {
@@ -199,7 +208,7 @@ impl Reader {
         accelerations: &[f64],
         values: &mut Vec<f64>,
     ) {
-        let model = dynamics.model();
+        let model = dynamics.coated();
         let layout = model.layout();
         match self {
             Self::Motion { body, components } => {
@@ -235,6 +244,9 @@ impl Reader {
                     .map(|(_, _, value)| value),
             ),
             Self::Torque => values.extend(dynamics.ring_torques()),
+            Self::Lubrication { row } => {
+                values.extend(inspect::lubrication(model, y, *row).values());
+            }
             Self::Forces { body } => {
                 for (_, forces) in contributions(model, t, y) {
                     values.extend(layout.of(&forces, *body));

@@ -5,6 +5,7 @@
 //! into one program and picks one at run time.
 
 mod choice;
+mod inverse_root;
 mod isa;
 mod lanes;
 mod number;
@@ -12,6 +13,7 @@ mod proof;
 mod vector;
 
 pub use choice::{Distrust, UnknownInstructionSet};
+pub(crate) use inverse_root::inverse_root;
 pub use isa::InstructionSet;
 pub(crate) use isa::Task;
 pub(crate) use lanes::{Counters, LANES, Lanes, Mask, mul_add};

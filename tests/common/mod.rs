@@ -5,7 +5,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use ballrace::scene::{Friction, Mount, Probe, RaceProfile, Row, Scene, Support, presets};
+use ballrace::scene::{
+    Friction, Lubricant, Mount, Probe, RaceProfile, Row, Scene, Support, presets,
+};
 use ballrace::{Bandwidth, Race, Run, Signals, simulate};
 
 /// Numbers in −1 … 1, the same in every run.
@@ -147,4 +149,17 @@ pub fn through_points(scene: &Scene, count: usize) -> Scene {
         row.inner_profile = Some(tabulated(row, Race::Inner, count));
     }
     scene
+}
+
+/// A scene in VG 68 at 55 °C.
+pub fn oiled(mut scene: Scene) -> Scene {
+    scene.lubricant = Some(Lubricant::named("vg68", 328.15));
+    scene
+}
+
+/// Leaves one effect of a lubricant by its name, or none.
+pub fn effects(of: &mut Lubricant, effect: &str) {
+    let is = |name: &str| effect == name;
+    (of.film, of.damping, of.traction, of.rolling) =
+        (is("film"), is("damping"), is("traction"), is("rolling"));
 }

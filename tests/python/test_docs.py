@@ -21,6 +21,7 @@ MODULES = [
     for m in pkgutil.walk_packages(ballrace.__path__, "ballrace.")
     if m.name not in ("ballrace.__main__", "ballrace._core")
 ]
+PAGES = sorted(GUIDE.glob("*.md"))
 
 
 def run_blocks(page: Path, kinds: str) -> None:
@@ -41,7 +42,7 @@ def test_readme_code_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     run_blocks(README, "")
 
 
-@pytest.mark.parametrize("page", sorted(GUIDE.glob("*.md")), ids=lambda page: page.stem)
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_guide_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Blocks that want a measured record run where it is."""
     monkeypatch.chdir(tmp_path)

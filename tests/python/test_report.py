@@ -163,6 +163,10 @@ def test_a_scene_in_words() -> None:
     quiet = replace(scene, cage=None, friction="none")
     assert ("Cage", "none") in words.model(quiet)
     assert ("Friction", "none") in words.model(quiet)
+    oil = br.scene.Lubricant.named("vg68", temperature_c=55.0)
+    told = dict(words.model(replace(quiet, lubricant=oil)))
+    assert told["Lubricant"] == "vg68 at 55 °C, with its film, damping, traction, rolling"
+    assert "Lubricant" not in dict(words.model(quiet))
     assert [what for what, _ in words.bearing(scene)] == ["Row 0", "Row 1", "Defect"]
 
 

@@ -18,7 +18,7 @@ import pytest
 import ballrace as br
 from ballrace import _core
 from ballrace import scene as s
-from ballrace._document import Part, Variant, decode, encode
+from ballrace._document import INSTEAD, Part, Variant, decode, encode
 
 MINIMAL = s.Row(
     ball_count=9,
@@ -165,6 +165,7 @@ def scenes() -> list[s.Scene]:
         ),
         full.replace({"drive": s.SpeedDrive(100.0), "contact.slices": s.AccurateSlices(1e-5)}),
         shaped(full),
+        lubricated(full),
     ]
 
 
@@ -191,6 +192,41 @@ def shaped(full: s.Scene) -> s.Scene:
         ),
     )
     return dataclasses.replace(full, rows=(row, other))
+
+
+def lubricated(full: s.Scene) -> s.Scene:
+    """A scene with an oil by its data sheet, and by name in one row."""
+    sheet = s.Lubricant(
+        viscosity_40=46e-6,
+        viscosity_100=6.8e-6,
+        density_15=865.0,
+        temperature=343.15,
+        base="pao",
+        pressure_viscosity=1.5e-8,
+        limiting_stress=0.04,
+        boundary_friction=0.1,
+        conductivity=0.14,
+        roughness=2e-7,
+        oil_layer="flooded",
+        hysteresis=0.01,
+        slip_floor=1e-3,
+        damping_frequency=1000.0,
+        reference_speed=200.0,
+        reference_load=300.0,
+        fill=0.1,
+        film=False,
+        damping=False,
+        traction=False,
+        rolling=False,
+    )
+    row = dataclasses.replace(full.rows[0], lubricant=s.Lubricant.named("fva3", temperature_c=40.0))
+    return dataclasses.replace(
+        full,
+        name="lubricated",
+        rows=(row, full.rows[1]),
+        lubricant=sheet,
+        probes={"oil": s.LubricationProbe(row=1)},
+    )
 
 
 def walk(value: Any, hint: Any, path: str = "") -> Iterator[tuple[str, Any, Any]]:
@@ -291,12 +327,16 @@ def test_fields_and_variants_have_the_same_names_in_the_core() -> None:
         for path, value, hint in walk(scene, s.Scene):
             if key := frozenset(choices(hint)):
                 # Beside a number there is a word, elsewhere a table.
-                intruder = "stranger" if hint == s.AxialOffset else {"stranger": {}}
+                intruder = "stranger" if hint in (s.AxialOffset, s.OilLayer) else {"stranger": {}}
                 assert expected_by_core(scene, path, intruder) == key, path
                 compared.add(key)
             if isinstance(value, Part) and not (isinstance(value, Variant) and value.wraps):
                 inner = f"{path}.{value.tag}" if isinstance(value, Variant) else path
                 names = {f.name.removesuffix("_") for f in dataclasses.fields(value)}
+                also = [
+                    f.metadata[INSTEAD] for f in dataclasses.fields(value) if INSTEAD in f.metadata
+                ]
+                names |= {key for key, _ in also}
                 assert expected_by_core(scene, f"{inner}.stranger", 1) == names, inner
                 compared.add(type(value).__name__)
     assert {part.__name__ for part in parts()}.difference(compared) == {

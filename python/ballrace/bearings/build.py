@@ -11,6 +11,7 @@ from ..scene import (
     Coulomb,
     Defect,
     Load,
+    Lubricant,
     MotionProbe,
     Ring,
     Row,
@@ -19,6 +20,7 @@ from ..scene import (
     Spring,
     Support,
 )
+from ..scene.lubricant import chosen
 from .catalogue import Bearing, catalogue
 from .clearance import radial_clearance
 
@@ -42,6 +44,8 @@ def bearing(
     speed_rpm: float = 1800.0,
     clearance: str | float = "CN",
     defects: Defect | Mapping[str, Defect] | None = None,
+    lubricant: str | Lubricant | None = None,
+    temperature_c: float | None = None,
 ) -> Scene:
     """Return a scene of a bearing of the catalogue, ready to run.
 
@@ -68,11 +72,16 @@ def bearing(
         some of it. Angular contact bearings have none: their contact angle says it.
     defects : Defect, or mapping of str to Defect
         Defects, as :mod:`ballrace.defects` makes them; a single one is named ``defect``.
+    lubricant : str or Lubricant, optional
+        Oil by its name (:func:`ballrace.lubricants`) or its numbers; by default the contacts are dry.
+    temperature_c : float, optional
+        Temperature of an oil by name where it enters the contacts [°C].
 
     Raises
     ------
     SceneError
-        The name is not known (the message has those near), or an argument is not usable.
+        The name is not known (the message has those near), an argument is not usable, or a named oil has no
+        temperature.
 
     Examples
     --------
@@ -88,6 +97,7 @@ def bearing(
     if not math.isfinite(speed_rpm):
         raise SceneError("speed_rpm", str(speed_rpm), "a speed [rev/min]")
     named = {"defect": defects} if isinstance(defects, Defect) else dict(defects or {})
+    oil = chosen(lubricant, temperature_c)
     size = (made.outside_diameter**2 - made.pitch_diameter**2) * made.width / _OF_6205
     return Scene(
         name=made.designation,
@@ -96,6 +106,7 @@ def bearing(
         # With 1 kg of shaft in a 6205, damped by its surroundings.
         inner_ring=_ring(made.bore, made, 0.0, 300.0 * size, 1.0 * size),
         friction=Coulomb(coefficient=0.05, slip_speed=0.1),
+        lubricant=oil,
         cage=Cage(stiffness=1e6, damping=20.0, play=0.1e-3),
         loads={
             "radial": Load(ring="inner", direction=(0.0, -1.0, 0.0), force=radial),

@@ -96,7 +96,7 @@ def _add_life(page: Page, scene: Scene) -> None:
     page.told(_life(life))
     page.text(
         "Both lives are of the bearing without its defects, at 90 % reliability; lubrication and contamination "
-        "(a_ISO of ISO 281) are no part of the model. ISO 281 takes one equivalent load; ISO/TS 16281 takes "
+        "(a_ISO of ISO 281) are left out. ISO 281 takes one equivalent load; ISO/TS 16281 takes "
         "the load of every ball, so clearance and contact angles count."
     )
 

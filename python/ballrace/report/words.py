@@ -15,7 +15,7 @@ from ..scene import (
 )
 
 if TYPE_CHECKING:
-    from ..scene import Defect, Scene
+    from ..scene import Defect, Lubricant, Scene
 
 __all__ = ["bearing", "degrees", "large", "model", "number", "operation"]
 
@@ -117,6 +117,7 @@ def model(scene: Scene) -> list[tuple[str, str]]:
             f"{law}, {_slices(contact.slices)}; Hunt–Crossley damping {contact.damping:.3g} s/m",
         ),
         ("Friction", friction if isinstance(friction, str) else _fields(friction)),
+        *([("Lubricant", _oil(scene.lubricant))] if scene.lubricant else []),
         ("Cage", "none" if cage is None else _fields(cage)),
         ("Outer ring", _held(scene.outer_ring.support)),
         ("Inner ring", _held(scene.inner_ring.support)),
@@ -131,6 +132,12 @@ def _slices(slices: FixedSlices | FittedSlices | AccurateSlices) -> str:
         case FittedSlices():
             return f"{slices.count} fitted nodes a zone"
     return f"nodes fitted to an accuracy of {slices.accuracy:.1g}"
+
+
+def _oil(oil: Lubricant) -> str:
+    effects = [name for name in ("film", "damping", "traction", "rolling") if getattr(oil, name)]
+    held = f"with its {', '.join(effects)}" if effects else "without effect"
+    return f"{oil.oil or 'by its data sheet'} at {oil.temperature - 273.15:.3g} °C, {held}"
 
 
 def _fields(part: Any) -> str:

@@ -19,6 +19,7 @@ from .defect import AxialOffset, Defect, Floor, Surface, Width, WidthProfile
 from .drive import Drive, SpeedDrive, TorqueDrive
 from .friction import Coulomb, Friction, Stribeck, Traction
 from .load import Load, Unbalance
+from .lubricant import BaseOil, Lubricant, NamedOil, OilLayer, OilProperties
 from .material import Material, Materials
 from .probe import (
     CageProbe,
@@ -27,6 +28,7 @@ from .probe import (
     ContactsProbe,
     EnergyProbe,
     ForcesProbe,
+    LubricationProbe,
     MotionProbe,
     Probe,
     SlicesProbe,
@@ -41,6 +43,7 @@ __all__ = [
     "AccurateSlices",
     "Approximations",
     "AxialOffset",
+    "BaseOil",
     "Cage",
     "CageProbe",
     "Component",
@@ -59,12 +62,17 @@ __all__ = [
     "GothicArch",
     "Iso16281",
     "Load",
+    "Lubricant",
+    "LubricationProbe",
     "Material",
     "Materials",
     "Method",
     "MotionProbe",
     "Mount",
+    "NamedOil",
     "NormalLaw",
+    "OilLayer",
+    "OilProperties",
     "Probe",
     "RaceProfile",
     "Ramp",

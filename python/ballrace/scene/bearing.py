@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
-from .._document import Part
+from .._document import LEFT_OUT, Part
 from .contact import Contact
 from .friction import Friction
+from .lubricant import Lubricant
 from .material import Material
 from .support import Support
 
@@ -125,6 +126,8 @@ class Row(Part):
         How the row's balls meet their races, in place of the whole of the scene's ``contact``; None: as there.
     friction : Friction or None
         Friction of the row's balls and races, ``"none"`` for none; None: that of the scene.
+    lubricant : Lubricant or None
+        Oil of the row's balls and races, in place of the scene's; None: as there.
     """
 
     ball_count: int
@@ -155,6 +158,7 @@ class Row(Part):
     ball_material: Material | None = None
     contact: Contact | None = None
     friction: Friction | None = None
+    lubricant: Lubricant | None = field(default=None, metadata=LEFT_OUT)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,6 +15,7 @@ __all__ = [
     "ContactsProbe",
     "EnergyProbe",
     "ForcesProbe",
+    "LubricationProbe",
     "MotionProbe",
     "Probe",
     "SlicesProbe",
@@ -108,6 +109,27 @@ class ForcesProbe(Variant, tag="forces"):
 
 
 @dataclass(frozen=True, kw_only=True)
+class LubricationProbe(Variant, tag="lubrication"):
+    """Films and losses of a row's oil, as points in time.
+
+    The columns are ``<probe>.outer.film`` [m], ``<probe>.outer.lambda``, the same of ``inner``,
+    ``<probe>.friction_torque`` [N m], ``<probe>.slip_power``, ``rolling_power``, ``damping_power`` and
+    ``drag_power`` [W].
+
+    The torque resists: it is what the row's balls put on the inner ring, positive whichever way the shaft turns; a
+    :class:`TorqueProbe` tells it with the sign of its axis. Powers are of both races together. Film and λ are not
+    a number where the oil's effects are all switched off.
+
+    Attributes
+    ----------
+    row : int
+        Row, from 0; it has a lubricant.
+    """
+
+    row: int = 0
+
+
+@dataclass(frozen=True, kw_only=True)
 class SlicesProbe(Variant, tag="slices"):
     """Forces of the single slices of chosen contacts at chosen times; a table beside the signals.
 
@@ -130,6 +152,13 @@ class SlicesProbe(Variant, tag="slices"):
 
 
 Probe = (
-    MotionProbe | ContactsProbe | CageProbe | EnergyProbe | TorqueProbe | ForcesProbe | SlicesProbe
+    MotionProbe
+    | ContactsProbe
+    | CageProbe
+    | EnergyProbe
+    | TorqueProbe
+    | ForcesProbe
+    | LubricationProbe
+    | SlicesProbe
 )
 """A named set of signals."""

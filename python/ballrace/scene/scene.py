@@ -11,7 +11,7 @@ from types import MappingProxyType
 from typing import Any
 
 from .. import _core
-from .._document import Part, decode, encode
+from .._document import LEFT_OUT, Part, decode, encode
 from ..errors import SceneError
 from .approximations import Approximations
 from .bearing import Ring, Row
@@ -21,6 +21,7 @@ from .defect import Defect
 from .drive import Drive
 from .friction import Friction
 from .load import Load, Unbalance
+from .lubricant import Lubricant
 from .material import Materials
 from .probe import Probe
 from .solver import Solver
@@ -52,6 +53,8 @@ class Scene(Part):
         Contact of balls and races.
     friction : Friction
         Friction of balls and races.
+    lubricant : Lubricant or None
+        Oil of balls and races, whose traction takes the place of ``friction``; None: they are dry.
     cage : Cage or None
         Cage; None: the balls are not linked.
     drive : Drive
@@ -90,6 +93,7 @@ class Scene(Part):
     materials: Materials = Materials()
     contact: Contact = Contact()
     friction: Friction = "none"
+    lubricant: Lubricant | None = field(default=None, metadata=LEFT_OUT)
     cage: Cage | None = None
     drive: Drive
     gravity: tuple[float, float, float] = (0.0, -9.81, 0.0)

@@ -14,7 +14,7 @@ import typing
 from collections.abc import Mapping
 from typing import Any
 
-from .._document import Part, Variant, encode
+from .._document import INSTEAD, Part, Variant, encode
 from .scene import Scene
 
 __all__ = ["schema"]
@@ -42,15 +42,19 @@ def schema() -> dict[str, Any]:
 
 def _part(kind: type[Part], known: dict[str, Any]) -> dict[str, Any]:
     hints, told = typing.get_type_hints(kind), _told(kind)
-    properties, required = {}, []
+    properties, required, either = {}, [], {}
     for field in dataclasses.fields(kind):
         key = field.name.removesuffix("_")
         properties[key] = _type(hints[field.name], known) | _about(field, told)
-        if field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING:
+        if INSTEAD in field.metadata:
+            other, meaning = field.metadata[INSTEAD]
+            properties[other] = _type(hints[field.name], known) | {"description": meaning}
+            either = {"oneOf": [{"required": [key]}, {"required": [other]}]}
+        elif field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING:
             required.append(key)
     of = {"type": "object", "properties": properties, "additionalProperties": False}
     text = {"description": (inspect.getdoc(kind) or "").split("\n")[0]}
-    return text | of | ({"required": required} if required else {})
+    return text | of | ({"required": required} if required else {}) | either
 
 
 def _about(field: dataclasses.Field[Any], told: Mapping[str, str]) -> dict[str, Any]:

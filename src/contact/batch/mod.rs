@@ -16,9 +16,10 @@ pub(crate) use rubbing::Rubbing;
 
 use super::kernel::{self, Element, Receiver, State, Whole};
 use super::laws::traction::Rolling;
+use super::oil::RollingResistance;
 use super::profile::{SHALLOW, Section, Zone};
 use super::slip::Moves;
-use super::{Law, Motion, Pair};
+use super::{FilmEffect, Law, Motion, Pair};
 use crate::simd::{Counters, InstructionSet, Lanes, Mask};
 
 /// What eight contacts put on balls and ring: force \[N\] and moment about z \[N m\].
@@ -66,6 +67,8 @@ struct Sums<'a> {
     /// second program for those with.
     elastic: Lanes,
     pulls: Counters,
+    /// R cos α' \[m\].
+    lever: Lanes,
 }
 
 impl Pair {
@@ -140,6 +143,7 @@ impl Pair {
             spin: (eight.v[3] - ring.omega) * sigma,
             rolling: self.rolling(eight, ring, d, across),
             arm: raised - d,
+            oil: FilmEffect::of(self.law.film.as_ref(), whole.half),
         };
         let lean = eight.wavy.then(|| eight.raise.slope * over);
         (
@@ -207,6 +211,7 @@ impl<'a> Sums<'a> {
             moment: zero,
             elastic: zero,
             pulls: Counters::default(),
+            lever: whole.section.radius * whole.section.normal.0,
         }
     }
 
@@ -218,9 +223,20 @@ impl<'a> Sums<'a> {
         if let Some(lean) = place.lean {
             tangential += self.elastic * lean;
         }
-        let (along, across) = (self.normal * sigma, tangential * sigma);
+        let (along, mut across) = (self.normal * sigma, tangential * sigma);
+        let mut moment = self.moment * sigma;
+        if self.law.film.is_some() {
+            let resistance = RollingResistance::new(
+                self.moves.oil.rolling,
+                self.moves,
+                sigma,
+                place.d,
+                self.lever,
+            );
+            across += resistance.force;
+            moment += resistance.moment;
+        }
         let plane = (n.0 * along - n.1 * across, n.1 * along + n.0 * across);
-        let moment = self.moment * sigma;
         BatchForces {
             ball: [plane.0, plane.1, self.axial, moment],
             // About the ring's centre the arm is longer by d.
@@ -258,6 +274,7 @@ impl Receiver<Lanes> for Sums<'_> {
             arm,
             rolling: moves.rolling,
             radii: self.radii,
+            oil: moves.oil,
         };
         let force = kernel::force::<Lanes, FMA, SYMMETRIC, false>(self.law, &state);
         self.pulls.add(Lanes::ZERO.above(force.damped), times);

@@ -10,7 +10,7 @@ use super::{BatchForces, EightContacts, Moves, Place, Rubbing, Sums};
 use crate::contact::kernel::{Element, Receiver, Whole};
 use crate::contact::laws::elastic::{ForLaw, Load};
 use crate::contact::profile::{Contour, FLAT, REACH, SHALLOW, SNUG, Section, SurfacePoint, Zone};
-use crate::contact::{Cut, Motion, Pair, Slices};
+use crate::contact::{Cut, FilmEffect, Motion, Pair, Slices};
 use crate::simd::{InstructionSet, Lanes, Mask};
 
 /// Newton steps before a contact is left out.
@@ -62,6 +62,7 @@ impl Pair {
         let found = curve.meet::<FMA>(&self.law.cut());
         let v = [eight.v[0] - ring.velocity.x, eight.v[1] - ring.velocity.y];
         let across = v[1] * n.0 - v[0] * n.1;
+        let whole = found.whole(eight);
         let moves = Moves {
             v_e: (v[0] * n.0 + v[1] * n.1) * sigma,
             v_z: eight.v[2] - ring.vz,
@@ -70,6 +71,7 @@ impl Pair {
             rolling: self.rolling(eight, ring, d, across),
             // Heights of the race are those over the ring's axis.
             arm: eight.raise.height - d,
+            oil: FilmEffect::of(self.law.film.as_ref(), whole.half),
         };
         let place = Place {
             n,
@@ -77,7 +79,6 @@ impl Pair {
             lean: eight.wavy.then(|| eight.raise.slope * over),
             regular: found.regular.or(found.touching.not()),
         };
-        let whole = found.whole(eight);
         let middle = (found.ends.0 + found.ends.1) * 0.5;
         let rubbing = rubbing.at_nodes::<FMA>(instructions, self, &whole, &moves, Some(middle));
         let mut sums = Sums::new(self, &whole, &moves);

@@ -56,10 +56,10 @@ pub(super) fn elastic_stiffness(pair: &Pair) -> Option<f64> {
     }
 }
 
-/// The nodes of a contact that could have a closed form: of a torus without friction.
+/// The nodes of a contact that could have a closed form: of a torus without friction and oil.
 fn rules(pair: &Pair) -> Option<&Rules> {
     match &pair.slices {
-        Slices::Fitted(rules) if pair.law.traction.is_none() && pair.shape.is_torus() => {
+        Slices::Fitted(rules) if pair.law.is_elastic_or_damped() && pair.shape.is_torus() => {
             Some(rules)
         }
         _ => None,

@@ -25,6 +25,8 @@ pub struct Fault {
     pub length: f64,
     /// Radius R_f of the circles \[m\].
     pub edge_radius: f64,
+    /// Thickness of the oil film on them \[m\].
+    pub coat: f64,
     /// Depth and number of the recessed circles.
     pub floor: Option<(f64, usize)>,
     /// Twice the largest half-angle: a contact further away never sees the fault \[rad\].
@@ -46,6 +48,7 @@ impl Fault {
             middle,
             length: defect.length,
             edge_radius: defect.edge_radius,
+            coat: 0.0,
             floor: defect
                 .floor
                 .as_ref()
@@ -115,7 +118,7 @@ impl Fault {
             let edge = |angle: f64, side: f64| Edge {
                 angle,
                 side,
-                radius: self.edge_radius,
+                radius: self.edge_radius + self.coat,
                 width,
                 slope,
             };

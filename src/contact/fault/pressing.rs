@@ -134,6 +134,7 @@ impl Contact<'_> {
             arm,
             rolling: self.rolling,
             radii: [radius, self.race.r],
+            oil: self.oil,
         }
     }
 }

@@ -38,4 +38,10 @@ impl Damping {
     pub(crate) fn factor<T: Number>(&self, approach: T) -> T {
         approach * self.rate() + 1.0
     }
+
+    /// The same with a film whose rate, 3/2 α_f, comes on top \[s/m\].
+    #[inline(always)]
+    pub(crate) fn factor_with<T: Number>(&self, approach: T, film: T) -> T {
+        approach * (film + self.rate()) + 1.0
+    }
 }

@@ -1,16 +1,19 @@
-//! The laws of a contact: where it is cut, what an element bears, how it is damped, how it rubs.
+//! The laws of a contact: where it is cut, what an element bears, how it is damped, how it rubs, what oil does.
 //!
 //! Each law is written once, for any kind of number: for one contact, for eight side by side, and with derivatives.
 
 pub mod cut;
 pub mod damping;
 pub mod elastic;
+pub mod film;
 pub mod traction;
 
 pub use cut::Cut;
 pub use damping::Damping;
 pub use elastic::Elastic;
 pub use traction::Traction;
+
+use film::Oiled;
 
 /// The laws that all contacts of a row's balls with one race follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,6 +24,8 @@ pub struct Law {
     pub damping: Damping,
     /// Friction, if any.
     pub traction: Option<Traction>,
+    /// The oil film, if any.
+    pub film: Option<Oiled>,
 }
 
 impl Law {
@@ -33,7 +38,29 @@ impl Law {
                 clamp_pull: true,
             },
             traction: None,
+            film: None,
         }
+    }
+
+    /// Whether nothing but damping comes on top of the elastic force.
+    pub(crate) fn is_elastic_or_damped(&self) -> bool {
+        self.traction.is_none() && self.film.is_none()
+    }
+
+    /// Whether forces along the race turn balls: friction's, or rolling resistance.
+    pub(crate) fn turns_balls(&self) -> bool {
+        self.traction.is_some() || self.film.is_some_and(|oiled| oiled.film.effects().rolling)
+    }
+
+    /// Whether the approach is damped, by the steel or by a film.
+    pub(crate) fn damps(&self) -> bool {
+        let by_film = self.film.is_some_and(|oiled| oiled.film.effects().damping);
+        self.damping.rate() > 0.0 || by_film
+    }
+
+    /// Whether motion is resisted at all.
+    pub(crate) fn takes_energy(&self) -> bool {
+        self.turns_balls() || self.damps()
     }
 
     /// Where the ball is cut: the elastic law knows.

@@ -3,7 +3,9 @@
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
 
-use super::product::{Product, inverse_root};
+use super::moments::Moments;
+use super::needle::Needles;
+use super::product::Product;
 use crate::contact::slip::Slip;
 use crate::simd::Number;
 
@@ -22,6 +24,7 @@ pub(in crate::contact) struct Halves {
     fine: Vec<f64>,
     /// Shares of x_i in K(t_j) + K(−t_j), and in K(t_j) − K(−t_j), for all j, then those of the next node.
     shares: Vec<[f64; 2]>,
+    moments: Option<Moments>,
 }
 
 impl Halves {
@@ -45,6 +48,7 @@ impl Halves {
             shares: nodes
                 .flat_map(|i| (0..fine_half).map(move |j| share(i, j)))
                 .collect(),
+            moments: product.moments.clone(),
         }
     }
 
@@ -54,24 +58,60 @@ impl Halves {
         &self,
         slip: &Slip<T>,
         half: T,
+        add: impl FnMut(usize, T),
+    ) {
+        if self.moments.is_some() {
+            self.weighed::<T, FMA, true>(slip, half, add);
+        } else {
+            self.weighed::<T, FMA, false>(slip, half, add);
+        }
+    }
+
+    #[inline(always)]
+    fn weighed<T: Number, const FMA: bool, const FILM: bool>(
+        &self,
+        slip: &Slip<T>,
+        half: T,
         mut add: impl FnMut(usize, T),
     ) {
+        let needles = match &self.moments {
+            Some(moments) if FILM => {
+                let needles = Needles::of::<FMA>(slip, half.same(0.0), half);
+                let powers = moments.of::<T, FMA>(&needles, half);
+                Some((moments, needles, powers))
+            }
+            _ => None,
+        };
         for (part, fine) in self.fine.chunks(PART).enumerate() {
             let mut peaks = [[half; 2]; PART];
             for (peak, t) in peaks.iter_mut().zip(fine) {
-                let (plus, minus) = slip.squares::<FMA>(half * *t);
-                let (plus, minus) = (inverse_root::<T, FMA>(plus), inverse_root::<T, FMA>(minus));
+                let u = half * *t;
+                let (plus, minus) = slip.squares::<FMA>(u);
+                let mut plus = slip.peak::<FMA, FILM>(plus, u);
+                let mut minus = slip.peak::<FMA, FILM>(minus, u);
+                if let Some((_, needles, _)) = &needles {
+                    plus = plus - needles.at::<FMA>(half.same(*t));
+                    minus = minus - needles.at::<FMA>(half.same(-*t));
+                }
                 *peak = [plus + minus, plus - minus];
             }
             let shares = self.shares.chunks_exact(self.fine.len());
             for (i, (x, shares)) in self.nodes.iter().zip(shares).enumerate() {
                 let shares = &shares[part * PART..][..fine.len()];
-                let (even, odd) = sums::<T, FMA>(&peaks, shares);
-                let (plus, minus) = slip.squares::<FMA>(half * *x);
+                let (mut even, mut odd) = sums::<T, FMA>(&peaks, shares);
+                let u = half * *x;
+                let (plus, minus) = slip.squares::<FMA>(u);
                 let of = self.count - 1 - i;
-                add(of, (even + odd) * plus * inverse_root::<T, FMA>(plus));
+                if let Some((moments, _, powers)) = &needles
+                    && part == 0
+                {
+                    let (more_even, more_odd) = moments.halves::<T, FMA>(of, powers);
+                    even += more_even;
+                    odd += more_odd;
+                }
+                add(of, slip.over_peak::<FMA, FILM>(even + odd, plus, u));
                 if i != of {
-                    add(i, (even - odd) * minus * inverse_root::<T, FMA>(minus));
+                    add(i, slip.over_peak::<FMA, FILM>(even - odd, minus, u));
                 }
             }
         }

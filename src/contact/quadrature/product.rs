@@ -4,6 +4,8 @@
 #![allow(clippy::inline_always)]
 
 use super::Rule;
+use super::moments::Moments;
+use super::needle::Needles;
 use crate::contact::slip::Slip;
 use crate::simd::Number;
 
@@ -39,9 +41,16 @@ pub(in crate::contact) struct Product {
     pub(super) fine: Vec<f64>,
     /// Λ_j ℓ_i(t_j)/λ_i, of two nodes i and i + 1 for all j, then of the next two; 0 for a last one that is not there.
     shares: Vec<[f64; 2]>,
+    /// What its nodes take of K's needles, where K is that of films.
+    pub(super) moments: Option<Moments>,
 }
 
 impl Product {
+    /// Makes it one for films: of the rule it was made from, whose weight function is (1 + x)^low (1 − x)^high.
+    pub(super) fn take_films(&mut self, rule: &Rule, ends: [f64; 2]) {
+        self.moments = Some(Moments::new(rule, ends));
+    }
+
     /// From a rule and a finer one for the same weight function ω, which both are divided by.
     pub(super) fn new(rule: &Rule, finer: &Rule, weight: impl Fn(f64) -> f64) -> Self {
         let lagrange = |i: usize, t: f64| -> f64 {
@@ -64,6 +73,7 @@ impl Product {
             nodes: rule.iter().map(|(x, _)| *x).collect(),
             fine: finer.iter().map(|(t, _)| *t).collect(),
             shares: shares.collect(),
+            moments: None,
         }
     }
 
@@ -81,14 +91,39 @@ impl Product {
     pub fn weights<T: Number, const FMA: bool>(
         &self,
         slip: &Slip<T>,
+        zone: (T, T),
+        add: impl FnMut(usize, T),
+    ) {
+        if self.moments.is_some() {
+            self.weighed::<T, FMA, true>(slip, zone, add);
+        } else {
+            self.weighed::<T, FMA, false>(slip, zone, add);
+        }
+    }
+
+    #[inline(always)]
+    fn weighed<T: Number, const FMA: bool, const FILM: bool>(
+        &self,
+        slip: &Slip<T>,
         (centre, half): (T, T),
         mut add: impl FnMut(usize, T),
     ) {
+        let needles = match &self.moments {
+            Some(moments) if FILM => {
+                let needles = Needles::of::<FMA>(slip, centre, half);
+                let powers = moments.of::<T, FMA>(&needles, half);
+                Some((moments, needles, powers))
+            }
+            _ => None,
+        };
         for (part, fine) in self.fine.chunks(PART).enumerate() {
             let mut peaks = [half; PART];
             for (k, t) in peaks.iter_mut().zip(fine) {
                 let u = half.mul_add::<FMA>(half.same(*t), centre);
-                *k = inverse_root::<T, FMA>(slip.square::<FMA>(u));
+                *k = slip.peak::<FMA, FILM>(slip.square::<FMA>(u), u);
+                if let Some((_, needles, _)) = &needles {
+                    *k = *k - needles.at::<FMA>(half.same(*t));
+                }
             }
             let shares = self.shares.chunks_exact(self.fine.len());
             for (pair, (nodes, shares)) in self.nodes.chunks(2).zip(shares).enumerate() {
@@ -96,8 +131,17 @@ impl Product {
                 let sums = shares_of::<T, FMA>(&peaks, shares);
                 for ((i, x), sum) in nodes.iter().enumerate().zip(sums) {
                     let u = half.mul_add::<FMA>(half.same(*x), centre);
-                    let square = slip.square::<FMA>(u);
-                    add(2 * pair + i, sum * square * inverse_root::<T, FMA>(square));
+                    let of = 2 * pair + i;
+                    let sum = match &needles {
+                        Some((moments, _, powers)) if part == 0 => {
+                            sum + moments.at::<T, FMA>(of, powers)
+                        }
+                        _ => sum,
+                    };
+                    add(
+                        of,
+                        slip.over_peak::<FMA, FILM>(sum, slip.square::<FMA>(u), u),
+                    );
                 }
             }
         }
@@ -114,47 +158,4 @@ fn shares_of<T: Number, const FMA: bool>(peaks: &[T; PART], shares: &[[f64; 2]])
         sums[1] = k.mul_add::<FMA>(zero.same(*second), sums[1]);
     }
     sums
-}
-
-/// Series of (1 − e)^(−1/2) for what the guess at an inverse root leaves, −0.0692 < e < 0.0676: interpolated at Chebyshev's
-/// points, to 7.5e-10.
-const INVERSE_ROOT: [f64; 6] = [
-    1.000_000_000_716_994_2,
-    0.499_999_996_354_897_84,
-    0.374_997_231_592_550_9,
-    0.312_502_354_991_956_44,
-    0.275_020_204_463_988_67,
-    0.246_507_976_897_711_76,
-];
-
-/// 1/√x to 1e-9 for normal x > 0, without the division and the root that take a vector's instructions ten times as long:
-/// y (1 − e)^(−1/2) with a guess y and e = 1 − x y².
-#[inline(always)]
-pub(super) fn inverse_root<T: Number, const FMA: bool>(x: T) -> T {
-    let y = x.guess_inverse_root();
-    let e = (-(x * y)).mul_add::<FMA>(y, x.same(1.0));
-    let [c_0, c_1, c_2, c_3, c_4, c_5] = INVERSE_ROOT;
-    let sum = (e * c_5 + c_4).mul_add::<FMA>(e, x.same(c_3));
-    let sum = sum
-        .mul_add::<FMA>(e, x.same(c_2))
-        .mul_add::<FMA>(e, x.same(c_1));
-    sum.mul_add::<FMA>(e, x.same(c_0)) * y
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Analytic: x y² is 1, over all squares of speeds that occur and far beyond.
-    #[test]
-    fn is_the_inverse_root() {
-        for k in 0..100_000 {
-            let x = 10_f64.powf(f64::from(k) / 100_000.0 * 60.0 - 30.0);
-            for y in [inverse_root::<_, true>(x), inverse_root::<_, false>(x)] {
-                let error = (y * x.sqrt() - 1.0).abs();
-                assert!(error < 1e-9, "{x}: {error}");
-            }
-        }
-        assert!(inverse_root::<_, false>(f64::NAN).is_nan());
-    }
 }

@@ -1,5 +1,6 @@
 //! One ball on one race: finds the zone that touches, and cuts it into slices.
 
+mod coat;
 mod rubbing;
 mod shape;
 mod slices;
@@ -11,7 +12,10 @@ pub(super) use slices::{Line, Node};
 use super::laws::traction::Rolling;
 use super::profile::{Before, Meeting, Raise, Section, Surface};
 use super::slip::{Moves, Slip};
-use super::{Cut, Fault, Law, Motion, Sink, Slices, Torus, V2, Waves, turned};
+use super::{
+    Cut, Fault, FilmEffect, Law, Motion, OilTouch, Oiled, Sink, Slices, Torus, Touch, V2, Waves,
+    turned,
+};
 
 /// What all contacts of a row's balls with one race share.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,11 +93,8 @@ impl Pair {
                 Cut::CommonTangent { curvature } => Line::along_tangent(curvature, &section),
             };
             let Some(line) = line else { continue };
-            let contact = Contact {
-                slip: flank.slip_along(&line, &section, [b, r], &facing),
-                ..flank.contact(ball, [b, r], &facing, section)
-            };
-            contact.slices(&line, sink);
+            let contact = flank.contact(ball, [b, r], &facing, section);
+            contact.press(&line, [b, r], &facing, sink);
         }
     }
 
@@ -118,17 +119,13 @@ impl Pair {
         if meeting.ends_within(line.ends()) {
             sink.truncated();
         }
-        let middle = line.middle();
         let contact = Contact {
             race: meeting.torus,
             surface: Some(meeting.surface),
-            slip: self
-                .slip_along(&line, &section, motions, facing)
-                .map(|slip| slip.from::<false>(middle)),
-            middle,
+            middle: line.middle(),
             ..self.contact(ball, motions, facing, section)
         };
-        contact.slices(&line, sink);
+        contact.press(&line, motions, facing, sink);
     }
 
     /// A contact with the torus.
@@ -173,6 +170,7 @@ impl Pair {
             ball_open: ball_near || ring_open && !ball.faults.is_empty(),
             slip: None,
             middle: 0.0,
+            oil: FilmEffect::default(),
             section,
             rolling: self.moves([b, r], facing).rolling,
         }
@@ -194,6 +192,7 @@ impl Pair {
                 Rolling::resting(distance)
             },
             arm: self.race.a + facing.raise.height - distance,
+            oil: FilmEffect::default(),
         }
     }
 
@@ -202,18 +201,13 @@ impl Pair {
         &self,
         line: &Line,
         section: &Section<f64>,
-        motions: [&Motion; 2],
-        facing: &Facing,
+        moves: &Moves<f64>,
     ) -> Option<Slip<f64>> {
-        if !line.is_common(section) {
-            return None;
-        }
-        let moves = self.moves(motions, facing);
-        if moves.are_none() {
+        if !line.is_common(section) || moves.are_none() {
             return None;
         }
         // Beside the groove there is no slip to tell, nor a node to weigh.
-        Slip::along::<false>(&self.law, self.race.sigma, section, &moves).filter(Slip::is_finite)
+        Slip::along::<false>(&self.law, self.race.sigma, section, moves).filter(Slip::is_finite)
     }
 }
 
@@ -232,6 +226,7 @@ struct Facing {
 }
 
 /// A contact being evaluated.
+#[derive(Clone, Copy)]
 pub(super) struct Contact<'a> {
     pub(super) pair: &'a Pair,
     /// The torus, or that of the circle of curvature of another shape where it is met.
@@ -260,9 +255,65 @@ pub(super) struct Contact<'a> {
     /// The place on the line that slip is counted from: the middle of the zone.
     pub(super) middle: f64,
     pub(super) rolling: Rolling<f64>,
+    /// What its film does.
+    pub(super) oil: FilmEffect<f64>,
 }
 
 impl Contact<'_> {
+    /// Hands all its forces to the sink.
+    fn press<S: Sink>(mut self, line: &Line, motions: [&Motion; 2], facing: &Facing, sink: &mut S) {
+        let mut moves = self.pair.moves(motions, facing);
+        let oiled = self.pair.law.film.as_ref().map(|oiled| {
+            let r = self.load_measure(oiled, line);
+            (oiled, r)
+        });
+        if let Some((oiled, r)) = oiled {
+            self.oil = FilmEffect::at(oiled, r);
+            moves.oil = self.oil;
+        }
+        self.slip = self.pair.slip_along(line, &self.section, &moves);
+        if self.middle != 0.0 {
+            self.slip = self.slip.map(|slip| slip.from::<false>(self.middle));
+        }
+        self.slices(line, sink);
+        if let Some((oiled, r)) = oiled {
+            let (sigma, lever) = (self.race.sigma, self.section.radius * self.section.normal.0);
+            sink.oil(&OilTouch::new(oiled, r, &moves, (sigma, self.apart, lever)));
+        }
+    }
+
+    /// Cube root r of the contact's load over the film's reference load (12.14): of a whole race by its zone's length, which is
+    /// known before the nodes.
+    fn load_measure(&self, oiled: &Oiled, line: &Line) -> f64 {
+        let reference = oiled.film.reference();
+        let Some(half) = line.half(&self.section) else {
+            return (self.elastic_force(line) / reference.load).cbrt();
+        };
+        let r = half / reference.half_length;
+        if !(self.ring_open || self.ball_open) || r == 0.0 {
+            return r;
+        }
+        // Cut at the same places, so that nothing jumps where a defect comes into reach.
+        let healthy = Contact {
+            ring_open: false,
+            ball_open: false,
+            ..*self
+        };
+        let [pressed, whole] = [self, &healthy].map(|contact| contact.elastic_force(line));
+        if whole > 0.0 {
+            r * (pressed / whole).cbrt()
+        } else {
+            r
+        }
+    }
+
+    /// Sum of its elastic forces \[N\].
+    fn elastic_force(&self, line: &Line) -> f64 {
+        let mut sum = ElasticSum(0.0);
+        self.slices(line, &mut sum);
+        sum.0
+    }
+
     /// Height of the race over the groove's centre at an axial place of the ring's frame; none where there is none.
     pub(super) fn groove(&self, z: f64) -> Option<f64> {
         match &self.surface {
@@ -275,5 +326,14 @@ impl Contact<'_> {
     pub(super) fn common(&self) -> Option<(f64, f64)> {
         let is_flat = self.pair.law.cut().is_flat();
         is_flat.then_some(self.section.normal)
+    }
+}
+
+/// Adds up elastic forces.
+struct ElasticSum(f64);
+
+impl Sink for ElasticSum {
+    fn touch(&mut self, touch: &Touch) {
+        self.0 += touch.elastic;
     }
 }

@@ -129,6 +129,21 @@ impl Pair {
         std::iter::once(self).chain(self.other_flank())
     }
 
+    /// Whether it is a curve through points.
+    pub(crate) fn is_through_points(&self) -> bool {
+        matches!(self.shape.0, Kind::Points { .. })
+    }
+
+    /// Changes the race, then the other flank of a gothic arch, each by itself.
+    pub(crate) fn change_each(&mut self, mut change: impl FnMut(&mut Self)) {
+        change(self);
+        if let Kind::Flank(flank) = &mut self.shape.0
+            && let Some(other) = &mut flank.other
+        {
+            change(other);
+        }
+    }
+
     /// Changes the race, and the other flank of a gothic arch alike.
     pub(crate) fn change(&mut self, change: impl Fn(&mut Self)) {
         change(self);

@@ -92,6 +92,12 @@ impl Line {
         }
     }
 
+    /// Half of its length, where the penetration vanishes at both ends of a zone.
+    pub(super) fn half(&self, section: &Section<f64>) -> Option<f64> {
+        let whole = self.is_common(section) && self.sealed == [true; 2];
+        whole.then_some((self.high - self.low) / 2.0)
+    }
+
     /// Place ζ at u, and the width that a unit of u stands for: of a slice, or of the common tangent.
     fn zeta(&self, u: f64) -> (f64, f64) {
         match &self.along {

@@ -9,15 +9,16 @@
 // Loops over matrices read as their formulae do.
 #![allow(clippy::needless_range_loop)]
 
+mod films;
 mod packs;
 
 pub(crate) use packs::{SlicePack, SlicePacking};
 
 use super::batch::{EightContacts, Rubbing};
-use super::kernel::{self, Element, Force, Receiver, State};
+use super::kernel::{self, Element, Force, Receiver, State, Whole};
 use super::laws::traction::Rolling;
 use super::slip::Moves;
-use super::{Motion, Pair};
+use super::{FilmEffect, Motion, Pair};
 use crate::simd::{InstructionSet, Lanes, Mask};
 
 /// Directions in the plane.
@@ -70,6 +71,11 @@ pub(crate) struct Around {
     rolling: Rolling<Lanes>,
     /// Radii of ball and groove \[m\].
     radii: [Lanes; 2],
+    /// What the film does.
+    pub oil: FilmEffect<Lanes>,
+    /// Distance of the centres of ring and ball, and R cos α' \[m\].
+    pub distance: Lanes,
+    pub lever: Lanes,
 }
 
 impl Around {
@@ -79,13 +85,29 @@ impl Around {
         let Self {
             rolling: Rolling { turns, d },
             radii,
+            oil:
+                FilmEffect {
+                    bend,
+                    damping,
+                    rolling,
+                },
+            distance,
+            lever,
         } = self;
+        let all = |of: &Lanes| Lanes::all(of[lane]);
         Self {
             rolling: Rolling {
                 turns: [Lanes::all(turns[0][lane]), Lanes::all(turns[1][lane])],
                 d: Lanes::all(d[lane]),
             },
             radii: [Lanes::all(radii[0][lane]), Lanes::all(radii[1][lane])],
+            oil: FilmEffect {
+                bend: all(bend),
+                damping: all(damping),
+                rolling: all(rolling),
+            },
+            distance: all(distance),
+            lever: all(lever),
         }
     }
 }
@@ -110,6 +132,10 @@ pub(crate) struct StageContacts {
     /// Contacts whose nodes are there; the others get none that press.
     pub regular: Mask,
     pub around: Around,
+    /// Their zones, along which what friction weighs under films is found for any velocities.
+    whole: Whole<Lanes>,
+    /// `arm` of how they move.
+    arm: Lanes,
 }
 
 impl Pair {
@@ -146,12 +172,17 @@ impl Pair {
         let across = radial * place.lean.unwrap_or_default() * sigma;
         StageContacts {
             aside: [-(across * place.n.1), across * place.n.0],
+            whole: contact,
+            arm: moves.arm,
             n_e: [place.n.0 * sigma, place.n.1 * sigma],
             apart: [place.n.0 * place.d, place.n.1 * place.d],
             regular,
             around: Around {
                 rolling: moves.rolling,
                 radii: [contact.section.radius, contact.section.r],
+                oil: moves.oil,
+                distance: place.d,
+                lever: contact.section.radius * contact.section.normal.0,
             },
         }
     }
@@ -187,6 +218,7 @@ impl Pair {
             arm,
             rolling: around.rolling,
             radii: around.radii,
+            oil: around.oil,
         };
         let force = kernel::force::<_, FMA, false, SLOPE>(&self.law, &state);
         to.subtract_force::<FMA>(&force.on_ring, levers);
@@ -208,7 +240,11 @@ impl Pair {
         let ((in_plane, axial), (sin, cos)) = (state.share, state.slope);
         let zero = Lanes::ZERO;
         // How the normal force grows with the velocities; friction only where it presses.
-        let stiff = state.elastic * self.law.damping.rate();
+        let rate = self.law.damping.rate();
+        let stiff = match self.law.film {
+            None => state.elastic * rate,
+            Some(_) => state.elastic * (state.oil.damping + rate),
+        };
         let rubs = zero.above(force.damped).choose(zero, stiff);
         let stiff = if self.law.damping.clamp_pull {
             rubs
@@ -295,6 +331,16 @@ impl StageWrench {
         }
     }
 
+    /// Adds one lane of another, whose lanes are alike, to that lane.
+    pub(crate) fn add_lane<const SLOPE: bool>(&mut self, lane: usize, other: &Self) {
+        for i in 0..4 {
+            self.wrench[i][lane] += other.wrench[i][lane];
+            for j in 0..if SLOPE { 4 } else { 0 } {
+                self.slope[i][j][lane] += other.slope[i][j][lane];
+            }
+        }
+    }
+
     /// Adds all lanes of another to one lane.
     pub(crate) fn gather<const SLOPE: bool>(&mut self, lane: usize, other: &Self) {
         for i in 0..4 {
@@ -361,77 +407,4 @@ impl Receiver<Lanes> for Holding<'_> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::contact::dual::Dual;
-    use crate::contact::iso16281::Iso16281;
-    use crate::contact::laws::traction::tests::laws;
-    use crate::contact::{Damping, Elastic, Law, Shape, Slices, Torus, Waves};
-
-    fn state<T: crate::simd::Number>(of: impl Fn(f64) -> T, velocity: [T; 3]) -> State<T> {
-        State {
-            elastic: of(120.0),
-            share: (of(0.8), of(0.6)),
-            rubbing: of(0.9),
-            slope: (of(0.55), of(f64::sqrt(1.0 - 0.55 * 0.55))),
-            velocity,
-            load: of(1e5),
-            depth: of(1e-5),
-            arm: of(6e-3),
-            rolling: Rolling::resting(of(0.03)),
-            radii: [of(6e-3), of(6.2e-3)],
-        }
-    }
-
-    /// Truth: the kernel, differentiated by itself, against the slope that is written out; pressed and pulling.
-    #[test]
-    fn the_slope_is_the_kernels() {
-        for traction in laws().into_iter().map(Some).chain([None]) {
-            for (clamp_pull, velocity) in [
-                (true, [0.2, -0.05, 0.3]),
-                (true, [-30.0, 0.4, 0.1]),
-                (false, [-30.0, 0.4, 0.1]),
-                (false, [0.01, 1e-4, -0.02]),
-            ] {
-                let law = Law {
-                    damping: Damping {
-                        coefficient: 0.2,
-                        clamp_pull,
-                    },
-                    traction,
-                    ..Law::elastic(Elastic::Iso16281(Iso16281::new(7e10, 0.5, 12e-3)))
-                };
-                let pair = Pair {
-                    race: Torus {
-                        sigma: 1.0,
-                        a: 30e-3,
-                        centre: 0.0,
-                        r: 6.24e-3,
-                        lowest: -6e-3,
-                        highest: 6e-3,
-                    },
-                    shape: Shape::default(),
-                    waves: Waves::default(),
-                    law,
-                    slices: Slices::Fixed(10),
-                    faults: Vec::new(),
-                };
-                let lanes = state(Lanes::all, velocity.map(Lanes::all));
-                let force = kernel::force::<_, false, false, true>(&law, &lanes);
-                let written = pair.slope::<false>(&lanes, &force, false);
-                let of = Dual::<f64, 3>::constant;
-                let variables = [0, 1, 2].map(|i| Dual::variable(velocity[i], i));
-                let dual = state(of, variables);
-                let told = kernel::force::<_, false, false, false>(&law, &dual).on_ring;
-                for i in 0..3 {
-                    assert!((force.on_ring[i][3] - told[i].value).abs() < 1e-12 * 120.0);
-                    for j in 0..3 {
-                        let (found, truth) = (written[i][j][5], told[i].slopes[j]);
-                        let off = (found - truth).abs() / (120.0 * 0.3);
-                        assert!(off < 1e-12, "{law:?} {velocity:?} {i} {j}: {found} {truth}");
-                    }
-                }
-            }
-        }
-    }
-}
+mod tests;

@@ -1,8 +1,8 @@
 //! Slices of contacts that are evaluated alone, in packs of eight.
 
-use super::{PlaneVector, StageElement, StageRolling};
-use crate::contact::{Aside, Sink, Touch, V2, cross, turned};
-use crate::simd::LANES;
+use super::{Around, PlaneVector, StageElement, StageRolling};
+use crate::contact::{Aside, FilmEffect, OilTouch, Sink, Touch, V2, cross, turned};
+use crate::simd::{LANES, Lanes};
 
 /// Eight slices of one contact, each with its own direction.
 #[derive(Debug, Clone, Copy, Default)]
@@ -15,6 +15,8 @@ pub(crate) struct SlicePack {
 /// Collects the slices of a contact in packs of some lane.
 pub(crate) struct SlicePacking<'a> {
     pub packs: &'a mut Vec<(usize, SlicePack)>,
+    /// The contacts, of which a gothic arch has two: their lane, and what their slices share.
+    pub contacts: &'a mut Vec<(usize, Around)>,
     pub lane: usize,
     /// Ball radius \[m\].
     pub radius: f64,
@@ -26,13 +28,22 @@ pub(crate) struct SlicePacking<'a> {
     pub aside: [f64; 4],
     /// Slices so far.
     pub count: usize,
+    /// What slices share beside their film.
+    pub around: Around,
+    /// Whether the next slice begins another contact.
+    pub is_new: bool,
 }
 
 impl Sink for SlicePacking<'_> {
     fn touch(&mut self, touch: &Touch) {
+        if std::mem::take(&mut self.is_new) {
+            self.contacts.push((self.lane, self.around));
+            self.count = 0;
+        }
         let lane = self.count % LANES;
         if lane == 0 {
-            self.packs.push((self.lane, SlicePack::default()));
+            let contact = self.contacts.len() - 1;
+            self.packs.push((contact, SlicePack::default()));
         }
         self.count += 1;
         let Some((_, pack)) = self.packs.last_mut() else {
@@ -63,6 +74,23 @@ impl Sink for SlicePacking<'_> {
         rolling.arm[lane] = arm.dot(&self.outwards);
         element.levers[0][lane] = cross(arm, out);
         element.levers[1][lane] = cross(arm, turned(out));
+    }
+
+    fn oil(&mut self, touch: &OilTouch) {
+        if self.is_new {
+            // Nothing touched.
+            return;
+        }
+        if let Some((_, around)) = self.contacts.last_mut() {
+            around.oil = FilmEffect {
+                bend: Lanes::all(touch.oil.bend),
+                damping: Lanes::all(touch.oil.damping),
+                rolling: Lanes::all(touch.oil.rolling),
+            };
+            around.distance = Lanes::all(touch.apart.norm());
+            around.lever = Lanes::all(touch.lever);
+        }
+        self.is_new = true;
     }
 
     fn aside(&mut self, force: &Aside) {

@@ -58,6 +58,16 @@ impl SideConstants {
         }
     }
 
+    /// Takes over the radii of races.
+    pub fn coat(&mut self, model: &Model, race: Race) {
+        for (of, ball) in self.balls.iter_mut().zip(&model.balls) {
+            of.r = model.rows[ball.row].pairs[race].race.r;
+        }
+        for (class, of) in self.classes.iter_mut().enumerate() {
+            of.first.r = Lanes::all(model.rows[class].pairs[race].race.r);
+        }
+    }
+
     /// Eight contacts at a state.
     // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]

@@ -43,6 +43,13 @@ impl Stretch {
         }
     }
 
+    /// Takes over the radii of races.
+    pub fn coat(&mut self, model: &Model) {
+        for (of, pair) in self.constants.iter_mut().zip(&model.rows[self.row].pairs) {
+            of.r = Lanes::all(pair.race.r);
+        }
+    }
+
     /// Numbers of its balls along one direction; in lanes that are left, of whatever comes next.
     // Into what is compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]

@@ -148,6 +148,16 @@ impl Batch {
         }
     }
 
+    /// Takes over the radii of races whose films have changed.
+    pub fn coat(&mut self, model: &Model) {
+        for race in Race::BOTH {
+            self.constants[race].coat(model, race);
+        }
+        for stretch in &mut self.stretches {
+            stretch.coat(model);
+        }
+    }
+
     /// Evaluates all contacts at a state, by the threads of a pool if there is one, and adds their sums to the forces
     /// on all bodies; returns the moments about z on the two rings.
     pub fn add_to(

@@ -5,6 +5,7 @@
 //! (`tests/doubts.rs`), and what lies outside is told, not refused: research may well look there.
 
 mod geometry;
+mod lubricant;
 mod motion;
 mod probes;
 
@@ -14,6 +15,7 @@ use serde::Serialize;
 
 use super::{Profile, Scene, TimeFunction};
 use crate::told::number;
+pub(crate) use lubricant::FilmJudged;
 
 /// Largest Hertz pressure of a contact of hardened steel at the static load rating of a ball bearing \[Pa\]: it leaves a
 /// dent of a ten-thousandth of the ball diameter. ISO 76 gives it for the *centre* of the most heavily loaded contact,
@@ -79,6 +81,7 @@ impl Scene {
     pub fn doubts(&self) -> Vec<Doubt> {
         let mut found = Vec::new();
         geometry::look(self, &mut found);
+        lubricant::look(self, &mut found);
         motion::look(self, &mut found);
         probes::look(self, &mut found);
         found

@@ -43,11 +43,11 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
     for (name, unbalance) in &scene.unbalances {
         angle(format!("unbalances.{name}.angle"), unbalance.angle, found);
         if unbalance.moment >= UNBALANCE {
-            let force = unbalance.moment * fastest(scene).powi(2);
+            let force = unbalance.moment * scene.drive.peak_speed().powi(2);
             let usual = format!(
                 "machines keep below {UNBALANCE} kg m; it pulls with {} N at {} rev/min",
                 number(force),
-                number(fastest(scene) * 60.0 / TAU)
+                number(scene.drive.peak_speed() * 60.0 / TAU)
             );
             let value = format!("{} kg m", number(unbalance.moment));
             found.push(Doubt::new(
@@ -86,17 +86,9 @@ fn friction(path: &str, friction: &Friction, found: &mut Vec<Doubt>) {
     }
 }
 
-/// Largest speed of the inner ring that the scene names \[rad/s\].
-fn fastest(scene: &Scene) -> f64 {
-    match &scene.drive {
-        Drive::Speed(speed) => speed.peak(),
-        Drive::Torque { initial_speed, .. } => initial_speed.abs(),
-    }
-}
-
 fn speed(scene: &Scene, found: &mut Vec<Doubt>) {
     let pitches = scene.rows.iter().map(|row| row.pitch_diameter);
-    let turns = fastest(scene) * 60.0 / TAU;
+    let turns = scene.drive.peak_speed() * 60.0 / TAU;
     let factor = turns * 1e3 * pitches.fold(0.0, f64::max);
     let path = match &scene.drive {
         Drive::Speed(speed) => {

@@ -5,6 +5,7 @@ mod check;
 mod contact;
 mod defect;
 mod load;
+mod lubricant;
 mod probe;
 mod race;
 
@@ -51,6 +52,7 @@ impl Scene {
             within("cage.play", cage.play, 0.0..=1.0)?;
         }
         load::drive(&self.drive)?;
+        lubricant::lubricants(self)?;
         for (i, g) in self.gravity.iter().enumerate() {
             within(&format!("gravity[{i}]"), *g, -1e6..=1e6)?;
         }

@@ -15,6 +15,7 @@ pub(super) fn probe(scene: &Scene, path: &str, probe: &Probe) -> Result<()> {
         Probe::Motion { body, .. } => known_body(scene, &format!("{path}.motion"), body),
         Probe::Forces { body } => known_body(scene, &format!("{path}.forces"), body),
         Probe::Cage { row } => scene.row_index(&format!("{path}.cage"), *row).map(|_| ()),
+        Probe::Lubrication { row } => lubricated(scene, &format!("{path}.lubrication"), *row),
         Probe::Energy {} | Probe::Torque {} => Ok(()),
         Probe::Contacts { row, balls, .. } => {
             chosen(scene, &format!("{path}.contacts"), *row, balls.as_deref())
@@ -28,6 +29,16 @@ pub(super) fn probe(scene: &Scene, path: &str, probe: &Probe) -> Result<()> {
             chosen(scene, &format!("{path}.slices"), *row, balls.as_deref())
         }
     }
+}
+
+fn lubricated(scene: &Scene, path: &str, row: usize) -> Result<()> {
+    let of = scene.row_index(path, row)?;
+    if scene.lubricant_of(of).is_some() {
+        return Ok(());
+    }
+    let allowed =
+        format!("a row with a lubricant: give the scene a `lubricant`, or rows[{row}] one");
+    Err(Error::scene(format!("{path}.row"), row, allowed))
 }
 
 fn chosen(scene: &Scene, path: &str, row: usize, balls: Option<&[usize]>) -> Result<()> {

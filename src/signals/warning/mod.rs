@@ -4,6 +4,7 @@ mod text;
 
 use serde::Serialize;
 
+use crate::inspect;
 use crate::scene::Doubt;
 use crate::signals::Signals;
 use crate::simd::Distrust;
@@ -116,8 +117,8 @@ impl Signals {
     /// assert!(out.warnings()[0].to_string().starts_with("accelerations are uncertain"));
     /// ```
     pub fn warnings(&self) -> Vec<Warning> {
-        let pressure = Doubt::pressure(self.stats.largest_pressure);
-        let doubts = self.scene.doubts().into_iter().chain(pressure);
+        let of_contacts = inspect::doubts(self.stats.largest_pressure, &self.provenance.films);
+        let doubts = self.scene.doubts().into_iter().chain(of_contacts);
         let defects = self.provenance.defects.iter();
         let untouched = defects.filter_map(|of| not_touched(of, self.provenance.duration));
         [

@@ -63,6 +63,11 @@ impl Hertz {
         let modulus = 1.0
             / ((1.0 - ball.poisson_ratio.powi(2)) / ball.youngs_modulus
                 + (1.0 - race.poisson_ratio.powi(2)) / race.youngs_modulus);
+        Self::of_curvatures(along, across, modulus)
+    }
+
+    /// From the curvatures along the race and across the groove \[1/m\], and 1/Σ((1 − ν²)/E) of both materials \[Pa\].
+    pub(in crate::contact) fn of_curvatures(along: f64, across: f64, modulus: f64) -> Self {
         // Ellipse of axis ratio b/a = k' (a along the groove): along/across from the integrals,
         //   across ∝ (K − E)/m, along ∝ (E/(1 − m) − K)/m with m = 1 − (b/a)²; bisection in b/a.
         let ratio = along / across;

@@ -7,13 +7,16 @@
 
 mod coulomb;
 mod curve;
+mod film;
 mod stribeck;
 
 use crate::contact::dual::Dual;
+use crate::contact::laws::film::FilmNow;
 use crate::scene::Friction;
 use crate::simd::Number;
 use coulomb::Coulomb;
 use curve::Curve;
+use film::FilmTraction;
 use stribeck::Stribeck;
 
 /// What a traction law can read of an element.
@@ -33,6 +36,8 @@ pub(in crate::contact) struct Sliding<T> {
     pub approach: T,
     /// Radii of ball and groove \[m\].
     pub radii: [T; 2],
+    /// Half of the slip speed at which a film's traction bends \[m/s\]; 0 without a film.
+    pub bend: T,
 }
 
 /// Speeds of ball's and ring's surface along the race, in a frame that goes round with the ball's centre: each is
@@ -96,6 +101,8 @@ pub enum Traction {
     Stribeck(Stribeck),
     /// A measured curve of a lubricated contact.
     Curve(Curve),
+    /// Of an oil film.
+    Film(FilmTraction),
 }
 
 impl Traction {
@@ -137,10 +144,18 @@ impl Traction {
         }
     }
 
+    /// That of a film.
+    pub(crate) fn of_film(now: &FilmNow) -> Self {
+        Self::Film(FilmTraction {
+            coefficient: now.friction(),
+            bend: now.bend(1.0),
+        })
+    }
+
     /// Whether the law asks how the surfaces roll: only then it is found out.
     pub(in crate::contact) fn reads_rolling(&self) -> bool {
         match self {
-            Self::Coulomb(_) | Self::Stribeck(_) | Self::Curve(_) => false,
+            Self::Coulomb(_) | Self::Stribeck(_) | Self::Curve(_) | Self::Film(_) => false,
         }
     }
 
@@ -150,7 +165,13 @@ impl Traction {
             Self::Coulomb(law) => law.slip_speed,
             Self::Stribeck(law) => law.slip_speed,
             Self::Curve(law) => law.slip_speed,
+            Self::Film(law) => law.bend,
         }
+    }
+
+    /// Whether it is that of an oil film, which has a width of its own in every contact.
+    pub(in crate::contact) fn is_film(&self) -> bool {
+        matches!(self, Self::Film(_))
     }
 
     /// Friction over normal force and slip velocity, φ = μ(u)/√(u² + v_s²) \[s/m\].
@@ -160,6 +181,7 @@ impl Traction {
             Self::Coulomb(law) => law.factor(element),
             Self::Stribeck(law) => apart(element, |element| law.factor(element)),
             Self::Curve(law) => apart(element, |element| law.factor(element)),
+            Self::Film(law) => law.factor(element),
         }
     }
 
@@ -168,6 +190,7 @@ impl Traction {
     pub(in crate::contact) fn factor_and_bend<T: Number>(&self, element: &Sliding<T>) -> (T, T) {
         match self {
             Self::Coulomb(law) => law.factor_and_bend(element),
+            Self::Film(law) => law.factor_and_bend(element),
             Self::Stribeck(_) | Self::Curve(_) => {
                 let apart = *element;
                 self.differentiated(&apart)
@@ -191,6 +214,7 @@ impl Traction {
             depth: of(element.depth),
             approach: of(element.approach),
             radii: [of(element.radii[0]), of(element.radii[1])],
+            bend: of(element.bend),
         });
         // By u over u is twice that by u².
         (factor.value, factor.slopes[0] * 2.0)
@@ -206,6 +230,7 @@ impl Traction {
             depth: 0.0,
             approach: 0.0,
             radii: [1.0; 2],
+            bend: self.width(),
         })
     }
 }
@@ -248,6 +273,7 @@ pub(in crate::contact) mod tests {
             depth: 0.0,
             approach: 0.0,
             radii: [arm, 5.2e-3],
+            bend: 0.0,
         };
         let [ball, ring] = sliding.surfaces();
         assert!((ball - ring).abs() < 1e-12, "{ball} {ring}");
@@ -275,7 +301,12 @@ pub(in crate::contact) mod tests {
                 slip_speed: 0.02,
             },
         ];
-        frictions.iter().filter_map(Traction::new).collect()
+        let film = FilmTraction {
+            coefficient: 0.05,
+            bend: 2e-3,
+        };
+        let dry = frictions.iter().filter_map(Traction::new);
+        dry.chain([Traction::Film(film)]).collect()
     }
 
     /// Analytic: the slope of every law, φ'(u)/u, against central differences.
@@ -291,6 +322,7 @@ pub(in crate::contact) mod tests {
                     depth: 0.0,
                     approach: 0.0,
                     radii: [1.0; 2],
+                    bend: law.width(),
                 };
                 let (factor, bend) = law.factor_and_bend(&sliding);
                 let (same, also) = law.differentiated(&sliding);

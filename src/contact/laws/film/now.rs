@@ -1,0 +1,100 @@
+//! A film at a speed of the rings.
+
+// Into loops that are compiled for the instructions at hand.
+#![allow(clippy::inline_always)]
+
+use super::damping::DampingNow;
+use super::rolling::RollingNow;
+use super::traction::TractionNow;
+use crate::simd::Number;
+
+/// A film at a speed of the rings; with a steady drive it stays.
+///
+/// Of a contact it asks for r = half/half_ref, the cube root of its load over the reference load; r = 0 is a contact that just
+/// begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FilmNow {
+    /// h \[m\].
+    pub(super) film: f64,
+    /// h where it separates the surfaces, else 0 \[m\].
+    pub(super) coat: f64,
+    /// s_q \[m\].
+    pub(super) roughness: f64,
+    /// ũ \[m/s\].
+    pub(super) entrainment: f64,
+    pub(super) traction: TractionNow,
+    pub(super) damping: DampingNow,
+    pub(super) rolling: RollingNow,
+}
+
+impl FilmNow {
+    /// Thickness h of the coat on the ring \[m\]; 0 where the film is left out, of which the other effects still know.
+    pub fn thickness(&self) -> f64 {
+        self.coat
+    }
+
+    /// Thickness h in the middle of a contact \[m\], also where the film is left out and only other effects know of it.
+    pub fn central(&self) -> f64 {
+        self.film
+    }
+
+    /// Least thickness of the film, 0.8 h \[m\].
+    pub fn minimum(&self) -> f64 {
+        0.8 * self.film
+    }
+
+    /// λ = h/s_q.
+    pub fn lambda(&self) -> f64 {
+        self.film / self.roughness
+    }
+
+    /// Entrainment speed ũ \[m/s\] at which balls roll.
+    pub fn entrainment(&self) -> f64 {
+        self.entrainment
+    }
+
+    /// Friction coefficient μ at large slip.
+    pub fn friction(&self) -> f64 {
+        self.traction.friction
+    }
+
+    /// v \[m/s\]: friction is −μ F u⃗ / (v/2 + √(u² + v²/4)).
+    pub fn slip_scale(&self, r: f64) -> f64 {
+        2.0 * self.bend(r)
+    }
+
+    /// α_f \[s/m\]: the film damps by the factor 1 + 3/2 α_f v_n on the elastic force.
+    pub fn damping_coefficient(&self, r: f64) -> f64 {
+        self.damping(r) / 1.5
+    }
+
+    /// F_R \[N\] of a contact that rolls at the entrainment speed ũ.
+    pub fn rolling_resistance(&self, r: f64) -> f64 {
+        self.rolling(r) * self.entrainment
+    }
+
+    /// c = v/2 \[m/s\].
+    #[inline(always)]
+    pub(crate) fn bend<T: Number>(&self, r: T) -> T {
+        self.traction.bend(r)
+    }
+
+    /// 3/2 α_f \[s/m\], to add to 3/2 α_d.
+    #[inline(always)]
+    pub(crate) fn damping<T: Number>(&self, r: T) -> T {
+        self.damping.rate(r)
+    }
+
+    /// F_R over the entrainment speed u of the contact \[N s/m\].
+    #[inline(always)]
+    pub(crate) fn rolling<T: Number>(&self, r: T) -> T {
+        let [film, steel] = self.rolling_parts(r);
+        film + steel
+    }
+
+    /// The same of film and of steel.
+    #[inline(always)]
+    pub(crate) fn rolling_parts<T: Number>(&self, r: T) -> [T; 2] {
+        self.rolling.parts(r)
+    }
+}

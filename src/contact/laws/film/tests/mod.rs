@@ -1,0 +1,76 @@
+//! What section 12 of the model says of one contact: reference values (12.14) and what must hold (12.12).
+
+mod limits;
+mod reference;
+
+use std::f64::consts::TAU;
+
+use super::conjunction::Conjunction;
+use super::{Effects, Film, FilmNow, Oil, Race, Reference};
+use crate::contact::laws::elastic::hertz::Hertz;
+use crate::scene::Lubricant;
+
+/// E' of steel \[Pa\].
+const MODULUS: f64 = 206e9 / 0.91;
+/// 1797 rev/min \[rad/s\].
+const SPEED: f64 = 1797.0 / 60.0 * TAU;
+
+/// VG 68 at a temperature in °C.
+fn vg68(celsius: f64) -> Oil {
+    Oil::new(&Lubricant::named("vg68", celsius + 273.15)).unwrap()
+}
+
+/// Outer or inner race of the 6205.
+fn race(sigma: f64) -> Race {
+    let conformity = if sigma > 0.0 { 0.525 } else { 0.515 };
+    Race {
+        sigma,
+        ball_diameter: 7.94e-3,
+        pitch_diameter: 39.04e-3,
+        groove_radius: conformity * 7.94e-3,
+        contact_angle: 0.0,
+        reduced_modulus: MODULUS,
+    }
+}
+
+fn hertz(race: &Race) -> Hertz {
+    let at = Conjunction::new(race, 1.0, 1.0);
+    let [along, across] = at.radii.map(f64::recip);
+    Hertz::of_curvatures(along, across, 0.5 * race.reduced_modulus)
+}
+
+/// What a load \[N\] and a speed \[rad/s\] are to Hertz's law.
+fn reference(race: &Race, load: f64, speed: f64) -> Reference {
+    let hertz = hertz(race);
+    Reference {
+        load,
+        speed,
+        half_length: hertz.half_length * load.cbrt(),
+        approach: hertz.approach(load),
+    }
+}
+
+fn film_of(oil: &Oil) -> Film {
+    let race = race(1.0);
+    Film::new(oil, &race, reference(&race, 250.0, SPEED), Effects::ALL)
+}
+
+/// The reference contact: outer race, VG 68, 55 °C, 250 N, 1797 rev/min.
+fn film() -> Film {
+    film_of(&vg68(55.0))
+}
+
+#[track_caller]
+fn near(found: f64, told: f64, tolerance: f64) {
+    let off = (found / told - 1.0).abs();
+    assert!(off <= tolerance, "{found:e}, not {told:e}: {off:.1e}");
+}
+
+/// v, α_f and F_R at u = ũ.
+fn answers(now: &FilmNow, r: f64) -> [f64; 3] {
+    [
+        now.slip_scale(r),
+        now.damping_coefficient(r),
+        now.rolling_resistance(r),
+    ]
+}

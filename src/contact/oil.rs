@@ -1,0 +1,92 @@
+//! What an oil film does in a contact as a whole, and rolling resistance, which acts beside its nodes (model section 12).
+
+// Into loops that are compiled for the instructions at hand.
+#![allow(clippy::inline_always)]
+
+use super::laws::film::{FilmEffect, Oiled};
+use super::slip::Moves;
+use super::{V2, turned};
+use crate::simd::Number;
+
+/// Rolling resistance of a contact: of its pressure ahead and behind, so that force and moment are conserved (12.27).
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RollingResistance<T> {
+    /// On the ball along t = ẑ × n \[N\].
+    pub force: T,
+    /// On the ball about its centre \[N m\]; the ring gets what is left of the force's about its own.
+    pub moment: T,
+    /// Entrainment speed u \[m/s\].
+    pub entrainment: T,
+}
+
+impl<T: Number> RollingResistance<T> {
+    /// Of a ball at a distance d \[m\] from its ring's centre, with a lever R cos α' \[m\].
+    #[inline(always)]
+    pub fn new(rolling: T, moves: &Moves<T>, sigma: f64, d: T, lever: T) -> Self {
+        // (12.13) with r_p = d + σ R cos α', ω_n − θ̇_r = σ slide/d and θ̇_b − θ̇_r = σ spin.
+        let orbit = moves.slide / d;
+        let ball = (moves.spin - orbit) * lever;
+        let ring = -(orbit * (lever + d * sigma));
+        let entrainment = (ball + ring) * 0.5;
+        let resistance = rolling * entrainment;
+        Self {
+            force: resistance * (lever * (2.0 * sigma) + d) / d,
+            moment: -(resistance * lever * sigma),
+            entrainment,
+        }
+    }
+}
+
+/// What a sink is told of the oil in a contact.
+#[derive(Debug, Clone, Copy)]
+pub struct OilTouch {
+    pub(crate) oil: FilmEffect<f64>,
+    /// Cube root of the contact's load over the reference load.
+    pub load_measure: f64,
+    /// Thickness of the film \[m\].
+    pub film: f64,
+    /// The same over the roughness.
+    pub lambda: f64,
+    /// Power that rolling resistance takes out in the film and in the steel \[W\].
+    pub power: [f64; 2],
+    /// On the ball in the plane \[N\], and about its centre \[N m\].
+    pub(crate) force: V2,
+    pub(crate) moment: f64,
+    /// From the ring's centre to the ball's, and R cos α' \[m\].
+    pub(crate) apart: V2,
+    pub(crate) lever: f64,
+}
+
+impl OilTouch {
+    pub(in crate::contact) fn new(
+        oiled: &Oiled,
+        r: f64,
+        moves: &Moves<f64>,
+        (sigma, apart, lever): (f64, V2, f64),
+    ) -> Self {
+        let oil = FilmEffect::at(oiled, r);
+        let d = apart.norm();
+        let resistance = RollingResistance::new(oil.rolling, moves, sigma, d, lever);
+        let squared = 2.0 * resistance.entrainment * resistance.entrainment;
+        Self {
+            oil,
+            load_measure: r,
+            film: oiled.now.thickness(),
+            lambda: oiled.now.lambda(),
+            power: oiled.now.rolling_parts(r).map(|part| part * squared),
+            force: turned(apart / d) * resistance.force,
+            moment: resistance.moment,
+            apart,
+            lever,
+        }
+    }
+
+    /// Rolling resistance: force and moment about z on the ball and on the ring, (x, y, z, θ) each.
+    pub fn wrenches(&self) -> ([f64; 4], [f64; 4]) {
+        let (f, about) = (self.force, super::cross(self.apart, self.force));
+        (
+            [f.x, f.y, 0.0, self.moment],
+            [-f.x, -f.y, 0.0, -self.moment - about],
+        )
+    }
+}

@@ -1,0 +1,112 @@
+//! Contacts of a stage under films: what nodes weigh follows the velocities, and rolling is resisted.
+
+// Everything here must be compiled for the instructions of its caller.
+#![allow(clippy::inline_always)]
+
+use super::{Around, StageContacts, StageElements, StageWrench};
+use crate::contact::Pair;
+use crate::contact::slip::Moves;
+use crate::simd::{InstructionSet, Lanes};
+
+/// Of the slip at which a film's traction bends: the step of differences.
+const STEP: f64 = 3e-3;
+
+impl Pair {
+    /// What eight contacts do at a relative twist in the frame (n_e, t_e, z, about z), with the slope or without; see
+    /// [`Self::force`].
+    ///
+    /// Under films nodes weigh anew for every twist, since friction peaks where slip vanishes, and slopes are differences of that.
+    #[inline(always)]
+    pub(crate) fn stage_forces<const FMA: bool, const SLOPE: bool>(
+        &self,
+        (nodes, held): (&mut StageElements, &StageContacts),
+        twist: &[Lanes; 4],
+        secant: bool,
+        instructions: InstructionSet,
+    ) -> StageWrench {
+        let mut sum = StageWrench::default();
+        if !self.law.traction.is_some_and(|law| law.is_film()) {
+            for node in nodes.iter() {
+                self.force::<FMA, SLOPE>(node, &held.around, twist, secant, &mut sum);
+            }
+            return sum;
+        }
+        let slow = held.around.oil.bend * STEP;
+        let steps = [slow, slow, slow, slow / held.whole.section.radius];
+        // The twist itself first, then beside it to both sides.
+        for k in 0..if SLOPE { 9_usize } else { 1 } {
+            let (mut beside, side) = (*twist, if k % 2 == 0 { 0.5 } else { -0.5 });
+            let j = k.div_ceil(2);
+            if k > 0 {
+                beside[j - 1] += steps[j - 1] * side;
+            }
+            self.weigh::<FMA>(nodes, held, &beside, instructions);
+            let mut found = StageWrench::default();
+            for node in nodes.iter() {
+                self.force::<FMA, false>(node, &held.around, &beside, false, &mut found);
+            }
+            if k == 0 {
+                sum.wrench = found.wrench;
+                continue;
+            }
+            for i in 0..4 {
+                sum.slope[i][j - 1] += found.wrench[i] * (2.0 * side) / steps[j - 1];
+            }
+        }
+        sum
+    }
+
+    /// Gives nodes the weights that a twist asks for.
+    #[inline(always)]
+    fn weigh<const FMA: bool>(
+        &self,
+        nodes: &mut StageElements,
+        held: &StageContacts,
+        twist: &[Lanes; 4],
+        instructions: InstructionSet,
+    ) {
+        let moves = Moves {
+            v_e: twist[0],
+            v_z: twist[2],
+            slide: twist[1],
+            spin: twist[3] * self.race.sigma,
+            rolling: held.around.rolling,
+            arm: held.arm,
+            oil: held.around.oil,
+        };
+        let StageElements {
+            elements, rubbing, ..
+        } = nodes;
+        let weights = rubbing.at_nodes::<FMA>(instructions, self, &held.whole, &moves, None);
+        for (element, weight) in elements.iter_mut().zip(weights.into_iter().flatten()) {
+            element.rubbing = *weight;
+        }
+    }
+
+    /// Adds the rolling resistance of eight contacts at a relative twist in that frame, with its slope or without: −2 k u ∂u/∂w of
+    /// the entrainment speed u, which is linear in the twist.
+    #[inline(always)]
+    pub(crate) fn rolling_resistance<const SLOPE: bool>(
+        &self,
+        around: &Around,
+        twist: &[Lanes; 4],
+        to: &mut StageWrench,
+    ) {
+        if self.law.film.is_none() {
+            return;
+        }
+        let (sigma, d) = (self.race.sigma, around.distance);
+        let across = (around.lever * (2.0 * sigma) + d) / d * (-0.5 * sigma);
+        let by = [(1, across), (3, around.lever * (0.5 * sigma))];
+        let entrainment = twist[1] * by[0].1 + twist[3] * by[1].1;
+        let twice = around.oil.rolling * -2.0;
+        for (i, slope) in by {
+            to.wrench[i] += twice * entrainment * slope;
+            if SLOPE {
+                for (j, other) in by {
+                    to.slope[i][j] += twice * slope * other;
+                }
+            }
+        }
+    }
+}

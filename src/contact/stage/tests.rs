@@ -1,0 +1,79 @@
+//! The written slope against the kernel's own.
+
+use super::*;
+use crate::contact::dual::Dual;
+use crate::contact::iso16281::Iso16281;
+use crate::contact::laws::traction::tests::laws;
+use crate::contact::{Damping, Elastic, Law, Shape, Slices, Torus, Waves};
+
+fn state<T: crate::simd::Number>(of: impl Fn(f64) -> T, velocity: [T; 3]) -> State<T> {
+    State {
+        elastic: of(120.0),
+        share: (of(0.8), of(0.6)),
+        rubbing: of(0.9),
+        slope: (of(0.55), of(f64::sqrt(1.0 - 0.55 * 0.55))),
+        velocity,
+        load: of(1e5),
+        depth: of(1e-5),
+        arm: of(6e-3),
+        rolling: Rolling::resting(of(0.03)),
+        radii: [of(6e-3), of(6.2e-3)],
+        oil: FilmEffect {
+            bend: of(2e-3),
+            damping: of(0.1),
+            rolling: of(0.0),
+        },
+    }
+}
+
+/// Truth: the kernel, differentiated by itself, against the slope that is written out; pressed and pulling.
+#[test]
+fn the_slope_is_the_kernels() {
+    for traction in laws().into_iter().map(Some).chain([None]) {
+        for (clamp_pull, velocity) in [
+            (true, [0.2, -0.05, 0.3]),
+            (true, [-30.0, 0.4, 0.1]),
+            (false, [-30.0, 0.4, 0.1]),
+            (false, [0.01, 1e-4, -0.02]),
+        ] {
+            let law = Law {
+                damping: Damping {
+                    coefficient: 0.2,
+                    clamp_pull,
+                },
+                traction,
+                ..Law::elastic(Elastic::Iso16281(Iso16281::new(7e10, 0.5, 12e-3)))
+            };
+            let pair = Pair {
+                race: Torus {
+                    sigma: 1.0,
+                    a: 30e-3,
+                    centre: 0.0,
+                    r: 6.24e-3,
+                    lowest: -6e-3,
+                    highest: 6e-3,
+                },
+                shape: Shape::default(),
+                waves: Waves::default(),
+                law,
+                slices: Slices::Fixed(10),
+                faults: Vec::new(),
+            };
+            let lanes = state(Lanes::all, velocity.map(Lanes::all));
+            let force = kernel::force::<_, false, false, true>(&law, &lanes);
+            let written = pair.slope::<false>(&lanes, &force, false);
+            let of = Dual::<f64, 3>::constant;
+            let variables = [0, 1, 2].map(|i| Dual::variable(velocity[i], i));
+            let dual = state(of, variables);
+            let told = kernel::force::<_, false, false, false>(&law, &dual).on_ring;
+            for i in 0..3 {
+                assert!((force.on_ring[i][3] - told[i].value).abs() < 1e-12 * 120.0);
+                for j in 0..3 {
+                    let (found, truth) = (written[i][j][5], told[i].slopes[j]);
+                    let off = (found - truth).abs() / (120.0 * 0.3);
+                    assert!(off < 1e-12, "{law:?} {velocity:?} {i} {j}: {found} {truth}");
+                }
+            }
+        }
+    }
+}

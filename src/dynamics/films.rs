@@ -1,0 +1,40 @@
+//! Films of rings whose speed changes: races whose coats, traction and damping are those of the state.
+
+use super::batch::Batch;
+use crate::forces::State;
+use crate::model::Model;
+
+/// A model whose films follow the rings' speed.
+#[derive(Debug)]
+pub(super) struct Films {
+    model: Box<Model>,
+    /// Of the rings against each other \[rad/s\].
+    speed: f64,
+}
+
+impl Films {
+    /// None where films stay as they are: without oil, or at a steady speed of the rings.
+    pub fn new(model: &Model) -> Option<Self> {
+        model.has_films_in_motion().then(|| Self {
+            model: Box::new(model.clone()),
+            speed: model.scene.drive.initial_speed(),
+        })
+    }
+
+    /// With the films of the last state.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The model with the films of a state, after the contacts were told.
+    pub fn follow(&mut self, state: &State, contacts: &mut Batch) -> &Model {
+        let [outer, inner] = state.rings();
+        let speed = inner.omega - outer.omega;
+        if speed.to_bits() != self.speed.to_bits() {
+            self.speed = speed;
+            self.model.coat(speed);
+            contacts.coat(&self.model);
+        }
+        &self.model
+    }
+}

@@ -1,0 +1,41 @@
+//! Drag of oil in the balls' way: −½ ρ X C_d (π D²/4) |v| v on a ball, seen from the housing (model section 12.9).
+
+use std::ops::Range;
+
+use super::{Force, State, Table, Use};
+use crate::model::{BodyId, Dof, Model};
+
+pub(crate) const FORCE: Force = Force {
+    name: "drag",
+    contribution: "friction",
+    used: |model| Use::evaluated(model.rows.iter().any(|row| row.drag > 0.0)),
+    add: |model, _, state, forces| add(model, 0..model.rows.len(), state, forces),
+};
+
+/// On the balls of some rows.
+pub(crate) fn add(model: &Model, rows: Range<usize>, state: &State, forces: &mut Table) {
+    for row in model.rows[rows].iter().filter(|row| row.drag > 0.0) {
+        for ball in row.balls() {
+            let body = BodyId::ball(ball);
+            let velocity = Dof::TRANSLATIONS.map(|dof| state.v.get(body, dof));
+            let speed = velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
+            for (dof, v) in Dof::TRANSLATIONS.into_iter().zip(velocity) {
+                *forces.get_mut(body, dof) -= row.drag * speed * v;
+            }
+        }
+    }
+}
+
+/// Power that it takes out of the balls of a row \[W\].
+pub(crate) fn power(model: &Model, y: &[f64], row: usize) -> f64 {
+    let (row, layout) = (&model.rows[row], model.layout());
+    let of = |ball: usize| {
+        let body = BodyId::ball(ball);
+        let square: f64 = Dof::TRANSLATIONS
+            .iter()
+            .map(|dof| y[layout.speed_at(body, *dof)].powi(2))
+            .sum();
+        row.drag * square * square.sqrt()
+    };
+    row.balls().map(of).sum()
+}

@@ -1,0 +1,122 @@
+//! Films and losses of a row's oil in a state.
+
+use super::powers::Powers;
+use crate::contact::film::FilmNow;
+use crate::contact::{Aside, OilTouch, Sink, Touch};
+use crate::forces;
+use crate::model::{BodyId, Dof, Model, Race};
+
+/// Films and losses of a row: `[outer, inner]` race.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lubrication {
+    /// Central films h \[m\]; not a number without an oil that does something.
+    pub film: [f64; 2],
+    /// λ, the films over the roughness; likewise.
+    pub lambda: [f64; 2],
+    /// Moment that resists the inner ring's turning against the outer, positive whichever way it turns \[N m\].
+    pub friction_torque: f64,
+    /// Power lost to slip \[W\].
+    pub slip_power: f64,
+    /// Power lost to rolling resistance \[W\].
+    pub rolling_power: f64,
+    /// Power lost to damping \[W\].
+    pub damping_power: f64,
+    /// Power that oil in the balls' way takes out of them \[W\].
+    pub drag_power: f64,
+}
+
+impl Lubrication {
+    /// Names and units of the values.
+    pub const LABELS: [(&str, &str); 9] = [
+        ("outer.film", "m"),
+        ("inner.film", "m"),
+        ("outer.lambda", "1"),
+        ("inner.lambda", "1"),
+        ("friction_torque", "N m"),
+        ("slip_power", "W"),
+        ("rolling_power", "W"),
+        ("damping_power", "W"),
+        ("drag_power", "W"),
+    ];
+
+    /// The values, in the order of [`Self::LABELS`].
+    pub fn values(&self) -> [f64; 9] {
+        let ([outer, inner], lambda) = (self.film, self.lambda);
+        [
+            outer,
+            inner,
+            lambda[0],
+            lambda[1],
+            self.friction_torque,
+            self.slip_power,
+            self.rolling_power,
+            self.damping_power,
+            self.drag_power,
+        ]
+    }
+}
+
+/// What a row's contacts do to a ring, and what they lose.
+#[derive(Default)]
+struct Resistance {
+    /// On the ring about its centre \[N m\].
+    moment: f64,
+    powers: Powers,
+}
+
+impl Sink for Resistance {
+    fn touch(&mut self, touch: &Touch) {
+        let (_, ring) = touch.wrenches(touch.normal, 1.0);
+        self.moment += ring[Dof::Theta];
+        self.powers.touch(touch);
+    }
+
+    fn aside(&mut self, force: &Aside) {
+        let (_, ring) = force.wrenches();
+        self.moment += ring[Dof::Theta];
+    }
+
+    fn oil(&mut self, oil: &OilTouch) {
+        let (_, ring) = oil.wrenches();
+        self.moment += ring[Dof::Theta];
+        self.powers.oil(oil);
+    }
+}
+
+/// Films and losses of a row in a state.
+pub fn lubrication(model: &Model, y: &[f64], row: usize) -> Lubrication {
+    let layout = model.layout();
+    let speed = |race: Race| y[layout.speed_at(race.ring(), Dof::Theta)];
+    let speed = speed(Race::Inner) - speed(Race::Outer);
+    let films = Race::BOTH.map(|race| film(model, (row, race), speed));
+    let [outer, inner] = Race::BOTH.map(|race| resistance(model, y, (row, race)));
+    let lost = |of: fn(&Powers) -> f64| of(&outer.powers) + of(&inner.powers);
+    let or_none = |of: fn(&FilmNow) -> f64| films.map(|now| now.as_ref().map_or(f64::NAN, of));
+    Lubrication {
+        film: or_none(FilmNow::central),
+        lambda: or_none(FilmNow::lambda),
+        friction_torque: -inner.moment * speed.signum(),
+        slip_power: lost(|of| of.slip),
+        rolling_power: lost(|of| of.rolling),
+        damping_power: lost(|of| of.damping),
+        drag_power: forces::drag::power(model, y, row),
+    }
+}
+
+/// The film of a race while the rings turn at a speed against each other \[rad/s\].
+fn film(model: &Model, (row, race): (usize, Race), speed: f64) -> Option<FilmNow> {
+    let film = model.rows[row].pairs[race].law.film?.film;
+    Some(film.at(speed / film.reference().speed))
+}
+
+/// What all balls of a row do to a ring.
+fn resistance(model: &Model, y: &[f64], (row, race): (usize, Race)) -> Resistance {
+    let (layout, row) = (model.layout(), &model.rows[row]);
+    let ring = layout.motion(y, race.ring());
+    let mut sum = Resistance::default();
+    for j in row.balls() {
+        let at = layout.motion(y, BodyId::ball(j));
+        row.pairs[race].evaluate(&model.balls[j].side, &at, &ring, &mut sum);
+    }
+    sum
+}

@@ -1,0 +1,276 @@
+//! The oil between balls and races: its data sheet, and what is asked of its film.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::oils::{Base, NAMED_OILS, NamedOil, OilSheet, OilSource, Sourced, named_oil};
+use super::time::number_or_word;
+use crate::error::{Error, Result};
+
+/// 0 °C \[K\].
+const CELSIUS: f64 = 273.15;
+/// Density of a mineral oil at 15 °C \[kg/m³\].
+const DENSITY_15: f64 = 880.0;
+
+/// Oil of the contacts of balls and races (model section 12): by name, or by its data sheet.
+///
+/// Its traction takes the place of the scene's friction law in these contacts; without [`Self::traction`] that law stays.
+/// A document may give `temperature_c` \[°C\] in place of `temperature`.
+///
+/// ```
+/// use ballrace::scene::Lubricant;
+/// let oil = Lubricant::named("vg68", 328.15).sheet()?;
+/// assert_eq!(oil.viscosity_40.value, 68e-6);
+/// # Ok::<(), ballrace::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields)]
+#[serde(default = "Lubricant::without_temperature")]
+// Four effects that are there or not, each by itself.
+#[allow(clippy::struct_excessive_bools)]
+#[non_exhaustive]
+pub struct Lubricant {
+    /// Name of an oil of [`NAMED_OILS`]; absent: both viscosities are given.
+    pub oil: Option<String>,
+    /// Kinematic viscosity at 40 °C \[m²/s\]; absent: the named oil's.
+    pub viscosity_40: Option<f64>,
+    /// Kinematic viscosity at 100 °C \[m²/s\]; absent: the named oil's.
+    pub viscosity_100: Option<f64>,
+    /// Density at 15 °C \[kg/m³\]; absent: the named oil's, or 880.
+    pub density_15: Option<f64>,
+    /// Temperature at the inlets of the contacts \[K\], 233 to 473; constant during a run.
+    pub temperature: f64,
+    /// Base oil, from which pressure-viscosity and limiting stress follow; absent: the named oil's, or mineral.
+    pub base: Option<Base>,
+    /// Pressure-viscosity coefficient α_p \[1/Pa\]; absent: by base and viscosity, after Gold et al.
+    pub pressure_viscosity: Option<f64>,
+    /// Limiting shear stress over pressure Λ, above 0 and below 0.5; absent: by base.
+    pub limiting_stress: Option<f64>,
+    /// Friction coefficient of asperities μ_b, above 0 and below 0.5; 0.12.
+    pub boundary_friction: f64,
+    /// Thermal conductivity k_l \[W/(m K)\], 0.134.
+    pub conductivity: f64,
+    /// Roughness of both surfaces together s_q, root mean square \[m\], 0.1 µm.
+    pub roughness: f64,
+    /// Free oil in front of a contact h_oil, 10 µm.
+    pub oil_layer: OilLayer,
+    /// Hysteresis loss of the steel α_h, 0.007.
+    pub hysteresis: f64,
+    /// Least slip speed in which traction rises v_0 \[m/s\], 5e-4: numerical, larger is faster and less exact.
+    pub slip_floor: f64,
+    /// Frequency at which the film's damping is wanted f_d \[Hz\]; absent: the contact's own.
+    pub damping_frequency: Option<f64>,
+    /// Speed of the rings against each other that films are computed for Ω_ref \[rad/s\]; absent: the largest of the drive.
+    pub reference_speed: Option<f64>,
+    /// Load of a contact that films are computed for Q_ref \[N\]; absent: of the equilibrium at the start.
+    pub reference_load: Option<f64>,
+    /// Share of oil in the balls' way X_oil, 0 to 1; 0: no drag.
+    pub fill: f64,
+    /// Whether the film separates the surfaces.
+    pub film: bool,
+    /// Whether the film damps the approach.
+    pub damping: bool,
+    /// Whether the film limits and softens friction.
+    pub traction: bool,
+    /// Whether rolling is resisted.
+    pub rolling: bool,
+    /// Temperature \[°C\], only while a document is read.
+    #[serde(skip_serializing)]
+    temperature_c: Option<f64>,
+}
+
+/// Free oil in front of a contact: a number, or `"flooded"`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum OilLayer {
+    /// A layer of this thickness \[m\]: thicker films find too little oil.
+    Thickness(f64),
+    /// More than the contact takes in.
+    Flooded,
+}
+
+impl OilLayer {
+    /// Its thickness \[m\]; none where the contact is flooded.
+    pub fn thickness(self) -> Option<f64> {
+        match self {
+            Self::Thickness(value) => Some(value),
+            Self::Flooded => None,
+        }
+    }
+}
+
+impl From<f64> for OilLayer {
+    fn from(value: f64) -> Self {
+        Self::Thickness(value)
+    }
+}
+
+/// What a document says instead of a number.
+const FLOODED: &str = "flooded";
+
+impl Lubricant {
+    /// Whether it does anything: all of its effects may be left out.
+    pub(crate) fn acts(&self) -> bool {
+        self.film || self.damping || self.traction || self.rolling || self.fill > 0.0
+    }
+
+    /// An oil of [`NAMED_OILS`] at a temperature \[K\], all else by default.
+    pub fn named(oil: &str, temperature: f64) -> Self {
+        Self {
+            oil: Some(oil.to_owned()),
+            temperature,
+            ..Self::without_temperature()
+        }
+    }
+
+    /// A mineral oil of kinematic viscosities at 40 and 100 °C \[m²/s\] at a temperature \[K\], all else by default.
+    pub fn new(viscosity_40: f64, viscosity_100: f64, temperature: f64) -> Self {
+        Self {
+            viscosity_40: Some(viscosity_40),
+            viscosity_100: Some(viscosity_100),
+            temperature,
+            ..Self::without_temperature()
+        }
+    }
+
+    fn without_temperature() -> Self {
+        Self {
+            oil: None,
+            viscosity_40: None,
+            viscosity_100: None,
+            density_15: None,
+            temperature: f64::NAN,
+            base: None,
+            pressure_viscosity: None,
+            limiting_stress: None,
+            boundary_friction: 0.12,
+            conductivity: 0.134,
+            roughness: 1e-7,
+            oil_layer: OilLayer::Thickness(1e-5),
+            hysteresis: 0.007,
+            slip_floor: 5e-4,
+            damping_frequency: None,
+            reference_speed: None,
+            reference_load: None,
+            fill: 0.0,
+            film: true,
+            damping: true,
+            traction: true,
+            rolling: true,
+            temperature_c: None,
+        }
+    }
+
+    /// What is known of the oil: what is given first, then what its name stands for, then what its base has.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for a name that is not known, and for what is missing.
+    pub fn sheet(&self) -> Result<OilSheet> {
+        self.sheet_at("lubricant")
+    }
+
+    /// The same of a lubricant at a path of the document.
+    pub(crate) fn sheet_at(&self, path: &str) -> Result<OilSheet> {
+        let named = self.named_at(path)?;
+        let base = self.base.or(named.map(|oil| oil.base)).unwrap_or_default();
+        let viscosity = |field, given: Option<f64>, of: fn(&NamedOil) -> f64| {
+            sourced(given, named.map(of)).ok_or_else(|| {
+                let allowed = "a kinematic viscosity [m²/s], or the name of an oil in `oil`";
+                Error::scene(format!("{path}.{field}"), "absent", allowed)
+            })
+        };
+        let density = sourced(self.density_15, named.map(|oil| oil.density_15));
+        Ok(OilSheet {
+            viscosity_40: viscosity("viscosity_40", self.viscosity_40, |oil| oil.viscosity_40)?,
+            viscosity_100: viscosity("viscosity_100", self.viscosity_100, |oil| oil.viscosity_100)?,
+            density_15: density.unwrap_or(Sourced {
+                value: DENSITY_15,
+                source: OilSource::Default,
+            }),
+            base,
+            pressure_viscosity: self.pressure_viscosity(path, base)?,
+            limiting_stress: self.limiting_stress(path, base)?,
+        })
+    }
+
+    fn named_at(&self, path: &str) -> Result<Option<&'static NamedOil>> {
+        let Some(name) = &self.oil else {
+            return Ok(None);
+        };
+        let known = || NAMED_OILS.map(|oil| oil.name).join(", ");
+        match named_oil(name) {
+            Some(oil) => Ok(Some(oil)),
+            None => Err(Error::scene(
+                format!("{path}.oil"),
+                name,
+                format!("one of {}, or absent beside viscosities", known()),
+            )),
+        }
+    }
+
+    fn pressure_viscosity(&self, path: &str, base: Base) -> Result<Option<f64>> {
+        if self.pressure_viscosity.is_none() && base.gold().is_none() {
+            return Err(of_no_base(path, "pressure_viscosity", base));
+        }
+        Ok(self.pressure_viscosity)
+    }
+
+    fn limiting_stress(&self, path: &str, base: Base) -> Result<Sourced> {
+        let given = self.limiting_stress.map(|value| (value, OilSource::Given));
+        let of_base = base.limiting_stress().map(|value| (value, OilSource::Base));
+        match given.or(of_base) {
+            Some((value, source)) => Ok(Sourced { value, source }),
+            None => Err(of_no_base(path, "limiting_stress", base)),
+        }
+    }
+}
+
+fn sourced(given: Option<f64>, named: Option<f64>) -> Option<Sourced> {
+    let given = given.map(|value| (value, OilSource::Given));
+    let (value, source) = given.or(named.map(|value| (value, OilSource::NamedOil)))?;
+    Some(Sourced { value, source })
+}
+
+fn of_no_base(path: &str, field: &str, base: Base) -> Error {
+    Error::scene(
+        format!("{path}.{field}"),
+        "absent",
+        format!("a number for base {base}: these oils differ too much for a formula"),
+    )
+}
+
+impl Serialize for Lubricant {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        Self::serialize(self, serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Lubricant {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        let mut read = Self::deserialize(deserializer)?;
+        let refuse = |text| Err(serde::de::Error::custom(text));
+        match (read.temperature.is_nan(), read.temperature_c.take()) {
+            (true, None) => {
+                return refuse("missing field `temperature` [K] or `temperature_c` [°C]");
+            }
+            (false, Some(_)) => return refuse("`temperature` and `temperature_c`: give one"),
+            (true, Some(celsius)) => read.temperature = celsius + CELSIUS,
+            (false, None) => {}
+        }
+        Ok(read)
+    }
+}
+
+impl Serialize for OilLayer {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        match self {
+            Self::Thickness(value) => serializer.serialize_f64(*value),
+            Self::Flooded => serializer.serialize_str(FLOODED),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for OilLayer {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        number_or_word(deserializer, FLOODED, Self::Thickness, Self::Flooded)
+    }
+}
