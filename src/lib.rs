@@ -31,6 +31,7 @@
 //! * [`contact`] — one ball on one race: its shape, elastic, damping and traction laws, quadrature, fault circles, and the
 //!   kernel, the one coding of an element's force, with its drivers; `contact/frames.rs` leads from the scene's frame to a
 //!   ring's and the cage's. Numbers in, numbers out; no indices, no state.
+//! * `tilt` — a ring that leans: its frame, which does not spin, and the equations of a symmetric rigid body.
 //! * `model` ([`Model`]) — the scene compiled: bodies, races and directions ([`BodyId`], [`Race`], [`Dof`]) with the one
 //!   place that turns them into offsets ([`Layout`]), arrays, scales. Never changed by a run.
 //! * `forces` — cage, supports, gravity, loads, unbalance, drive: one file each, with force, energy or power, rate for step
@@ -110,6 +111,7 @@ mod selftest;
 mod signals;
 pub mod simd;
 mod start;
+mod tilt;
 mod told;
 mod touched;
 

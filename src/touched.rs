@@ -9,11 +9,11 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::contact::{Fault, Motion, Pair, Sighted, Slices, wrapped};
+use crate::contact::{Fault, Pair, Sighted, Slices, wrapped};
 use crate::dynamics::Dynamics;
 use crate::equilibrium::Placed;
 use crate::integrate::DenseStep;
-use crate::model::{BodyId, Layout, Model, Race, ball_fault, race_fault};
+use crate::model::{Model, Race, ball_fault, race_fault};
 use crate::scene::{Defect, Surface};
 
 /// What became of a defect.
@@ -258,7 +258,7 @@ impl Watched {
         let mut wait = f64::INFINITY;
         for i in 0..self.eyes.len() {
             let eye = &mut self.eyes[i];
-            let (aside, rate) = eye.look(model.layout(), y, &self.fault, self.on);
+            let (aside, rate) = eye.look(model, y, &self.fault, self.on);
             let before = std::mem::replace(&mut eye.aside, aside);
             // A narrow one may lie between two steps.
             let across = before.signum() != aside.signum() && (before - aside).abs() < PI;
@@ -285,7 +285,7 @@ impl Watched {
         if !self.felt {
             return;
         }
-        let (ball, ring) = eye.motions(model.layout(), y);
+        let [ball, ring] = model.facing(y, eye.ball, eye.race);
         let sighted = Sighted {
             fault: &self.fault,
             on_ball: self.on == Surface::Ball,
@@ -305,15 +305,9 @@ impl Watched {
 }
 
 impl Eye {
-    /// Of ball and ring.
-    fn motions(&self, layout: Layout, y: &[f64]) -> (Motion, Motion) {
-        let ball = layout.motion(y, BodyId::ball(self.ball));
-        (ball, layout.motion(y, self.race.ring()))
-    }
-
     /// How far the direction of the contact is from the defect's \[rad\], and how fast that changes \[rad/s\].
-    fn look(&self, layout: Layout, y: &[f64], fault: &Fault, on: Surface) -> (f64, f64) {
-        let (ball, ring) = self.motions(layout, y);
+    fn look(&self, model: &Model, y: &[f64], fault: &Fault, on: Surface) -> (f64, f64) {
+        let [ball, ring] = model.facing(y, self.ball, self.race);
         let seen = ball.seen_from(&ring);
         let body = match on {
             Surface::Ball => ball,

@@ -17,7 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sources::{Source, all, code, test_files, word};
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 26] = [
+const ORDER: [&str; 27] = [
     "told",
     "error",
     "memory",
@@ -25,6 +25,7 @@ const ORDER: [&str; 26] = [
     "simd",
     "integrate",
     "scene",
+    "tilt",
     "contact",
     "model",
     "forces",

@@ -72,6 +72,8 @@ class _Turning(TypedDict):
 class _Equilibrium(_Turning):
     outer: _Array
     inner: _Array
+    outer_moment: _Array
+    inner_moment: _Array
     radius: _Array
     z: _Array
     outer_deflection: _Array

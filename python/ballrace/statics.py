@@ -91,6 +91,10 @@ class Equilibrium:
     ----------
     outer, inner : ndarray, shape (3,)
         Displacements of the rings [m].
+    outer_moment, inner_moment : ndarray, shape (2,)
+        Moments about x and y that the balls put on the rings, each about its own centre [N m]: what keeps a
+        ring from
+        tilting carries them.
     row, ball : ndarray of int, shape (n_balls,)
         Row, and place of the ball in it, both from 0.
     angle, radius, z : ndarray, shape (n_balls,)
@@ -122,6 +126,8 @@ class Equilibrium:
 
     outer: NDArray[np.float64]
     inner: NDArray[np.float64]
+    outer_moment: NDArray[np.float64]
+    inner_moment: NDArray[np.float64]
     row: NDArray[np.int64]
     ball: NDArray[np.int64]
     angle: NDArray[np.float64]

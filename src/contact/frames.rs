@@ -2,19 +2,22 @@
 //!
 //! * The **scene's** frame is inertial: x to the right, y up, z along the bearing's axis.
 //! * A **ring's** frame has its origin at the ring's centre and moves with it. A contact is evaluated in it. Its axes keep the
-//!   directions of the scene's, since rings do not tilt; what is fixed to the ring, defects and waves, stands at angles
-//!   from a mark that has turned by θ.
+//!   directions of the scene's, unless the ring leans: then z is the ring's axis, and x and y are turned with it by the shortest
+//!   way ([`LeaningRing`]). What is fixed to the ring, defects and waves, stands at angles from a mark that has turned by θ.
 //! * The **cage's** frame turns about the bearing's axis at the orbit speed of the balls. A bearing that rolls evenly rests
 //!   in it, under the centrifugal force.
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
 
+use nalgebra::Vector3;
+
 use super::{V2, cross};
 use crate::simd::Number;
+use crate::tilt::Rotation;
 
 /// Where a body is and how it moves: x, y, z and the angle about z.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Motion {
     /// Centre in the plane \[m\].
     pub(crate) centre: V2,
@@ -28,6 +31,8 @@ pub struct Motion {
     pub(crate) vz: f64,
     /// Angular speed about z \[rad/s\].
     pub(crate) omega: f64,
+    /// Angular velocity across z \[rad/s\]: of a ball as a ring sees it that tilts.
+    pub(crate) across: V2,
 }
 
 impl Motion {
@@ -43,6 +48,7 @@ impl Motion {
             velocity: V2::new(v[0], v[1]),
             vz: v[2],
             omega: v[3],
+            across: V2::zeros(),
         }
     }
 
@@ -91,6 +97,64 @@ impl Motion {
     /// How fast that turns \[rad/s\]: the speed of the cage's frame, where a ball rests in it.
     pub(crate) fn orbit_speed(&self) -> f64 {
         cross(self.centre, self.velocity) / self.centre.norm_squared()
+    }
+}
+
+/// A ring that may lean, as its contacts meet it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LeaningRing {
+    pub rotation: Rotation,
+    /// Its centre of mass \[m\].
+    centre: Vector3<f64>,
+    /// Of the centre of mass \[m/s\].
+    velocity: Vector3<f64>,
+    /// Its angular velocity, in its own frame \[rad/s\].
+    turning: Vector3<f64>,
+    /// Axial place of the centre of mass in its frame \[m\].
+    offset: f64,
+    theta: f64,
+}
+
+impl LeaningRing {
+    /// Of a ring whose places x, y and z tell how far its centre of mass is from where it nominally is, an axial place of the
+    /// ring's frame \[m\].
+    pub fn new(motion: &Motion, rotation: Rotation, offset: f64) -> Self {
+        Self {
+            rotation,
+            centre: Vector3::new(motion.centre.x, motion.centre.y, motion.z + offset),
+            velocity: Vector3::new(motion.velocity.x, motion.velocity.y, motion.vz),
+            turning: rotation.frame.to_ring(&rotation.angular_velocity()),
+            offset,
+            theta: motion.theta,
+        }
+    }
+
+    /// From the centre of mass to a ball's centre, in the scene's frame \[m\].
+    pub fn arm(&self, ball: &Motion) -> Vector3<f64> {
+        Vector3::new(ball.centre.x, ball.centre.y, ball.z) - self.centre
+    }
+
+    /// A ball, whose spin each of its contacts takes to be about the axis of the ring it touches, and this ring, both as who
+    /// turns with the ring sees them in its frame: the ring stands still, its mark at θ.
+    pub fn facing(&self, ball: &Motion) -> [Motion; 2] {
+        let frame = &self.rotation.frame;
+        let place = frame.to_ring(&self.arm(ball));
+        let velocity = Vector3::new(ball.velocity.x, ball.velocity.y, ball.vz) - self.velocity;
+        let velocity = frame.to_ring(&velocity) - self.turning.cross(&place);
+        let seen = Motion {
+            centre: place.xy(),
+            z: place.z + self.offset,
+            theta: ball.theta,
+            velocity: velocity.xy(),
+            vz: velocity.z,
+            omega: ball.omega - self.turning.z,
+            across: -self.turning.xy(),
+        };
+        let own = Motion {
+            theta: self.theta,
+            ..Motion::default()
+        };
+        [seen, own]
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! `profile` has the races and the zone where a ball touches one (model sections 2 and 3), `laws` what an element of
 //! the zone bears (sections 4 and 5), `quadrature` where the elements lie (section 10), `kernel` puts these together:
-//! the force of an element, and the elements of a whole contact; `frames` says where a ball is as its ring sees it, `slip` how
+//! the force of an element, and the elements of a whole contact; `frames` says where a ball is as its ring sees it, `spatial`
+//! what a contact does to its ball in space, `slip` how
 //! ball and race slide on each other along a zone, from which `quadrature` has what friction weighs there. The kernel's drivers:
 //!
 //! * `scalar` — [`Pair::evaluate`]: one contact with whatever cuts its zone, every single force to a [`Sink`];
@@ -26,6 +27,7 @@ mod profile;
 mod quadrature;
 mod scalar;
 mod slip;
+mod spatial;
 mod stage;
 mod stiffness;
 
@@ -36,7 +38,7 @@ pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz
 pub use fault::Fault;
 pub(crate) use fault::{Sight, Sighted};
 pub use frames::Motion;
-pub(crate) use frames::centrifugal;
+pub(crate) use frames::{LeaningRing, centrifugal};
 pub use laws::elastic::{elliptic, hertz, iso16281};
 pub use laws::film;
 pub(crate) use laws::film::FilmEffect;
@@ -47,6 +49,7 @@ pub(crate) use profile::{Before, Contour, Curve, Raise, Section};
 pub use profile::{Torus, Waves};
 pub use quadrature::{Rules, Slices};
 pub use scalar::{BallSide, Pair, Shape};
+pub(crate) use spatial::Wrench;
 pub(crate) use stage::{
     Around, PlaneVector, SlicePack, SlicePacking, StageContacts, StageElements, StageWrench,
     in_contact,

@@ -92,10 +92,7 @@ impl Pair {
         let at = |centre: V2, z: f64| Motion {
             centre,
             z,
-            theta: 0.0,
-            velocity: V2::zeros(),
-            vz: 0.0,
-            omega: 0.0,
+            ..Motion::default()
         };
         let mut sum = ElasticForce(Vector3::zeros());
         let ring = at(V2::zeros(), 0.0);

@@ -1,8 +1,11 @@
 //! The forces on all bodies apart by origin.
 
+use nalgebra::Vector3;
+
 use super::sums::Named;
-use crate::forces::{self, Force, State, Table, unbalance};
-use crate::model::{BodyId, Dof, Model, Race};
+use crate::contact::LeaningRing;
+use crate::forces::{self, Force, OnRing, State, Table, unbalance};
+use crate::model::{BodyId, DOFS, Dof, Model, Race};
 
 /// Names of the contributions of [`contributions`], in their order: elastic contact forces, damping and friction, then what
 /// each other force counts to.
@@ -24,18 +27,29 @@ pub fn contribution_names() -> Vec<&'static str> {
 pub fn contributions(model: &Model, t: f64, y: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
     assert_eq!(y.len(), model.dim(), "length of the state");
     let bodies = model.bodies.len();
-    let mut state = State::new(bodies);
+    let mut state = State::new(model);
     state.read(y);
     let names = contribution_names();
     let mut parts = vec![Table::zeros(bodies); names.len()];
     let rings = state.rings();
+    let leaning = model
+        .leans()
+        .then(|| Race::BOTH.map(|race| state.leaning(model, race)));
     for (j, ball) in model.balls.iter().enumerate() {
         let body = BodyId::ball(j);
         for race in Race::BOTH {
             let mut named = Named::default();
             let pair = &model.rows[ball.row].pairs[race];
-            pair.evaluate(&ball.side, &state.motion(body), &rings[race], &mut named);
-            for (part, (on_ball, on_ring)) in parts.iter_mut().zip(named.wrenches()) {
+            let [at, ring] = match &leaning {
+                Some(leaning) => leaning[race].facing(&state.motion(body)),
+                None => [state.motion(body), rings[race]],
+            };
+            pair.evaluate(&ball.side, &at, &ring, &mut named);
+            for (part, wrenches) in parts.iter_mut().zip(named.wrenches()) {
+                let [on_ball, on_ring] = <[_; 2]>::from(wrenches).map(|wrench| match &leaning {
+                    Some(leaning) => turned(&leaning[race], wrench),
+                    None => wrench,
+                });
                 part.add(body, &on_ball);
                 part.add(race.ring(), &on_ring);
             }
@@ -51,6 +65,27 @@ pub fn contributions(model: &Model, t: f64, y: &[f64]) -> Vec<(&'static str, Vec
     }
     for race in Race::BOTH {
         let ring = race.ring();
+        if let Some(leaning) = &leaning {
+            let frame = &leaning[race].rotation.frame;
+            let supported = forces::leaning::support(model, race, &state, 0.0);
+            let unbalanced = unbalance::on_leaning(model, t, &state, race, frame);
+            let loaded = OnRing {
+                force: Vector3::zeros(),
+                moment: forces::load::moment(model, t, race, |arm| frame.to_scene(arm)),
+            };
+            let all = [
+                ("support", supported),
+                ("load", unbalanced),
+                ("load", loaded),
+            ];
+            for (name, on) in all {
+                let at = names.iter().position(|known| *known == name);
+                let [x, y, z] = on.force.into();
+                let about = on.moment.dot(&frame.axis());
+                parts[at.unwrap_or_default()].add(ring, &[x, y, z, about]);
+            }
+            continue;
+        }
         let all = Dof::ALL.map(|dof| parts.iter().map(|part| part.get(ring, dof)).sum());
         let unbalance = unbalance::on(model, t, &state, race, &all);
         parts[part(&unbalance::FORCE)].add(ring, &unbalance);
@@ -59,6 +94,12 @@ pub fn contributions(model: &Model, t: f64, y: &[f64]) -> Vec<(&'static str, Vec
     let listed = |part: Table| bodies.clone().flat_map(|body| part.of(body)).collect();
     let parts: Vec<Vec<f64>> = parts.into_iter().map(listed).collect();
     names.into_iter().zip(parts).collect()
+}
+
+/// A force in the frame of a ring that leans, in the scene's; the moment is about the ring's axis in both.
+fn turned(ring: &LeaningRing, [x, y, z, about]: [f64; DOFS]) -> [f64; DOFS] {
+    let [x, y, z] = ring.rotation.frame.to_scene(&Vector3::new(x, y, z)).into();
+    [x, y, z, about]
 }
 
 #[cfg(test)]

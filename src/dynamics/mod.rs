@@ -5,6 +5,9 @@ mod contributions;
 mod evaluation;
 mod films;
 mod kept;
+mod leaning;
+#[cfg(test)]
+mod leaning_tests;
 #[cfg(test)]
 mod lost;
 mod planar;
@@ -25,6 +28,7 @@ pub use contributions::{contribution_names, contributions};
 
 use films::Films;
 use kept::Kept;
+use leaning::Leaning;
 use planar::{Ground, Planar};
 use rolling::Rolling;
 
@@ -46,6 +50,8 @@ pub struct Dynamics<'m> {
     pool: Option<Arc<ThreadPool>>,
     /// Films that follow the rings' speed.
     films: Option<Films>,
+    /// Rings that may tilt.
+    leaning: Option<Box<Leaning>>,
 }
 
 /// What a state vector holds.
@@ -131,7 +137,7 @@ impl<'m> Dynamics<'m> {
         Self {
             model,
             order,
-            state: State::new(bodies),
+            state: State::new(model),
             contacts: Batch::new(model, kind),
             contact_torques: [0.0; 2],
             forces: Table::zeros(bodies),
@@ -140,6 +146,7 @@ impl<'m> Dynamics<'m> {
             mobility,
             pool: None,
             films: Films::new(model),
+            leaning: Leaning::new(model),
         }
     }
 
@@ -174,18 +181,22 @@ impl<'m> Dynamics<'m> {
 
     /// Slices whose damping wanted to pull in the last evaluation.
     pub fn pulls(&self) -> usize {
-        self.contacts.pulls()
+        let leaning = self.leaning.as_ref();
+        leaning.map_or_else(|| self.contacts.pulls(), |leaning| leaning.pulls)
     }
 
     /// Contacts cut off by a shoulder in the last evaluation.
     pub fn truncated(&self) -> usize {
-        self.contacts.truncated()
+        let leaning = self.leaning.as_ref();
+        leaning.map_or_else(|| self.contacts.truncated(), |leaning| leaning.truncated)
     }
 
     /// The first body among the balls that had left its groove in the last evaluation, if any: pressed deeper than
     /// half its radius, beside the groove, or off the race ([`crate::contact::Torus::farthest`]).
     pub fn lost(&self) -> Option<BodyId> {
-        self.contacts.lost().map(BodyId::ball)
+        let leaning = self.leaning.as_ref();
+        let lost = leaning.map_or_else(|| self.contacts.lost(), |leaning| leaning.lost);
+        lost.map(BodyId::ball)
     }
 
     /// The forces on every body at a state of the run: x, y, z \[N\] and about z \[N m\]. For a direction that is fixed
@@ -302,6 +313,10 @@ impl<'m> Dynamics<'m> {
             None => self.model,
             Some(films) => films.follow(&self.state, &mut self.contacts),
         };
+        if let Some(leaning) = &mut self.leaning {
+            self.contact_torques = leaning.add_contacts(model, &self.state, &mut self.forces);
+            return;
+        }
         self.contact_torques =
             self.contacts
                 .add_to(&mut self.forces, model, &self.state, self.pool.as_deref());
@@ -320,6 +335,10 @@ impl<'m> Dynamics<'m> {
         let (state, forces) = (&self.state, &mut self.forces);
         support::add(&self.springs, state, forces);
         load::add(self.model, false, t, forces);
+        if let Some(leaning) = &mut self.leaning {
+            leaning.add_applied(self.model, t, state, forces);
+            return;
+        }
         drive::add(self.model, t, forces);
         unbalance::add(self.model, t, state, forces);
     }
@@ -359,8 +378,11 @@ impl System for Dynamics<'_> {
         match &self.order {
             Order::Bodies => {
                 let bodies = Layout::each_mut(accelerations).iter_mut();
-                for (body, acceleration) in bodies.enumerate() {
-                    *acceleration = self.acceleration(t, BodyId::new(body));
+                for (acceleration, body) in bodies.zip(self.model.layout().bodies()) {
+                    *acceleration = self.acceleration(t, body);
+                }
+                if let Some(leaning) = &self.leaning {
+                    leaning.accelerate(self.model, t, accelerations);
                 }
             }
             Order::Kept(kept) => {

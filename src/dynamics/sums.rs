@@ -1,7 +1,7 @@
 //! What the forces of a contact add up to.
 
 use super::add;
-use crate::contact::{Aside, OilTouch, Sink, Touch};
+use crate::contact::{Aside, OilTouch, Sink, Touch, Wrench};
 use crate::model::DOFS;
 
 /// Force and moment on ball and ring.
@@ -31,6 +31,33 @@ impl Sink for Sum {
         let (ball, ring) = touch.wrenches();
         add(&mut self.ball, &ball);
         add(&mut self.ring, &ring);
+    }
+
+    fn truncated(&mut self) {
+        self.truncated = true;
+    }
+}
+
+/// What a contact does to its ball in space.
+#[derive(Debug, Default)]
+pub(super) struct Spatial {
+    pub wrench: Wrench,
+    pub pulls: u32,
+    pub truncated: bool,
+}
+
+impl Sink for Spatial {
+    fn touch(&mut self, touch: &Touch) {
+        self.wrench.add(&touch.on_ball(touch.normal, 1.0));
+        self.pulls += u32::from(touch.pull);
+    }
+
+    fn aside(&mut self, force: &Aside) {
+        self.wrench.add(&force.on_ball());
+    }
+
+    fn oil(&mut self, touch: &OilTouch) {
+        self.wrench.add(&touch.on_ball());
     }
 
     fn truncated(&mut self) {

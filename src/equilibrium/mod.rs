@@ -29,7 +29,7 @@ mod unknowns;
 
 use serde::Serialize;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::inspect::{self, RaceFilm};
 use crate::interrupt;
 use crate::model::{BodyId, Dof, Model, Race};
@@ -64,6 +64,11 @@ pub struct Equilibrium {
     pub outer: [f64; 3],
     /// Displacement of the inner ring x, y, z \[m\].
     pub inner: [f64; 3],
+    /// Moments about x and y that balls and loads put on the outer ring, about its centre of mass \[N m\]: what keeps it from
+    /// tilting carries them.
+    pub outer_moment: [f64; 2],
+    /// The same on the inner ring \[N m\].
+    pub inner_moment: [f64; 2],
     /// The balls, row by row.
     pub balls: Vec<BallEquilibrium>,
     /// Newton iterations of the rings.
@@ -188,13 +193,12 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
         let summary = inspect::contact(model, y, j, race);
         let ball = &model.balls[j];
         let pair = &model.rows[ball.row].pairs[race];
-        let (b, r) = (place(BodyId::ball(j)), place(race.ring()));
-        let (dx, dy) = (b[0] - r[0], b[1] - r[1]);
-        let wave = pair
-            .waves
-            .at(dy.atan2(dx) - y[layout.at(race.ring(), Dof::Theta)]);
+        let [b, r] = model.facing(y, j, race);
+        let seen = b.seen_from(&r);
+        let (dx, dy) = (seen.centre.x, seen.centre.y);
+        let wave = pair.waves.at(r.angle_of(dy.atan2(dx)));
         let radius = ball.side.radius;
-        let (deflection, _) = pair.foot(radius, dx.hypot(dy), b[2] - r[2], wave);
+        let (deflection, _) = pair.foot(radius, dx.hypot(dy), seen.z, wave);
         let loaded = summary.load > 0.0;
         ContactEquilibrium {
             load: summary.load,
@@ -216,7 +220,10 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
             inner: contact(j, Race::Inner),
         }
     });
+    let [outer_moment, inner_moment] = inspect::moments(model, 0.0, y);
     let mut found = Equilibrium {
+        outer_moment,
+        inner_moment,
         outer: place(BodyId::OUTER),
         inner: place(BodyId::INNER),
         balls: balls.collect(),
@@ -239,6 +246,7 @@ fn doubts(scene: &Scene, found: &Equilibrium) -> Vec<Doubt> {
 /// Solves from the first guess; from the nominal places where there is none, or where it leads to no stable place, such
 /// as one on top of a single ball.
 fn solve(model: &Model) -> Result<Solved> {
+    refuse_leaning(model)?;
     let problem = Problem::new(model);
     interrupt::check()?;
     if let Some(rings) = problem.guess()
@@ -248,6 +256,16 @@ fn solve(model: &Model) -> Result<Solved> {
     }
     interrupt::check()?;
     solve_from(Problem::new(model), Rings::zeros())
+}
+
+/// Rings that tilt are not solved yet.
+fn refuse_leaning(model: &Model) -> Result<()> {
+    if !model.leans() {
+        return Ok(());
+    }
+    let reason = "it is not computed where a ring may tilt; hold the rings parallel, or start rolling or from a state";
+    let reason = reason.to_owned();
+    Err(Error::Equilibrium { reason })
 }
 
 /// Solves with the balls at their nominal angles; then lets the cage shift them and pull, and solves again.

@@ -94,6 +94,9 @@ impl Meeting {
         for load in healthy.loads.values_mut() {
             load.force = TimeFunction::Constant(load.force.extreme());
         }
+        for moment in healthy.moments.values_mut() {
+            moment.moment = TimeFunction::Constant(moment.moment.extreme());
+        }
         if defect.on == Surface::OuterRace {
             let turn = defect.angle - scene.rows[defect.row].start_angle;
             for row in &mut healthy.rows {

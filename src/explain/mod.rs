@@ -16,7 +16,7 @@ use crate::equilibrium::compile;
 use crate::equilibrium::{Meeting, Placed, describe, place};
 use crate::error::Result;
 use crate::interrupt;
-use crate::model::{BodyId, Model, Race};
+use crate::model::{Model, Race};
 use crate::reduction::{Obstacle, Omission, Reduction};
 use crate::run;
 use crate::scene::{Defect, Doubt, Scene, Surface};
@@ -159,8 +159,7 @@ fn met(mut told: Touched, defect: &Defect, meeting: &Meeting) -> Touched {
     };
     let mut most = 0.0;
     for &(j, race) in contacts {
-        let [ball, ring] =
-            [BodyId::ball(j), race.ring()].map(|body| model.layout().motion(y, body));
+        let [ball, ring] = model.facing(y, j, race);
         let pair = &model.rows[defect.row].pairs[race];
         let found = pair.load_within(&model.balls[j].side, &ball, &ring, &sighted);
         told.passes += 1;

@@ -1,11 +1,11 @@
-//! Loads: forces of fixed direction and a size that may change in time, at the centres of rings.
+//! Loads: forces of fixed direction and a size that may change in time, at points of rings, and moments likewise.
 //!
 //! They do work on the bearing and store nothing.
 
 use nalgebra::Vector3;
 
 use super::{Force, Table, Use};
-use crate::model::{LoadModel, Model};
+use crate::model::{Dof, LoadModel, Model, MomentModel, Race};
 use crate::scene::TimeFunction;
 
 pub(crate) const FORCE: Force = Force {
@@ -31,9 +31,12 @@ pub(crate) fn at(load: &LoadModel, t: f64) -> Vector3<f64> {
 }
 
 fn used(model: &Model) -> Use {
-    let mut loads = model.loads.iter().filter(|load| load.force.peak() > 0.0);
-    if loads.clone().all(is_steady) {
-        Use::constant(loads.next().is_some())
+    let forces = model.loads.iter().map(|load| &load.force);
+    let moments = model.moments.iter().map(|moment| &moment.moment);
+    let mut sizes = forces.chain(moments).filter(|size| size.peak() > 0.0);
+    let steady = |size: &TimeFunction| matches!(size, TimeFunction::Constant(_));
+    if sizes.clone().all(steady) {
+        Use::constant(sizes.next().is_some())
     } else {
         Use::Evaluated
     }
@@ -46,4 +49,38 @@ pub(crate) fn add(model: &Model, steady: bool, t: f64, forces: &mut Table) {
         let force = at(load, t);
         forces.add(load.ring.ring(), &[force.x, force.y, force.z, 0.0]);
     }
+    if model.leans() {
+        // Moments come with those of all else.
+        return;
+    }
+    for load in model.loads.iter().filter(|load| is_steady(load) == steady) {
+        if let Some(arm) = &load.arm {
+            *forces.get_mut(load.ring.ring(), Dof::Theta) += arm.cross(&at(load, t)).z;
+        }
+    }
+    let is_steady = |of: &MomentModel| matches!(of.moment, TimeFunction::Constant(_));
+    for moment in model.moments.iter().filter(|of| is_steady(of) == steady) {
+        *forces.get_mut(moment.ring.ring(), Dof::Theta) +=
+            moment.direction[2] * moment.moment.at(t);
+    }
+}
+
+/// Of all loads and moments on a ring about its centre of mass at a time \[s\], in the scene's frame \[N m\]; `out` leads vectors of
+/// the ring's frame there.
+pub(crate) fn moment(
+    model: &Model,
+    t: f64,
+    ring: Race,
+    out: impl Fn(&Vector3<f64>) -> Vector3<f64>,
+) -> Vector3<f64> {
+    let mut sum = Vector3::zeros();
+    for load in model.loads.iter().filter(|load| load.ring == ring) {
+        if let Some(arm) = &load.arm {
+            sum += out(arm).cross(&at(load, t));
+        }
+    }
+    for moment in model.moments.iter().filter(|moment| moment.ring == ring) {
+        sum += Vector3::from(moment.direction) * moment.moment.at(t);
+    }
+    sum
 }

@@ -6,11 +6,14 @@ pub(crate) mod cage;
 pub(crate) mod drag;
 pub(crate) mod drive;
 pub(crate) mod gravity;
+pub(crate) mod leaning;
 pub(crate) mod load;
 mod rates;
 mod state;
 pub(crate) mod support;
 pub(crate) mod unbalance;
+
+use nalgebra::Vector3;
 
 use crate::model::Model;
 
@@ -69,6 +72,13 @@ impl Use {
             Self::Absent
         }
     }
+}
+
+/// Force on a ring's centre of mass \[N\] and moment about it \[N m\], in the scene's frame.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct OnRing {
+    pub force: Vector3<f64>,
+    pub moment: Vector3<f64>,
 }
 
 /// What a force keeps and takes.

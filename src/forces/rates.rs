@@ -1,6 +1,6 @@
 //! How fast forces change a motion, for the step that a method bears.
 
-use super::{cage, support};
+use super::{cage, leaning, support};
 use crate::contact::Pair;
 use crate::model::{Dof, Model};
 
@@ -31,7 +31,8 @@ impl Rates {
             rates.fastest = rates.fastest.max(load * friction * mobility);
             rates.fastest = rates.fastest.max(cage::rate(model, i));
         }
-        let supports = model.layout().bodies().map(|id| support::rate(model, id));
+        let bodies = model.layout().bodies();
+        let supports = bodies.map(|id| support::rate(model, id).max(leaning::rate(model, id)));
         rates.fastest = supports.fold(rates.fastest.max(rates.damping), f64::max);
         rates
     }

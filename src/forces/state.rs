@@ -3,8 +3,8 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use crate::contact::{Motion, V2};
-use crate::model::{BodyId, DOFS, Dof, Layout};
+use crate::contact::{LeaningRing, Motion, V2};
+use crate::model::{BodyId, DOFS, Dof, Layout, Model, Race};
 use crate::simd::{LANES, Lanes};
 
 /// A number a body along x, y, z and about z, each direction padded so that eight neighbours can be read from any
@@ -100,7 +100,8 @@ impl Table {
 
     /// Reads a half of a state vector as `Model` orders it, body by body.
     pub fn read(&mut self, half: &[f64]) {
-        for (body, numbers) in Layout::each(half).iter().enumerate() {
+        let bodies = self.stride - LANES;
+        for (body, numbers) in Layout::each(half)[..bodies].iter().enumerate() {
             for (direction, number) in numbers.iter().enumerate() {
                 self.values[direction * self.stride + body] = *number;
             }
@@ -120,15 +121,25 @@ impl Table {
 pub(crate) struct State {
     pub q: Table,
     pub v: Table,
+    /// Where the tilts of rings that lean stand; none where none does.
+    layout: Option<Layout>,
+    /// Tilt of each ring \[rad\] and its rates \[rad/s\].
+    tilts: [[[f64; 2]; 2]; 2],
 }
 
 impl State {
-    pub fn new(bodies: usize) -> Self {
+    pub fn new(model: &Model) -> Self {
+        let bodies = model.bodies.len();
         let mut q = Table::zeros(bodies);
         // No body: away from all axes, so that nothing divides by zero there.
         q.along_mut(Dof::X)[bodies..].fill(1.0);
         let v = Table::zeros(bodies);
-        Self { q, v }
+        Self {
+            q,
+            v,
+            layout: model.leans().then(|| model.layout()),
+            tilts: model.rings.each_ref().map(|ring| [ring.tilt, [0.0; 2]]),
+        }
     }
 
     /// Reads a state vector as `Model` orders it, body by body.
@@ -136,6 +147,16 @@ impl State {
         let (q, v) = y.split_at(y.len() / 2);
         self.q.read(q);
         self.v.read(v);
+        if let Some(layout) = self.layout {
+            for race in Race::BOTH {
+                for (i, dof) in Dof::TILTS.into_iter().enumerate() {
+                    if layout.has(race.ring(), dof) {
+                        let at = layout.at(race.ring(), dof);
+                        (self.tilts[race][0][i], self.tilts[race][1][i]) = (q[at], v[at]);
+                    }
+                }
+            }
+        }
     }
 
     /// Writes what [`State::read`] reads.
@@ -155,7 +176,18 @@ impl State {
             velocity: V2::new(vx, vy),
             vz,
             omega,
+            across: V2::zeros(),
         }
+    }
+
+    /// A ring that may lean.
+    pub fn leaning(&self, model: &Model, race: Race) -> LeaningRing {
+        model.leaning_as(race, &self.motion(race.ring()), self.tilts[race])
+    }
+
+    /// Tilt of a ring \[rad\] and its rates \[rad/s\].
+    pub fn tilt(&self, race: Race) -> [[f64; 2]; 2] {
+        self.tilts[race]
     }
 
     /// Both rings, by race.

@@ -11,9 +11,12 @@
 //! A driven speed tells ω̇. Else the first two in the third give it, over 1 − (u_x²/m_y + u_y²/m_x)/I, which is above 0
 //! where the ring's inertia about its centre of mass is.
 
-use super::{Force, State, Table, Use, drive};
+use nalgebra::Vector3;
+
+use super::{Force, OnRing, State, Table, Use, drive};
 use crate::contact::{V2, cross};
 use crate::model::{DOFS, Dof, Model, Race, UnbalanceModel};
+use crate::tilt::Frame;
 
 pub(crate) const FORCE: Force = Force {
     name: "unbalance",
@@ -67,10 +70,33 @@ pub(crate) fn on(
     sum
 }
 
+/// What those of a ring do that leans, whose rotation is driven or held: the force of a ring that does not, turned with it, and its
+/// moment about the centre of mass.
+pub(crate) fn on_leaning(
+    model: &Model,
+    t: f64,
+    state: &State,
+    ring: Race,
+    frame: &Frame,
+) -> OnRing {
+    let motion = state.motion(ring.ring());
+    let driven = drive::acceleration(model, t).filter(|_| ring == Race::Inner);
+    let (square, spin) = (motion.omega * motion.omega, driven.unwrap_or(0.0));
+    let mut sum = OnRing::default();
+    for unbalance in model.unbalances.iter().filter(|u| u.ring == ring) {
+        let (sin, cos) = motion.direction_of(unbalance.angle).sin_cos();
+        let force = Vector3::new(square * cos + spin * sin, square * sin - spin * cos, 0.0);
+        let force = frame.to_scene(&(force * unbalance.moment));
+        sum.force += force;
+        sum.moment += (frame.axis() * unbalance.place).cross(&force);
+    }
+    sum
+}
+
 /// On both rings, after all other forces.
 #[inline]
 pub(crate) fn add(model: &Model, t: f64, state: &State, forces: &mut Table) {
-    if !model.unbalances.is_empty() {
+    if !(model.unbalances.is_empty() || model.leans()) {
         for race in Race::BOTH {
             let others = forces.of(race.ring());
             forces.add(race.ring(), &on(model, t, state, race, &others));

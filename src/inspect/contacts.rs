@@ -1,7 +1,7 @@
 //! A contact in a state: load, angle, zone, slip, and the forces of its slices.
 
 use crate::contact::{Pair, Sink, Touch, V2};
-use crate::model::{BodyId, Model, Race};
+use crate::model::{Model, Race};
 
 /// A contact in a few numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -144,10 +144,11 @@ pub fn slice_forces(model: &Model, y: &[f64], j: usize, race: Race) -> Vec<Slice
     list.0
 }
 
-fn visit<S: Sink>(model: &Model, y: &[f64], j: usize, race: Race, sink: &mut S) -> f64 {
+/// Hands the forces of a contact to a sink; returns the sense of the nominal contact angle.
+pub(super) fn visit<S: Sink>(model: &Model, y: &[f64], j: usize, race: Race, sink: &mut S) -> f64 {
     let ball = &model.balls[j];
     let row = &model.rows[ball.row];
-    let [at, ring] = [BodyId::ball(j), race.ring()].map(|body| model.layout().motion(y, body));
+    let [at, ring] = model.facing(y, j, race);
     row.pairs[race].evaluate(&ball.side, &at, &ring, sink);
     row.side
 }

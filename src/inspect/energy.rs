@@ -3,7 +3,7 @@
 use super::powers::Powers;
 use crate::contact::{OilTouch, Sink, Touch};
 use crate::forces;
-use crate::model::{BodyId, Dof, Model, Race};
+use crate::model::{Dof, Model, Race};
 
 /// Energies \[J\] and dissipated powers \[W\]. Loads and drive do work on top of these.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -81,17 +81,24 @@ pub fn energy(model: &Model, y: &[f64]) -> Energy {
             energy.kinetic += 0.5 * body.mass[dof] * speed * speed;
         }
     }
-    let [cage, support] = [forces::cage::account, forces::support::account].map(|of| of(model, y));
+    if model.leans() {
+        energy.kinetic += leaning(model, y);
+    }
+    let [cage, support, tilts] = [
+        forces::cage::account,
+        forces::support::account,
+        forces::leaning::account,
+    ]
+    .map(|of| of(model, y));
     let [kinetic, gravity] = forces::unbalance::energies(model, y);
     energy.kinetic += kinetic;
     energy.gravity = forces::gravity::energy(model, y) + gravity;
-    (energy.cage, energy.support) = (cage.energy, support.energy);
-    energy.support_power = cage.power + support.power;
+    (energy.cage, energy.support) = (cage.energy, support.energy + tilts.energy);
+    energy.support_power = cage.power + support.power + tilts.power;
     let mut contacts = Contacts::default();
     for (j, ball) in model.balls.iter().enumerate() {
-        let at = layout.motion(y, BodyId::ball(j));
         for race in Race::BOTH {
-            let ring = layout.motion(y, race.ring());
+            let [at, ring] = model.facing(y, j, race);
             let pair = &model.rows[ball.row].pairs[race];
             pair.evaluate(&ball.side, &at, &ring, &mut contacts);
         }
@@ -102,6 +109,17 @@ pub fn energy(model: &Model, y: &[f64]) -> Energy {
     energy.friction_power = powers.slip;
     energy.rolling_power = powers.rolling;
     energy
+}
+
+/// What the rotations of rings that lean have beside those about z \[J\].
+fn leaning(model: &Model, y: &[f64]) -> f64 {
+    let of = |race: Race| {
+        let inertia = &model.rings[race].inertia;
+        let spin = y[model.layout().speed_at(race.ring(), Dof::Theta)];
+        let whole = model.leaning(y, race).rotation.kinetic_energy(inertia);
+        whole - 0.5 * inertia.polar * spin * spin
+    };
+    Race::BOTH.map(of).into_iter().sum()
 }
 
 /// Forces of the cage links of a row, positive in tension \[N\]; empty without a cage.

@@ -4,7 +4,7 @@ use super::powers::Powers;
 use crate::contact::film::FilmNow;
 use crate::contact::{Aside, OilTouch, Sink, Touch};
 use crate::forces;
-use crate::model::{BodyId, Dof, Model, Race};
+use crate::model::{Dof, Model, Race};
 
 /// Films and losses of a row: `[outer, inner]` race.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,11 +111,10 @@ fn film(model: &Model, (row, race): (usize, Race), speed: f64) -> Option<FilmNow
 
 /// What all balls of a row do to a ring.
 fn resistance(model: &Model, y: &[f64], (row, race): (usize, Race)) -> Resistance {
-    let (layout, row) = (model.layout(), &model.rows[row]);
-    let ring = layout.motion(y, race.ring());
+    let row = &model.rows[row];
     let mut sum = Resistance::default();
     for j in row.balls() {
-        let at = layout.motion(y, BodyId::ball(j));
+        let [at, ring] = model.facing(y, j, race);
         row.pairs[race].evaluate(&model.balls[j].side, &at, &ring, &mut sum);
     }
     sum

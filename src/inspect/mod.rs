@@ -1,9 +1,11 @@
-//! Questions about a state: what its contacts carry, what energy it holds, what its oil does, which elements are stiffest.
+//! Questions about a state: what its contacts carry, what energy it holds, what its oil does, what moments its
+//! rings carry, which elements are stiffest.
 
 mod contacts;
 mod energy;
 mod films;
 mod lubrication;
+mod moments;
 mod powers;
 mod stiffest;
 
@@ -13,4 +15,6 @@ pub use energy::{Energy, cage_forces, energy};
 pub(crate) use films::doubts;
 pub use films::{RaceFilm, films};
 pub use lubrication::{Lubrication, lubrication};
+pub(crate) use moments::MOMENTS;
+pub use moments::moments;
 pub(crate) use stiffest::{Element, stiffest};

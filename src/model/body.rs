@@ -90,11 +90,12 @@ pub(super) fn ball_mass(scene: &Scene, row: &Row, diameter: f64) -> (f64, f64) {
     )
 }
 
-/// Mass and moment of inertia of a ring; given values first.
+/// Mass of a ring, its moments of inertia about the axis and across it; given values first.
 ///
 /// From geometry: a hollow cylinder between boundary and land, less the grooves' circular segments. The
-/// land is at the shoulder angle, or 0.3 D beyond the pitch radius; in the mean of unlike rows.
-pub(super) fn ring_mass(scene: &Scene, ring: &Ring, race: Race) -> (f64, f64) {
+/// land is at the shoulder angle, or 0.3 D beyond the pitch radius; in the mean of unlike rows. Without geometry the ring is as
+/// short across as it is thin.
+pub(super) fn ring_mass(scene: &Scene, ring: &Ring, race: Race) -> (f64, f64, f64) {
     let sigma = race.sigma();
     let geometry = || {
         let (boundary, width) = (ring.diameter? / 2.0, ring.width?);
@@ -107,6 +108,8 @@ pub(super) fn ring_mass(scene: &Scene, ring: &Ring, race: Race) -> (f64, f64) {
         let cylinder = density * PI * width * (outside.powi(2) - inside.powi(2));
         let mut mass = cylinder;
         let mut inertia = cylinder * (outside.powi(2) + inside.powi(2)) / 2.0;
+        // Of places along the axis: what it has beside half of the inertia.
+        let mut along = cylinder * width * width / 12.0;
         for row in &scene.rows {
             let r = groove_radius(row, race);
             let bottom = f64::midpoint(row.pitch_diameter, sigma * row.ball_diameter);
@@ -117,16 +120,25 @@ pub(super) fn ring_mass(scene: &Scene, ring: &Ring, race: Race) -> (f64, f64) {
             let groove = density * area * 2.0 * PI * centre;
             mass -= groove;
             inertia -= groove * centre * centre;
+            along -= groove * row.axial_position * row.axial_position;
         }
-        Some((mass, inertia))
+        Some((mass, inertia, along))
     };
     let computed = geometry();
-    let mass = ring.mass.or(computed.map(|(mass, _)| mass)).unwrap_or(1.0);
+    let mass = ring.mass.or(computed.map(|(mass, ..)| mass)).unwrap_or(1.0);
     let inertia = ring.inertia.unwrap_or_else(|| match computed {
-        Some((computed_mass, inertia)) => inertia * mass / computed_mass,
+        Some((computed_mass, inertia, _)) => inertia * mass / computed_mass,
         None => mass * mean(scene, |row| row.pitch_diameter / 2.0).powi(2),
     });
-    (mass, inertia)
+    let transverse = ring.transverse_inertia.unwrap_or_else(|| {
+        let width = ring.width.unwrap_or_default();
+        inertia / 2.0
+            + match computed {
+                Some((computed_mass, _, along)) => along * mass / computed_mass,
+                None => mass * width * width / 12.0,
+            }
+    });
+    (mass, inertia, transverse)
 }
 
 /// Mean of all rows.

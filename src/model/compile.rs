@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use super::body::{Body, Degree, ball_mass, conformity, groove_radius, ring_mass};
 use super::race::{RaceGeometry, geometry};
 use super::{
-    Ball, BodyId, DOFS, Dof, LoadModel, Model, Race, RowModel, Scales, Spring, UnbalanceModel,
-    demand, nodes,
+    Ball, BodyId, DOFS, Dof, LoadModel, Model, MomentModel, Race, RingModel, RowModel, Scales,
+    Spring, UnbalanceModel, demand, nodes,
 };
 use crate::contact::hertz::Hertz;
 use crate::contact::{
@@ -15,6 +15,7 @@ use crate::contact::{
 use crate::error::{Error, Result};
 use crate::scene::{self, Approximations, Defect, Drive, Mount, Row, Scene, Surface};
 use crate::simd::InstructionSet;
+use crate::tilt::Inertia;
 use crate::told::number;
 
 /// Checks and compiles a scene whose defects all have numbers for their places; [`crate::compile()`] gives them those.
@@ -22,10 +23,9 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     scene.validate()?;
     demand::check(scene)?;
     let scene = &Approximations::simplified(scene);
-    let mut bodies = vec![
-        ring(scene, &scene.outer_ring, Race::Outer)?,
-        ring(scene, &scene.inner_ring, Race::Inner)?,
-    ];
+    let (outer, on_outer) = ring(scene, &scene.outer_ring, Race::Outer)?;
+    let (inner, on_inner) = ring(scene, &scene.inner_ring, Race::Inner)?;
+    let (mut bodies, rings) = (vec![outer, inner], [on_outer, on_inner]);
     if matches!(scene.drive, Drive::Speed(_)) {
         bodies[BodyId::INNER].degrees[Dof::Theta] = Degree::Driven;
     }
@@ -69,12 +69,16 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
         }
     }
     classify(&mut rows);
-    let unbalances = unbalances(scene, &bodies)?;
+    let unbalances = unbalances(scene, &bodies, &rings)?;
     let mut model = Model {
         scene: scene.clone(),
+        layout: Model::layout_of(balls.len(), &rings),
         rows,
         balls,
-        loads: loads(scene),
+        loads: loads(scene, &rings),
+        moments: moments(scene),
+        leans: scene.leans(),
+        rings,
         unbalances,
         springs: springs(&bodies),
         mobility: bodies.iter().map(Body::mobility).collect(),
@@ -131,14 +135,18 @@ pub(super) fn classify(rows: &mut [RowModel]) {
     }
 }
 
-fn ring(scene: &Scene, ring: &scene::Ring, race: Race) -> Result<Body> {
+fn ring(scene: &Scene, ring: &scene::Ring, race: Race) -> Result<(Body, RingModel)> {
     let label = race.name();
     let absent = match race {
         Race::Outer => Mount::Fixed,
         Race::Inner => Mount::Free,
     };
-    let (mass, inertia) = ring_mass(scene, ring, race);
-    for (field, value) in [("mass", mass), ("inertia", inertia)] {
+    let (mass, inertia, transverse) = ring_mass(scene, ring, race);
+    for (field, value) in [
+        ("mass", mass),
+        ("inertia", inertia),
+        ("transverse inertia", transverse),
+    ] {
         if value <= 0.0 {
             return Err(Error::scene(
                 format!("{label}_ring.width"),
@@ -150,12 +158,17 @@ fn ring(scene: &Scene, ring: &scene::Ring, race: Race) -> Result<Body> {
             ));
         }
     }
-    Ok(Body {
+    let of = Inertia {
+        polar: inertia,
+        transverse,
+    };
+    let body = Body {
         name: label.to_owned(),
         nominal: [0.0; DOFS],
         mass: [mass, mass, mass, inertia],
         degrees: ring.support.mounts(absent).map(Degree::from),
-    })
+    };
+    Ok((body, RingModel::new(ring, of)))
 }
 
 /// Hertz's contact of a ball and one race.
@@ -308,7 +321,11 @@ fn springs(bodies: &[Body]) -> Vec<Spring> {
 }
 
 /// Unbalances, which on a ring that turns freely must leave it an inertia about its centre of mass.
-fn unbalances(scene: &Scene, bodies: &[Body]) -> Result<Vec<UnbalanceModel>> {
+fn unbalances(
+    scene: &Scene,
+    bodies: &[Body],
+    rings: &[RingModel; 2],
+) -> Result<Vec<UnbalanceModel>> {
     let mut sums = [0.0; 2];
     let mut found = Vec::new();
     for (name, unbalance) in &scene.unbalances {
@@ -331,22 +348,41 @@ fn unbalances(scene: &Scene, bodies: &[Body]) -> Result<Vec<UnbalanceModel>> {
             ring,
             moment: unbalance.moment,
             angle: unbalance.angle,
+            place: unbalance.axial_position.unwrap_or_default() - rings[ring].centre_of_mass,
         });
     }
     Ok(found)
 }
 
-fn loads(scene: &Scene) -> Vec<LoadModel> {
+fn loads(scene: &Scene, rings: &[RingModel; 2]) -> Vec<LoadModel> {
     scene
         .loads
         .values()
         .map(|load| {
-            let size = load.direction.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let ring = &rings[Race::from(load.ring)];
+            let at = load.at.unwrap_or_default();
+            let is_off = at != [0.0; 3] || ring.centre_of_mass != 0.0;
             LoadModel {
                 ring: load.ring.into(),
-                direction: load.direction.map(|x| x / size),
+                direction: unit(load.direction),
                 force: load.force.clone(),
+                arm: is_off.then(|| ring.arm(at)),
             }
         })
         .collect()
+}
+
+fn moments(scene: &Scene) -> Vec<MomentModel> {
+    let moments = scene.moments.values();
+    let of = |moment: &scene::Moment| MomentModel {
+        ring: moment.ring.into(),
+        direction: unit(moment.direction),
+        moment: moment.moment.clone(),
+    };
+    moments.map(of).collect()
+}
+
+fn unit(direction: [f64; 3]) -> [f64; 3] {
+    let size = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
+    direction.map(|x| x / size)
 }

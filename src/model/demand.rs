@@ -28,7 +28,8 @@ pub(super) fn check(scene: &Scene) -> Result<()> {
 }
 
 fn bytes(scene: &Scene) -> f64 {
-    let entries = scene.loads.len() + scene.probes.len() + scene.defects.len();
+    let entries =
+        scene.loads.len() + scene.moments.len() + scene.probes.len() + scene.defects.len();
     let eyes = |defect: &Defect| scene.rows[defect.row].ball_count as f64;
     COPIES * (8.0 * numbers(scene) as f64 + ENTRY * entries as f64)
         + EYE * scene.defects.values().map(eyes).sum::<f64>()
@@ -43,6 +44,8 @@ fn bytes(scene: &Scene) -> f64 {
 /// Numbers in the lists of a scene, whose lengths have no limit.
 fn numbers(scene: &Scene) -> usize {
     let (Drive::Speed(drive) | Drive::Torque { value: drive, .. }) = &scene.drive;
+    let moments = scene.moments.values();
+    let moments = moments.map(|moment| in_time(&moment.moment));
     let loads = scene.loads.values().map(|load| in_time(&load.force));
     let defects = scene.defects.values().map(|defect| match &defect.width {
         Width::Constant(_) => 1,
@@ -58,6 +61,7 @@ fn numbers(scene: &Scene) -> usize {
     });
     in_time(drive)
         + loads
+            .chain(moments)
             .chain(defects)
             .chain(probes)
             .chain(rows)

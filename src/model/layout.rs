@@ -1,7 +1,8 @@
 //! Bodies, races and directions, and the one place that says where they stand in a state vector.
 //!
-//! A state vector holds the places of all bodies, then their speeds in the same order. Nobody else computes with the number
-//! of a body's directions or with the bodies before the balls: a direction more is a change of this file.
+//! A state vector holds the places of all bodies, then their speeds in the same order. Tilts of rings, as far as they move,
+//! stand behind all bodies in each half. Nobody else computes with the number of a body's directions or with the bodies before
+//! the balls: a direction more is a change of this file.
 
 use std::ops::{Index, IndexMut, Range};
 
@@ -164,15 +165,21 @@ pub enum Dof {
     Z,
     /// About the bearing's axis \[rad\].
     Theta,
+    /// Of a ring, its tilt about x \[rad\].
+    TiltX,
+    /// Of a ring, its tilt about y \[rad\].
+    TiltY,
 }
 
 impl Dof {
-    /// All of a body, in their order.
+    /// All that every body has, in their order.
     pub const ALL: [Self; DOFS] = [Self::X, Self::Y, Self::Z, Self::Theta];
     /// Those along axes.
     pub const TRANSLATIONS: [Self; 3] = [Self::X, Self::Y, Self::Z];
     /// Those in the plane of rotation.
     pub const SYMMETRIC: [Self; 2] = [Self::X, Self::Y];
+    /// Those by which rings lean.
+    pub const TILTS: [Self; 2] = [Self::TiltX, Self::TiltY];
 
     /// Its number among those of a body.
     #[inline]
@@ -180,20 +187,22 @@ impl Dof {
         self as usize
     }
 
-    /// `x`, `y`, `z` or `theta`: as in the names of states.
+    /// `x`, `y`, `z`, `theta`, `tilt_x` or `tilt_y`: as in the names of states.
     pub const fn name(self) -> &'static str {
         match self {
             Self::X => "x",
             Self::Y => "y",
             Self::Z => "z",
             Self::Theta => "theta",
+            Self::TiltX => "tilt_x",
+            Self::TiltY => "tilt_y",
         }
     }
 
     /// Whether it is an angle, its speed in rad/s and its force a moment.
     #[inline]
     pub const fn is_rotation(self) -> bool {
-        matches!(self, Self::Theta)
+        matches!(self, Self::Theta | Self::TiltX | Self::TiltY)
     }
 }
 
@@ -201,6 +210,8 @@ impl Dof {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Layout {
     bodies: usize,
+    /// Which tilts of outer and inner ring move: bits in the order of their places.
+    tilts: u8,
 }
 
 impl Layout {
@@ -209,6 +220,23 @@ impl Layout {
     pub const fn of_balls(balls: usize) -> Self {
         Self {
             bodies: RINGS + balls,
+            tilts: 0,
+        }
+    }
+
+    /// The same where some tilts about x and y of the rings move.
+    pub(crate) fn with_tilts(self, moving: [[bool; 2]; RINGS]) -> Self {
+        let bits = moving.as_flattened().iter().enumerate();
+        let tilts = bits.fold(0, |tilts, (bit, moves)| tilts | u8::from(*moves) << bit);
+        Self { tilts, ..self }
+    }
+
+    /// Whether a state vector holds a direction of a body.
+    #[inline]
+    pub const fn has(self, body: BodyId, dof: Dof) -> bool {
+        match tilt_bit(body, dof) {
+            None => true,
+            Some(bit) => body.0 < RINGS && self.tilts >> bit & 1 == 1,
         }
     }
 
@@ -221,13 +249,19 @@ impl Layout {
     /// Number of places, and of speeds.
     #[inline]
     pub const fn half(self) -> usize {
-        DOFS * self.bodies
+        DOFS * self.bodies + self.tilts.count_ones() as usize
     }
 
     /// Where a place stands in a state vector, or a speed among the speeds.
     #[inline]
     pub const fn at(self, body: BodyId, dof: Dof) -> usize {
-        DOFS * body.0 + dof.index()
+        match tilt_bit(body, dof) {
+            None => DOFS * body.0 + dof.index(),
+            Some(bit) => {
+                let before = self.tilts & ((1 << bit) - 1);
+                DOFS * self.bodies + before.count_ones() as usize
+            }
+        }
     }
 
     /// Where a speed stands in a state vector.
@@ -239,7 +273,16 @@ impl Layout {
     /// What stands at a place in either half of a state vector.
     #[inline]
     pub const fn degree(self, at: usize) -> (BodyId, Dof) {
-        (BodyId(at / DOFS), Dof::ALL[at % DOFS])
+        let all = DOFS * self.bodies;
+        if at < all {
+            return (BodyId(at / DOFS), Dof::ALL[at % DOFS]);
+        }
+        let (mut bit, mut left) = (0, at - all);
+        while self.tilts >> bit & 1 == 0 || left > 0 {
+            left -= (self.tilts >> bit & 1) as usize;
+            bit += 1;
+        }
+        (BodyId(bit / 2), Dof::TILTS[bit % 2])
     }
 
     /// All directions of all bodies, in the order of the places in a state vector.
@@ -270,7 +313,7 @@ impl Layout {
         &mut half.as_chunks_mut().0[body.0]
     }
 
-    /// The numbers of all bodies in half a state vector, body by body.
+    /// The numbers of all bodies in half a state vector, body by body; tilts behind them may look like one body more.
     #[inline]
     pub fn each(half: &[f64]) -> &[[f64; DOFS]] {
         half.as_chunks().0
@@ -299,6 +342,15 @@ impl Layout {
     #[inline]
     pub fn centre(self, y: &[f64], body: BodyId) -> [f64; 3] {
         Dof::TRANSLATIONS.map(|dof| y[self.at(body, dof)])
+    }
+}
+
+/// The bit of a ring's tilt, in the order of their places; none for other directions.
+const fn tilt_bit(body: BodyId, dof: Dof) -> Option<usize> {
+    match dof {
+        Dof::TiltX => Some(2 * body.0),
+        Dof::TiltY => Some(2 * body.0 + 1),
+        _ => None,
     }
 }
 
@@ -354,34 +406,4 @@ impl<T> IndexMut<BodyId> for Vec<T> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Truth: the order that `Model::names` tells.
-    #[test]
-    fn every_place_has_one_owner() {
-        let layout = Layout::of_balls(3);
-        assert_eq!((layout.half(), layout.dim()), (20, 40));
-        for (at, (body, dof)) in layout.degrees().enumerate() {
-            assert_eq!(layout.at(body, dof), at);
-            assert_eq!(layout.speed_at(body, dof), 20 + at);
-        }
-        let y: Vec<f64> = (0..layout.dim()).map(|i| i as f64).collect();
-        let motion = layout.motion(&y, BodyId::ball(1));
-        assert_eq!(
-            (motion.centre.x, motion.z, motion.omega),
-            (12.0, 14.0, 35.0)
-        );
-        assert_eq!(layout.centre(&y, BodyId::INNER), [4.0, 5.0, 6.0]);
-    }
-
-    #[test]
-    fn rings_stand_before_balls() {
-        assert_eq!(BodyId::ball(0).index(), 2);
-        assert_eq!(BodyId::ball(5).as_ball(), Some(5));
-        for race in Race::BOTH {
-            assert_eq!(race.ring().kind(), BodyKind::Ring(race));
-            assert_eq!((race.ring().as_ball(), race.other().other()), (None, race));
-        }
-    }
-}
+mod tests;

@@ -1,7 +1,7 @@
 //! The scene compiled: indices, arrays and constants that a run only reads.
 //!
 //! Bodies stand in one order everywhere: outer ring, inner ring, balls row by row. The state vector holds
-//! (x, y, z, θ) of every body, then (vx, vy, vz, ω) of every body; [`Layout`] says where.
+//! (x, y, z, θ) of every body, then (vx, vy, vz, ω) of every body; [`Layout`] says where, also of the tilts of rings that tilt.
 
 mod body;
 mod compile;
@@ -10,10 +10,13 @@ mod layout;
 mod nodes;
 mod oil;
 mod race;
+mod ring;
 mod scales;
 
 use std::mem::discriminant;
 use std::ops::Range;
+
+use nalgebra::Vector3;
 
 use crate::contact::hertz::Hertz;
 use crate::contact::{BallSide, Pair, Slices};
@@ -24,6 +27,7 @@ pub use body::{Body, Degree};
 pub(crate) use compile::{ball_fault, compile_placed, race_fault};
 pub use layout::{BodyId, BodyKind, DOFS, Dof, Layout, Race};
 pub(crate) use layout::{RING_DOFS, RINGS};
+pub(crate) use ring::{CoupledModel, RingModel};
 pub use scales::Scales;
 
 /// A compiled scene. Immutable and shared by threads.
@@ -45,6 +49,12 @@ pub struct Model {
     pub(crate) springs: Vec<Spring>,
     /// One over the mass of every body's free directions, 0 for the others.
     pub(crate) mobility: Vec<[f64; DOFS]>,
+    pub(crate) rings: [RingModel; 2],
+    /// Whether a ring may lean.
+    leans: bool,
+    layout: Layout,
+    /// Moments that act on the rings.
+    pub(crate) moments: Vec<MomentModel>,
     pub(crate) scales: Scales,
     pub(crate) instructions: InstructionSet,
 }
@@ -130,12 +140,22 @@ pub(crate) struct Spring {
     pub nominal: f64,
 }
 
-/// A load compiled: force at a ring's centre.
+/// A load compiled.
 #[derive(Debug, Clone)]
 pub(crate) struct LoadModel {
     pub ring: Race,
     pub direction: [f64; 3],
     pub force: TimeFunction,
+    /// Where it acts, from the ring's centre of mass in its frame \[m\]; none at the ring's origin where that is all there is.
+    pub arm: Option<Vector3<f64>>,
+}
+
+/// A moment compiled.
+#[derive(Debug, Clone)]
+pub(crate) struct MomentModel {
+    pub ring: Race,
+    pub direction: [f64; 3],
+    pub moment: TimeFunction,
 }
 
 /// An unbalance compiled.
@@ -144,6 +164,8 @@ pub(crate) struct UnbalanceModel {
     pub ring: Race,
     pub moment: f64,
     pub angle: f64,
+    /// Axial place, from the ring's centre of mass \[m\].
+    pub place: f64,
 }
 
 impl Model {
@@ -166,7 +188,7 @@ impl Model {
     /// Where the places and speeds of all bodies stand in a state vector.
     #[inline]
     pub fn layout(&self) -> Layout {
-        Layout::of_balls(self.balls.len())
+        self.layout
     }
 
     /// Names of the bodies in their order: `outer`, `inner`, `row0.ball0`, …
@@ -187,7 +209,19 @@ impl Model {
                 .collect::<Vec<_>>()
         };
         let (positions, velocities) = Component::ALL.split_at(DOFS);
-        [of(positions), of(&velocities[..DOFS])].concat()
+        let tilts = |[of_x, of_y]: [Component; 2]| {
+            let tilts = self.layout.degrees().skip(DOFS * self.bodies.len());
+            let name = move |(body, dof): (BodyId, Dof)| {
+                let component = if dof == Dof::TiltX { of_x } else { of_y };
+                format!("{}.{}", self.bodies[body].name, component.label().0)
+            };
+            tilts.map(name).collect()
+        };
+        let [places, speeds] = [
+            tilts([Component::TiltX, Component::TiltY]),
+            tilts([Component::TiltVx, Component::TiltVy]),
+        ];
+        [of(positions), places, of(&velocities[..DOFS]), speeds].concat()
     }
 
     /// Slices or nodes of a contact with the outer and with the inner race, of the row that has most.

@@ -141,10 +141,9 @@ fn rolling(
     let ball = Motion {
         centre: V2::new(distance, 0.0),
         z: race.centre + l * sin,
-        theta: 0.0,
         velocity: V2::new(0.0, orbit * distance),
-        vz: 0.0,
         omega: spin,
+        ..Motion::default()
     };
     let turning = if race.sigma > 0.0 {
         0.0
@@ -152,12 +151,8 @@ fn rolling(
         model.scene.drive.initial_speed()
     };
     let ring = Motion {
-        centre: V2::zeros(),
-        z: 0.0,
-        theta: 0.0,
-        velocity: V2::zeros(),
-        vz: 0.0,
         omega: turning,
+        ..Motion::default()
     };
     (ball, ring)
 }

@@ -1,7 +1,10 @@
 //! The scene's own scales: a typical approach, the highest contact frequency, and what follows from them.
 
-use super::{Degree, Dof, Model, Race};
+use nalgebra::Vector3;
+
+use super::{BodyId, Degree, Dof, Model, Race};
 use crate::contact::{BallSide, Motion, Pair, Sink, Touch, V2, Waves, centrifugal};
+use crate::scene::Row;
 
 /// Scales that tolerances and the step cap follow.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -24,6 +27,10 @@ impl Scales {
             let peak = load.force.peak();
             radial += peak * load.direction[0].hypot(load.direction[1]);
             axial += peak * load.direction[2].abs();
+        }
+        // The heaviest ball of a row under a moment M carries 4.37 M/(Z d_m sin α), as under so much thrust.
+        for (lever, size) in moments(model) {
+            axial += 4.37 * lever * size / (2.0 * model.radius(BodyId::INNER));
         }
         for unbalance in &model.unbalances {
             radial += unbalance.moment * speed * speed;
@@ -75,6 +82,7 @@ impl Scales {
                 }
             }
         }
+        scales.frequency = scales.frequency.max(tilts(model, &scales));
         for body in &model.bodies {
             for (degree, mass) in body.degrees.iter().zip(body.mass) {
                 if let Degree::Free { stiffness, .. } = degree {
@@ -84,6 +92,48 @@ impl Scales {
         }
         scales
     }
+}
+
+/// Levers \[m\] of forces off the axis, and of moments across it (1), each with the largest size that it takes.
+fn moments(model: &Model) -> impl Iterator<Item = (f64, f64)> {
+    let forces = model.loads.iter().filter_map(|load| {
+        let arm = load.arm?;
+        let lever = arm.cross(&Vector3::from(load.direction)).xy().norm();
+        Some((lever, load.force.peak()))
+    });
+    let moments = model.moments.iter().map(|moment| {
+        let [x, y, _] = moment.direction;
+        (x.hypot(y), moment.moment.peak())
+    });
+    forces.chain(moments)
+}
+
+/// Highest frequency of a ring's tilts \[rad/s\], on its contacts under the typical load and on its springs; 0 where none moves.
+fn tilts(model: &Model, scales: &Scales) -> f64 {
+    let contact = 1.5 * scales.load / scales.approach;
+    let mut highest: f64 = 0.0;
+    for ring in &model.rings {
+        if !ring.degrees.iter().any(Degree::is_free) {
+            continue;
+        }
+        let of_row = |row: &Row| {
+            let (sin, cos) = row.contact_angle.max(20_f64.to_radians()).sin_cos();
+            let along = (row.axial_position - ring.centre_of_mass).abs();
+            let lever = row.pitch_diameter / 2.0 * sin + along * cos;
+            row.ball_count as f64 / 2.0 * contact * lever * lever
+        };
+        let contacts: f64 = model.scene.rows.iter().map(of_row).sum();
+        let own = ring
+            .degrees
+            .iter()
+            .map(Degree::stiffness)
+            .fold(0.0, f64::max);
+        let coupled = ring.coupled.as_ref().map_or(0.0, |coupled| {
+            coupled.stiffness.fixed_view::<3, 3>(3, 3).amax()
+        });
+        highest = highest.max((contacts + own + coupled) / ring.inertia.transverse);
+    }
+    highest.sqrt()
 }
 
 /// Adds up the elastic force.
@@ -123,10 +173,7 @@ impl Bottom {
         let at = |x: f64, z: f64| Motion {
             centre: V2::new(x, 0.0),
             z,
-            theta: 0.0,
-            velocity: V2::zeros(),
-            vz: 0.0,
-            omega: 0.0,
+            ..Motion::default()
         };
         let mut sum = Elastic(0.0);
         let (ball, ring) = (at(distance, z), at(0.0, 0.0));

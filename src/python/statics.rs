@@ -97,6 +97,8 @@ fn arrays<'py>(py: Python<'py>, found: &Equilibrium) -> PyResult<Bound<'py, PyDi
     name(&all, found)?;
     set(&all, "outer", found.outer.to_vec(), &[3])?;
     set(&all, "inner", found.inner.to_vec(), &[3])?;
+    set(&all, "outer_moment", found.outer_moment.to_vec(), &[2])?;
+    set(&all, "inner_moment", found.inner_moment.to_vec(), &[2])?;
     for (name, of) in TURNING.into_iter().chain(STANDING) {
         let values = found.balls.iter().map(of).collect();
         set(&all, name, values, &[found.balls.len()])?;

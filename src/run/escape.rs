@@ -2,7 +2,7 @@
 
 use super::orbit;
 use crate::contact::{Section, Torus};
-use crate::model::{BodyId, Model, Race};
+use crate::model::{Model, Race};
 use crate::told::length;
 
 /// Which race a ball has left in a state of all bodies, which way and how far, and what may be to blame; `finer` says how the
@@ -10,10 +10,9 @@ use crate::told::length;
 pub(crate) fn reason(model: &Model, y: &[f64], j: usize, finer: &str) -> String {
     let ball = &model.balls[j];
     let radius = ball.side.radius;
-    let at = model.layout().motion(y, BodyId::ball(j));
     let races = model.rows[ball.row].pairs.each_ref().map(|pair| pair.race);
     let ways = Race::BOTH.map(|race| {
-        let ring = model.layout().motion(y, race.ring());
+        let [at, ring] = model.facing(y, j, race);
         let seen = at.seen_from(&ring);
         races[race].section(radius, seen.centre.norm(), seen.z, 0.0)
     });

@@ -266,6 +266,7 @@ pub(crate) fn threads(model: &Model, asked: usize) -> Result<usize> {
 pub(crate) fn options(model: &Model) -> Result<Options> {
     let scene = &model.scene;
     let solver = &scene.solver;
+    method::check(model)?;
     let cap = if solver.frequency_cap {
         step_limit::largest(solver.method, model)
     } else {
@@ -280,7 +281,9 @@ pub(crate) fn options(model: &Model) -> Result<Options> {
     let mut breakpoints: Vec<f64> = model
         .loads
         .iter()
-        .flat_map(|load| load.force.breakpoints_apart(apart))
+        .map(|load| &load.force)
+        .chain(model.moments.iter().map(|moment| &moment.moment))
+        .flat_map(|size| size.breakpoints_apart(apart))
         .collect();
     breakpoints.extend(match &scene.drive {
         Drive::Speed(value) | Drive::Torque { value, .. } => value.breakpoints_apart(apart),

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 
 use super::step_limit;
 use crate::dynamics::Dynamics;
+use crate::error::{self, Error};
 use crate::implicit::{Damped, ImplicitDynamics};
 use crate::integrate::{
     self, Adams, BOGACKI_SHAMPINE, DORMAND_PRINCE, DenseStep, Failure, KENNEDY_CARPENTER, Observer,
@@ -38,6 +39,24 @@ impl fmt::Display for Choice {
         let auto = if self.auto { "auto: " } else { "" };
         write!(f, "{auto}{}", self.names.join(", "))
     }
+}
+
+/// Refuses methods that do not know all directions of rings that may tilt.
+pub(crate) fn check(model: &Model) -> error::Result<()> {
+    let name = match model.scene().solver.method {
+        Method::Adams => "adams",
+        Method::ImplicitFriction => "implicit-friction",
+        Method::Auto => "auto",
+        _ => return Ok(()),
+    };
+    if !model.leans() {
+        return Ok(());
+    }
+    Err(Error::scene(
+        "solver.method",
+        name,
+        "an explicit one where a ring may tilt, such as dormand-prince: the matrix of friction knows parallel rings only",
+    ))
 }
 
 /// From where to where, and how well.

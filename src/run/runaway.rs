@@ -10,6 +10,9 @@ use crate::told::{length, number};
 /// Speed of a body or of a turning surface beyond which nothing holds together \[m/s\]: that of sound in steel.
 const FASTEST: f64 = 5000.0;
 
+/// Tilt of a ring beyond which nothing here is a bearing \[rad\].
+const FURTHEST: f64 = 0.5;
+
 /// The bounds of a run's states.
 pub(crate) struct Bounds {
     /// Place of each state, 0 for speeds and angles.
@@ -36,6 +39,7 @@ impl Bounds {
         let fastest = FASTEST.max(driven * pitch);
         let place = |&(body, dof): &(BodyId, Dof)| match (body.kind(), dof) {
             (_, Dof::Theta) => (0.0, f64::MAX),
+            (_, Dof::TiltX | Dof::TiltY) => (0.0, FURTHEST),
             (BodyKind::Ball(_), Dof::X | Dof::Y) => (0.0, 1.5 * pitch),
             _ => (y0[model.layout().at(body, dof)], pitch),
         };
@@ -82,6 +86,9 @@ impl Bounds {
         let i = (0..y.len()).find(|&i| !stays(i))?;
         let (body, dof) = self.degrees[i % half];
         let does = match (i < half, dof.is_rotation()) {
+            (true, true) if dof != Dof::Theta => {
+                format!("leans by {} rad ({})", number(y[i]), dof.name())
+            }
             (true, true) => format!("has turned by {} rad", number(y[i])),
             (true, false) => format!(
                 "is {} from its place",

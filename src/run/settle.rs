@@ -158,6 +158,9 @@ fn frozen(scene: &Scene) -> Scene {
     for load in scene.loads.values_mut() {
         load.force = TimeFunction::Constant(load.force.at(0.0));
     }
+    for moment in scene.moments.values_mut() {
+        moment.moment = TimeFunction::Constant(moment.moment.at(0.0));
+    }
     scene.drive = Drive::Speed(TimeFunction::Constant(scene.drive.initial_speed()));
     scene
 }

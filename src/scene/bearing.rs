@@ -230,10 +230,21 @@ pub struct Ring {
     /// How the ring hangs on the inertial frame.
     #[serde(default)]
     pub support: Support,
+    /// Nominal tilt (τ_x, τ_y) \[rad\], at most 0.5: how far the ring leans where its tilts are held or their springs relaxed, as a
+    /// right-handed rotation about x and y; absent: not at all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tilt: Option<[f64; 2]>,
+    /// Moment of inertia about an axis across z through the centre of mass \[kg m²\]; absent: from what `inertia` comes from, of a
+    /// hollow cylinder as long as `width`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub transverse_inertia: Option<f64>,
+    /// Axial place of the centre of mass in the ring's frame \[m\], of which x, y and z of the ring tell the displacement; absent: 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub centre_of_mass: Option<f64>,
 }
 
 /// How a body hangs on the inertial frame, a direction each. An absent direction is fixed for the
-/// outer ring, free for the inner ring and the balls.
+/// outer ring, free for the inner ring and the balls; an absent tilt is fixed.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
@@ -250,6 +261,15 @@ pub struct Support {
     /// About z.
     #[serde(default)]
     pub theta: Option<Mount>,
+    /// Of a ring, its tilt about x.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tilt_x: Option<Mount>,
+    /// Of a ring, its tilt about y.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tilt_y: Option<Mount>,
+    /// Of a ring, springs and dampers between all directions, beside those above.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coupled: Option<CoupledSupport>,
 }
 
 /// One direction of a support.
@@ -263,10 +283,10 @@ pub enum Mount {
     Fixed,
     /// A spring and a damper to the inertial frame, relaxed at the body's nominal place.
     Spring {
-        /// Stiffness \[N/m\], about z \[N m/rad\].
+        /// Stiffness \[N/m\], of rotations \[N m/rad\].
         #[serde(default)]
         stiffness: f64,
-        /// Damping \[N s/m\], about z \[N m s/rad\].
+        /// Damping \[N s/m\], of rotations \[N m s/rad\].
         #[serde(default)]
         damping: f64,
     },
@@ -275,12 +295,48 @@ pub enum Mount {
 impl Support {
     /// From the mounts along x, y and z and about z.
     pub fn new([x, y, z, theta]: [Option<Mount>; 4]) -> Self {
-        Self { x, y, z, theta }
+        Self {
+            x,
+            y,
+            z,
+            theta,
+            ..Self::default()
+        }
     }
 
     /// The four mounts (x, y, z, θ) with absent ones filled in.
     pub fn mounts(&self, absent: Mount) -> [Mount; 4] {
         [self.x, self.y, self.z, self.theta].map(|mount| mount.unwrap_or(absent))
+    }
+}
+
+/// Springs and dampers between all directions of a ring, beside those of its single directions: generalised forces −(K ξ + C ξ̇)
+/// on x, y, z of a point of its axis, on its tilts and on its spin. K and C are symmetric and positive semidefinite.
+///
+/// The order is x, y, z, `tilt_x`, `tilt_y`, θ; entries are \[N/m\], \[N/rad\] or \[N m/m\], and \[N m/rad\], and the same times seconds.
+/// Directions that are fixed stay where they are.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct CoupledSupport {
+    /// K; the row and the column of a driven rotation are 0.
+    pub stiffness: [[f64; 6]; 6],
+    /// C; likewise.
+    #[serde(default)]
+    pub damping: [[f64; 6]; 6],
+    /// Axial place of the point in the ring's frame \[m\].
+    #[serde(default)]
+    pub axial_position: f64,
+}
+
+impl CoupledSupport {
+    /// Springs without dampers, at the ring's origin.
+    pub fn new(stiffness: [[f64; 6]; 6]) -> Self {
+        Self {
+            stiffness,
+            damping: [[0.0; 6]; 6],
+            axial_position: 0.0,
+        }
     }
 }
 
@@ -293,4 +349,14 @@ pub enum RingName {
     Outer,
     /// The inner ring, body 1.
     Inner,
+}
+
+impl RingName {
+    /// `outer` or `inner`.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Outer => "outer",
+            Self::Inner => "inner",
+        }
+    }
 }

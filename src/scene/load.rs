@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::bearing::RingName;
 use super::time::TimeFunction;
 
-/// A force on a ring's centre, in a fixed direction of the inertial frame.
+/// A force on a ring's centre or on another point of it, in a fixed direction of the inertial frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
@@ -16,6 +16,9 @@ pub struct Load {
     pub direction: [f64; 3],
     /// Force along the direction \[N\].
     pub force: TimeFunction,
+    /// The point in the ring's frame, which leans but does not turn with the ring \[m\]; absent: the ring's origin.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<[f64; 3]>,
 }
 
 impl Load {
@@ -25,6 +28,41 @@ impl Load {
             ring,
             direction,
             force: force.into(),
+            at: None,
+        }
+    }
+
+    /// The same at a point of the ring's frame \[m\].
+    #[must_use]
+    pub fn at(self, point: [f64; 3]) -> Self {
+        Self {
+            at: Some(point),
+            ..self
+        }
+    }
+}
+
+/// A moment on a ring, about a direction that is fixed in the inertial frame. The part about the ring's axis turns the ring,
+/// the part across it tilts the ring or is carried by what holds it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct Moment {
+    /// The loaded ring.
+    pub ring: RingName,
+    /// What it turns about; its length does not matter.
+    pub direction: [f64; 3],
+    /// Moment about the direction \[N m\].
+    pub moment: TimeFunction,
+}
+
+impl Moment {
+    /// A moment \[N m\] on a ring about a direction.
+    pub fn new(ring: RingName, direction: [f64; 3], moment: impl Into<TimeFunction>) -> Self {
+        Self {
+            ring,
+            direction,
+            moment: moment.into(),
         }
     }
 }
@@ -44,6 +82,9 @@ pub struct Unbalance {
     /// Angular place on the ring, counter-clockwise from its own x axis \[rad\].
     #[serde(default)]
     pub angle: f64,
+    /// Axial place in the ring's frame \[m\], of which two make a couple; absent: 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axial_position: Option<f64>,
 }
 
 impl Unbalance {
@@ -53,6 +94,7 @@ impl Unbalance {
             ring,
             moment,
             angle,
+            axial_position: None,
         }
     }
 }

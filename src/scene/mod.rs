@@ -30,6 +30,7 @@ pub mod presets;
 mod probe;
 mod recorded;
 mod solver;
+mod tilt;
 mod time;
 mod validate;
 
@@ -43,13 +44,15 @@ use crate::memory;
 
 pub(crate) use antiderivative::Antiderivative;
 pub use approximations::Approximations;
-pub use bearing::{GothicArch, Mount, RaceProfile, Ring, RingName, Row, Support, Waviness};
+pub use bearing::{
+    CoupledSupport, GothicArch, Mount, RaceProfile, Ring, RingName, Row, Support, Waviness,
+};
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
 pub use defect::{AxialOffset, Defect, Floor, Surface, Width, WidthProfile};
 pub(crate) use doubt::FilmJudged;
 pub use doubt::{Doubt, STATIC_PRESSURE};
 pub use fault_lines::kinematic_orders;
-pub use load::{Drive, Load, Unbalance};
+pub use load::{Drive, Load, Moment, Unbalance};
 pub use lubricant::{Lubricant, OilLayer};
 pub use material::{Material, Materials};
 pub(crate) use oils::CENTISTOKE;
@@ -103,6 +106,9 @@ pub struct Scene {
     /// Loads by name.
     #[serde(default)]
     pub loads: BTreeMap<String, Load>,
+    /// Moments by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub moments: BTreeMap<String, Moment>,
     /// Unbalances by name.
     #[serde(default)]
     pub unbalances: BTreeMap<String, Unbalance>,
@@ -160,6 +166,7 @@ impl Scene {
             drive,
             gravity: defaults::gravity(),
             loads: BTreeMap::new(),
+            moments: BTreeMap::new(),
             unbalances: BTreeMap::new(),
             defects: BTreeMap::new(),
             probes: BTreeMap::new(),
@@ -286,7 +293,7 @@ impl Scene {
     /// Never: every scene has a JSON form.
     pub fn with(&self, changes: &[(&str, serde_json::Value)]) -> Result<Self> {
         let mut document = serde_json::to_value(self).expect("a scene is a JSON document");
-        path::show_absent(&mut document, "lubricant");
+        path::show_absent(&mut document);
         for (path, value) in changes {
             path::set(&mut document, path, value.clone())?;
         }

@@ -1,14 +1,14 @@
 //! Dotted paths into the document: `loads.axial.force`, `rows[0].clearance`.
 
-use serde_json::Value;
+use serde_json::{Map, Value, json};
 
 use crate::error::{Error, Result};
 
 /// Parts of a scene whose entries have names that people choose.
-const NAMED: [&str; 4] = ["loads", "unbalances", "defects", "probes"];
+const NAMED: [&str; 5] = ["loads", "moments", "unbalances", "defects", "probes"];
 
 /// Replaces the value at `path`. The place must exist (`null` counts as existing), or be a new name among loads,
-/// unbalances, defects or probes.
+/// moments, unbalances, defects or probes.
 pub(super) fn set(document: &mut Value, path: &str, value: Value) -> Result<()> {
     let steps = steps(path)?;
     if let ([Step::Key(part), Step::Key(name)], Some(root)) =
@@ -47,18 +47,49 @@ pub(super) fn set(document: &mut Value, path: &str, value: Value) -> Result<()> 
     Ok(())
 }
 
-/// Names a field of a scene and of its rows that is not written where it is absent, so that [`set`] finds its place.
-pub(super) fn show_absent(scene: &mut Value, field: &str) {
-    let mut parts = vec![&mut *scene];
-    while let Some(part) = parts.pop() {
-        let Some(map) = part.as_object_mut() else {
-            continue;
-        };
-        map.entry(field).or_insert(Value::Null);
-        if let Some(rows) = map.get_mut("rows").and_then(Value::as_array_mut) {
-            parts.extend(rows);
+/// Names what a scene does not write where it is absent, so that [`set`] finds its place.
+pub(super) fn show_absent(scene: &mut Value) {
+    let mut show = |parts: &[&str], fields: &[&str]| {
+        for part in all_of(scene, parts) {
+            for field in fields {
+                part.entry(*field).or_insert(Value::Null);
+            }
         }
+    };
+    show(&[], &["lubricant"]);
+    show(&["rows", ALL], &["lubricant"]);
+    for ring in ["outer_ring", "inner_ring"] {
+        show(&[ring], &["tilt", "transverse_inertia", "centre_of_mass"]);
+        show(&[ring, "support"], &["tilt_x", "tilt_y", "coupled"]);
     }
+    show(&["loads", ALL], &["at"]);
+    show(&["unbalances", ALL], &["axial_position"]);
+    if let Some(scene) = scene.as_object_mut() {
+        scene.entry("moments").or_insert_with(|| json!({}));
+    }
+}
+
+/// Stands for all entries of a list or of named parts.
+const ALL: &str = "*";
+
+/// The parts of a document under some keys.
+fn all_of<'v>(document: &'v mut Value, keys: &[&str]) -> Vec<&'v mut Map<String, Value>> {
+    let mut parts = vec![document];
+    for key in keys {
+        parts = parts
+            .into_iter()
+            .flat_map(|part| -> Vec<&mut Value> {
+                match (part, *key) {
+                    (Value::Object(map), ALL) => map.values_mut().collect(),
+                    (Value::Array(items), ALL) => items.iter_mut().collect(),
+                    (Value::Object(map), key) => map.get_mut(key).into_iter().collect(),
+                    _ => Vec::new(),
+                }
+            })
+            .collect();
+    }
+    let maps = parts.into_iter().filter_map(Value::as_object_mut);
+    maps.collect()
 }
 
 /// The value at `path`, if there is one.

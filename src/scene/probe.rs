@@ -1,7 +1,7 @@
 //! What a run records. A probe's columns are named after it: probe `outer` of a motion gives `outer.ay`.
 //!
 //! Motion, cage forces and friction torques are signals, filtered before they are sampled unless a run's bandwidth is
-//! [`Raw`](crate::Bandwidth::Raw). Contacts, energies, films, forces by origin and slices tell a state: always points.
+//! [`Raw`](crate::Bandwidth::Raw). Contacts, energies, films, moments, forces by origin and slices tell a state: always points.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +16,7 @@ pub enum Probe {
     Motion {
         /// `outer`, `inner` or a ball such as `row0.ball3`.
         body: String,
-        /// Which of them; absent: all twelve.
+        /// Which of them; absent: all twelve, and of a ring that may lean those of its tilts.
         #[serde(default)]
         components: Option<Vec<Component>>,
     },
@@ -46,6 +46,9 @@ pub enum Probe {
     /// Friction torque about z that the balls put on each ring, filtered: `<probe>.outer`, `<probe>.inner` \[N m\].
     /// Takes an evaluation of the model at every point that the filter reads.
     Torque {},
+    /// Moments about x and y that the balls put on the rings, each about its own centre, as points: `<probe>.outer.x`,
+    /// `<probe>.outer.y`, `<probe>.inner.x`, `<probe>.inner.y` \[N m\]. What keeps a ring from tilting carries them.
+    Moments {},
     /// The forces on a body by origin, as points: `<probe>.contact.x`, `<probe>.friction.y`, … \[N\], about z \[N m\].
     Forces {
         /// `outer`, `inner` or a ball such as `row0.ball3`.
@@ -104,10 +107,22 @@ pub enum Component {
     Az,
     /// Angular acceleration \[rad/s²\].
     Alpha,
+    /// Tilt of a ring about x \[rad\].
+    TiltX,
+    /// Tilt of a ring about y \[rad\].
+    TiltY,
+    /// Rate of the tilt about x \[rad/s\].
+    TiltVx,
+    /// Rate of the tilt about y \[rad/s\].
+    TiltVy,
+    /// Acceleration of the tilt about x \[rad/s²\].
+    TiltAx,
+    /// Acceleration of the tilt about y \[rad/s²\].
+    TiltAy,
 }
 
 impl Component {
-    /// All twelve, positions first.
+    /// Of every body: all twelve, positions first.
     pub const ALL: [Self; 12] = [
         Self::X,
         Self::Y,
@@ -123,14 +138,42 @@ impl Component {
         Self::Alpha,
     ];
 
-    /// The direction it is of: 0 to 2 along x, y, z, 3 about z.
+    /// Of a ring that may lean: those of every body, then those of the tilts.
+    pub const OF_LEANING: [Self; 18] = [
+        Self::X,
+        Self::Y,
+        Self::Z,
+        Self::Theta,
+        Self::Vx,
+        Self::Vy,
+        Self::Vz,
+        Self::Omega,
+        Self::Ax,
+        Self::Ay,
+        Self::Az,
+        Self::Alpha,
+        Self::TiltX,
+        Self::TiltY,
+        Self::TiltVx,
+        Self::TiltVy,
+        Self::TiltAx,
+        Self::TiltAy,
+    ];
+
+    /// The direction it is of: 0 to 2 along x, y, z, 3 about z, 4 and 5 of the tilts about x and y.
     pub fn direction(self) -> usize {
-        self as usize % 4
+        match (self as usize).checked_sub(Self::ALL.len()) {
+            None => self as usize % 4,
+            Some(of_tilts) => 4 + of_tilts % 2,
+        }
     }
 
     /// 0 for a place, 1 for a speed, 2 for an acceleration.
     pub fn derivative(self) -> usize {
-        self as usize / 4
+        match (self as usize).checked_sub(Self::ALL.len()) {
+            None => self as usize / 4,
+            Some(of_tilts) => of_tilts / 2,
+        }
     }
 
     /// Name as in columns and states, and unit.
@@ -148,6 +191,12 @@ impl Component {
             ("ay", "m/s^2"),
             ("az", "m/s^2"),
             ("alpha", "rad/s^2"),
+            ("tilt_x", "rad"),
+            ("tilt_y", "rad"),
+            ("tilt_vx", "rad/s"),
+            ("tilt_vy", "rad/s"),
+            ("tilt_ax", "rad/s^2"),
+            ("tilt_ay", "rad/s^2"),
         ][self as usize]
     }
 }

@@ -4,9 +4,9 @@ use super::SliceRow;
 use super::blocks::rows_in_memory;
 use super::filter::HALF;
 use crate::dynamics::contribution_names;
-use crate::inspect::{Energy, Lubrication};
+use crate::inspect::{Energy, Lubrication, MOMENTS};
 use crate::model::{DOFS, RINGS};
-use crate::scene::{Component, ContactQuantity, Probe, Scene, Slices};
+use crate::scene::{ContactQuantity, Probe, Scene, Slices};
 
 /// A column besides its values: its name twice, and what finds it \[bytes\]. An estimate, generous for names of some tens
 /// of letters.
@@ -42,8 +42,9 @@ impl Demand {
                 balls.unwrap_or(scene.rows[row].ball_count) * races.unwrap_or(RINGS)
             };
             demand.columns += match probe {
-                Probe::Motion { components, .. } => {
-                    components.as_ref().map_or(Component::ALL.len(), Vec::len)
+                Probe::Motion { body, components } => {
+                    let all = scene.components_of(body).len();
+                    components.as_ref().map_or(all, Vec::len)
                 }
                 Probe::Contacts {
                     row,
@@ -66,6 +67,7 @@ impl Demand {
                 },
                 Probe::Energy {} => Energy::default().entries().len(),
                 Probe::Torque {} => RINGS,
+                Probe::Moments {} => MOMENTS.len(),
                 Probe::Lubrication { .. } => Lubrication::LABELS.len(),
                 Probe::Forces { .. } => DOFS * contribution_names().len(),
                 Probe::Slices {
@@ -112,7 +114,7 @@ mod tests {
     use super::super::probes::Probes;
     use super::*;
     use crate::equilibrium::compile;
-    use crate::scene::{Lubricant, RingName, presets};
+    use crate::scene::{Component, Lubricant, RingName, presets};
 
     /// Truth: the columns that are made.
     #[test]
@@ -144,6 +146,7 @@ mod tests {
             Probe::Cage { row: 0 },
             Probe::Energy {},
             Probe::Torque {},
+            Probe::Moments {},
             Probe::Lubrication { row: 0 },
             Probe::Forces { body: body() },
             Probe::Slices {

@@ -5,7 +5,7 @@ use super::filter::Kind;
 use crate::dynamics::{Dynamics, contribution_names, contributions};
 use crate::equilibrium::compile;
 use crate::error::Result;
-use crate::inspect::{self, Energy, Lubrication};
+use crate::inspect::{self, Energy, Lubrication, MOMENTS};
 use crate::model::{BodyId, Dof, Model, Race};
 use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene};
 
@@ -36,6 +36,7 @@ pub(super) enum Reader {
     },
     Energy,
     Torque,
+    Moments,
     Lubrication {
         row: usize,
     },
@@ -81,7 +82,7 @@ impl Probes {
         let before = self.columns.len();
         let reader = match probe {
             Probe::Motion { body, components } => {
-                self.motion(name, body_of(body), components.as_deref())
+                self.motion(model, name, body_of(body), components.as_deref())
             }
             Probe::Contacts {
                 row,
@@ -114,6 +115,12 @@ impl Probes {
                 self.needs_rhs = true;
                 Reader::Torque
             }
+            Probe::Moments {} => {
+                for label in MOMENTS {
+                    self.column(format!("{name}.{label}"), "N m", None);
+                }
+                Reader::Moments
+            }
             Probe::Lubrication { row } => {
                 for (label, unit) in Lubrication::LABELS {
                     self.column(format!("{name}.{label}"), unit, None);
@@ -139,8 +146,15 @@ impl Probes {
         self.readers.push((reader, self.columns.len() - before));
     }
 
-    fn motion(&mut self, name: &str, body: BodyId, components: Option<&[Component]>) -> Reader {
-        let components = components.unwrap_or(&Component::ALL).to_vec();
+    fn motion(
+        &mut self,
+        model: &Model,
+        name: &str,
+        body: BodyId,
+        components: Option<&[Component]>,
+    ) -> Reader {
+        let all = model.scene.components_of(&model.bodies[body].name);
+        let components = components.unwrap_or(all).to_vec();
         for component in &components {
             let (label, unit) = component.label();
             let derived = component.derivative() == 2;
@@ -213,7 +227,10 @@ impl Reader {
         match self {
             Self::Motion { body, components } => {
                 values.extend(components.iter().map(|component| {
-                    let dof = Dof::ALL[component.direction()];
+                    let dof = DIRECTIONS[component.direction()];
+                    if !layout.has(*body, dof) {
+                        return held(model, *body, *component);
+                    }
                     let at = layout.at(*body, dof);
                     match component.derivative() {
                         0 => y[at],
@@ -244,6 +261,7 @@ impl Reader {
                     .map(|(_, _, value)| value),
             ),
             Self::Torque => values.extend(dynamics.ring_torques()),
+            Self::Moments => values.extend(inspect::moments(model, t, y).as_flattened()),
             Self::Lubrication { row } => {
                 values.extend(inspect::lubrication(model, y, *row).values());
             }
@@ -253,6 +271,19 @@ impl Reader {
                 }
             }
         }
+    }
+}
+
+/// What a motion's components are of, by [`Component::direction`].
+const DIRECTIONS: [Dof; 6] = [Dof::X, Dof::Y, Dof::Z, Dof::Theta, Dof::TiltX, Dof::TiltY];
+
+/// A component of a tilt that does not move.
+fn held(model: &Model, body: BodyId, component: Component) -> f64 {
+    let ring = Race::BOTH.into_iter().find(|race| race.ring() == body);
+    match (ring, component) {
+        (Some(race), Component::TiltX) => model.rings[race].tilt[0],
+        (Some(race), Component::TiltY) => model.rings[race].tilt[1],
+        _ => 0.0,
     }
 }
 

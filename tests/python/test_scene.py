@@ -114,13 +114,14 @@ def every_field() -> s.Scene:
             "ball": dataclasses.replace(defect, on="ball", ball=3, width=1e-3, length=5e-4),
         },
         probes={
-            "motion": s.MotionProbe(body="row0.ball3", components=typing.get_args(s.Component)),
+            "motion": s.MotionProbe(body="inner", components=typing.get_args(s.Component)),
             "contacts": s.ContactsProbe(
                 row=1, balls=(1, 2), races=races, quantities=typing.get_args(s.ContactQuantity)
             ),
             "cage": s.CageProbe(row=1),
             "energy": s.EnergyProbe(),
             "torque": s.TorqueProbe(),
+            "moments": s.MomentsProbe(),
             "forces": s.ForcesProbe(body="outer"),
             "slices": s.SlicesProbe(row=1, balls=(0,), races=("outer",), times=(0.0, 1e-3)),
         },
@@ -166,7 +167,33 @@ def scenes() -> list[s.Scene]:
         full.replace({"drive": s.SpeedDrive(100.0), "contact.slices": s.AccurateSlices(1e-5)}),
         shaped(full),
         lubricated(full),
+        leaning(full),
     ]
+
+
+def leaning(full: s.Scene) -> s.Scene:
+    """A scene whose rings lean, under loads off their centres."""
+    diagonal = [[float(i == j) for j in range(6)] for i in range(6)]
+    held = s.Support(
+        tilt_x=s.Spring(stiffness=1e4, damping=1.0),
+        tilt_y="free",
+        coupled=s.CoupledSupport(
+            stiffness=tuple(tuple(row) for row in diagonal), axial_position=1e-3
+        ),
+    )
+    load = s.Load(ring="inner", direction=(0.0, 1.0, 0.0), force=1e3, at=(0.0, -0.3, 0.02))
+    return dataclasses.replace(
+        full,
+        outer_ring=dataclasses.replace(full.outer_ring, support=held),
+        inner_ring=dataclasses.replace(
+            full.inner_ring, tilt=(1e-3, -1e-3), transverse_inertia=1e-3, centre_of_mass=2e-3
+        ),
+        drive=s.SpeedDrive(100.0),
+        loads={"wheel": load},
+        moments={"bend": s.Moment(ring="outer", direction=(1.0, 0.0, 0.0), moment=2.0)},
+        unbalances={"rotor": s.Unbalance(ring="inner", moment=1e-4, axial_position=0.1)},
+        solver=s.Solver(method="dormand-prince"),
+    )
 
 
 def shaped(full: s.Scene) -> s.Scene:

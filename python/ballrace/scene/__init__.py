@@ -18,7 +18,7 @@ from .contact import AccurateSlices, Contact, FittedSlices, FixedSlices, Iso1628
 from .defect import AxialOffset, Defect, Floor, Surface, Width, WidthProfile
 from .drive import Drive, SpeedDrive, TorqueDrive
 from .friction import Coulomb, Friction, Stribeck, Traction
-from .load import Load, Unbalance
+from .load import Load, Moment, Unbalance
 from .lubricant import BaseOil, Lubricant, NamedOil, OilLayer, OilProperties
 from .material import Material, Materials
 from .probe import (
@@ -29,6 +29,7 @@ from .probe import (
     EnergyProbe,
     ForcesProbe,
     LubricationProbe,
+    MomentsProbe,
     MotionProbe,
     Probe,
     SlicesProbe,
@@ -36,7 +37,7 @@ from .probe import (
 )
 from .scene import Scene
 from .solver import Method, Solver
-from .support import Mount, Spring, Support
+from .support import CoupledSupport, Mount, Spring, Support
 from .time import Ramp, Sine, Table, TimeFunction
 
 __all__ = [
@@ -51,6 +52,7 @@ __all__ = [
     "ContactQuantity",
     "ContactsProbe",
     "Coulomb",
+    "CoupledSupport",
     "Defect",
     "Drive",
     "EnergyProbe",
@@ -67,6 +69,8 @@ __all__ = [
     "Material",
     "Materials",
     "Method",
+    "Moment",
+    "MomentsProbe",
     "MotionProbe",
     "Mount",
     "NamedOil",

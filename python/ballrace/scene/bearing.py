@@ -178,6 +178,17 @@ class Ring(Part):
         Axial width [m].
     support : Support
         How the ring hangs on the inertial frame.
+    tilt : tuple of two floats, or None
+        Nominal tilt about x and y [rad], together at most 0.5: how far the ring leans where its tilts are held
+        or their
+        springs relaxed; None: not at all.
+    transverse_inertia : float or None
+        Moment of inertia about an axis across z through the centre of mass [kg m²]; None: from what
+        ``inertia`` comes
+        from, of a hollow cylinder as long as ``width``.
+    centre_of_mass : float or None
+        Axial place of the centre of mass in the ring's frame [m], of which x, y and z of the ring tell the
+        displacement; None: 0.
     """
 
     mass: float | None = None
@@ -185,3 +196,6 @@ class Ring(Part):
     diameter: float | None = None
     width: float | None = None
     support: Support = Support()
+    tilt: tuple[float, float] | None = field(default=None, metadata=LEFT_OUT)
+    transverse_inertia: float | None = field(default=None, metadata=LEFT_OUT)
+    centre_of_mass: float | None = field(default=None, metadata=LEFT_OUT)

@@ -16,6 +16,7 @@ __all__ = [
     "EnergyProbe",
     "ForcesProbe",
     "LubricationProbe",
+    "MomentsProbe",
     "MotionProbe",
     "Probe",
     "SlicesProbe",
@@ -23,8 +24,28 @@ __all__ = [
 ]
 
 
-Component = Literal["x", "y", "z", "theta", "vx", "vy", "vz", "omega", "ax", "ay", "az", "alpha"]
-"""One component of a motion: position [m], angle [rad], their rates and the rates of those."""
+Component = Literal[
+    "x",
+    "y",
+    "z",
+    "theta",
+    "vx",
+    "vy",
+    "vz",
+    "omega",
+    "ax",
+    "ay",
+    "az",
+    "alpha",
+    "tilt_x",
+    "tilt_y",
+    "tilt_vx",
+    "tilt_vy",
+    "tilt_ax",
+    "tilt_ay",
+]
+"""One component of a motion: position [m], angle [rad], their rates and the rates of those; likewise of a
+ring's tilt [rad]."""
 
 ContactQuantity = Literal["load", "angle", "zone_centre", "zone_width", "slip"]
 """One quantity of a contact: load [N], angle [rad], middle and extent of the zone [m], slip speed [m/s]."""
@@ -39,7 +60,7 @@ class MotionProbe(Variant, tag="motion"):
     body : str
         ``outer``, ``inner`` or a ball such as ``row0.ball3``.
     components : tuple of Component, or None
-        Which of them; None: all twelve.
+        Which of them; None: all twelve, and of a ring that may lean those of its tilts.
     """
 
     body: str
@@ -92,6 +113,16 @@ class TorqueProbe(Variant, tag="torque"):
 
     It is filtered, and takes an evaluation of the model at every point that the filter reads: a run of the wheel
     bearing takes a sixth longer.
+    """
+
+
+@dataclass(frozen=True, kw_only=True)
+class MomentsProbe(Variant, tag="moments"):
+    """Moments about x and y that the balls put on the rings, each about its own centre, as points in time.
+
+    The columns are ``<probe>.outer.x``, ``<probe>.outer.y``, ``<probe>.inner.x`` and ``<probe>.inner.y`` [N
+    m]. What keeps
+    a ring from tilting carries them.
     """
 
 
@@ -159,6 +190,7 @@ Probe = (
     | TorqueProbe
     | ForcesProbe
     | LubricationProbe
+    | MomentsProbe
     | SlicesProbe
 )
 """A named set of signals."""

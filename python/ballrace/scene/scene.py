@@ -20,13 +20,17 @@ from .contact import Contact
 from .defect import Defect
 from .drive import Drive
 from .friction import Friction
-from .load import Load, Unbalance
+from .load import Load, Moment, Unbalance
 from .lubricant import Lubricant
 from .material import Materials
 from .probe import Probe
 from .solver import Solver
 
 __all__ = ["Scene", "checked_scene"]
+
+
+_NAMED = ("loads", "moments", "unbalances", "defects", "probes")
+"""Parts of a scene whose entries have names."""
 
 
 def _empty() -> MappingProxyType[str, Any]:
@@ -63,6 +67,8 @@ class Scene(Part):
         Gravity [m/s²].
     loads : mapping of str to Load
         Loads by name.
+    moments : mapping of str to Moment
+        Moments on rings by name.
     unbalances : mapping of str to Unbalance
         Unbalances by name.
     defects : mapping of str to Defect
@@ -98,6 +104,7 @@ class Scene(Part):
     drive: Drive
     gravity: tuple[float, float, float] = (0.0, -9.81, 0.0)
     loads: Mapping[str, Load] = field(default_factory=_empty)
+    moments: Mapping[str, Moment] = field(default_factory=_empty, metadata=LEFT_OUT)
     unbalances: Mapping[str, Unbalance] = field(default_factory=_empty)
     defects: Mapping[str, Defect] = field(default_factory=_empty)
     probes: Mapping[str, Probe] = field(default_factory=_empty)
@@ -106,7 +113,7 @@ class Scene(Part):
 
     def __repr__(self) -> str:
         balls = " + ".join(str(row.ball_count) for row in self.rows)
-        named = {kind: getattr(self, kind) for kind in ("loads", "unbalances", "defects", "probes")}
+        named = {kind: getattr(self, kind) for kind in _NAMED}
         parts = [f"{balls} balls", *(f"{kind}: {', '.join(v)}" for kind, v in named.items() if v)]
         return f"<Scene {self.name!r}: {'; '.join(parts)}>"
 
@@ -204,7 +211,7 @@ class Scene(Part):
         ----------
         changes : mapping of str to object
             Paths such as ``loads.axial.force`` or ``rows[0].clearance``, and new values: numbers, text,
-            lists, or parts of a scene. ``defects.new`` adds an entry to loads, unbalances, defects or
+            lists, or parts of a scene. ``defects.new`` adds an entry to loads, moments, unbalances, defects or
             probes and takes the whole of it; to remove one, use :func:`dataclasses.replace`.
 
         Raises

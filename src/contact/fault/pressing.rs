@@ -4,7 +4,7 @@ use super::depth::{Depth, Sloped};
 use super::elements::{ElementPair, Lean, RingElement};
 use crate::contact::kernel::{self, State};
 use crate::contact::scalar::{Contact, Node};
-use crate::contact::{Aside, Sink, Touch, turned};
+use crate::contact::{Aside, Sink, Touch, V2, turned};
 
 impl Contact<'_> {
     /// One slice against whatever it meets.
@@ -123,12 +123,18 @@ impl Contact<'_> {
         } else {
             (0.0, 0.0)
         };
+        let share = self.common().unwrap_or((1.0, tan));
+        let mut velocity = [v_p.dot(&n_e), v_p.dot(&turned(n_e)), b.vz - r.vz];
+        if b.across != V2::zeros() {
+            let more = tumbling(b.across, (n_e, arm_ball, node.zeta), (share, slope));
+            velocity = std::array::from_fn(|i| velocity[i] + more[i]);
+        }
         State {
             elastic,
-            share: self.common().unwrap_or((1.0, tan)),
+            share,
             rubbing: node.rubbing,
             slope,
-            velocity: [v_p.dot(&n_e), v_p.dot(&turned(n_e)), b.vz - r.vz],
+            velocity,
             load,
             depth,
             arm,
@@ -137,4 +143,18 @@ impl Contact<'_> {
             oil: self.oil,
         }
     }
+}
+
+/// What turning across the ring's axis adds to the slip at a point of the ball, along n_e, t_e and z: (w_n n_e + w_t t_e) × r. None of it
+/// is an approach: normal forces act through the ball's centre, about which the ball turns.
+fn tumbling(
+    across: V2,
+    (n_e, arm, zeta): (V2, V2, f64),
+    ((in_plane, axial), (sin, cos)): ((f64, f64), (f64, f64)),
+) -> [f64; 3] {
+    let (w_n, w_t) = (across.dot(&n_e), across.dot(&turned(n_e)));
+    let meridional = -w_t * (zeta * sin + arm.dot(&n_e) * cos);
+    // Along (−sin α, cos α) so fast, and along the normal not at all.
+    let size = meridional / (in_plane * cos + axial * sin);
+    [-size * axial, -w_n * zeta, size * in_plane]
 }

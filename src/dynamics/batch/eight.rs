@@ -79,7 +79,7 @@ impl SideConstants {
         state: &State,
     ) -> EightContacts {
         let ClassConstants { first, alike, wavy } = &self.classes[class];
-        let State { q, v } = state;
+        let State { q, v, .. } = state;
         let ([x, y, z, _], v) = (q.directions(), v.directions());
         let q = [x, y, z];
         let mut eight = EightContacts {

@@ -71,10 +71,7 @@ impl Planar {
         Motion {
             centre: V2::new(x, y),
             velocity: V2::new(vx, vy),
-            z: 0.0,
-            theta: 0.0,
-            vz: 0.0,
-            omega: 0.0,
+            ..Motion::default()
         }
     }
 }

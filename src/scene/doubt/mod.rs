@@ -8,6 +8,7 @@ mod geometry;
 mod lubricant;
 mod motion;
 mod probes;
+mod tilt;
 
 use std::fmt;
 
@@ -83,6 +84,7 @@ impl Scene {
         geometry::look(self, &mut found);
         lubricant::look(self, &mut found);
         motion::look(self, &mut found);
+        tilt::look(self, &mut found);
         probes::look(self, &mut found);
         found
     }

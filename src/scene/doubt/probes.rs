@@ -4,7 +4,14 @@ use super::Doubt;
 use crate::scene::{Component, Probe, Scene};
 
 /// Words for the directions of a body.
-const DIRECTIONS: [&str; 4] = ["along x", "along y", "along z", "about z"];
+const DIRECTIONS: [&str; 6] = [
+    "along x",
+    "along y",
+    "along z",
+    "about z",
+    "from tilting about x",
+    "from tilting about y",
+];
 
 pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
     for (name, probe) in &scene.probes {
@@ -26,15 +33,15 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
 fn still(scene: &Scene, name: &str, body: &str, components: Option<&[Component]>) -> Option<Doubt> {
     let mut moves = scene.moves(scene.body_index(body)?);
     if components.is_none() && moves[..3].contains(&true) {
-        moves[3] = true;
+        moves[3..].fill(true);
     }
     let columns: Vec<Component> = components
-        .unwrap_or(&Component::ALL)
+        .unwrap_or(scene.components_of(body))
         .iter()
         .copied()
         .filter(|component| !moves[component.direction()])
         .collect();
-    let held: Vec<&str> = (0..4)
+    let held: Vec<&str> = (0..DIRECTIONS.len())
         .filter(|direction| columns.iter().any(|c| c.direction() == *direction))
         .map(|direction| DIRECTIONS[direction])
         .collect();

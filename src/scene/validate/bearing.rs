@@ -20,6 +20,11 @@ pub(super) fn row(path: &str, row: &Row) -> Result<()> {
             positive(&at(field), value)?;
         }
     }
+    if row.ball_support.is_spatial() {
+        let allowed = "x, y, z and theta alone: balls have no tilt";
+        let given = "a tilt or a coupled support";
+        return Err(Error::scene(at("ball_support"), given, allowed));
+    }
     support(&at("ball_support"), &row.ball_support)
 }
 
@@ -155,7 +160,9 @@ pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
     }
     if ring.mass.is_none() && (ring.diameter.is_none() || ring.width.is_none()) {
         let mounts = ring.support.mounts(absent);
-        if mounts[..3].iter().any(|mount| *mount != Mount::Fixed) {
+        let tilts = ring.support.tilt_mounts();
+        let mut all = mounts[..3].iter().chain(&tilts);
+        if all.any(|mount| *mount != Mount::Fixed) {
             return Err(Error::scene(
                 at("mass"),
                 "absent",

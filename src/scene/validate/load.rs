@@ -37,17 +37,23 @@ pub(super) fn drive(drive: &Drive) -> Result<()> {
 pub(super) fn loads(scene: &Scene) -> Result<()> {
     for (name, load) in &scene.loads {
         entry_name("loads", name)?;
-        let size = load.direction.iter().map(|x| x * x).sum::<f64>().sqrt();
-        if !(size.is_finite() && size > 0.0) {
-            return Err(Error::scene(
-                format!("loads.{name}.direction"),
-                format!("{:?}", load.direction),
-                "three finite numbers, not all zero",
-            ));
-        }
+        direction(&format!("loads.{name}"), &load.direction)?;
         time_function(&format!("loads.{name}.force"), &load.force, 1e12)?;
     }
     unbalances(scene)
+}
+
+/// What a load acts along, or a moment about.
+pub(super) fn direction(path: &str, direction: &[f64; 3]) -> Result<()> {
+    let size = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if size.is_finite() && size > 0.0 {
+        return Ok(());
+    }
+    Err(Error::scene(
+        format!("{path}.direction"),
+        format!("{direction:?}"),
+        "three finite numbers, not all zero",
+    ))
 }
 
 fn unbalances(scene: &Scene) -> Result<()> {
@@ -67,7 +73,7 @@ fn unbalances(scene: &Scene) -> Result<()> {
     Ok(())
 }
 
-fn time_function(path: &str, value: &TimeFunction, limit: f64) -> Result<()> {
+pub(super) fn time_function(path: &str, value: &TimeFunction, limit: f64) -> Result<()> {
     let each = |field: &str, x: f64| within(&format!("{path}{field}"), x, -limit..=limit);
     match value {
         TimeFunction::Constant(x) => each("", *x),

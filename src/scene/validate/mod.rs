@@ -8,6 +8,7 @@ mod load;
 mod lubricant;
 mod probe;
 mod race;
+mod tilt;
 
 use super::{Drive, RingName, Row, SCHEMA, Scene};
 use crate::error::{Error, Result};
@@ -36,7 +37,10 @@ impl Scene {
         }
         bearing::ring(self, RingName::Outer)?;
         bearing::ring(self, RingName::Inner)?;
-        if matches!(self.drive, Drive::Speed(_)) && self.inner_ring.support.theta.is_some() {
+        tilt::ring("outer_ring", &self.outer_ring, false)?;
+        let is_driven = matches!(self.drive, Drive::Speed(_));
+        tilt::ring("inner_ring", &self.inner_ring, is_driven)?;
+        if is_driven && self.inner_ring.support.theta.is_some() {
             return Err(Error::scene(
                 "inner_ring.support.theta",
                 "a mount",
@@ -57,6 +61,8 @@ impl Scene {
             within(&format!("gravity[{i}]"), *g, -1e6..=1e6)?;
         }
         load::loads(self)?;
+        tilt::loads(self)?;
+        self.check_leaning()?;
         for (name, defect) in &self.defects {
             entry_name("defects", name)?;
             defect::defect(self, &format!("defects.{name}"), defect)?;

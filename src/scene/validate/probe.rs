@@ -2,7 +2,7 @@
 
 use super::check::within;
 use crate::error::{Error, Result};
-use crate::scene::{Probe, Scene};
+use crate::scene::{Component, Probe, Scene};
 
 fn known_body(scene: &Scene, path: &str, body: &str) -> Result<()> {
     let known = "`outer`, `inner` or a ball of a row such as `row0.ball3`";
@@ -12,11 +12,15 @@ fn known_body(scene: &Scene, path: &str, body: &str) -> Result<()> {
 
 pub(super) fn probe(scene: &Scene, path: &str, probe: &Probe) -> Result<()> {
     match probe {
-        Probe::Motion { body, .. } => known_body(scene, &format!("{path}.motion"), body),
+        Probe::Motion { body, components } => {
+            let path = format!("{path}.motion");
+            known_body(scene, &path, body)?;
+            of_body(&path, body, components.as_deref().unwrap_or_default())
+        }
         Probe::Forces { body } => known_body(scene, &format!("{path}.forces"), body),
         Probe::Cage { row } => scene.row_index(&format!("{path}.cage"), *row).map(|_| ()),
         Probe::Lubrication { row } => lubricated(scene, &format!("{path}.lubrication"), *row),
-        Probe::Energy {} | Probe::Torque {} => Ok(()),
+        Probe::Energy {} | Probe::Torque {} | Probe::Moments {} => Ok(()),
         Probe::Contacts { row, balls, .. } => {
             chosen(scene, &format!("{path}.contacts"), *row, balls.as_deref())
         }
@@ -28,6 +32,20 @@ pub(super) fn probe(scene: &Scene, path: &str, probe: &Probe) -> Result<()> {
             }
             chosen(scene, &format!("{path}.slices"), *row, balls.as_deref())
         }
+    }
+}
+
+/// Balls have no tilt.
+fn of_body(path: &str, body: &str, components: &[Component]) -> Result<()> {
+    let is_ring = ["outer", "inner"].contains(&body);
+    let common = |component: &&Component| Component::ALL.contains(*component);
+    match components.iter().find(|of| !(is_ring || common(of))) {
+        None => Ok(()),
+        Some(tilt) => Err(Error::scene(
+            format!("{path}.components"),
+            tilt.label().0,
+            format!("of rings alone: {body} has no tilt"),
+        )),
     }
 }
 

@@ -1,0 +1,83 @@
+//! What a contact does to its ball in space: a force through the ball's centre and a moment about it.
+//!
+//! Normal forces act through the ball's centre: at their own point, which lies in the race, that of a slice would turn the
+//! ball about the direction of rolling, and no potential knows of such a work. Friction acts where it rubs. What is left
+//! beside, of waves and of the ends of defects, turns the ball about the ring's axis alone, as defects of a ball do.
+
+use nalgebra::Vector3;
+
+use super::{Aside, OilTouch, Touch, cross};
+
+/// Force on a ball \[N\] and moment about its centre \[N m\], in the frame of its ring.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Wrench {
+    pub force: Vector3<f64>,
+    pub moment: Vector3<f64>,
+}
+
+impl Default for Wrench {
+    fn default() -> Self {
+        Self {
+            force: Vector3::zeros(),
+            moment: Vector3::zeros(),
+        }
+    }
+}
+
+impl Wrench {
+    /// Adds another one.
+    pub fn add(&mut self, other: &Self) {
+        self.force += other.force;
+        self.moment += other.moment;
+    }
+
+    /// The same in another frame, to which vectors are led.
+    pub fn turned(&self, out: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Self {
+        Self {
+            force: out(&self.force),
+            moment: out(&self.moment),
+        }
+    }
+
+    /// The moment about the ring's own point that the ball stands at a place from: what the opposite of this does there.
+    pub fn moment_on_ring(&self, place: &Vector3<f64>) -> Vector3<f64> {
+        -place.cross(&self.force) - self.moment
+    }
+}
+
+impl Touch {
+    /// What it does to the ball, for a share of the normal force given by its magnitude and with friction scaled by
+    /// `friction` (0 or 1).
+    pub(crate) fn on_ball(&self, normal: f64, friction: f64) -> Wrench {
+        let pressing = self.n_e * (-normal * self.share.0);
+        let rubbing = Vector3::new(self.friction.x, self.friction.y, self.friction_z) * friction;
+        let arm = Vector3::new(self.arm_ball.x, self.arm_ball.y, self.zeta);
+        let mut moment = arm.cross(&rubbing);
+        // Nothing where the surface of the ball is whole.
+        moment.z += cross(self.arm_ball, pressing);
+        Wrench {
+            force: Vector3::new(pressing.x, pressing.y, -normal * self.share.1) + rubbing,
+            moment,
+        }
+    }
+}
+
+impl Aside {
+    /// What it does to the ball.
+    pub(crate) fn on_ball(&self) -> Wrench {
+        Wrench {
+            force: Vector3::new(self.plane.x, self.plane.y, self.axial),
+            moment: Vector3::z() * cross(self.arm_ball, self.plane),
+        }
+    }
+}
+
+impl OilTouch {
+    /// What its rolling resistance does to the ball.
+    pub(crate) fn on_ball(&self) -> Wrench {
+        Wrench {
+            force: Vector3::new(self.force.x, self.force.y, 0.0),
+            moment: Vector3::z() * self.moment,
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! What acts on a ring that leans, beside forces on its centre of mass: moments, and supports of its tilts.
+//!
+//! ```text
+//! Q_x = −k τ_x − c τ̇_x …        coupled: ξ = (c + F p − F₀ p, τ_x − τ_x₀, τ_y − τ_y₀, θ),  Q = −(K ξ + C ξ̇),  energy ½ ξ·K ξ
+//! ```
+//!
+//! p leads from the centre of mass to the point of the axis where a coupled support holds, F₀ is the nominal frame. Off the axis
+//! a spring would hold a point that does not spin, and drive the spin.
+
+use nalgebra::{Vector3, Vector6};
+
+use super::{Account, OnRing, State, Table, load, unbalance};
+use crate::contact::LeaningRing;
+use crate::model::{BodyId, CoupledModel, Degree, Dof, Model, Race, RingModel};
+use crate::scene::Drive;
+use crate::tilt::Frame;
+
+/// What its support does through tilts, and what of the table's number about z is a force of the spin's own mount.
+pub(crate) fn support(model: &Model, race: Race, state: &State, on_spin: f64) -> OnRing {
+    let ring = &model.rings[race];
+    let leaning = state.leaning(model, race);
+    let [tilt, rates] = state.tilt(race);
+    let mut forces = [0.0, 0.0, on_spin];
+    for i in 0..2 {
+        if let Degree::Free { stiffness, damping } = ring.degrees[i] {
+            forces[i] -= stiffness * (tilt[i] - ring.tilt[i]) + damping * rates[i];
+        }
+    }
+    let mut sum = OnRing::default();
+    if let Some(coupled) = &ring.coupled {
+        let [places, speeds] = stretched(ring, coupled, race, state, &leaning);
+        let pull = -(coupled.stiffness * places + coupled.damping * speeds);
+        let arm = leaning.rotation.frame.axis() * coupled.place;
+        sum.force = pull.fixed_rows::<3>(0).into_owned();
+        sum.moment = arm.cross(&sum.force);
+        for i in 0..3 {
+            forces[i] += pull[3 + i];
+        }
+    }
+    sum.moment += leaning.rotation.moment_of(forces);
+    sum
+}
+
+/// ξ and its rate.
+fn stretched(
+    ring: &RingModel,
+    coupled: &CoupledModel,
+    race: Race,
+    state: &State,
+    leaning: &LeaningRing,
+) -> [Vector6<f64>; 2] {
+    let motion = state.motion(race.ring());
+    let [tilt, rates] = state.tilt(race);
+    let frame = &leaning.rotation.frame;
+    let moved = (frame.axis() - Frame::new(ring.tilt).axis()) * coupled.place;
+    let moving = leaning
+        .rotation
+        .angular_velocity()
+        .cross(&(frame.axis() * coupled.place));
+    let (centre, velocity) = (motion.centre, motion.velocity);
+    let places = [
+        centre.x + moved.x,
+        centre.y + moved.y,
+        motion.z + moved.z,
+        tilt[0] - ring.tilt[0],
+        tilt[1] - ring.tilt[1],
+        motion.theta,
+    ];
+    let speeds = [
+        velocity.x + moving.x,
+        velocity.y + moving.y,
+        motion.vz + moving.z,
+        rates[0],
+        rates[1],
+        motion.omega,
+    ];
+    [places, speeds].map(Vector6::from)
+}
+
+/// Of the supports of tilts and coupled supports in a state.
+pub(crate) fn account(model: &Model, y: &[f64]) -> Account {
+    let mut account = Account::default();
+    if !model.leans() {
+        return account;
+    }
+    let mut state = State::new(model);
+    state.read(y);
+    for race in Race::BOTH {
+        let ring = &model.rings[race];
+        let [tilt, rates] = state.tilt(race);
+        for i in 0..2 {
+            if let Degree::Free { stiffness, damping } = ring.degrees[i] {
+                account.energy += 0.5 * stiffness * (tilt[i] - ring.tilt[i]).powi(2);
+                account.power += damping * rates[i] * rates[i];
+            }
+        }
+        if let Some(coupled) = &ring.coupled {
+            let leaning = state.leaning(model, race);
+            let [places, speeds] = stretched(ring, coupled, race, &state, &leaning);
+            account.energy += 0.5 * places.dot(&(coupled.stiffness * places));
+            account.power += speeds.dot(&(coupled.damping * speeds));
+        }
+    }
+    account
+}
+
+/// Adds all that acts on rings that lean, beside contacts and supports of single directions: forces to those on all bodies,
+/// moments about the rings' centres of mass to theirs.
+pub(crate) fn add(
+    model: &Model,
+    t: f64,
+    state: &State,
+    forces: &mut Table,
+    moments: &mut [Vector3<f64>; 2],
+) {
+    for race in Race::BOTH {
+        let frame = state.leaning(model, race).rotation.frame;
+        let ring = race.ring();
+        moments[race] += load::moment(model, t, race, |arm| frame.to_scene(arm));
+        if let (Race::Inner, Drive::Torque { value, .. }) = (race, &model.scene.drive) {
+            moments[race] += frame.axis() * value.at(t);
+        }
+        let unbalanced = unbalance::on_leaning(model, t, state, race, &frame);
+        let supported = support(model, race, state, forces.get(ring, Dof::Theta));
+        for part in [unbalanced, supported] {
+            let [x, y, z] = part.force.into();
+            forces.add(ring, &[x, y, z, 0.0]);
+            moments[race] += part.moment;
+        }
+    }
+}
+
+/// Rate of the fastest damper of a ring's tilts \[1/s\].
+pub(crate) fn rate(model: &Model, body: BodyId) -> f64 {
+    let Some(race) = Race::BOTH.into_iter().find(|race| race.ring() == body) else {
+        return 0.0;
+    };
+    let ring = &model.rings[race];
+    let own = ring.degrees.iter().map(|degree| match degree {
+        Degree::Free { damping, .. } => *damping,
+        Degree::Fixed | Degree::Driven => 0.0,
+    });
+    let about = ring.coupled.as_ref().map_or(0.0, |coupled| {
+        coupled.damping.fixed_view::<3, 3>(3, 3).amax()
+    });
+    own.fold(about, f64::max) / ring.inertia.transverse
+}

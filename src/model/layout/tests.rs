@@ -1,0 +1,51 @@
+//! Where every place of a state vector stands.
+
+use super::*;
+
+/// Truth: the order that `Model::names` tells.
+#[test]
+fn every_place_has_one_owner() {
+    let layout = Layout::of_balls(3);
+    assert_eq!((layout.half(), layout.dim()), (20, 40));
+    for (at, (body, dof)) in layout.degrees().enumerate() {
+        assert_eq!(layout.at(body, dof), at);
+        assert_eq!(layout.speed_at(body, dof), 20 + at);
+    }
+    let y: Vec<f64> = (0..layout.dim()).map(|i| i as f64).collect();
+    let motion = layout.motion(&y, BodyId::ball(1));
+    assert_eq!(
+        (motion.centre.x, motion.z, motion.omega),
+        (12.0, 14.0, 35.0)
+    );
+    assert_eq!(layout.centre(&y, BodyId::INNER), [4.0, 5.0, 6.0]);
+}
+
+/// Truth: places of bodies stay, and every tilt that moves has one behind them.
+#[test]
+fn tilts_stand_behind_all_bodies() {
+    let plain = Layout::of_balls(2);
+    for mask in 0..16_u8 {
+        let moves = |bit: u8| mask >> bit & 1 == 1;
+        let layout = plain.with_tilts([[moves(0), moves(1)], [moves(2), moves(3)]]);
+        assert_eq!(layout.half(), 16 + mask.count_ones() as usize);
+        for (at, (body, dof)) in layout.degrees().enumerate() {
+            assert!(layout.has(body, dof));
+            assert_eq!(layout.at(body, dof), at);
+            if at < 16 {
+                assert_eq!(plain.at(body, dof), at);
+            }
+        }
+        assert_eq!(layout.has(BodyId::INNER, Dof::TiltX), moves(2));
+        assert!(!layout.has(BodyId::ball(0), Dof::TiltX));
+    }
+}
+
+#[test]
+fn rings_stand_before_balls() {
+    assert_eq!(BodyId::ball(0).index(), 2);
+    assert_eq!(BodyId::ball(5).as_ball(), Some(5));
+    for race in Race::BOTH {
+        assert_eq!(race.ring().kind(), BodyKind::Ring(race));
+        assert_eq!((race.ring().as_ball(), race.other().other()), (None, race));
+    }
+}

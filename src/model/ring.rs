@@ -1,0 +1,105 @@
+//! What a ring that may tilt has beside the four directions of every body.
+
+use nalgebra::{Matrix6, Vector3};
+
+use super::{BodyId, Degree, Dof, Layout, Model, Race};
+use crate::contact::{LeaningRing, Motion};
+use crate::scene::{self, CoupledSupport};
+use crate::tilt::{Inertia, Rotation};
+
+/// A ring compiled.
+#[derive(Debug, Clone)]
+pub(crate) struct RingModel {
+    pub inertia: Inertia,
+    /// Axial place of the centre of mass in the ring's frame \[m\].
+    pub centre_of_mass: f64,
+    /// Nominal tilt \[rad\].
+    pub tilt: [f64; 2],
+    /// How each tilt moves.
+    pub degrees: [Degree; 2],
+    pub coupled: Option<CoupledModel>,
+}
+
+/// Springs and dampers between all directions of a ring, at a place of its axis from the centre of mass \[m\].
+#[derive(Debug, Clone)]
+pub(crate) struct CoupledModel {
+    pub stiffness: Matrix6<f64>,
+    pub damping: Matrix6<f64>,
+    pub place: f64,
+}
+
+impl RingModel {
+    pub(super) fn new(ring: &scene::Ring, inertia: Inertia) -> Self {
+        let centre_of_mass = ring.centre_of_mass.unwrap_or_default();
+        let coupled = |of: &CoupledSupport| CoupledModel {
+            stiffness: Matrix6::from_fn(|i, j| of.stiffness[i][j]),
+            damping: Matrix6::from_fn(|i, j| of.damping[i][j]),
+            place: of.axial_position - centre_of_mass,
+        };
+        Self {
+            inertia,
+            centre_of_mass,
+            tilt: ring.tilt.unwrap_or_default(),
+            degrees: ring.support.tilt_mounts().map(Degree::from),
+            coupled: ring.support.coupled.as_ref().map(coupled),
+        }
+    }
+
+    /// From the centre of mass to a point of the ring's frame \[m\].
+    pub fn arm(&self, [x, y, z]: [f64; 3]) -> Vector3<f64> {
+        Vector3::new(x, y, z - self.centre_of_mass)
+    }
+}
+
+impl Model {
+    /// Whether a ring may tilt, or leans from the start.
+    #[inline]
+    pub(crate) fn leans(&self) -> bool {
+        self.leans
+    }
+
+    /// The layout of all bodies and of the tilts that move.
+    pub(super) fn layout_of(balls: usize, rings: &[RingModel; 2]) -> Layout {
+        let moves = |ring: &RingModel| ring.degrees.map(|degree| degree.is_free());
+        Layout::of_balls(balls).with_tilts(rings.each_ref().map(moves))
+    }
+
+    /// Tilt of a ring \[rad\] and its rates \[rad/s\] in a state.
+    pub(crate) fn tilt(&self, y: &[f64], race: Race) -> [[f64; 2]; 2] {
+        let (layout, mut found) = (self.layout, [self.rings[race].tilt, [0.0; 2]]);
+        for (i, dof) in Dof::TILTS.into_iter().enumerate() {
+            if layout.has(race.ring(), dof) {
+                found[0][i] = y[layout.at(race.ring(), dof)];
+                found[1][i] = y[layout.speed_at(race.ring(), dof)];
+            }
+        }
+        found
+    }
+
+    /// A ring that may lean, in a state.
+    pub(crate) fn leaning(&self, y: &[f64], race: Race) -> LeaningRing {
+        let motion = self.layout.motion(y, race.ring());
+        self.leaning_as(race, &motion, self.tilt(y, race))
+    }
+
+    /// The same from its motion, tilt and the tilt's rates.
+    pub(crate) fn leaning_as(
+        &self,
+        race: Race,
+        motion: &Motion,
+        [tilt, rates]: [[f64; 2]; 2],
+    ) -> LeaningRing {
+        let rotation = Rotation::new(tilt, rates, motion.omega);
+        LeaningRing::new(motion, rotation, self.rings[race].centre_of_mass)
+    }
+
+    /// A ball and a ring in a state as their contact sees them: in the scene's frame, or in that of a ring that leans.
+    pub(crate) fn facing(&self, y: &[f64], ball: usize, race: Race) -> [Motion; 2] {
+        let at = self.layout.motion(y, BodyId::ball(ball));
+        if self.leans {
+            self.leaning(y, race).facing(&at)
+        } else {
+            [at, self.layout.motion(y, race.ring())]
+        }
+    }
+}

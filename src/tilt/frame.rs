@@ -1,0 +1,84 @@
+//! The frame of a ring: it turns ẑ into the ring's axis by the shortest way, and does not spin with the ring.
+//!
+//! ```text
+//! F = [ 1 − τ_y² k    τ_x τ_y k     τ_y ]
+//!     [ τ_x τ_y k     1 − τ_x² k   −τ_x ]     k = 1/(1 + w)
+//!     [ −τ_y           τ_x            w ]
+//! ```
+
+use nalgebra::{Matrix3, Vector3};
+
+/// Orientation of a ring.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Frame {
+    /// τ_x and τ_y.
+    pub tilt: [f64; 2],
+    /// w, the axis along z.
+    pub(super) along: f64,
+    /// k.
+    pub(super) k: f64,
+    matrix: Matrix3<f64>,
+}
+
+impl Frame {
+    /// Of a ring that leans; its tilt is shorter than 1.
+    pub fn new([x, y]: [f64; 2]) -> Self {
+        let along = (1.0 - x * x - y * y).max(0.0).sqrt();
+        let k = 1.0 / (1.0 + along);
+        Self {
+            tilt: [x, y],
+            along,
+            k,
+            matrix: Matrix3::new(
+                1.0 - y * y * k,
+                x * y * k,
+                y,
+                x * y * k,
+                1.0 - x * x * k,
+                -x,
+                -y,
+                x,
+                along,
+            ),
+        }
+    }
+
+    /// The ring's axis a.
+    pub fn axis(&self) -> Vector3<f64> {
+        self.matrix.column(2).into_owned()
+    }
+
+    /// A vector of the ring's frame, in the scene's.
+    pub fn to_scene(self, v: &Vector3<f64>) -> Vector3<f64> {
+        self.matrix * v
+    }
+
+    /// A vector of the scene's frame, in the ring's.
+    pub fn to_ring(self, v: &Vector3<f64>) -> Vector3<f64> {
+        self.matrix.tr_mul(v)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Truth: a rotation, about the tilt itself.
+    #[test]
+    fn a_frame_is_the_shortest_rotation_to_the_axis() {
+        let frame = Frame::new([0.3, -0.4]);
+        let product = frame.matrix * frame.matrix.transpose();
+        assert!((product - Matrix3::identity()).norm() < 1e-15);
+        assert!((frame.matrix.determinant() - 1.0).abs() < 1e-15);
+        let lies = Vector3::new(0.3, -0.4, 0.0);
+        assert!((frame.to_scene(&lies) - lies).norm() < 1e-15);
+        assert!((frame.axis() - Vector3::new(-0.4, -0.3, 0.75_f64.sqrt())).norm() < 1e-15);
+        assert!((frame.to_ring(&frame.axis()) - Vector3::z()).norm() < 1e-15);
+    }
+
+    /// Limits: without a tilt nothing is turned, bit by bit.
+    #[test]
+    fn without_a_tilt_it_is_the_scene() {
+        assert_eq!(Frame::new([0.0; 2]).matrix, Matrix3::identity());
+    }
+}

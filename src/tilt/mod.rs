@@ -1,0 +1,21 @@
+//! Rings that tilt: orientation and equations of a symmetric rigid body with an axis.
+//!
+//! A ring has a unit axis a. Its **tilt** (τ_x, τ_y) is the part of ẑ × a in the plane, so that positive τ_x tips the axis as
+//! a right-handed rotation about +x does:
+//!
+//! ```text
+//! a = (τ_y, −τ_x, w),  w = √(1 − τ_x² − τ_y²)
+//! ```
+//!
+//! To third order it is the rotation vector; its size is the sine of the angle between a and ẑ. Two numbers that are a vector
+//! of the plane: no order of axes, regular to 90°, and their rates are velocities as those of places are. What turns about the
+//! axis is the spin θ.
+//!
+//! `frame` has the ring's frame, which leans but does not spin, `rotation` its angular velocity and its equations of motion.
+//! Numbers in, numbers out: a ring of what scene or of what state is no matter here.
+
+mod frame;
+mod rotation;
+
+pub(crate) use frame::Frame;
+pub(crate) use rotation::{Inertia, Rotation};

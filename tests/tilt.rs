@@ -1,0 +1,264 @@
+//! Rings that tilt, as users meet them: what a scene says, what a run tells of it, and what is refused.
+
+mod common;
+
+use ballrace::scene::{
+    Component, CoupledSupport, Friction, Load, Lubricant, Method, Moment, Mount, Probe, RingName,
+    Scene, Unbalance, presets,
+};
+use ballrace::{Run, Start, compile, simulate};
+use common::{run, short};
+
+/// A 6205 under 500 N and 300 N whose inner ring tilts, damped.
+fn leaning() -> Scene {
+    let mut scene = presets::deep_groove_6205(500.0, 300.0, 1800.0);
+    let tilts = Some(Mount::Spring {
+        stiffness: 0.0,
+        damping: 0.05,
+    });
+    let support = &mut scene.inner_ring.support;
+    (support.tilt_x, support.tilt_y) = (tilts, tilts);
+    scene.solver.method = Method::DormandPrince;
+    scene
+}
+
+fn rolling(duration: f64) -> Run {
+    Run {
+        start: Start::Rolling,
+        ..short(duration)
+    }
+}
+
+/// Documents of scenes without tilts are what they were.
+#[test]
+fn other_documents_say_nothing_of_tilts() {
+    for scene in [
+        presets::deep_groove_6205(500.0, 0.0, 1800.0),
+        presets::wheel_bearing(3000.0),
+    ] {
+        for text in [scene.to_toml(), scene.to_json()] {
+            for word in [
+                "tilt",
+                "moments",
+                "coupled",
+                "transverse",
+                "centre_of_mass",
+                "\"at\"",
+            ] {
+                assert!(!text.contains(word), "{word} in {text}");
+            }
+        }
+        let model = compile(&scene).unwrap();
+        assert!(model.names().iter().all(|name| !name.contains("tilt")));
+    }
+}
+
+/// What is said comes back, and can be changed by its path.
+#[test]
+fn what_is_said_of_tilts_comes_back() {
+    let mut scene = leaning();
+    let load = Load::new(RingName::Inner, [0.0, 1.0, 0.0], 100.0).at([0.0, -0.3, 0.02]);
+    scene.loads.insert("wheel".to_owned(), load);
+    let moment = Moment::new(RingName::Outer, [1.0, 0.0, 0.0], 2.0);
+    scene.moments.insert("bend".to_owned(), moment.clone());
+    scene.inner_ring.tilt = Some([1e-3, -2e-3]);
+    scene.outer_ring.support.coupled = Some(CoupledSupport::new([[0.0; 6]; 6]));
+    assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene);
+    assert_eq!(Scene::from_json(&scene.to_json()).unwrap(), scene);
+    let plain = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    let changed = plain
+        .with(&[
+            ("outer_ring.tilt", serde_json::json!([1e-3, 0.0])),
+            ("inner_ring.support.tilt_y", "free".into()),
+            ("loads.radial.at", serde_json::json!([0.0, 0.0, 0.01])),
+            ("moments.bend", serde_json::to_value(&moment).unwrap()),
+        ])
+        .unwrap();
+    assert_eq!(changed.outer_ring.tilt, Some([1e-3, 0.0]));
+    assert_eq!(changed.inner_ring.support.tilt_y, Some(Mount::Free));
+    assert_eq!(changed.loads["radial"].at, Some([0.0, 0.0, 0.01]));
+    assert_eq!(changed.moments["bend"], moment);
+}
+
+/// Tilts stand behind all bodies in each half of a state.
+#[test]
+fn tilts_have_states_where_they_move() {
+    let mut scene = leaning();
+    scene.inner_ring.support.tilt_y = None;
+    let model = compile(&scene).unwrap();
+    let names = model.names();
+    let half = names.len() / 2;
+    assert_eq!(half, 4 * 11 + 1);
+    assert_eq!(names[half - 1], "inner.tilt_x");
+    assert_eq!(names[2 * half - 1], "inner.tilt_vx");
+    assert_eq!(names[4 + 1], "inner.y");
+}
+
+fn refused(scene: &Scene, field: &str) {
+    let told = match simulate(scene, &rolling(1e-4)) {
+        Ok(_) => panic!("{field} is taken"),
+        Err(error) => error.to_string(),
+    };
+    assert!(told.contains(field), "{field}: {told}");
+}
+
+/// What cannot be, or is not known yet, is refused by name.
+#[test]
+fn what_cannot_tilt_is_refused_by_name() {
+    let changed = |change: &dyn Fn(&mut Scene)| {
+        let mut scene = leaning();
+        change(&mut scene);
+        scene
+    };
+    let cases: Vec<(&str, Box<dyn Fn(&mut Scene)>)> = vec![
+        (
+            "inner_ring.tilt",
+            Box::new(|s| s.inner_ring.tilt = Some([0.4, 0.4])),
+        ),
+        (
+            "rows[0].ball_support",
+            Box::new(|s| s.rows[0].ball_support.tilt_x = Some(Mount::Fixed)),
+        ),
+        (
+            "outer_ring.support.coupled.stiffness",
+            Box::new(|s| {
+                let mut rows = [[0.0; 6]; 6];
+                rows[0][1] = 1.0;
+                s.outer_ring.support.coupled = Some(CoupledSupport::new(rows));
+            }),
+        ),
+        (
+            "outer_ring.support.coupled.stiffness",
+            Box::new(|s| {
+                let mut rows = [[0.0; 6]; 6];
+                rows[3][3] = -1.0;
+                s.outer_ring.support.coupled = Some(CoupledSupport::new(rows));
+            }),
+        ),
+        (
+            "inner_ring.support.coupled.stiffness",
+            Box::new(|s| {
+                let mut rows = [[0.0; 6]; 6];
+                rows[5][5] = 1.0;
+                s.inner_ring.support.coupled = Some(CoupledSupport::new(rows));
+            }),
+        ),
+        (
+            "loads.radial.at[1]",
+            Box::new(|s| {
+                s.loads.get_mut("radial").unwrap().at = Some([0.0, f64::NAN, 0.0]);
+            }),
+        ),
+        (
+            "moments.bend.direction",
+            Box::new(|s| {
+                let none = Moment::new(RingName::Inner, [0.0; 3], 1.0);
+                s.moments.insert("bend".to_owned(), none);
+            }),
+        ),
+        (
+            "approximations",
+            Box::new(|s| s.approximations.plane = true),
+        ),
+        (
+            "unbalances.rotor.ring",
+            Box::new(|s| {
+                s.drive = ballrace::scene::Drive::Torque {
+                    value: 0.0.into(),
+                    initial_speed: 10.0,
+                };
+                let rotor = Unbalance::new(RingName::Inner, 1e-5, 0.0);
+                s.unbalances.insert("rotor".to_owned(), rotor);
+            }),
+        ),
+        (
+            "probes.ball.motion.components",
+            Box::new(|s| {
+                let probe = Probe::Motion {
+                    body: "row0.ball0".to_owned(),
+                    components: Some(vec![Component::TiltX]),
+                };
+                s.probes.insert("ball".to_owned(), probe);
+            }),
+        ),
+        (
+            "solver.method",
+            Box::new(|s| s.solver.method = Method::Adams),
+        ),
+        (
+            "solver.method",
+            Box::new(|s| s.solver.method = Method::ImplicitFriction),
+        ),
+        (
+            "solver.method",
+            Box::new(|s| s.solver.method = Method::Auto),
+        ),
+    ];
+    for (field, change) in cases {
+        refused(&changed(&*change), field);
+    }
+}
+
+/// A run by every explicit method tells tilts, moments and an energy that its powers account for.
+#[test]
+fn a_run_tells_tilts() {
+    let mut told = Vec::new();
+    for method in [
+        Method::DormandPrince,
+        Method::BogackiShampine,
+        Method::Tsitouras,
+        Method::Verner,
+        Method::RungeKutta4,
+        Method::VelocityVerlet,
+    ] {
+        let mut scene = leaning();
+        scene.friction = Friction::None;
+        scene.solver.method = method;
+        let out = run(&scene, &rolling(4e-4));
+        let tilt = out.get("inner.tilt_x").unwrap();
+        assert!(out.get("outer.tilt_x").is_none());
+        assert!(out.get("inner.tilt_ay").unwrap()[0].is_finite());
+        told.push(tilt[tilt.len() - 1]);
+    }
+    println!("{told:?}");
+    for tilt in &told {
+        assert!(
+            tilt.abs() > 1e-7 && (tilt / told[0] - 1.0).abs() < 0.02,
+            "{told:?}"
+        );
+    }
+}
+
+/// A ring mounted crooked leans as long as it is held so; loads along a drive's axis tilt nothing.
+#[test]
+fn a_crooked_ring_stays_crooked() {
+    let mut scene = leaning();
+    scene.inner_ring.tilt = Some([1e-3, 0.0]);
+    let support = &mut scene.inner_ring.support;
+    (support.tilt_x, support.tilt_y) = (None, None);
+    scene.probes.insert("moments".to_owned(), Probe::Moments {});
+    let out = run(&scene, &rolling(2e-4));
+    assert!(
+        out.get("inner.tilt_x")
+            .unwrap()
+            .iter()
+            .all(|tilt| *tilt == 1e-3)
+    );
+    let moment = out.get("moments.inner.x").unwrap();
+    assert!(moment.iter().all(|m| m.is_finite()) && moment.iter().any(|m| m.abs() > 1e-3));
+}
+
+/// Oil lies in contacts of rings that tilt: all of its powers are lost.
+#[test]
+fn oil_lies_in_contacts_of_rings_that_tilt() {
+    let mut scene = leaning();
+    let mut oil = Lubricant::named("vg68", 328.15);
+    oil.reference_load = Some(200.0);
+    scene.lubricant = Some(oil);
+    scene.probes = [("oil".to_owned(), Probe::Lubrication { row: 0 })].into();
+    let out = run(&scene, &rolling(2e-4));
+    for name in ["slip_power", "rolling_power", "damping_power", "outer.film"] {
+        let values = out.get(&format!("oil.{name}")).unwrap();
+        assert!(values.iter().all(|value| *value >= 0.0), "{name}");
+    }
+}
