@@ -30,7 +30,7 @@
 //! * [`scene`] — what a user says: names, numbers, defaults; a serde document that is only validated.
 //! * [`contact`] — one ball on one race: its shape, elastic, damping and traction laws, quadrature, fault circles, and the
 //!   kernel, the one coding of an element's force, with its drivers; `contact/frames.rs` leads from the scene's frame to a
-//!   ring's and the cage's. Numbers in, numbers out; no indices, no state.
+//!   ring's, which may lean, and the cage's. Numbers in, numbers out; no indices, no state.
 //! * `tilt` — a ring that leans: its frame, which does not spin, and the equations of a symmetric rigid body.
 //! * `model` ([`Model`]) — the scene compiled: bodies, races and directions ([`BodyId`], [`Race`], [`Dof`]) with the one
 //!   place that turns them into offsets ([`Layout`]), arrays, scales. Never changed by a run.
@@ -82,8 +82,8 @@
 //! # Units and frames
 //!
 //! SI everywhere. Right-handed inertial frame: z along the bearing axis, x to the right, y up; angle 0 on +x,
-//! counter-clockwise. A body has four degrees of freedom x, y, z, θ (about z): rings do not tilt and balls
-//! spin about z only.
+//! counter-clockwise. A body has four degrees of freedom x, y, z, θ (about z): balls spin about z only, and rings stay parallel
+//! unless a scene lets them tilt; then each has two more, behind all bodies (`tilt`).
 
 #[cfg(feature = "python")]
 mod python;

@@ -31,6 +31,7 @@ pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
             for (place, body) in Layout::each_mut(&mut y).iter_mut().zip(&model.bodies) {
                 *place = body.nominal;
             }
+            lean(model, &mut y);
             roll(model, &mut y);
             Ok(y)
         }
@@ -49,6 +50,18 @@ pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
                     "a finite number",
                 )),
                 None => Ok(state.clone()),
+            }
+        }
+    }
+}
+
+/// Lets rings lean as far as they nominally do.
+fn lean(model: &Model, y: &mut [f64]) {
+    let layout = model.layout();
+    for race in Race::BOTH {
+        for (dof, tilt) in Dof::TILTS.into_iter().zip(model.rings[race].tilt) {
+            if layout.has(race.ring(), dof) {
+                y[layout.at(race.ring(), dof)] = tilt;
             }
         }
     }

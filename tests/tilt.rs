@@ -62,7 +62,7 @@ fn what_is_said_of_tilts_comes_back() {
     let moment = Moment::new(RingName::Outer, [1.0, 0.0, 0.0], 2.0);
     scene.moments.insert("bend".to_owned(), moment.clone());
     scene.inner_ring.tilt = Some([1e-3, -2e-3]);
-    scene.outer_ring.support.coupled = Some(CoupledSupport::new([[0.0; 6]; 6]));
+    scene.outer_ring.support.coupled = Some(Box::new(CoupledSupport::new([[0.0; 6]; 6])));
     assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene);
     assert_eq!(Scene::from_json(&scene.to_json()).unwrap(), scene);
     let plain = presets::deep_groove_6205(500.0, 0.0, 1800.0);
@@ -102,6 +102,9 @@ fn refused(scene: &Scene, field: &str) {
     assert!(told.contains(field), "{field}: {told}");
 }
 
+/// A field that is refused, and what makes it so.
+type Case = (&'static str, Box<dyn Fn(&mut Scene)>);
+
 /// What cannot be, or is not known yet, is refused by name.
 #[test]
 fn what_cannot_tilt_is_refused_by_name() {
@@ -110,7 +113,7 @@ fn what_cannot_tilt_is_refused_by_name() {
         change(&mut scene);
         scene
     };
-    let cases: Vec<(&str, Box<dyn Fn(&mut Scene)>)> = vec![
+    let cases: Vec<Case> = vec![
         (
             "inner_ring.tilt",
             Box::new(|s| s.inner_ring.tilt = Some([0.4, 0.4])),
@@ -124,7 +127,7 @@ fn what_cannot_tilt_is_refused_by_name() {
             Box::new(|s| {
                 let mut rows = [[0.0; 6]; 6];
                 rows[0][1] = 1.0;
-                s.outer_ring.support.coupled = Some(CoupledSupport::new(rows));
+                s.outer_ring.support.coupled = Some(Box::new(CoupledSupport::new(rows)));
             }),
         ),
         (
@@ -132,7 +135,7 @@ fn what_cannot_tilt_is_refused_by_name() {
             Box::new(|s| {
                 let mut rows = [[0.0; 6]; 6];
                 rows[3][3] = -1.0;
-                s.outer_ring.support.coupled = Some(CoupledSupport::new(rows));
+                s.outer_ring.support.coupled = Some(Box::new(CoupledSupport::new(rows)));
             }),
         ),
         (
@@ -140,7 +143,7 @@ fn what_cannot_tilt_is_refused_by_name() {
             Box::new(|s| {
                 let mut rows = [[0.0; 6]; 6];
                 rows[5][5] = 1.0;
-                s.inner_ring.support.coupled = Some(CoupledSupport::new(rows));
+                s.inner_ring.support.coupled = Some(Box::new(CoupledSupport::new(rows)));
             }),
         ),
         (

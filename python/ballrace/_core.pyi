@@ -18,6 +18,7 @@ __all__ = [
     "named_oils",
     "oil",
     "orders",
+    "preset_cornering_wheel",
     "preset_deep_groove_6205",
     "preset_wheel_bearing",
     "run_features",
@@ -72,6 +73,8 @@ class _Turning(TypedDict):
 class _Equilibrium(_Turning):
     outer: _Array
     inner: _Array
+    outer_tilt: _Array
+    inner_tilt: _Array
     outer_moment: _Array
     inner_moment: _Array
     radius: _Array
@@ -89,10 +92,16 @@ class _Equilibrium(_Turning):
 class _Stiffness(TypedDict):
     inner: _Array
     rings: _Array
+    inner_spatial: _Array
+    rings_spatial: _Array
     equilibrium: _Equilibrium
 
 class _LoadDistribution(_Turning):
     turn: _Array
+    outer_tilt: _Array
+    inner_tilt: _Array
+    outer_moment: _Array
+    inner_moment: _Array
     outer_equivalent: _Array
     inner_equivalent: _Array
 
@@ -143,4 +152,5 @@ def scene_from_json(text: str) -> str: ...
 def scene_to_toml(text: str) -> str: ...
 def scene_replace(text: str, changes: str) -> str: ...
 def preset_wheel_bearing(axial_load: float) -> str: ...
+def preset_cornering_wheel(lateral: float) -> str: ...
 def preset_deep_groove_6205(radial_load: float, axial_load: float, speed_rpm: float) -> str: ...

@@ -91,6 +91,8 @@ class Equilibrium:
     ----------
     outer, inner : ndarray, shape (3,)
         Displacements of the rings [m].
+    outer_tilt, inner_tilt : ndarray, shape (2,)
+        Tilts of the rings about x and y [rad].
     outer_moment, inner_moment : ndarray, shape (2,)
         Moments about x and y that the balls put on the rings, each about its own centre [N m]: what keeps a
         ring from
@@ -126,6 +128,8 @@ class Equilibrium:
 
     outer: NDArray[np.float64]
     inner: NDArray[np.float64]
+    outer_tilt: NDArray[np.float64]
+    inner_tilt: NDArray[np.float64]
     outer_moment: NDArray[np.float64]
     inner_moment: NDArray[np.float64]
     row: NDArray[np.int64]
@@ -223,12 +227,20 @@ class Stiffness:
         Inner ring against a held outer ring: forces and moves of the inner ring along x, y, z [N/m].
     rings : ndarray, shape (6, 6)
         Both rings: x, y, z of the outer, then x, y, z of the inner ring [N/m].
+    inner_spatial : ndarray, shape (5, 5)
+        Inner ring with its tilts: forces along x, y, z [N] and moments about x and y, about the ring's centre
+        of mass
+        [N m], by moves along x, y, z [m] and tilts about x and y [rad], in this order.
+    rings_spatial : ndarray, shape (10, 10)
+        The same of both rings: the five of the outer, then those of the inner ring.
     equilibrium : Equilibrium
         Where the bearing stands.
     """
 
     inner: NDArray[np.float64]
     rings: NDArray[np.float64]
+    inner_spatial: NDArray[np.float64]
+    rings_spatial: NDArray[np.float64]
     equilibrium: Equilibrium
 
     @property
@@ -284,6 +296,8 @@ def stiffness(scene: Scene) -> Stiffness:
     return Stiffness(
         inner=found["inner"],
         rings=found["rings"],
+        inner_spatial=found["inner_spatial"],
+        rings_spatial=found["rings_spatial"],
         equilibrium=_equilibrium(found["equilibrium"]),
     )
 
@@ -304,6 +318,10 @@ class LoadDistribution:
         Normal forces on the races [N].
     outer_angle, inner_angle : ndarray, shape (n_positions, n_balls)
         Operating contact angles [rad]; not a number without load.
+    outer_tilt, inner_tilt : ndarray, shape (n_positions, 2)
+        Tilts of the rings about x and y [rad].
+    outer_moment, inner_moment : ndarray, shape (n_positions, 2)
+        Moments about x and y that balls and loads put on the rings [N m].
     outer_equivalent, inner_equivalent : ndarray, shape (n_rows,)
         Equivalent loads of the races [N]: the load that, on every ball all the time, tires the race as much. The
         inner ring turns, (mean of Q³)^(1/3); the outer ring stands, (mean of Q^(10/3))^(3/10), after ISO/TS 16281.
@@ -312,6 +330,10 @@ class LoadDistribution:
     """
 
     turn: NDArray[np.float64]
+    outer_tilt: NDArray[np.float64]
+    inner_tilt: NDArray[np.float64]
+    outer_moment: NDArray[np.float64]
+    inner_moment: NDArray[np.float64]
     row: NDArray[np.int64]
     ball: NDArray[np.int64]
     angle: NDArray[np.float64]

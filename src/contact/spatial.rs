@@ -6,7 +6,8 @@
 
 use nalgebra::Vector3;
 
-use super::{Aside, OilTouch, Touch, cross};
+use super::{Aside, OilTouch, Tangent, Touch, cross};
+use crate::tilt::Frame;
 
 /// Force on a ball \[N\] and moment about its centre \[N m\], in the frame of its ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,6 +43,16 @@ impl Wrench {
     /// The moment about the ring's own point that the ball stands at a place from: what the opposite of this does there.
     pub fn moment_on_ring(&self, place: &Vector3<f64>) -> Vector3<f64> {
         -place.cross(&self.force) - self.moment
+    }
+}
+
+impl Tangent {
+    /// The same in the scene's frame, of a ring that leans.
+    pub(crate) fn turned(&self, frame: &Frame) -> Self {
+        Self {
+            force: frame.to_scene(&self.force),
+            stiffness: self.stiffness.as_ref().map(|of| frame.matrix_to_scene(of)),
+        }
     }
 }
 

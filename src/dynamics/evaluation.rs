@@ -76,7 +76,12 @@ impl Dynamics<'_> {
             format!("{half} of {count} {slices} (mirror symmetry), {law}")
         } else {
             let shape = pair.shape.name();
-            format!("{count} {slices}{shape}, {law}")
+            let apart = if self.leaning.is_some() {
+                " one by one"
+            } else {
+                ""
+            };
+            format!("{count} {slices}{shape}, {law}{apart}")
         }
     }
 }

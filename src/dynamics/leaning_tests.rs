@@ -168,7 +168,7 @@ fn powers_balance() {
             (coupled.damping[i][j], coupled.damping[j][i]) = (1e-4 * size, 1e-4 * size);
         }
         coupled.axial_position = 0.02;
-        scene.outer_ring.support.coupled = Some(coupled);
+        scene.outer_ring.support.coupled = Some(Box::new(coupled));
         let wave = Waviness::new(7, 1e-6, 0.3);
         scene.rows[0].inner_waviness = vec![wave];
         let spall = Defect::new(Surface::InnerRace, 0.05, 4e-3, 0.4e-3, 0.2e-3);

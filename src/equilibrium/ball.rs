@@ -135,7 +135,8 @@ impl Problem<'_> {
             .flat_map(move |outer| inner.flanks().map(move |inner| [outer, inner]));
         let places = Race::BOTH.map(|race| {
             let ring = unknowns::of(rings, race);
-            Vector2::new(ring.xy().dot(&self.directions[j]), ring.z)
+            let place = Vector2::new(ring.xy().dot(&self.directions[j]), ring.z);
+            place + Vector2::from(self.leaned(j, rings, race))
         });
         pairs.map(move |pair| Grooves::of(pair, places, ball.side.radius))
     }
@@ -216,7 +217,7 @@ impl Problem<'_> {
             }
             // Not quite symmetric: the law's sums derive from a potential only as far as their nodes are exact, and
             // a loose ball is as soft as the rest.
-            let stiffness = self.ball_stiffness(j, &mut state);
+            let stiffness = self.ball_stiffness(j, rings, &mut state);
             // Where the ball is loose or would tip over, follow the force.
             let shift = (1e-6 * self.stiffness() - least(&stiffness)).max(0.0);
             let shifted = stiffness + Matrix2::identity() * shift;

@@ -3,12 +3,12 @@
 //! The usual model of a bearing at rest (T. A. Harris, *Rolling Bearing Analysis*, ch. 7): no centrifugal force turns
 //! a ball's two contacts against each other. It costs a hundredth of the contacts themselves.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, Vector2, Vector3};
 
 use super::problem::Problem;
 use super::search::search;
 use super::unknowns::{self, OF_A_RING, RingStiffness, Rings};
-use crate::model::Race;
+use crate::model::{BodyId, Race};
 
 /// Newton iterations at most, and the residual over the sum of the acting forces that is good enough.
 const ITERATIONS: usize = 40;
@@ -18,7 +18,7 @@ impl Problem<'_> {
     /// Places of the rings where such springs carry the load.
     pub(super) fn guess(&self) -> Option<Rings> {
         let longest = 0.02 * self.model.balls[0].side.radius;
-        let mut rings = Rings::zeros();
+        let mut rings = self.relaxed();
         let mut state = self.sprung(&rings);
         for _ in 0..ITERATIONS {
             let (forces, stiffness) = &state;
@@ -30,10 +30,10 @@ impl Problem<'_> {
                 stiffness[(self.free[a], self.free[b])]
             });
             let step = self.newton_step(&stiffness, &residual, longest);
-            let found = search(forces.dot(&step), |t| {
+            let found = search(unknowns::work(forces, &step), |t| {
                 let moved = rings + step * t;
                 let trial = self.sprung(&moved);
-                Some((trial.0.dot(&step), (moved, trial)))
+                Some((unknowns::work(&trial.0, &step), (moved, trial)))
             });
             (rings, state) = found?;
         }
@@ -44,6 +44,7 @@ impl Problem<'_> {
     fn sprung(&self, rings: &Rings) -> (Rings, RingStiffness) {
         let mut forces = self.loads;
         let mut tied = Matrix3::zeros();
+        let mut stiffness = RingStiffness::zeros();
         for (j, ball) in self.model.balls.iter().enumerate() {
             let (x, y) = (self.directions[j].x, self.directions[j].y);
             let in_space = |v: Vector2<f64>| Vector3::new(v.x * x, v.x * y, v.y);
@@ -55,25 +56,63 @@ impl Problem<'_> {
                 for race in Race::BOTH {
                     unknowns::add(&mut forces, race, &(unit * (race.sigma() * force)));
                 }
+                let pressed = unit * force;
                 // Stiff along the line; aside, in the meridional plane, the force turns with it.
                 let aside = force / line.length;
                 let plane = Matrix3::new(x * x, x * y, 0.0, x * y, y * y, 0.0, 0.0, 0.0, 1.0);
-                tied += unit * unit.transpose() * (slope - aside) + plane * aside;
+                let own = unit * unit.transpose() * (slope - aside) + plane * aside;
+                tied += own;
+                if self.model.leans() {
+                    self.lean((j, rings), (&pressed, &own), (&mut forces, &mut stiffness));
+                }
             }
         }
-        let mut stiffness = RingStiffness::zeros();
         for a in Race::BOTH {
             for b in Race::BOTH {
                 let (row, column) = (unknowns::first(a), unknowns::first(b));
-                let mut part = stiffness.fixed_view_mut::<OF_A_RING, OF_A_RING>(row, column);
+                let mut part = stiffness.fixed_view_mut::<3, 3>(row, column);
                 part += tied * (a.sigma() * b.sigma());
             }
         }
         for (a, race, dof) in unknowns::all() {
-            let k = self.support(race, dof);
-            forces[a] -= k * rings[a];
-            stiffness[(a, a)] += k;
+            forces[a] -= self.resistance(a, rings);
+            stiffness[(a, a)] += self.support(race, dof);
         }
+        self.apply(rings, &mut forces, &mut stiffness);
         (forces, stiffness)
+    }
+
+    /// Adds what a spring between the groove centres at a ball does to tilts, which carry the rings' points there along; its
+    /// stiffness against places is there already.
+    fn lean(
+        &self,
+        (j, rings): (usize, &Rings),
+        (pressed, own): (&Vector3<f64>, &Matrix3<f64>),
+        (forces, stiffness): (&mut Rings, &mut RingStiffness),
+    ) {
+        let [x, y, z, _] = self.model.bodies[BodyId::ball(j)].nominal;
+        let arms = Race::BOTH.map(|race| self.arm(rings, race, &Vector3::new(x, y, z)));
+        // How a ring's point at the ball moves by its unknowns.
+        let moves = arms.map(|arm| {
+            let mut moves = SMatrix::<f64, 3, OF_A_RING>::identity();
+            let by_tilts = -arm.from.cross_matrix() * arm.turning;
+            moves.fixed_view_mut::<3, 2>(0, 3).copy_from(&by_tilts);
+            moves
+        });
+        for a in Race::BOTH {
+            let k = unknowns::first(a);
+            let on_ring = moves[a].tr_mul(pressed) * a.sigma();
+            for i in 3..OF_A_RING {
+                forces[k + i] += on_ring[i];
+            }
+            for b in Race::BOTH {
+                let sign = a.sigma() * b.sigma();
+                let mut part = moves[a].tr_mul(&(own * moves[b])) * sign;
+                part.fixed_view_mut::<3, 3>(0, 0).fill(0.0);
+                let (row, column) = (unknowns::first(a), unknowns::first(b));
+                let mut of_rings = stiffness.fixed_view_mut::<OF_A_RING, OF_A_RING>(row, column);
+                of_rings += part;
+            }
+        }
     }
 }

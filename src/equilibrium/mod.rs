@@ -12,10 +12,12 @@
 //! What follows from it: [`stiffness()`], which the rings' Newton solve forms anyway, and [`load_distribution`] over
 //! a turn of the cage. So does the place of a defect that is to lie where contacts run.
 
+mod arms;
 mod ball;
 mod cage;
 mod distribution;
 mod guess;
+mod leaning;
 mod oil;
 mod place;
 mod polish;
@@ -29,7 +31,7 @@ mod unknowns;
 
 use serde::Serialize;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::inspect::{self, RaceFilm};
 use crate::interrupt;
 use crate::model::{BodyId, Dof, Model, Race};
@@ -64,8 +66,12 @@ pub struct Equilibrium {
     pub outer: [f64; 3],
     /// Displacement of the inner ring x, y, z \[m\].
     pub inner: [f64; 3],
-    /// Moments about x and y that balls and loads put on the outer ring, about its centre of mass \[N m\]: what keeps it from
-    /// tilting carries them.
+    /// Tilt of the outer ring about x and y \[rad\].
+    pub outer_tilt: [f64; 2],
+    /// Tilt of the inner ring about x and y \[rad\].
+    pub inner_tilt: [f64; 2],
+    /// Moments about x and y that the balls put on the outer ring, about its centre \[N m\]: what keeps it from tilting carries
+    /// them.
     pub outer_moment: [f64; 2],
     /// The same on the inner ring \[N m\].
     pub inner_moment: [f64; 2],
@@ -159,6 +165,8 @@ pub(crate) fn positions(model: &Model) -> Result<Vec<f64>> {
     for (at, race, dof) in unknowns::all() {
         rings[at] = match dof {
             Dof::Z => axial_places.rings[race],
+            // Rings that lean have no planes.
+            Dof::TiltX | Dof::TiltY => 0.0,
             _ => solved.y[layout.at(race.ring(), dof)],
         };
     }
@@ -170,7 +178,7 @@ struct Solved {
     /// State vector with zero velocities.
     y: Vec<f64>,
     iterations: usize,
-    /// Stiffness of the bearing between its rings: x, y, z of outer and inner ring.
+    /// Stiffness of the bearing between its rings: x, y, z and, where it was asked for, tilts of outer and inner ring, as lengths.
     bearing: RingStiffness,
     residual: Residual,
 }
@@ -222,6 +230,8 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
     });
     let [outer_moment, inner_moment] = inspect::moments(model, 0.0, y);
     let mut found = Equilibrium {
+        outer_tilt: model.tilt(y, Race::Outer)[0],
+        inner_tilt: model.tilt(y, Race::Inner)[0],
         outer_moment,
         inner_moment,
         outer: place(BodyId::OUTER),
@@ -246,26 +256,21 @@ fn doubts(scene: &Scene, found: &Equilibrium) -> Vec<Doubt> {
 /// Solves from the first guess; from the nominal places where there is none, or where it leads to no stable place, such
 /// as one on top of a single ball.
 fn solve(model: &Model) -> Result<Solved> {
-    refuse_leaning(model)?;
-    let problem = Problem::new(model);
+    solve_with(|| Problem::new(model))
+}
+
+fn solve_with<'m>(problem: impl Fn() -> Problem<'m>) -> Result<Solved> {
+    let first = problem();
     interrupt::check()?;
-    if let Some(rings) = problem.guess()
-        && let Ok(solved) = solve_from(problem, rings)
+    if let Some(rings) = first.guess()
+        && let Ok(solved) = solve_from(first, rings)
     {
         return Ok(solved);
     }
     interrupt::check()?;
-    solve_from(Problem::new(model), Rings::zeros())
-}
-
-/// Rings that tilt are not solved yet.
-fn refuse_leaning(model: &Model) -> Result<()> {
-    if !model.leans() {
-        return Ok(());
-    }
-    let reason = "it is not computed where a ring may tilt; hold the rings parallel, or start rolling or from a state";
-    let reason = reason.to_owned();
-    Err(Error::Equilibrium { reason })
+    let again = problem();
+    let relaxed = again.relaxed();
+    solve_from(again, relaxed)
 }
 
 /// Solves with the balls at their nominal angles; then lets the cage shift them and pull, and solves again.

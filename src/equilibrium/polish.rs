@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, Vector2};
 use super::TOLERANCE;
 use super::problem::Problem;
 use super::springs::CageSpring;
-use super::unknowns::{self, OF_A_RING, RingStiffness, Rings};
+use super::unknowns::{self, RingStiffness, Rings};
 use crate::error::Result;
 use crate::interrupt;
 use crate::model::Race;
@@ -101,20 +101,18 @@ impl Problem<'_> {
         for (j, &place) in places.iter().enumerate() {
             let at = first + 2 * j;
             let mut ball = self.ball_at(j, rings, place);
-            let contacts = self.contact_stiffness(j, &mut ball);
+            let contacts = self.contact_stiffness(j, rings, &mut ball);
+            ball.press(&mut on_rings);
             for race in Race::BOTH {
-                unknowns::add(&mut on_rings, race, &-ball.contacts[race].force);
-                let k = unknowns::first(race);
-                let mut own = own_of_rings.fixed_view_mut::<OF_A_RING, OF_A_RING>(k, k);
-                own += contacts[race];
+                ball.stiffen(race, &contacts[race], &mut own_of_rings);
             }
-            let mut own = self.ball_stiffness(j, &mut ball);
+            let mut own = self.ball_stiffness(j, rings, &mut ball);
             own += nalgebra::Matrix2::identity() * (LOOSE * self.stiffness());
             if self.is_held(j) {
                 own = nalgebra::Matrix2::identity() * self.stiffness();
             } else {
                 (force[at], force[at + 1]) = (ball.force.x + pulls[j], ball.force.y);
-                let (pulled, pulling) = self.coupling(j, &contacts);
+                let (pulled, pulling) = self.coupling(j, &ball, &contacts);
                 for (a, &i) in self.free.iter().enumerate() {
                     for k in 0..2 {
                         stiffness[(a, at + k)] = -pulling[(i, k)];
@@ -125,10 +123,11 @@ impl Problem<'_> {
             stiffness.fixed_view_mut::<2, 2>(at, at).copy_from(&own);
         }
         self.add_cage(places, &pulls, &mut stiffness);
+        self.apply(rings, &mut on_rings, &mut own_of_rings);
         for (a, &i) in self.free.iter().enumerate() {
             let (race, dof) = unknowns::degree(i);
             let support = self.support(race, dof);
-            force[a] = on_rings[i] - support * rings[i];
+            force[a] = on_rings[i] - self.resistance(i, rings);
             for (b, &k) in self.free.iter().enumerate() {
                 stiffness[(a, b)] = own_of_rings[(i, k)];
             }

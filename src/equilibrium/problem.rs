@@ -2,8 +2,9 @@
 
 use nalgebra::{DVector, Matrix2, Matrix3, SMatrix, Vector2, Vector3};
 
+use super::arms::{Arm, Push};
 use super::springs::{CageSpring, RowSpring};
-use super::unknowns::{self, OF_RINGS, Rings};
+use super::unknowns::{self, OF_A_RING, OF_RINGS, RingStiffness, Rings};
 use crate::contact::{Tangent, V2, centrifugal};
 use crate::forces::{gravity, load, support, unbalance};
 use crate::model::{BodyId, Dof, Model, Race};
@@ -29,6 +30,14 @@ pub(super) struct Problem<'m> {
     pub(super) springs: Vec<RowSpring>,
     /// Axial places that rings and rows keep, where they do.
     pub(super) axial_places: Option<AxialPlaces>,
+    /// Where the rings' springs are relaxed.
+    nominal: Rings,
+    /// Loads that act off the rings' centres of mass.
+    pub(super) pushes: Vec<Push>,
+    /// Moments of unbalances, in the rings' frames \[N m\].
+    pub(super) unbalanced: [Vector3<f64>; 2],
+    /// Whether the stiffness against tilts is looked for: of rings that may lean, or where somebody asks.
+    pub(super) spatial: bool,
 }
 
 impl<'m> Problem<'m> {
@@ -46,7 +55,7 @@ impl<'m> Problem<'m> {
             directions.push(direction);
             magnitude += outwards[j] * place.norm() + weight.abs();
         }
-        let mut loads = Rings::zeros();
+        let (mut loads, mut unbalanced) = (Rings::zeros(), [Vector3::zeros(); 2]);
         for load in &model.loads {
             unknowns::add(&mut loads, load.ring, &load::at(load, 0.0));
         }
@@ -57,12 +66,17 @@ impl<'m> Problem<'m> {
         for unbalance in &model.unbalances {
             let [x, y] = unbalance::at_start(model, unbalance);
             unknowns::add(&mut loads, unbalance.ring, &Vector3::new(x, y, 0.0));
+            unbalanced[unbalance.ring] += Vector3::new(-y, x, 0.0) * unbalance.place;
         }
         let free = unknowns::all()
-            .filter(|(_, race, dof)| model.bodies[race.ring()].degrees[*dof].is_free())
+            .filter(|(_, race, dof)| model.degree(*race, *dof).is_free())
             .map(|(at, ..)| at)
             .collect();
         magnitude += loads.iter().map(|x| x.abs()).sum::<f64>();
+        if model.leans() {
+            let of = |race: Race| load::moment(model, 0.0, race, |arm| *arm).norm();
+            magnitude += (of(Race::Outer) + of(Race::Inner)) / model.radius(BodyId::INNER);
+        }
         // Without any load, the contact scale keeps the tolerance from being zero.
         magnitude = magnitude.max(1e-6 * model.scales.load).max(1e-12);
         Self {
@@ -80,6 +94,23 @@ impl<'m> Problem<'m> {
                 .map(|row| RowSpring::of(model, row))
                 .collect(),
             axial_places: None,
+            nominal: Self::nominal(model),
+            pushes: Push::all(model),
+            unbalanced,
+            spatial: model.leans(),
+        }
+    }
+
+    /// The rings where their supports would have them.
+    pub(super) fn relaxed(&self) -> Rings {
+        self.nominal
+    }
+
+    /// The same where the stiffness against tilts is looked for, whether or not they move.
+    pub(super) fn with_tilts(self) -> Self {
+        Self {
+            spatial: true,
+            ..self
         }
     }
 
@@ -129,10 +160,19 @@ impl<'m> Problem<'m> {
         let kept = self.axial_place(j);
         let place = Vector2::new(place.x, kept.unwrap_or(place.y));
         let centre = Vector3::new(direction.x * place.x, direction.y * place.x, place.y);
-        let from_rings = Race::BOTH.map(|race| centre - unknowns::of(rings, race));
+        let from_rings = Race::BOTH.map(|race| self.seen(rings, race, &centre));
         let contacts = Race::BOTH.map(|race| {
-            self.model.rows[ball.row].pairs[race].tangent(&ball.side, &from_rings[race])
+            let pair = &self.model.rows[ball.row].pairs[race];
+            let found = pair.tangent(&ball.side, &from_rings[race]);
+            if self.model.leans() {
+                found.turned(&self.frame(rings, race))
+            } else {
+                found
+            }
         });
+        let arms = self
+            .spatial
+            .then(|| Race::BOTH.map(|race| self.arm(rings, race, &centre)));
         let pressed = contacts[0].force + contacts[1].force;
         let own = self.own_load_at(j, place.x);
         let mut force = Vector2::new(
@@ -153,25 +193,41 @@ impl<'m> Problem<'m> {
             force,
             from_rings,
             contacts,
+            arms,
         }
     }
 
     /// Stiffness of each of a ball's contacts; differences are taken once.
-    pub(super) fn contact_stiffness(&self, j: usize, state: &mut BallState) -> [Matrix3<f64>; 2] {
+    pub(super) fn contact_stiffness(
+        &self,
+        j: usize,
+        rings: &Rings,
+        state: &mut BallState,
+    ) -> [Matrix3<f64>; 2] {
         let ball = &self.model.balls[j];
         // A thousandth of the approach: truncation 1e-6, noise 1e-9 of the stiffness.
         let step = 1e-3 * self.model.scales.approach;
         Race::BOTH.map(|race| {
             *state.contacts[race].stiffness.get_or_insert_with(|| {
                 let pair = &self.model.rows[ball.row].pairs[race];
-                pair.stiffness_by_differences(&ball.side, &state.from_rings[race], step)
+                let own = pair.stiffness_by_differences(&ball.side, &state.from_rings[race], step);
+                if self.model.leans() {
+                    self.frame(rings, race).matrix_to_scene(&own)
+                } else {
+                    own
+                }
             })
         })
     }
 
     /// Stiffness of a ball along its radius and z between rings that stand still.
-    pub(super) fn ball_stiffness(&self, j: usize, state: &mut BallState) -> Matrix2<f64> {
-        let [outer, inner] = self.contact_stiffness(j, state);
+    pub(super) fn ball_stiffness(
+        &self,
+        j: usize,
+        rings: &Rings,
+        state: &mut BallState,
+    ) -> Matrix2<f64> {
+        let [outer, inner] = self.contact_stiffness(j, rings, state);
         let k = outer + inner;
         let (x, y) = (self.directions[j].x, self.directions[j].y);
         let mut radial = x * x * k[(0, 0)] + y * y * k[(1, 1)] + x * y * (k[(0, 1)] + k[(1, 0)]);
@@ -197,15 +253,28 @@ impl<'m> Problem<'m> {
     pub(super) fn coupling(
         &self,
         j: usize,
+        state: &BallState,
         contacts: &[Matrix3<f64>; 2],
     ) -> (SMatrix<f64, 2, OF_RINGS>, SMatrix<f64, OF_RINGS, 2>) {
         let (x, y) = (self.directions[j].x, self.directions[j].y);
         let mut pulled = SMatrix::<f64, 2, OF_RINGS>::zeros();
         let mut pulling = SMatrix::<f64, OF_RINGS, 2>::zeros();
-        for (a, race, dof) in unknowns::all() {
-            let (k, i) = (&contacts[race], dof.index());
-            (pulled[(0, a)], pulled[(1, a)]) = (x * k[(0, i)] + y * k[(1, i)], k[(2, i)]);
-            (pulling[(a, 0)], pulling[(a, 1)]) = (x * k[(i, 0)] + y * k[(i, 1)], k[(i, 2)]);
+        for race in Race::BOTH {
+            let k = &contacts[race];
+            for dof in Dof::TRANSLATIONS {
+                let (a, i) = (unknowns::at(race, dof), dof.index());
+                (pulled[(0, a)], pulled[(1, a)]) = (x * k[(0, i)] + y * k[(1, i)], k[(2, i)]);
+                (pulling[(a, 0)], pulling[(a, 1)]) = (x * k[(i, 0)] + y * k[(i, 1)], k[(i, 2)]);
+            }
+            let Some(arms) = &state.arms else { continue };
+            let by_tilts = arms[race].by_tilts(&state.contacts[race].force, k);
+            for (i, dof) in Dof::TILTS.into_iter().enumerate() {
+                let a = unknowns::at(race, dof);
+                let column = by_tilts.column(i);
+                let both = (x * column[0] + y * column[1], column[2]);
+                (pulled[(0, a)], pulled[(1, a)]) = both;
+                (pulling[(a, 0)], pulling[(a, 1)]) = both;
+            }
         }
         if self.axial_place(j).is_some() {
             pulled.row_mut(1).fill(0.0);
@@ -216,7 +285,18 @@ impl<'m> Problem<'m> {
 
     /// Stiffness of a ring's support.
     pub(super) fn support(&self, race: Race, dof: Dof) -> f64 {
-        self.model.bodies[race.ring()].degrees[dof].stiffness()
+        let stiffness = self.model.degree(race, dof).stiffness();
+        if dof.is_rotation() {
+            stiffness / (self.lever() * self.lever())
+        } else {
+            stiffness
+        }
+    }
+
+    /// What a ring's support resists where it is.
+    pub(super) fn resistance(&self, at: usize, rings: &Rings) -> f64 {
+        let (race, dof) = unknowns::degree(at);
+        self.support(race, dof) * (rings[at] - self.nominal[at])
     }
 
     /// Whether a support holds a ball at its nominal place.
@@ -231,7 +311,11 @@ impl<'m> Problem<'m> {
         let mut y = vec![0.0; self.model.dim()];
         let layout = self.model.layout();
         for (at, race, dof) in unknowns::all() {
-            y[layout.at(race.ring(), dof)] = rings[at];
+            if !dof.is_rotation() {
+                y[layout.at(race.ring(), dof)] = rings[at];
+            } else if layout.has(race.ring(), dof) {
+                y[layout.at(race.ring(), dof)] = rings[at] / self.lever();
+            }
         }
         for (j, ball) in balls.iter().enumerate() {
             let place = self.directions[j] * ball.x;
@@ -253,13 +337,44 @@ pub(super) struct BallState {
     pub(super) place: Vector2<f64>,
     /// Force on it along these.
     pub(super) force: Vector2<f64>,
-    /// Its place from the centres of outer and inner ring.
-    from_rings: [Vector3<f64>; 2],
+    /// Its place from the centres of outer and inner ring, in their frames.
+    pub(super) from_rings: [Vector3<f64>; 2],
     /// What the races do to it.
     pub(super) contacts: [Tangent; 2],
+    /// How it stands from the rings, where tilts are looked for.
+    pub(super) arms: Option<[Arm; 2]>,
 }
 
 impl BallState {
+    /// Adds what it does to the rings to the forces on them.
+    pub(super) fn press(&self, on_rings: &mut Rings) {
+        for race in Race::BOTH {
+            let force = &self.contacts[race].force;
+            unknowns::add(on_rings, race, &-force);
+            if let Some(arms) = &self.arms {
+                let on_tilts = arms[race].on_tilts(force);
+                for (dof, on) in Dof::TILTS.into_iter().zip(on_tilts.iter()) {
+                    on_rings[unknowns::at(race, dof)] += on;
+                }
+            }
+        }
+    }
+
+    /// Adds the stiffness of a ring against its contact.
+    pub(super) fn stiffen(&self, race: Race, own: &Matrix3<f64>, of_rings: &mut RingStiffness) {
+        let k = unknowns::first(race);
+        match &self.arms {
+            None => {
+                let mut part = of_rings.fixed_view_mut::<3, 3>(k, k);
+                part += own;
+            }
+            Some(arms) => {
+                let mut part = of_rings.fixed_view_mut::<OF_A_RING, OF_A_RING>(k, k);
+                part += arms[race].stiffness(&self.contacts[race].force, own);
+            }
+        }
+    }
+
     /// Size of the contact forces.
     pub(super) fn pressed(&self) -> f64 {
         let [outer, inner] = &self.contacts;

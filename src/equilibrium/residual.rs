@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 
 use super::problem::Problem;
-use super::unknowns::{self, Rings};
+use super::unknowns::{self, RingStiffness, Rings};
 use crate::contact::Motion;
 use crate::error::{Error, Result};
 use crate::forces::cage;
@@ -59,16 +59,16 @@ impl Problem<'_> {
         for (j, (&place, pull)) in places.iter().zip(self.cage_pulls(places)).enumerate() {
             interrupt::check()?;
             let ball = self.ball_at(j, rings, place);
-            for race in Race::BOTH {
-                let force = ball.contacts[race].force;
-                found.largest = found.largest.max(force.norm());
-                unknowns::add(&mut on_rings, race, &-force);
+            for contact in &ball.contacts {
+                found.largest = found.largest.max(contact.force.norm());
             }
+            ball.press(&mut on_rings);
             if !self.is_held(j) {
                 let more = pull - self.cage_spring[j].pull(place.x);
                 found.add(BodyId::ball(j), (ball.force.x + more).hypot(ball.force.y));
             }
         }
+        self.apply(rings, &mut on_rings, &mut RingStiffness::zeros());
         let left = self.left_on_rings(rings, &on_rings);
         for race in Race::BOTH {
             found.add(race.ring(), left[race]);
@@ -80,8 +80,8 @@ impl Problem<'_> {
     fn left_on_rings(&self, rings: &Rings, forces: &Rings) -> [f64; 2] {
         let mut left = [0.0_f64; 2];
         for &i in &self.free {
-            let (race, dof) = unknowns::degree(i);
-            left[race] = left[race].hypot(forces[i] - self.support(race, dof) * rings[i]);
+            let (race, _) = unknowns::degree(i);
+            left[race] = left[race].hypot(forces[i] - self.resistance(i, rings));
         }
         left
     }

@@ -6,7 +6,7 @@ use super::ball::least;
 use super::cage::Hold;
 use super::problem::Problem;
 use super::search::search;
-use super::unknowns::{self, OF_A_RING, OF_RINGS, RingStiffness, Rings};
+use super::unknowns::{self, OF_RINGS, RingStiffness, Rings};
 use super::{FINE, STALLED};
 use crate::contact::V2;
 use crate::error::{Error, Result};
@@ -100,12 +100,17 @@ impl Problem<'_> {
             } else {
                 error.clamp(fine, ROUGH)
             };
-            let clipped = step.norm() > 0.99 * longest;
+            let clipped = unknowns::length(&step) > 0.99 * longest;
             let found = search(force(&state), |t| {
                 let moved = step * t;
                 let starts = state.followed(&moved);
                 let trial = self
-                    .rings(&(*rings + moved), &starts, moved.norm(), precision)
+                    .rings(
+                        &(*rings + moved),
+                        &starts,
+                        unknowns::length(&moved),
+                        precision,
+                    )
                     .ok()?;
                 Some((force(&trial), (t, trial)))
             });
@@ -156,15 +161,13 @@ impl Problem<'_> {
         for (j, &start) in starts.iter().enumerate() {
             let start = self.refreshed(j, rings, start, moved);
             let mut ball = self.settle(j, rings, start, precision)?;
-            let contacts = self.contact_stiffness(j, &mut ball);
+            let contacts = self.contact_stiffness(j, rings, &mut ball);
+            ball.press(&mut forces);
             for race in Race::BOTH {
-                unknowns::add(&mut forces, race, &-ball.contacts[race].force);
-                let k = unknowns::first(race);
-                let mut own = bearing.fixed_view_mut::<OF_A_RING, OF_A_RING>(k, k);
-                own += contacts[race];
+                ball.stiffen(race, &contacts[race], &mut bearing);
             }
-            let (pulled, pulling) = self.coupling(j, &contacts);
-            let own = self.ball_stiffness(j, &mut ball);
+            let (pulled, pulling) = self.coupling(j, &ball, &contacts);
+            let own = self.ball_stiffness(j, rings, &mut ball);
             // A loose ball carries nothing and has no stiffness to condense.
             let stiff = !self.is_held(j) && least(&own) > 1e-9 * self.stiffness();
             let mut followed = SMatrix::zeros();
@@ -192,10 +195,10 @@ impl Problem<'_> {
         bearing = (bearing + bearing.transpose()) / 2.0;
         let mut held = bearing;
         for (a, race, dof) in unknowns::all() {
-            let k = self.support(race, dof);
-            forces[a] -= k * rings[a];
-            held[(a, a)] += k;
+            forces[a] -= self.resistance(a, rings);
+            held[(a, a)] += self.support(race, dof);
         }
+        self.apply(rings, &mut forces, &mut held);
         let n = self.free.len();
         Ok(RingState {
             balls,
@@ -206,6 +209,18 @@ impl Problem<'_> {
             holds,
             bearing,
         })
+    }
+
+    /// How far a ball is from a ring's axis, and where along it.
+    fn before(&self, j: usize, rings: &Rings, race: Race, ball: &Vector2<f64>) -> [f64; 2] {
+        if self.model.leans() {
+            let n = self.directions[j] * ball.x;
+            let seen = self.seen(rings, race, &nalgebra::Vector3::new(n.x, n.y, ball.y));
+            return [seen.xy().norm(), seen.z];
+        }
+        let ring = unknowns::of(rings, race);
+        let distance = ball.x - V2::new(ring.x, ring.y).dot(&self.directions[j]);
+        [distance, ball.y - ring.z]
     }
 
     /// A ball's place to start from: it is seeded anew when the rings have moved far.
@@ -272,9 +287,8 @@ impl Problem<'_> {
             let compiled = &self.model.balls[j];
             for race in Race::BOTH {
                 let pair = &self.model.rows[compiled.row].pairs[race];
-                let ring = unknowns::of(rings, race);
-                let distance = ball.x - V2::new(ring.x, ring.y).dot(&self.directions[j]);
-                let left = pair.left(compiled.side.radius, distance, ball.y - ring.z);
+                let [distance, z] = self.before(j, rings, race, ball);
+                let left = pair.left(compiled.side.radius, distance, z);
                 if let Some((point, [lowest, highest])) = left {
                     return Err(Error::Equilibrium {
                         reason: format!(

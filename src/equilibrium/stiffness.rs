@@ -1,9 +1,12 @@
 //! How stiff a bearing is where it stands.
 
+use std::array::from_fn;
+
 use serde::Serialize;
 
-use super::unknowns::{OF_RINGS, at};
-use super::{Equilibrium, compile, solve};
+use super::problem::Problem;
+use super::unknowns::{OF_A_RING, OF_RINGS, RingStiffness, at, degree, first};
+use super::{Equilibrium, compile, solve_with};
 use crate::error::Result;
 use crate::model::{Dof, Race};
 use crate::scene::Scene;
@@ -18,7 +21,12 @@ pub struct Stiffness {
     /// Inner ring against a held outer ring: forces and moves of the inner ring along x, y, z \[N/m\].
     pub inner: [[f64; 3]; 3],
     /// Both rings: x, y, z of the outer, then of the inner ring \[N/m\].
-    pub rings: [[f64; OF_RINGS]; OF_RINGS],
+    pub rings: [[f64; 6]; 6],
+    /// The same with tilts: forces along x, y, z \[N\] and moments about x and y, about the ring's centre of mass \[N m\], by moves
+    /// along x, y, z \[m\] and tilts about x and y \[rad\], in this order.
+    pub inner_spatial: [[f64; OF_A_RING]; OF_A_RING],
+    /// The same for both rings: the five of the outer, then those of the inner ring.
+    pub rings_spatial: [[f64; OF_RINGS]; OF_RINGS],
     /// Where the bearing stands.
     pub equilibrium: Equilibrium,
 }
@@ -40,14 +48,27 @@ pub struct Stiffness {
 /// As [`super::equilibrium()`].
 pub fn stiffness(scene: &Scene) -> Result<Stiffness> {
     let model = compile(scene)?;
-    let solved = solve(&model)?;
+    let solved = solve_with(|| Problem::new(&model).with_tilts())?;
     let bearing = &solved.bearing;
+    let lever = model.radius(Race::Inner.ring());
+    // Moments and tilts, where forces and lengths stood for them.
+    let spatial = RingStiffness::from_fn(|i, j| {
+        let scale = |at| {
+            if degree(at).1.is_rotation() {
+                lever
+            } else {
+                1.0
+            }
+        };
+        bearing[(i, j)] * scale(i) * scale(j)
+    });
+    let inner = first(Race::Inner);
+    let place = |i: usize| at(Race::BOTH[i / 3], Dof::TRANSLATIONS[i % 3]);
     Ok(Stiffness {
-        inner: Dof::TRANSLATIONS.map(|i| {
-            let inner = |dof| at(Race::Inner, dof);
-            Dof::TRANSLATIONS.map(|j| bearing[(inner(i), inner(j))])
-        }),
-        rings: std::array::from_fn(|i| std::array::from_fn(|j| bearing[(i, j)])),
+        inner: from_fn(|i| from_fn(|j| bearing[(inner + i, inner + j)])),
+        rings: from_fn(|i| from_fn(|j| bearing[(place(i), place(j))])),
+        inner_spatial: from_fn(|i| from_fn(|j| spatial[(inner + i, inner + j)])),
+        rings_spatial: from_fn(|i| from_fn(|j| spatial[(i, j)])),
         equilibrium: solved.describe(&model),
     })
 }

@@ -1,11 +1,15 @@
-//! Unknowns of the rings, each along x, y and z, and the one place that says where they stand.
+//! Unknowns of the rings, each along x, y and z and its tilts, and the one place that says where they stand.
+//!
+//! Tilts are lengths here: times half of the mean pitch diameter.
 
 use nalgebra::{SMatrix, SVector, Vector3};
 
 use crate::model::{Dof, RINGS, Race};
 
+/// Directions of a ring that statics looks for, in their order.
+const DIRECTIONS: [Dof; 5] = [Dof::X, Dof::Y, Dof::Z, Dof::TiltX, Dof::TiltY];
 /// Unknowns of a ring.
-pub(super) const OF_A_RING: usize = Dof::TRANSLATIONS.len();
+pub(super) const OF_A_RING: usize = DIRECTIONS.len();
 /// Unknowns of both.
 pub(super) const OF_RINGS: usize = RINGS * OF_A_RING;
 
@@ -17,7 +21,12 @@ pub(super) type RingStiffness = SMatrix<f64, OF_RINGS, OF_RINGS>;
 /// Where an unknown stands.
 #[inline]
 pub(super) const fn at(race: Race, dof: Dof) -> usize {
-    first(race) + dof.index()
+    let own = match dof {
+        Dof::TiltX => 3,
+        Dof::TiltY => 4,
+        _ => dof.index(),
+    };
+    first(race) + own
 }
 
 /// Where the unknowns of a ring begin.
@@ -29,10 +38,7 @@ pub(super) const fn first(race: Race) -> usize {
 /// What stands at a place.
 #[inline]
 pub(super) const fn degree(at: usize) -> (Race, Dof) {
-    (
-        Race::BOTH[at / OF_A_RING],
-        Dof::TRANSLATIONS[at % OF_A_RING],
-    )
+    (Race::BOTH[at / OF_A_RING], DIRECTIONS[at % OF_A_RING])
 }
 
 /// All of them with where they stand.
@@ -44,15 +50,29 @@ pub(super) fn all() -> impl Iterator<Item = (usize, Race, Dof)> {
     })
 }
 
-/// Those of one ring.
-#[inline]
-pub(super) fn of(rings: &Rings, race: Race) -> Vector3<f64> {
-    rings.fixed_rows::<OF_A_RING>(first(race)).into_owned()
+/// Work of forces along a step, summed in the order of the unknowns: those that do not move change no bit of it.
+pub(super) fn work(forces: &Rings, step: &Rings) -> f64 {
+    forces
+        .iter()
+        .zip(step)
+        .map(|(force, step)| force * step)
+        .sum()
 }
 
-/// Adds to those of one ring.
+/// Length of a step, likewise.
+pub(super) fn length(step: &Rings) -> f64 {
+    work(step, step).sqrt()
+}
+
+/// Those of one ring along x, y and z.
+#[inline]
+pub(super) fn of(rings: &Rings, race: Race) -> Vector3<f64> {
+    rings.fixed_rows::<3>(first(race)).into_owned()
+}
+
+/// Adds to those of one ring along x, y and z.
 #[inline]
 pub(super) fn add(rings: &mut Rings, race: Race, part: &Vector3<f64>) {
-    let mut of_ring = rings.fixed_rows_mut::<OF_A_RING>(first(race));
+    let mut of_ring = rings.fixed_rows_mut::<3>(first(race));
     of_ring += part;
 }

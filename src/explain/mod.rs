@@ -68,6 +68,9 @@ pub struct Explanation {
     pub notes: Vec<&'static str>,
 }
 
+/// What is told of a scene whose rings may tilt.
+const LEANS: &str = "a ring may tilt: contacts are evaluated one by one, in the frames of their rings, and nothing is left out";
+
 /// How the contacts of a race are evaluated.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct ContactKind {
@@ -125,7 +128,10 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         oils: oil::of(&model)?,
         doubts: at_start.doubts,
         defects: defects(&scene, &placed)?,
-        notes: run::note(&model).into_iter().collect(),
+        notes: run::note(&model)
+            .into_iter()
+            .chain(model.leans().then_some(LEANS))
+            .collect(),
     })
 }
 

@@ -15,6 +15,16 @@ use crate::model::{BodyId, CoupledModel, Degree, Dof, Model, Race, RingModel};
 use crate::scene::Drive;
 use crate::tilt::Frame;
 
+/// Whether springs or dampers hold any tilt.
+pub(crate) fn holds(model: &Model) -> bool {
+    let sprung = |degree: &Degree| match degree {
+        Degree::Free { stiffness, damping } => *stiffness != 0.0 || *damping != 0.0,
+        Degree::Fixed | Degree::Driven => false,
+    };
+    let mut rings = model.rings.iter();
+    rings.any(|ring| ring.coupled.is_some() || ring.degrees.iter().any(sprung))
+}
+
 /// What its support does through tilts, and what of the table's number about z is a force of the spin's own mount.
 pub(crate) fn support(model: &Model, race: Race, state: &State, on_spin: f64) -> OnRing {
     let ring = &model.rings[race];

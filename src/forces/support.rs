@@ -7,13 +7,13 @@
 // Everything in the loop must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::{Account, Force, State, Table, Use};
+use super::{Account, Force, State, Table, Use, leaning};
 use crate::model::{Body, BodyId, Degree, Dof, Model, Spring};
 
 pub(crate) const FORCE: Force = Force {
     name: "support",
     contribution: "support",
-    used: |model| Use::evaluated(!model.springs.is_empty()),
+    used: |model| Use::evaluated(!model.springs.is_empty() || leaning::holds(model)),
     add: |model, _, state, forces| add(&model.springs, state, forces),
 };
 

@@ -41,7 +41,7 @@ impl RingModel {
             centre_of_mass,
             tilt: ring.tilt.unwrap_or_default(),
             degrees: ring.support.tilt_mounts().map(Degree::from),
-            coupled: ring.support.coupled.as_ref().map(coupled),
+            coupled: ring.support.coupled.as_deref().map(coupled),
         }
     }
 
@@ -56,6 +56,15 @@ impl Model {
     #[inline]
     pub(crate) fn leans(&self) -> bool {
         self.leans
+    }
+
+    /// How a direction of a ring moves.
+    pub(crate) fn degree(&self, race: Race, dof: Dof) -> Degree {
+        match dof {
+            Dof::TiltX => self.rings[race].degrees[0],
+            Dof::TiltY => self.rings[race].degrees[1],
+            _ => self.bodies[race.ring()].degrees[dof],
+        }
     }
 
     /// The layout of all bodies and of the tilts that move.

@@ -51,6 +51,12 @@ pub(super) fn preset_wheel_bearing(py: Python<'_>, axial_load: f64) -> PyResult<
     checked(py, &presets::wheel_bearing(axial_load))
 }
 
+/// The preset `cornering_wheel` as JSON.
+#[pyfunction]
+pub(super) fn preset_cornering_wheel(py: Python<'_>, lateral: f64) -> PyResult<String> {
+    checked(py, &presets::cornering_wheel(lateral))
+}
+
 /// The preset `deep_groove_6205` as JSON.
 #[pyfunction]
 pub(super) fn preset_deep_groove_6205(

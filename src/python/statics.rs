@@ -36,6 +36,17 @@ const STANDING: [Column; 8] = [
     ("inner_pressure", |ball| ball.inner.pressure),
 ];
 
+/// What is told of a ring about x and y: its name, and both values.
+type OfRing = (&'static str, fn(&Equilibrium) -> [f64; 2]);
+
+/// Tilts and moments.
+const OF_RINGS: [OfRing; 4] = [
+    ("outer_tilt", |found| found.outer_tilt),
+    ("inner_tilt", |found| found.inner_tilt),
+    ("outer_moment", |found| found.outer_moment),
+    ("inner_moment", |found| found.inner_moment),
+];
+
 /// Static equilibrium.
 #[pyfunction]
 pub(super) fn equilibrium<'py>(py: Python<'py>, scene: &str) -> PyResult<Bound<'py, PyDict>> {
@@ -50,6 +61,13 @@ pub(super) fn stiffness<'py>(py: Python<'py>, scene: &str) -> PyResult<Bound<'py
     let all = PyDict::new(py);
     set(&all, "inner", found.inner.concat(), &[3, 3])?;
     set(&all, "rings", found.rings.concat(), &[6, 6])?;
+    set(&all, "inner_spatial", found.inner_spatial.concat(), &[5, 5])?;
+    set(
+        &all,
+        "rings_spatial",
+        found.rings_spatial.concat(),
+        &[10, 10],
+    )?;
     all.set_item("equilibrium", arrays(py, &found.equilibrium)?)?;
     Ok(all)
 }
@@ -74,6 +92,10 @@ pub(super) fn load_distribution<'py>(
     let rows = [found.equivalent.len()];
     set(&all, "outer_equivalent", equivalent(|row| row.outer), &rows)?;
     set(&all, "inner_equivalent", equivalent(|row| row.inner), &rows)?;
+    for (name, of) in OF_RINGS {
+        let values = found.equilibria.iter().flat_map(of).collect();
+        set(&all, name, values, &[shape[0], 2])?;
+    }
     set(&all, "turn", found.turn, &shape[..1])?;
     let by_pressure =
         |a: &&Equilibrium, b: &&Equilibrium| a.largest_pressure().total_cmp(&b.largest_pressure());
@@ -97,8 +119,9 @@ fn arrays<'py>(py: Python<'py>, found: &Equilibrium) -> PyResult<Bound<'py, PyDi
     name(&all, found)?;
     set(&all, "outer", found.outer.to_vec(), &[3])?;
     set(&all, "inner", found.inner.to_vec(), &[3])?;
-    set(&all, "outer_moment", found.outer_moment.to_vec(), &[2])?;
-    set(&all, "inner_moment", found.inner_moment.to_vec(), &[2])?;
+    for (name, of) in OF_RINGS {
+        set(&all, name, of(found).to_vec(), &[2])?;
+    }
     for (name, of) in TURNING.into_iter().chain(STANDING) {
         let values = found.balls.iter().map(of).collect();
         set(&all, name, values, &[found.balls.len()])?;

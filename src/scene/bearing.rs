@@ -269,7 +269,7 @@ pub struct Support {
     pub tilt_y: Option<Mount>,
     /// Of a ring, springs and dampers between all directions, beside those above.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub coupled: Option<CoupledSupport>,
+    pub coupled: Option<Box<CoupledSupport>>,
 }
 
 /// One direction of a support.

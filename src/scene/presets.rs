@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::{
-    Cage, Contact, Defect, Drive, Friction, Load, Mount, NormalLaw, Probe, Ring, RingName, Row,
-    Scene, Support, Surface,
+    Cage, Contact, Defect, Drive, Friction, Load, Method, Mount, NormalLaw, Probe, Ring, RingName,
+    Row, Scene, Support, Surface,
 };
 
 /// The paper's faulted double-row wheel bearing under 7 kN radial and the given axial load \[N\].
@@ -73,6 +73,32 @@ pub fn wheel_bearing(axial_load: f64) -> Scene {
         probes: ring_motion(),
         ..Scene::new(rows, Drive::Speed(speed.into()))
     }
+}
+
+/// The wheel bearing of [`wheel_bearing`] in a curve: the road acts where it meets the tyre, with a side force of `lateral` times the
+/// wheel's load, and the wheel's ring tilts.
+///
+/// 0.3 is a brisk curve, 0.6 one near the limit of many tyres. The wheel's load is the bearing's 7 kN along −y on the inner ring, as
+/// everywhere here: so the road lies towards +y.
+pub fn cornering_wheel(lateral: f64) -> Scene {
+    // A tyre 195/65 R15 rolls on 0.3 m.
+    let tyre = 0.3;
+    let wheel_load = 7000.0;
+    let mut scene = wheel_bearing(lateral * wheel_load);
+    "a wheel bearing in a curve".clone_into(&mut scene.name);
+    for load in scene.loads.values_mut() {
+        load.at = Some([0.0, tyre, 0.0]);
+    }
+    // Damped by the wheel like its places: 500 N s/m at half of the pitch diameter.
+    let tilts = Some(Mount::Spring {
+        stiffness: 0.0,
+        damping: 0.5,
+    });
+    let support = &mut scene.inner_ring.support;
+    (support.tilt_x, support.tilt_y) = (tilts, tilts);
+    // The default method knows parallel rings only.
+    scene.solver.method = Method::DormandPrince;
+    scene
 }
 
 /// A deep-groove bearing 6205 (SKF 6205-2RS of the Case Western Reserve data), healthy.

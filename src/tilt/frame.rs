@@ -57,6 +57,11 @@ impl Frame {
     pub fn to_ring(self, v: &Vector3<f64>) -> Vector3<f64> {
         self.matrix.tr_mul(v)
     }
+
+    /// A matrix that acts on vectors of the ring's frame, for those of the scene's.
+    pub fn matrix_to_scene(self, of: &Matrix3<f64>) -> Matrix3<f64> {
+        self.matrix * of * self.matrix.transpose()
+    }
 }
 
 #[cfg(test)]

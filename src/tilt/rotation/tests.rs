@@ -110,7 +110,7 @@ fn a_ring_on_a_spring_whirls() {
 fn the_heavy_top_is_that_of_others() {
     let top = Inertia {
         polar: 0.46875,
-        transverse: 15.234375,
+        transverse: 15.234_375,
     };
     let start = [0.0, 0.0, 0.0, -4.61538, 0.0, 150.0];
     let weight = |s: &State| {

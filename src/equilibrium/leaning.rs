@@ -1,0 +1,143 @@
+//! Tilts of rings among the unknowns: frames, what acts on tilts beside contacts, and where springs between groove centres see a ring
+//! that leans.
+
+use nalgebra::{Matrix3x2, SMatrix, Vector3, Vector6};
+
+use super::arms::{Arm, OfRing, OnRing};
+use super::problem::Problem;
+use super::unknowns::{self, OF_A_RING, RingStiffness, Rings};
+use crate::forces::load;
+use crate::model::{Dof, Model, Race, RingModel};
+use crate::tilt::{Frame, Rotation};
+
+impl Problem<'_> {
+    /// Half of the mean pitch diameter \[m\], which makes a length of a tilt.
+    pub(super) fn lever(&self) -> f64 {
+        self.model.radius(Race::Inner.ring())
+    }
+
+    /// Tilt of a ring \[rad\].
+    pub(super) fn tilt(&self, rings: &Rings, race: Race) -> [f64; 2] {
+        Dof::TILTS.map(|dof| rings[unknowns::at(race, dof)] / self.lever())
+    }
+
+    /// The frame of a ring that may lean.
+    pub(super) fn frame(&self, rings: &Rings, race: Race) -> Frame {
+        Frame::new(self.tilt(rings, race))
+    }
+
+    /// How a ring turns by its tilts, told as lengths.
+    fn turning(&self, rings: &Rings, race: Race) -> Matrix3x2<f64> {
+        let tilt = self.tilt(rings, race);
+        let by = |rates: [f64; 2]| Rotation::new(tilt, rates, 0.0).angular_velocity();
+        Matrix3x2::from_columns(&[by([1.0, 0.0]), by([0.0, 1.0])]) / self.lever()
+    }
+
+    /// How a ball stands from a ring whose contacts it meets at a place from the ring's origin, both in the scene's frame.
+    pub(super) fn arm(&self, rings: &Rings, race: Race, centre: &Vector3<f64>) -> Arm {
+        let of_ring = Vector3::z() * self.model.rings[race].centre_of_mass;
+        Arm {
+            from: centre - unknowns::of(rings, race) - of_ring,
+            turning: self.turning(rings, race),
+        }
+    }
+
+    /// The place of a ball as a ring sees it that may lean.
+    pub(super) fn seen(&self, rings: &Rings, race: Race, centre: &Vector3<f64>) -> Vector3<f64> {
+        let from = centre - unknowns::of(rings, race);
+        if !self.model.leans() {
+            return from;
+        }
+        let of_ring = Vector3::z() * self.model.rings[race].centre_of_mass;
+        self.frame(rings, race).to_ring(&(from - of_ring)) + of_ring
+    }
+
+    /// Adds what loads, moments and coupled supports do to tilts, and their stiffness.
+    pub(super) fn apply(&self, rings: &Rings, forces: &mut Rings, stiffness: &mut RingStiffness) {
+        if !self.model.leans() {
+            return;
+        }
+        for race in Race::BOTH {
+            let k = unknowns::first(race);
+            let (more, against) = self.applied(rings, race);
+            let mut on_ring = forces.fixed_rows_mut::<OF_A_RING>(k);
+            on_ring += more;
+            let mut own = stiffness.fixed_view_mut::<OF_A_RING, OF_A_RING>(k, k);
+            own += against;
+        }
+    }
+
+    /// What loads, moments and supports do to a ring's tilts, coupled supports to its places too; and the stiffness of all that.
+    /// Springs of single directions have no part in it.
+    fn applied(&self, rings: &Rings, race: Race) -> (OnRing, OfRing) {
+        let (mut forces, mut stiffness) = (OnRing::zeros(), OfRing::zeros());
+        let (frame, turning) = (self.frame(rings, race), self.turning(rings, race));
+        let moment = load::moment(self.model, 0.0, race, |arm| frame.to_scene(arm))
+            + frame.to_scene(&self.unbalanced[race]);
+        let on_tilts = turning.tr_mul(&moment);
+        forces.fixed_rows_mut::<2>(3).copy_from(&on_tilts);
+        for push in self.pushes.iter().filter(|push| push.race == race) {
+            // δM = (δφ × p) × f.
+            let arm = frame.to_scene(&push.arm).cross_matrix();
+            let own = -turning.tr_mul(&(push.force.cross_matrix() * arm)) * turning;
+            let mut of_tilts = stiffness.fixed_view_mut::<2, 2>(3, 3);
+            of_tilts += own;
+        }
+        let (coupled, against) = self.coupled(rings, race, &frame);
+        (forces + coupled, stiffness + against)
+    }
+
+    /// What a coupled support does, −Gᵀ K ξ with G = ∂ξ/∂(places, tilts), and its stiffness Gᵀ K G.
+    fn coupled(&self, rings: &Rings, race: Race, frame: &Frame) -> (OnRing, OfRing) {
+        let ring: &RingModel = &self.model.rings[race];
+        let Some(coupled) = &ring.coupled else {
+            return (OnRing::zeros(), OfRing::zeros());
+        };
+        let lever = self.lever();
+        let axis = frame.axis();
+        let [x, y] = frame.tilt;
+        let moved = (axis - Frame::new(ring.tilt).axis()) * coupled.place;
+        let place = unknowns::of(rings, race) + moved;
+        let stretched = Vector6::new(
+            place.x,
+            place.y,
+            place.z,
+            x - ring.tilt[0],
+            y - ring.tilt[1],
+            0.0,
+        );
+        let mut by = SMatrix::<f64, 6, OF_A_RING>::identity();
+        let along = coupled.place / lever;
+        by[(1, 3)] = -along;
+        by[(0, 4)] = along;
+        (by[(2, 3)], by[(2, 4)]) = (-x / axis.z * along, -y / axis.z * along);
+        (by[(3, 3)], by[(4, 4)]) = (1.0 / lever, 1.0 / lever);
+        let pull = coupled.stiffness * stretched;
+        (-by.tr_mul(&pull), by.tr_mul(&(coupled.stiffness * by)))
+    }
+
+    /// Where springs between groove centres would see a ring that leans, at a ball: along its direction, and axially.
+    pub(super) fn leaned(&self, j: usize, rings: &Rings, race: Race) -> [f64; 2] {
+        if !self.model.leans() {
+            return [0.0; 2];
+        }
+        let row = &self.model.scene.rows[self.model.balls[j].row];
+        let [x, y] = self.tilt(rings, race);
+        let n = self.directions[j];
+        let along = row.axial_position - self.model.rings[race].centre_of_mass;
+        let pitch = row.pitch_diameter / 2.0;
+        [along * (y * n.x - x * n.y), pitch * (x * n.y - y * n.x)]
+    }
+
+    /// The tilts of the rings in the scene, as unknowns.
+    pub(super) fn nominal(model: &Model) -> Rings {
+        let lever = model.radius(Race::Inner.ring());
+        let mut rings = Rings::zeros();
+        for race in Race::BOTH {
+            for (dof, tilt) in Dof::TILTS.into_iter().zip(model.rings[race].tilt) {
+                rings[unknowns::at(race, dof)] = lever * tilt;
+            }
+        }
+        rings
+    }
+}
