@@ -187,7 +187,7 @@ fn stiffness_is_the_slope_of_the_solution() {
         .collect();
     let answer = |i: usize| (0..5).map(|j| k[i][j] * moved[j]).sum::<f64>();
     println!("{:?}", [0, 1, 2, 3, 4].map(answer));
-    assert!((answer(3) / 1e-3 - 1.0).abs() < 0.01, "{}", answer(3));
+    assert!((answer(3) / 1e-3 - 1.0).abs() < 1e-3, "{}", answer(3));
     assert!(answer(4).abs() < 1e-5 && answer(2).abs() < 1e-2);
 }
 

@@ -32,9 +32,9 @@ mod unknowns;
 use serde::Serialize;
 
 use crate::error::Result;
-use crate::inspect::{self, RaceFilm};
+use crate::inspect::{self, MomentOnRing, RaceFilm};
 use crate::interrupt;
-use crate::model::{BodyId, Dof, Model, Race};
+use crate::model::{Ball, BodyId, Dof, Model, Race};
 use crate::reduction::axial_places;
 use crate::scene::{Doubt, Scene};
 pub use distribution::{EquivalentLoads, LoadDistribution, load_distribution};
@@ -197,8 +197,9 @@ impl Solved {
 pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibrium {
     let layout = model.layout();
     let place = |body: BodyId| layout.centre(y, body);
-    let contact = |j: usize, race: Race| {
-        let summary = inspect::contact(model, y, j, race);
+    let mut on_rings = Race::BOTH.map(|race| MomentOnRing::new(model, y, race));
+    let mut contact = |j: usize, race: Race| {
+        let summary = on_rings[race].add_and_tell(y, j);
         let ball = &model.balls[j];
         let pair = &model.rows[ball.row].pairs[race];
         let [b, r] = model.facing(y, j, race);
@@ -216,7 +217,7 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
             pressure: inspect::pressure(model, y, (j, race), summary.load),
         }
     };
-    let balls = model.balls.iter().enumerate().map(|(j, ball)| {
+    let ball = |(j, ball): (usize, &Ball)| {
         let [x, y, z] = place(BodyId::ball(j));
         BallEquilibrium {
             row: ball.row,
@@ -227,8 +228,9 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
             outer: contact(j, Race::Outer),
             inner: contact(j, Race::Inner),
         }
-    });
-    let [outer_moment, inner_moment] = inspect::moments(model, 0.0, y);
+    };
+    let balls = model.balls.iter().enumerate().map(ball).collect();
+    let [outer_moment, inner_moment] = on_rings.map(|sum| sum.told(0.0));
     let mut found = Equilibrium {
         outer_tilt: model.tilt(y, Race::Outer)[0],
         inner_tilt: model.tilt(y, Race::Inner)[0],
@@ -236,7 +238,7 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
         inner_moment,
         outer: place(BodyId::OUTER),
         inner: place(BodyId::INNER),
-        balls: balls.collect(),
+        balls,
         iterations,
         residual: 0.0,
         residual_share: 0.0,

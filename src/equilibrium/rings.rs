@@ -158,6 +158,7 @@ impl Problem<'_> {
         let mut balls = Vec::with_capacity(starts.len());
         let mut follow = Vec::with_capacity(starts.len());
         let mut holds = vec![Hold::default(); starts.len()];
+        let active = unknowns::active(self.spatial);
         for (j, &start) in starts.iter().enumerate() {
             let start = self.refreshed(j, rings, start, moved);
             let mut ball = self.settle(j, rings, start, precision)?;
@@ -170,11 +171,14 @@ impl Problem<'_> {
             let own = self.ball_stiffness(j, rings, &mut ball);
             // A loose ball carries nothing and has no stiffness to condense.
             let stiff = !self.is_held(j) && least(&own) > 1e-9 * self.stiffness();
-            let mut followed = SMatrix::zeros();
+            let mut followed = SMatrix::<f64, 2, OF_RINGS>::zeros();
             if let Some(inverse) = own.try_inverse().filter(|_| stiff) {
-                followed = SMatrix::<f64, 2, OF_RINGS>::from_fn(|a, b| {
-                    inverse[(a, 0)] * pulled[(0, b)] + inverse[(a, 1)] * pulled[(1, b)]
-                });
+                for &b in active {
+                    for a in 0..2 {
+                        followed[(a, b)] =
+                            inverse[(a, 0)] * pulled[(0, b)] + inverse[(a, 1)] * pulled[(1, b)];
+                    }
+                }
                 let radial = 1.0 / inverse[(0, 0)] - self.cage_spring[j].stiffness();
                 if radial > SOFT * self.stiffness() {
                     holds[j] = Hold {
@@ -186,9 +190,12 @@ impl Problem<'_> {
                 forces += pulling * last;
                 ball.place += last;
             }
-            bearing -= RingStiffness::from_fn(|a, b| {
-                pulling[(a, 0)] * followed[(0, b)] + pulling[(a, 1)] * followed[(1, b)]
-            });
+            for &a in active {
+                for &b in active {
+                    bearing[(a, b)] -=
+                        pulling[(a, 0)] * followed[(0, b)] + pulling[(a, 1)] * followed[(1, b)];
+                }
+            }
             balls.push(ball.place);
             follow.push(followed);
         }

@@ -50,6 +50,13 @@ pub(super) fn all() -> impl Iterator<Item = (usize, Race, Dof)> {
     })
 }
 
+/// Those that a solve looks at: all, or those of places.
+pub(super) const fn active(spatial: bool) -> &'static [usize] {
+    const ALL: [usize; OF_RINGS] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
+    const PLACES: [usize; 6] = [0, 1, 2, 5, 6, 7];
+    if spatial { &ALL } else { &PLACES }
+}
+
 /// Work of forces along a step, summed in the order of the unknowns: those that do not move change no bit of it.
 pub(super) fn work(forces: &Rings, step: &Rings) -> f64 {
     forces

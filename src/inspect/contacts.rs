@@ -33,8 +33,9 @@ pub struct SliceForce {
     pub force: f64,
 }
 
+/// What the forces of a contact add up to.
 #[derive(Default)]
-struct Summary {
+pub(super) struct Summary {
     plane: V2,
     axial: f64,
     weight: f64,
@@ -78,22 +79,29 @@ impl Sink for List {
 pub fn contact(model: &Model, y: &[f64], j: usize, race: Race) -> ContactSummary {
     let mut sum = Summary::default();
     let side = visit(model, y, j, race, &mut sum);
-    if sum.weight == 0.0 {
-        return ContactSummary {
-            load: 0.0,
-            angle: f64::NAN,
-            zone_centre: f64::NAN,
-            zone_width: sum.high - sum.low,
-            slip: f64::NAN,
-        };
-    }
-    let radial = sum.plane.norm();
-    ContactSummary {
-        load: radial.hypot(sum.axial),
-        angle: (sum.axial * race.sigma() * side).atan2(radial),
-        zone_centre: sum.moment / sum.weight,
-        zone_width: sum.high - sum.low,
-        slip: sum.slip / sum.weight,
+    sum.told(race, side)
+}
+
+impl Summary {
+    /// In a few numbers, on a race of a row whose nominal contact angle has this sense.
+    pub(super) fn told(&self, race: Race, side: f64) -> ContactSummary {
+        if self.weight == 0.0 {
+            return ContactSummary {
+                load: 0.0,
+                angle: f64::NAN,
+                zone_centre: f64::NAN,
+                zone_width: self.high - self.low,
+                slip: f64::NAN,
+            };
+        }
+        let radial = self.plane.norm();
+        ContactSummary {
+            load: radial.hypot(self.axial),
+            angle: (self.axial * race.sigma() * side).atan2(radial),
+            zone_centre: self.moment / self.weight,
+            zone_width: self.high - self.low,
+            slip: self.slip / self.weight,
+        }
     }
 }
 

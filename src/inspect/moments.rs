@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::contacts::visit;
-use crate::contact::{Aside, OilTouch, Sink, Touch, Wrench};
+use super::contacts::{ContactSummary, Summary, visit};
+use crate::contact::{Aside, LeaningRing, OilTouch, Sink, Touch, Wrench};
 use crate::forces::load;
 use crate::model::{BodyId, Model, Race};
 
@@ -33,19 +33,78 @@ pub(crate) const MOMENTS: [&str; 4] = ["outer.x", "outer.y", "inner.x", "inner.y
 /// carries them.
 pub fn moments(model: &Model, t: f64, y: &[f64]) -> [[f64; 2]; 2] {
     Race::BOTH.map(|race| {
-        let ring = model.leaning(y, race);
-        let frame = ring.rotation.frame;
-        let out = |v: &Vector3<f64>| frame.to_scene(v);
-        let mut sum = Vector3::zeros();
+        let mut sum = MomentOnRing::new(model, y, race);
         for j in 0..model.balls.len() {
             let mut on_ball = OnBall::default();
             visit(model, y, j, race, &mut on_ball);
-            let ball = model.layout().motion(y, BodyId::ball(j));
-            sum += on_ball.0.turned(out).moment_on_ring(&ring.arm(&ball));
+            sum.add(y, j, &on_ball.0);
         }
-        sum += load::moment(model, t, race, out);
-        let axis = frame.axis();
+        sum.told(t)
+    })
+}
+
+/// The moment on a ring, ball by ball.
+pub(crate) struct MomentOnRing<'m> {
+    model: &'m Model,
+    race: Race,
+    ring: LeaningRing,
+    sum: Vector3<f64>,
+}
+
+impl<'m> MomentOnRing<'m> {
+    /// Without any ball yet.
+    pub fn new(model: &'m Model, y: &[f64], race: Race) -> Self {
+        Self {
+            model,
+            race,
+            ring: model.leaning(y, race),
+            sum: Vector3::zeros(),
+        }
+    }
+
+    fn add(&mut self, y: &[f64], j: usize, on_ball: &Wrench) {
+        let ball = self.model.layout().motion(y, BodyId::ball(j));
+        let frame = &self.ring.rotation.frame;
+        let on_ball = on_ball.turned(|v| frame.to_scene(v));
+        self.sum += on_ball.moment_on_ring(&self.ring.arm(&ball));
+    }
+
+    /// Adds a ball, whose contact it tells in a few numbers.
+    pub fn add_and_tell(&mut self, y: &[f64], j: usize) -> ContactSummary {
+        let mut both = Both::default();
+        let side = visit(self.model, y, j, self.race, &mut both);
+        self.add(y, j, &both.on_ball.0);
+        both.summary.told(self.race, side)
+    }
+
+    /// With the loads at a time \[s\], about x and y and across the ring's axis \[N m\].
+    pub fn told(&self, t: f64) -> [f64; 2] {
+        let frame = &self.ring.rotation.frame;
+        let loads = load::moment(self.model, t, self.race, |arm| frame.to_scene(arm));
+        let (sum, axis) = (self.sum + loads, frame.axis());
         let across = sum - axis * sum.dot(&axis);
         [across.x, across.y]
-    })
+    }
+}
+
+/// A contact in a few numbers, and what it does to its ball.
+#[derive(Default)]
+struct Both {
+    summary: Summary,
+    on_ball: OnBall,
+}
+
+impl Sink for Both {
+    fn touch(&mut self, touch: &Touch) {
+        self.summary.touch(touch);
+        self.on_ball.touch(touch);
+    }
+
+    fn aside(&mut self, force: &Aside) {
+        self.on_ball.aside(force);
+    }
+
+    fn oil(&mut self, oil: &OilTouch) {
+        self.on_ball.oil(oil);
+    }
 }
