@@ -172,7 +172,7 @@ impl<'m> Problem<'m> {
         });
         let arms = self
             .spatial
-            .then(|| Race::BOTH.map(|race| self.arm(rings, race, &centre)));
+            .then(|| Box::new(Race::BOTH.map(|race| self.arm(rings, race, &centre))));
         let pressed = contacts[0].force + contacts[1].force;
         let own = self.own_load_at(j, place.x);
         let mut force = Vector2::new(
@@ -342,7 +342,7 @@ pub(super) struct BallState {
     /// What the races do to it.
     pub(super) contacts: [Tangent; 2],
     /// How it stands from the rings, where tilts are looked for.
-    pub(super) arms: Option<[Arm; 2]>,
+    pub(super) arms: Option<Box<[Arm; 2]>>,
 }
 
 impl BallState {

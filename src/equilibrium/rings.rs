@@ -158,7 +158,6 @@ impl Problem<'_> {
         let mut balls = Vec::with_capacity(starts.len());
         let mut follow = Vec::with_capacity(starts.len());
         let mut holds = vec![Hold::default(); starts.len()];
-        let active = unknowns::active(self.spatial);
         for (j, &start) in starts.iter().enumerate() {
             let start = self.refreshed(j, rings, start, moved);
             let mut ball = self.settle(j, rings, start, precision)?;
@@ -173,12 +172,9 @@ impl Problem<'_> {
             let stiff = !self.is_held(j) && least(&own) > 1e-9 * self.stiffness();
             let mut followed = SMatrix::<f64, 2, OF_RINGS>::zeros();
             if let Some(inverse) = own.try_inverse().filter(|_| stiff) {
-                for &b in active {
-                    for a in 0..2 {
-                        followed[(a, b)] =
-                            inverse[(a, 0)] * pulled[(0, b)] + inverse[(a, 1)] * pulled[(1, b)];
-                    }
-                }
+                followed = SMatrix::<f64, 2, OF_RINGS>::from_fn(|a, b| {
+                    inverse[(a, 0)] * pulled[(0, b)] + inverse[(a, 1)] * pulled[(1, b)]
+                });
                 let radial = 1.0 / inverse[(0, 0)] - self.cage_spring[j].stiffness();
                 if radial > SOFT * self.stiffness() {
                     holds[j] = Hold {
@@ -190,12 +186,7 @@ impl Problem<'_> {
                 forces += pulling * last;
                 ball.place += last;
             }
-            for &a in active {
-                for &b in active {
-                    bearing[(a, b)] -=
-                        pulling[(a, 0)] * followed[(0, b)] + pulling[(a, 1)] * followed[(1, b)];
-                }
-            }
+            unknowns::condense(&mut bearing, &pulling, &followed, self.spatial);
             balls.push(ball.place);
             follow.push(followed);
         }

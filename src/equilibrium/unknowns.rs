@@ -2,7 +2,7 @@
 //!
 //! Tilts are lengths here: times half of the mean pitch diameter.
 
-use nalgebra::{SMatrix, SVector, Vector3};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use crate::model::{Dof, RINGS, Race};
 
@@ -50,11 +50,27 @@ pub(super) fn all() -> impl Iterator<Item = (usize, Race, Dof)> {
     })
 }
 
-/// Those that a solve looks at: all, or those of places.
-pub(super) const fn active(spatial: bool) -> &'static [usize] {
-    const ALL: [usize; OF_RINGS] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
-    const PLACES: [usize; 6] = [0, 1, 2, 5, 6, 7];
-    if spatial { &ALL } else { &PLACES }
+/// Takes from a stiffness what a ball gives that follows the rings: of all unknowns, or of places alone.
+#[inline]
+pub(super) fn condense(
+    of: &mut RingStiffness,
+    pulling: &SMatrix<f64, OF_RINGS, 2>,
+    followed: &SMatrix<f64, 2, OF_RINGS>,
+    spatial: bool,
+) {
+    let given = |a: usize, b: usize| {
+        pulling[(a, 0)] * followed[(0, b)] + pulling[(a, 1)] * followed[(1, b)]
+    };
+    if spatial {
+        *of -= RingStiffness::from_fn(given);
+        return;
+    }
+    for a in Race::BOTH.map(first) {
+        for b in Race::BOTH.map(first) {
+            let mut part = of.fixed_view_mut::<3, 3>(a, b);
+            part -= Matrix3::from_fn(|i, j| given(a + i, b + j));
+        }
+    }
 }
 
 /// Work of forces along a step, summed in the order of the unknowns: those that do not move change no bit of it.
