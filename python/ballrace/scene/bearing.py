@@ -111,7 +111,7 @@ class Row(Part):
     outer_arch, inner_arch : GothicArch or None
         Race as a gothic arch, as in a four-point bearing.
     outer_waviness, inner_waviness : tuple of Waviness
-        Waviness of the races; turns with the rings.
+        Waviness of the race; turns with its ring. Empty: none.
     diameter_errors : tuple of float
         Diameter error of each ball [m]; empty: none.
     ball_mass : float or None

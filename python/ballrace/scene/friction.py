@@ -17,7 +17,7 @@ class Coulomb(Variant, tag="coulomb"):
     Attributes
     ----------
     coefficient : float
-        Coefficient.
+        Coefficient of friction.
     slip_speed : float
         Slip speed below which friction fades [m/s].
     """

@@ -35,7 +35,7 @@ class Materials(Part):
     Attributes
     ----------
     rings, balls : Material
-        Of both rings, and of the balls.
+        Material of both rings, and of the balls.
     """
 
     rings: Material = Material()

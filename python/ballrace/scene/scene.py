@@ -46,9 +46,9 @@ class Scene(Part):
     rows : tuple of Row
         The rows of balls, at least one.
     outer_ring, inner_ring : Ring
-        The rings.
+        Mass of the ring, and how it is held.
     materials : Materials
-        Materials.
+        Materials of rings and balls.
     contact : Contact
         Contact of balls and races.
     friction : Friction
@@ -177,15 +177,25 @@ class Scene(Part):
         """
         return tuple(_core.scene_doubts(self._document()))
 
-    def to_toml(self) -> str:
+    def to_toml(self, *, comments: bool = False) -> str:
         """Check the scene and return it as TOML.
+
+        Parameters
+        ----------
+        comments : bool
+            Whether a comment at every field says what it is, and in which unit.
 
         Raises
         ------
         SceneError
             A field is not usable.
         """
-        return _core.scene_to_toml(self._document())
+        text = _core.scene_to_toml(self._document())
+        if not comments:
+            return text
+        from .comments import commented
+
+        return commented(text)
 
     def to_json(self) -> str:
         """Check the scene and return it as JSON on one line, every field written out.
