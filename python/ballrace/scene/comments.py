@@ -1,19 +1,20 @@
 """Scenes in TOML for people: a comment at every field says what it is, and in which unit.
 
-What comments say stands once, in the docstrings of the parts; the JSON Schema has it from there.
+What comments say stands once, in the docstrings of the parts; the JSON Schema has it from there too.
 """
 
 from __future__ import annotations
 
-import re
 import textwrap
 import tomllib
 from typing import TYPE_CHECKING, Any
 
-from .schema import schema
+from .described import described
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
+
+    from .._document import Part
 
 __all__ = ["commented"]
 
@@ -21,8 +22,8 @@ _WIDTH = 110
 """Longest line of a comment; a longer one stands above its field."""
 
 
-def commented(toml: str) -> str:
-    """Return the TOML of a scene, as :meth:`Scene.to_toml` writes it, with a comment at every field and table.
+def commented(toml: str, kind: type[Part]) -> str:
+    """Return the TOML of a part, as the core writes it, with a comment at every field and table.
 
     Examples
     --------
@@ -31,7 +32,7 @@ def commented(toml: str) -> str:
     >>> [line for line in text.splitlines() if line.startswith("ball_count")]
     ['ball_count = 9  # Number of balls, 1 to 1000.']
     """
-    document = schema()
+    document = described(kind)
     lines: list[str] = []
     table: list[str] = []
     for statement in _statements(toml):
@@ -83,7 +84,7 @@ def _meaning(document: Mapping[str, Any], path: list[str]) -> str:
     told = node.get("description") or next(_choices(node, document)).get("description", "")
     names = [name for each in _choices(node, document) for name in each.get("enum", ())]
     chosen = ", ".join(f'"{name}"' for name in names)
-    return _plain(f"{told} One of {chosen}." if len(names) > 1 else told)
+    return (f"{told} One of {chosen}." if len(names) > 1 else str(told)).replace("`", "")
 
 
 def _choices(node: Mapping[str, Any], document: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
@@ -102,12 +103,6 @@ def _choices(node: Mapping[str, Any], document: Mapping[str, Any]) -> Iterator[M
 def _entry(node: Mapping[str, Any], key: str) -> Mapping[str, Any] | None:
     found: Mapping[str, Any] | None = node.get("properties", {}).get(key)
     return found or node.get("additionalProperties") or None
-
-
-def _plain(text: str) -> str:
-    """Return the text without the marks of docstrings; a document leaves out what is None."""
-    text = re.sub(r":\w+:`~?\.?([^`]*)`", r"\1", text).replace("``", "")
-    return re.sub(r"\bNone\b", "absent", text)
 
 
 def _wrapped(text: str) -> list[str]:

@@ -16,6 +16,7 @@ from ..errors import SceneError
 from .approximations import Approximations
 from .bearing import Ring, Row
 from .cage import Cage
+from .comments import commented
 from .contact import Contact
 from .defect import Defect
 from .drive import Drive
@@ -191,11 +192,7 @@ class Scene(Part):
             A field is not usable.
         """
         text = _core.scene_to_toml(self._document())
-        if not comments:
-            return text
-        from .comments import commented
-
-        return commented(text)
+        return commented(text, Scene) if comments else text
 
     def to_json(self) -> str:
         """Check the scene and return it as JSON on one line, every field written out.
