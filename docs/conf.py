@@ -19,7 +19,7 @@ release = importlib.metadata.version("ballrace")
 extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
-    "sphinx.ext.napoleon",
+    "numpydoc",
     "mathml",
     "from_sources",
 ]
@@ -29,9 +29,7 @@ myst_enable_extensions = ["dollarmath", "deflist"]
 myst_heading_anchors = 3
 
 # Docstrings are NumPy's; a part of a scene lists its fields once, under Attributes.
-napoleon_google_docstring = False
-napoleon_use_ivar = True
-napoleon_use_rtype = False
+numpydoc_show_class_members = False
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 python_maximum_signature_line_length = 90

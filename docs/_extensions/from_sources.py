@@ -6,6 +6,7 @@ here: the reference of scenes, the catalogue, and the table of what to touch to 
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -53,17 +54,21 @@ def _linked(file: Path, text: str) -> str:
 
 
 def _catalogue() -> str:
+    """Return a row a bearing, and below it where the numbers of balls come from."""
     lines = [
-        "| name | balls | D | d_m | bore | outside | width | angle | C | C₀ | balls known from |",
-        "|---|" + "---:|" * 9 + "---|",
+        "| name | balls | D | d_m | bore | outside | width | angle | C | C₀ | source |",
+        "|---|" + "---:|" * 10,
     ]
+    sources: dict[str, int] = {}
     for row in br.catalogue.values():
         sizes = (row.ball_diameter, row.pitch_diameter, row.bore, row.outside_diameter, row.width)
         cells = [row.designation, row.ball_count, *(f"{1e3 * size:.5g}" for size in sizes)]
-        angle = f"{row.contact_angle * 57.29577951308232:.0f}°"
-        cells += [angle, f"{row.dynamic_rating:.0f}", f"{row.static_rating:.0f}", row.sources.balls]
+        cells += [f"{math.degrees(row.contact_angle):.0f}°"]
+        cells += [f"{row.dynamic_rating:.0f}", f"{row.static_rating:.0f}"]
+        cells += [sources.setdefault(row.sources.balls, len(sources) + 1)]
         lines.append("| " + " | ".join(map(str, cells)) + " |")
-    return "\n".join(lines)
+    told = [f"{number}. {source}" for source, number in sources.items()]
+    return "\n".join([*lines, "", "Where number and diameter of the balls come from:", "", *told])
 
 
 def _to_add() -> str:
@@ -82,16 +87,17 @@ MADE: dict[str, Callable[[], str]] = {
 }
 
 
-def _text(name: str) -> str:
-    if name in MADE:
-        return MADE[name]()
-    file = ROOT / name
-    return _linked(file, file.read_text(encoding="utf-8"))
-
-
 def _fill(app: Sphinx, page: str, source: list[str]) -> None:
-    del app, page
-    source[0] = re.sub(r"(?m)^% from: (.+)$", lambda found: _text(found[1].strip()), source[0])
+    def text(found: re.Match[str]) -> str:
+        name = found[1].strip()
+        if name in MADE:
+            # What it is made of are many files; such a page is read anew whenever pages are built.
+            app.env.note_reread()
+            return MADE[name]()
+        app.env.note_dependency(ROOT / name, docname=page)
+        return _linked(ROOT / name, (ROOT / name).read_text(encoding="utf-8"))
+
+    source[0] = re.sub(r"(?m)^% from: (.+)$", text, source[0])
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:

@@ -1,6 +1,6 @@
-"""Draws the guide's pictures of a bearing beside itself: ``python docs/figures/draw.py`` (extra ``bench``).
+"""Draws the guide's pictures beside itself: ``python docs/figures/draw.py`` (extra ``bench``).
 
-They show how things are named, not how they are shaped: angles, clearances and depths are much too large.
+Drawings show how things are named, not how they are shaped: angles, clearances and depths are much too large.
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Arc, Circle, Polygon
+
+import ballrace as br
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -264,6 +266,28 @@ def place(ax: Axes) -> None:
     ax.set_ylim(-1.95, 1.1)
 
 
+def spectrum(ax: Axes) -> None:
+    """Draw the envelope spectrum of a simulated bearing, its lines named."""
+    scene = br.bearing(
+        "6205", radial_load=1500.0, speed_rpm=1797.0,
+        defects=br.defects.spall(on="inner_race", width_mm=1.0),
+    )  # fmt: skip
+    out, rates = br.simulate(scene, duration=1.0), br.fault_frequencies(scene)
+    f, value = br.spectra.squared_envelope_spectrum(out["outer.ay"], out.fs)
+    shown = (f > 3.0) & (f < 420.0)
+    ax.plot(f[shown], value[shown], color=EDGE, lw=0.9)
+    lines = {"$f_r$": rates.shaft, "BPFI − $f_r$": rates.bpfi - rates.shaft, "BPFI": rates.bpfi}
+    lines |= {"BPFI + $f_r$": rates.bpfi + rates.shaft, "2 BPFI": 2.0 * rates.bpfi}
+    for name, at in lines.items():
+        height = value[np.abs(f - at) < 3.0].max()
+        ax.text(at, height + 600.0, name, color=RED, ha="center", va="bottom", fontsize=9)
+    ax.set_xlabel("frequency [Hz]")
+    ax.set_ylabel("squared envelope\nof outer.ay [(m/s²)²]")
+    ax.margins(x=0.0)
+    ax.set_ylim(0.0, None)
+    ax.spines[["top", "right"]].set_visible(False)
+
+
 def save(name: str, width: float, height: float, *panels: Callable[[Axes], None]) -> None:
     """Draw panels side by side into a file."""
     figure, axes = plt.subplots(
@@ -278,4 +302,5 @@ def save(name: str, width: float, height: float, *panels: Callable[[Axes], None]
 if __name__ == "__main__":
     save("bearing", 10.5, 5.0, front, section)
     save("slices", 6.0, 4.6, slices)
+    save("spectrum", 8.0, 3.0, spectrum)
     save("defect", 10.0, 4.4, edges, place)

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import re
+from collections.abc import Iterator
+from typing import Any
 
 import pytest
 
 import ballrace as br
 import ballrace.scene as s
 from ballrace.cli import main
+from ballrace.scene.schema import schema
 from test_scene import scenes
 
 FIELD = re.compile(r'(?:[\w-]+|"[^"]*") = ')
@@ -56,6 +60,22 @@ def test_comments_are_those_of_the_schema() -> None:
     # None is what TOML cannot say, and marks of docstrings are for the reference.
     assert "None" not in text
     assert "`" not in text
+
+
+def numbers(node: dict[str, Any], path: str) -> Iterator[tuple[str, str]]:
+    """Return where a schema wants a number that need not be whole, and what it says of it."""
+    if '"number"' in json.dumps([node.get("type"), node.get("items"), node.get("anyOf")]):
+        yield path, node.get("description", "")
+    for key, each in {**node.get("properties", {}), **node.get("$defs", {})}.items():
+        yield from numbers(each, f"{path}.{key}")
+
+
+def test_every_number_has_its_unit() -> None:
+    """A ratio has the unit 1, and a value in time that of the field."""
+    found = list(numbers(schema(), "scene"))
+    assert len(found) > 80
+    for path, told in found:
+        assert re.search(r"\[[^\]]+\]", told), (path, told)
 
 
 def test_the_command_writes_comments(capsys: pytest.CaptureFixture[str]) -> None:

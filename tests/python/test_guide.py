@@ -18,7 +18,7 @@ from ballrace._document import Part, Variant
 
 ROOT = Path(__file__).parents[2]
 GUIDE = ROOT / "docs"
-EXTENSIONS = ("sphinx", "furo", "latex2mathml", "myst_parser")
+EXTENSIONS = ("sphinx", "furo", "latex2mathml", "myst_parser", "numpydoc")
 
 
 class Fetched(HTMLParser):

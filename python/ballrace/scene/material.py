@@ -20,7 +20,7 @@ class Material(Part):
     youngs_modulus : float
         Young's modulus [Pa]; used by the Hertz law.
     poisson_ratio : float
-        Poisson's ratio.
+        Poisson's ratio [1].
     """
 
     density: float = 7850.0

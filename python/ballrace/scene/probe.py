@@ -27,7 +27,8 @@ Component = Literal["x", "y", "z", "theta", "vx", "vy", "vz", "omega", "ax", "ay
 """One component of a motion: position [m], angle [rad], their rates and the rates of those."""
 
 ContactQuantity = Literal["load", "angle", "zone_centre", "zone_width", "slip"]
-"""One quantity of a contact: load [N], angle [rad], middle and extent of the zone [m], slip speed [m/s]."""
+"""One quantity of a contact: normal force [N], contact angle [rad], axial place of the zone's middle of force in
+the ring's frame [m], axial extent of what touches [m], slip speed weighed by the load [m/s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -132,6 +133,9 @@ class LubricationProbe(Variant, tag="lubrication"):
 @dataclass(frozen=True, kw_only=True)
 class SlicesProbe(Variant, tag="slices"):
     """Forces of the single slices of chosen contacts at chosen times; a table beside the signals.
+
+    ``out.slices`` has a line a slice: ``probe``, ``row``, ``ball``, ``race``, ``time`` [s], its axial place in the
+    ball ``zeta`` and in the ring ``z`` [m], its ``width`` and ``penetration`` [m], and its ``force`` [N].
 
     Attributes
     ----------

@@ -16,7 +16,6 @@ from ..errors import SceneError
 from .approximations import Approximations
 from .bearing import Ring, Row
 from .cage import Cage
-from .comments import commented
 from .contact import Contact
 from .defect import Defect
 from .drive import Drive
@@ -192,7 +191,11 @@ class Scene(Part):
             A field is not usable.
         """
         text = _core.scene_to_toml(self._document())
-        return commented(text, Scene) if comments else text
+        if not comments:
+            return text
+        from .comments import commented
+
+        return commented(text, Scene)
 
     def to_json(self) -> str:
         """Check the scene and return it as JSON on one line, every field written out.
