@@ -7,6 +7,7 @@ import importlib.util
 import re
 import subprocess
 import sys
+import types
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -93,6 +94,15 @@ def test_the_reference_has_every_field(site: Path) -> None:
             assert f'<span class="pre">{name}</span>' in text, (kind, name)
         if issubclass(kind, Variant):
             assert f'<span class="pre">{kind.tag}' in text, kind
+
+
+@pytest.mark.long
+def test_the_reference_has_every_public_name(site: Path) -> None:
+    text = "".join(page.read_text(encoding="utf-8") for page in (site / "api").glob("*.html"))
+    for name in set(br.__all__) - {"catalogue"}:  # which is told by its class
+        is_module = isinstance(getattr(br, name), types.ModuleType)
+        wanted = f"module-ballrace.{name}" if is_module else rf"ballrace\.(\w+\.)*{name}"
+        assert re.search(rf'id="{wanted}"', text), name
 
 
 def test_files_that_pages_name_are_there() -> None:
