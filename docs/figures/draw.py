@@ -281,9 +281,60 @@ def spectrum(ax: Axes) -> None:
     for name, at in lines.items():
         height = value[np.abs(f - at) < 3.0].max()
         ax.text(at, height + 600.0, name, color=RED, ha="center", va="bottom", fontsize=9)
-    ax.set_xlabel("frequency [Hz]")
-    ax.set_ylabel("squared envelope\nof outer.ay [(m/s²)²]")
     ax.margins(x=0.0)
+    labelled(ax, "", "frequency [Hz]", "squared envelope\nof outer.ay [(m/s²)²]")
+
+
+def approaches(ax: Axes) -> None:
+    """Draw the load of the heaviest contact of a 6205 over its approach, by both elastic laws."""
+    for law, colour in (("hertz", BLUE), (br.scene.Iso16281(), RED)):
+        scene = br.presets.deep_groove_6205().replace({"contact.law": law})
+        found = [
+            br.equilibrium(scene.replace({"loads.radial.force": load}))
+            for load in np.linspace(20.0, 4000.0, 30)
+        ]
+        approach = [1e6 * eq.outer_deflection.max() for eq in found]
+        ax.plot(approach, [eq.outer_load.max() for eq in found], color=colour)
+        name = "Hertz" if law == "hertz" else "iso16281"
+        ax.text(approach[-1], found[-1].outer_load.max(), f"{name} ", color=colour, ha="right")
+    labelled(ax, "outer race of a 6205", "approach [µm]", "normal force [N]")
+
+
+def frictions(ax: Axes) -> None:
+    """Draw friction over normal force against the slip speed, law by law."""
+    slip, fading = np.linspace(0.0, 1.0, 400), 0.02
+    smooth = slip / np.hypot(slip, fading)
+    laws = {
+        "coulomb": np.full_like(slip, 0.05),
+        "stribeck": 0.035 + 0.05 * np.exp(-((slip / 0.2) ** 2)),
+        "traction": (-0.03 + 0.25 * slip) * np.exp(-3.0 * slip) + 0.03,
+    }
+    for (name, value), colour in zip(laws.items(), (EDGE, RED, BLUE), strict=True):
+        ax.plot(slip, smooth * value, color=colour)
+        ax.text(1.02, value[-1], name, color=colour, va="center")
+    ax.set_xlim(0.0, 1.0)
+    labelled(ax, "friction, $v_s$ = 0.02 m/s", "slip speed u [m/s]", "μ u / √(u² + $v_s$²)")
+
+
+def films(ax: Axes) -> None:
+    """Draw the film on the outer race of a 6205 against the temperature of its oil."""
+    for name, colour in (("vg32", BLUE), ("vg68", EDGE), ("vg100", RED)):
+        degrees = np.linspace(40.0, 110.0, 15)
+        scenes = [
+            br.presets.deep_groove_6205(lubricant=name, temperature_c=float(t)) for t in degrees
+        ]
+        film = [1e6 * br.equilibrium(scene).films[0].film for scene in scenes]
+        ax.plot(degrees, film, color=colour)
+        ax.text(degrees[0], film[0], f"{name} ", color=colour, ha="right", va="center")
+    labelled(ax, "film of a 6205 at 1800 rev/min", "temperature [°C]", "central film [µm]")
+    ax.set_xlim(25.0, None)
+
+
+def labelled(ax: Axes, title: str, x: str, y: str) -> None:
+    """Say what a diagram shows."""
+    ax.set_title(title, fontsize=11)
+    ax.set_xlabel(x)
+    ax.set_ylabel(y)
     ax.set_ylim(0.0, None)
     ax.spines[["top", "right"]].set_visible(False)
 
@@ -303,4 +354,5 @@ if __name__ == "__main__":
     save("bearing", 10.5, 5.0, front, section)
     save("slices", 6.0, 4.6, slices)
     save("spectrum", 8.0, 3.0, spectrum)
+    save("laws", 11.0, 3.4, approaches, frictions, films)
     save("defect", 10.0, 4.4, edges, place)
