@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+import tomllib
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -119,7 +120,10 @@ class Scene(Part):
         SceneError
             Names the first field that is unknown, missing or not usable.
         """
-        return cls._read(_core.scene_from_toml(text))
+        try:
+            return cls._read(_core.scene_from_toml(text))
+        except SceneError as error:
+            raise _newer(error, tomllib.loads, text) from None
 
     @classmethod
     def from_json(cls, text: str) -> Scene:
@@ -130,7 +134,10 @@ class Scene(Part):
         SceneError
             Names the first field that is unknown, missing or not usable.
         """
-        return cls._read(_core.scene_from_json(text))
+        try:
+            return cls._read(_core.scene_from_json(text))
+        except SceneError as error:
+            raise _newer(error, json.loads, text) from None
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Scene:
@@ -238,6 +245,18 @@ class Scene(Part):
             text = json.dumps(encode(self, ""))
             object.__setattr__(self, "_text", text)
         return text
+
+
+def _newer(error: SceneError, parse: Callable[[str], Any], text: str) -> SceneError:
+    """Return why a document of a newer schema is refused: what looks wrong in it may be no mistake."""
+    try:
+        found = parse(text)["schema"]
+    except (ValueError, LookupError, TypeError, RecursionError):
+        return error
+    if not isinstance(found, int) or found <= Scene.schema:
+        return error
+    allowed = f"at most {Scene.schema}; a newer ballrace wrote this, pip install --upgrade ballrace"
+    return SceneError("schema", str(found), allowed)
 
 
 def checked_scene(given: object) -> Scene:

@@ -1,0 +1,77 @@
+"""Documents of other versions: read as they were meant, or refused with what to do."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import pytest
+
+import ballrace as br
+
+DOCUMENTS = sorted((Path(__file__).parents[1] / "documents").glob("*.toml"))
+ROW = {
+    "ball_count": 9,
+    "ball_diameter": 7.94e-3,
+    "pitch_diameter": 39.04e-3,
+    "outer_conformity": 0.525,
+    "inner_conformity": 0.515,
+}
+DOCUMENT = {"rows": [ROW], "inner_ring": {"mass": 0.2}, "drive": {"speed": 188.5}}
+
+
+def holds(document: object, stored: object) -> bool:
+    """Whether all that was stored is there; fields may have been added."""
+    if isinstance(stored, Mapping):
+        return isinstance(document, Mapping) and all(
+            key in document and holds(document[key], value) for key, value in stored.items()
+        )
+    if isinstance(stored, Sequence) and not isinstance(stored, str):
+        assert isinstance(document, Sequence)
+        return len(document) == len(stored) and all(map(holds, document, stored))
+    return document == stored
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.stem)
+def test_documents_keep_their_meaning(path: Path) -> None:
+    """Golden: what a released version read. A default that changes needs a new number of the schema."""
+    scene = br.Scene.load(path)
+    stored = path.with_suffix(".json")
+    assert holds(json.loads(scene.to_json()), json.loads(stored.read_text(encoding="utf-8")))
+    assert br.Scene.load(stored) == scene
+
+
+def test_the_current_schema_is_stored() -> None:
+    assert f"schema_{br.Scene.schema}" in [path.stem for path in DOCUMENTS]
+
+
+def test_a_document_without_a_schema_is_of_the_first() -> None:
+    scene = br.Scene.from_json(json.dumps(DOCUMENT))
+    assert scene.schema == 1
+    assert scene == br.Scene.from_json(json.dumps({"schema": 1, **DOCUMENT}))
+
+
+@pytest.mark.parametrize("extra", [{}, {"temperature": 40.0}, {"drive": {"hydraulic": 3.0}}])
+def test_a_newer_document_says_to_upgrade(extra: dict[str, object], tmp_path: Path) -> None:
+    """What it has that this version lacks is no mistake, and not what is told."""
+    document = {"schema": br.Scene.schema + 1, **DOCUMENT, **extra}
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps(document))
+    with pytest.raises(br.SceneError, match=r"newer .* pip install --upgrade ballrace") as caught:
+        br.Scene.load(path)
+    assert (caught.value.path, caught.value.value) == ("schema", str(br.Scene.schema + 1))
+    toml = "schema = 99\nwhatever = 1\n"
+    with pytest.raises(br.SceneError, match="--upgrade"):
+        br.Scene.from_toml(toml)
+
+
+@pytest.mark.parametrize(
+    ("text", "path"),
+    [('{"schema": 0}', "rows"), ('{"schema": "2"}', "schema"), ("[1]", "scene"), ("{", "scene")],
+)
+def test_other_mistakes_are_told_as_before(text: str, path: str) -> None:
+    with pytest.raises(br.SceneError) as caught:
+        br.Scene.from_json(text)
+    assert "--upgrade" not in str(caught.value)
+    assert path in str(caught.value)
