@@ -18,7 +18,15 @@ Parquet               ``.parquet``, ``.pq``   64 bits                  all      
 
 from __future__ import annotations
 
-from .reading import read
-from .recording import Recording
+from typing import TYPE_CHECKING
+
+from .._later import later
+
+if TYPE_CHECKING:
+    from .reading import read
+    from .recording import Recording
+else:
+    # Signals have columns as records do, and need no formats for it.
+    __getattr__ = later(__name__, {"reading": ("read",), "recording": ("Recording",)})
 
 __all__ = ["Recording", "read"]

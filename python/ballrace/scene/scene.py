@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -123,6 +122,8 @@ class Scene(Part):
         try:
             return cls._read(_core.scene_from_toml(text))
         except SceneError as error:
+            import tomllib
+
             raise _newer(error, tomllib.loads, text) from None
 
     @classmethod
