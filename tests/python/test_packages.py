@@ -121,8 +121,10 @@ def test_the_citation_is_one() -> None:
 
 def test_workflows_are_what_github_reads() -> None:
     assert {path.stem for path in WORKFLOWS} == {"publish", "tests", "wheels"}
-    found = run("check-jsonschema", "--builtin-schema", "vendor.github-workflows", *WORKFLOWS)
-    assert found.returncode == 0, found.stdout
+    updates = ROOT / ".github" / "dependabot.yml"
+    for kind, files in {"github-workflows": WORKFLOWS, "dependabot": [updates]}.items():
+        found = run("check-jsonschema", "--builtin-schema", f"vendor.{kind}", *files)
+        assert found.returncode == 0, found.stdout
 
 
 def test_workflows_are_safe() -> None:
