@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import ballrace as br
+from ballrace._record import metadata
 from interface import interface
 
 FOLDER = Path(__file__).parents[1] / "documents"
@@ -77,6 +78,25 @@ def test_other_mistakes_are_told_as_before(text: str, path: str) -> None:
         br.Scene.from_json(text)
     assert "--upgrade" not in str(caught.value)
     assert path in str(caught.value)
+
+
+def test_files_of_newer_versions_are_not_called_damaged(tmp_path: Path, out: br.Signals) -> None:
+    path = tmp_path / "run.parquet"
+    told = metadata(out)
+    newer = json.dumps(json.loads(told["scene"]) | {"schema": br.Scene.schema + 1, "heat": 1.0})
+    out.to_polars().write_parquet(path, metadata={**told, "scene": newer})
+    with pytest.raises(br.FileError, match=r"schema = 2: .* --upgrade") as caught:
+        br.Signals.read_parquet(path)
+    assert "damaged" not in str(caught.value)
+    out.to_polars().write_parquet(path, metadata={**told, "ballrace": "9"})
+    with pytest.raises(br.FileError, match=r"format 9, this .* reads 1; read it with the one"):
+        br.Signals.scan_parquet(path)
+
+
+def test_campaigns_of_newer_versions_say_so(tmp_path: Path) -> None:
+    (tmp_path / "campaign.json").write_text('{"format": 9}')
+    with pytest.raises(br.CampaignError, match=r"format 9, this .* the version that made"):
+        br.Campaign.open(tmp_path)
 
 
 def test_nothing_is_taken_away() -> None:
