@@ -5,7 +5,7 @@ mod common;
 use ballrace::dynamics::{Dynamics, contributions};
 use ballrace::inspect;
 use ballrace::scene::{Drive, Lubricant, Probe, Profile, Scene, TimeFunction, presets};
-use ballrace::{Bandwidth, Model, Run, Signals, Start, compile, start};
+use ballrace::{Bandwidth, Model, Run, Signals, Start, compile, simulate, start};
 use common::run;
 
 /// A 6205 in VG 68 at a temperature \[°C\], with the motion of all bodies.
@@ -198,4 +198,32 @@ fn films_follow_the_speed() {
     assert!((film(&rising, &y) / film(&steady, &y) - 1.0).abs() < 1e-12);
     let held = apart(&forces(&rising, &late), &forces(&steady, &late));
     assert!(held > 1e-3, "{held:e}");
+}
+
+/// Limits: balls that roll are not warned of, balls that stand still in turning rings are.
+#[test]
+fn slip_that_heats_oil_is_told() {
+    let scene = bearing(500.0, 1797.0, 55.0);
+    let model = compile(&scene).unwrap();
+    let rolling = start(&model, &Start::Equilibrium).unwrap();
+    let mut still = rolling.clone();
+    for (value, name) in still.iter_mut().zip(model.names()) {
+        if name.starts_with("row0.ball") && name.ends_with("omega") {
+            *value = 0.0;
+        }
+    }
+    let told = |y: Vec<f64>| {
+        let run = Run {
+            duration: 1e-4,
+            settle: Some(0.0),
+            start: Start::State(y),
+            ..Run::default()
+        };
+        let warnings = simulate(&scene, &run).unwrap().warnings();
+        let of_slip = warnings.iter().map(ToString::to_string);
+        of_slip
+            .filter(|text| text.contains("slip of contacts"))
+            .count()
+    };
+    assert_eq!((told(rolling), told(still)), (0, 1));
 }

@@ -16,10 +16,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import defects, frequencies, measuring, presets, scene, spectra
+from . import defects, frequencies, presets, scene
 from ._features import features
-from .bearings import Bearing, Catalogue, bearing, catalogue
-from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
+from ._later import later
 from .errors import (
     AccuracyWarning,
     BallraceError,
@@ -34,13 +33,8 @@ from .errors import (
     SceneWarning,
 )
 from .explanation import Explanation, explain
-from .friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf
-from .life import RatingLife, rating_life
-from .measuring import measure
 from .model import Model
-from .operating import FaultFrequencies, fault_frequencies
 from .options import Run
-from .recordings import Recording, read
 from .run import simulate
 from .scene import Scene
 from .scene.lubricant import lubricants
@@ -56,9 +50,30 @@ from .statics import (
 )
 
 if TYPE_CHECKING:
-    from types import ModuleType
-
-    from . import plot
+    from . import measuring, plot, spectra
+    from .bearings import Bearing, Catalogue, bearing, catalogue
+    from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
+    from .friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf
+    from .life import RatingLife, rating_life
+    from .measuring import measure
+    from .operating import FaultFrequencies, fault_frequencies
+    from .recordings import Recording, read
+else:
+    # What a run needs is there; the rest would take as long again, and is imported when it is first asked for.
+    __getattr__ = later(
+        __name__,
+        {
+            "bearings": ("Bearing", "Catalogue", "bearing", "catalogue"),
+            "campaigns": ("Campaign", "campaign", "grid", "latin_hypercube", "scatter", "sobol"),
+            "friction": ("FrictionTorque", "friction_torque_palmgren", "friction_torque_skf"),
+            "life": ("RatingLife", "rating_life"),
+            "measuring": ("measure",),
+            "operating": ("FaultFrequencies", "fault_frequencies"),
+            "plot": (),
+            "recordings": ("Recording", "read"),
+            "spectra": (),
+        },
+    )
 
 __all__ = [
     "AccuracyWarning",
@@ -120,10 +135,6 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> ModuleType:
-    """Import the pictures when they are first asked for."""
-    if name == "plot":
-        import importlib
-
-        return importlib.import_module(".plot", __name__)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+def __dir__() -> list[str]:
+    """Tell also what is not imported yet."""
+    return sorted({*globals(), *__all__})

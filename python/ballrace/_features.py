@@ -9,7 +9,6 @@ from . import _core
 from ._interrupt import answers_ctrl_c
 from .errors import SceneError
 from .scene.scene import checked_scene
-from .spectra.checks import checked_signal
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -71,6 +70,8 @@ def features(
     >>> round(found["sensor.rms"], 4), round(found["sensor.kurtosis"], 4)
     (0.7071, 1.5)
     """
+    from .spectra.checks import checked_signal
+
     document = None if scene is None else checked_scene(scene).to_json()
     options = json.dumps(feature_options(None, skip, band, loads=False))
     return dict(_core.signal_features(checked_signal(x, fs), fs, name, document, options))

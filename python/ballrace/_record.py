@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from ._files import whole
 from ._interrupt import heard_once
 from ._parquet import columns_and_rows, read_bytes, read_columns, seal, to_bytes, writing_to
-from .errors import BallraceError, FileError
+from .errors import BallraceError, FileError, SceneError
 from .scene import Scene
 
 if TYPE_CHECKING:
@@ -153,8 +153,12 @@ def samples(path: Path, table: pl.DataFrame, name: str) -> NDArray[np.float64]:
 
 def described(path: Path, metadata: Mapping[str, str], columns: Sequence[str]) -> dict[str, Any]:
     """Return what the metadata of a file says beside its samples, as :class:`Signals` takes it."""
-    if metadata.get("ballrace") != _FORMAT:
+    form = metadata.get("ballrace")
+    if form is None:
         raise FileError(str(path), "a Parquet file, but not written by this version of ballrace")
+    if form != _FORMAT:
+        reason = f"of format {form}, this version of ballrace reads {_FORMAT}"
+        raise FileError(str(path), f"{reason}; read it with the one that wrote it, or a newer one")
     readers: dict[str, Callable[[str], Any]] = {
         "sampling_rate": _rate, "units": _mapping, "scene": _scene, "stats": _mapping,
         "provenance": _mapping, "warnings": _texts, "slices": _table,
@@ -167,6 +171,8 @@ def described(path: Path, metadata: Mapping[str, str], columns: Sequence[str]) -
         try:
             found[entry] = read(text)
         except (ValueError, TypeError, BallraceError) as error:
+            if isinstance(error, SceneError) and error.path == "schema":
+                raise FileError(str(path), f"its scene has {error}") from error
             reason = f"damaged: the entry {entry} of its metadata cannot be read ({error})"
             raise FileError(str(path), reason) from error
     units = found.pop("units")

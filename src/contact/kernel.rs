@@ -409,6 +409,7 @@ impl<T: Number> State<T> {
             depth: self.depth,
             approach,
             radii: self.radii,
+            friction: self.oil.friction,
             bend: self.oil.bend,
         }
     }

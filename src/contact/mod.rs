@@ -41,8 +41,8 @@ pub use frames::Motion;
 pub(crate) use frames::{LeaningRing, centrifugal};
 pub use laws::elastic::{elliptic, hertz, iso16281};
 pub use laws::film;
-pub(crate) use laws::film::FilmEffect;
 pub use laws::film::Oiled;
+pub(crate) use laws::film::{FilmEffect, FilmNumbers};
 pub use laws::{Cut, Damping, Elastic, Law, Traction};
 pub use oil::OilTouch;
 pub(crate) use profile::{Before, Contour, Curve, Raise, Section};
@@ -160,7 +160,9 @@ impl Aside {
 /// Receives the single forces of a contact.
 pub trait Sink {
     /// Whether [`Touch::energy`] is needed; it costs a power a slice.
-    const ENERGY: bool = false;
+    fn asks_energy(&self) -> bool {
+        false
+    }
 
     /// One force.
     fn touch(&mut self, touch: &Touch);

@@ -167,7 +167,7 @@ impl Side {
             around: self.held.around.of(lane),
             is_new: true,
         };
-        pair.evaluate(&compiled.side, &at, &rings[race], &mut packing);
+        pair.evaluate_into(&compiled.side, &at, &rings[race], &mut packing);
         for (sum, part) in self.aside.iter_mut().zip(packing.aside) {
             sum[lane] += part;
         }

@@ -114,6 +114,20 @@ pub(crate) fn largest_pressure(model: &Model, y: &[f64]) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// Largest slip speed \[m/s\], load-weighted in each contact, of contacts under films that bear a tenth of the largest load or more:
+/// lighter ones heat nothing. 0 without films.
+pub(crate) fn film_slip(model: &Model, y: &[f64]) -> f64 {
+    let row = |j: usize| &model.rows[model.balls[j].row];
+    let oiled: Vec<ContactSummary> = (0..model.balls.len())
+        .flat_map(|j| Race::BOTH.map(|race| (j, race)))
+        .filter(|(j, race)| row(*j).pairs[*race].law.film.is_some())
+        .map(|(j, race)| contact(model, y, j, race))
+        .collect();
+    let heaviest = oiled.iter().map(|one| one.load).fold(0.0, f64::max);
+    let loaded = oiled.iter().filter(|one| one.load > 0.1 * heaviest);
+    loaded.map(|one| one.slip).fold(0.0, f64::max)
+}
+
 /// Hertz pressure \[Pa\] of a ball on a race under a load \[N\]; on a gothic arch of the flank that bears more.
 pub(crate) fn pressure(model: &Model, y: &[f64], (j, race): (usize, Race), load: f64) -> f64 {
     let row = &model.rows[model.balls[j].row];
@@ -153,7 +167,7 @@ pub fn slice_forces(model: &Model, y: &[f64], j: usize, race: Race) -> Vec<Slice
 }
 
 /// Hands the forces of a contact to a sink; returns the sense of the nominal contact angle.
-pub(super) fn visit<S: Sink>(model: &Model, y: &[f64], j: usize, race: Race, sink: &mut S) -> f64 {
+pub(super) fn visit(model: &Model, y: &[f64], j: usize, race: Race, sink: &mut dyn Sink) -> f64 {
     let ball = &model.balls[j];
     let row = &model.rows[ball.row];
     let [at, ring] = model.facing(y, j, race);

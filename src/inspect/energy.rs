@@ -58,7 +58,9 @@ struct Contacts {
 }
 
 impl Sink for Contacts {
-    const ENERGY: bool = true;
+    fn asks_energy(&self) -> bool {
+        true
+    }
 
     fn touch(&mut self, touch: &Touch) {
         self.energy += touch.energy;

@@ -188,6 +188,7 @@ fn statistics(
         nfev_past_end: 0,
         largest_pressure: inspect::largest_pressure(model, first)
             .max(inspect::largest_pressure(model, last)),
+        film_slip: inspect::film_slip(model, first).max(inspect::film_slip(model, last)),
         settling_accepted: 0,
         settling_nfev: 0,
         orbit_slowed: orbit::slowed(model, first, last),

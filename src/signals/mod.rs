@@ -104,6 +104,9 @@ pub struct Statistics {
     /// Largest Hertz pressure of any contact at the start or at the end of the run \[Pa\], at the zone's centre; that of
     /// the smooth race where the ball lies in a defect.
     pub largest_pressure: f64,
+    /// Largest slip speed of a loaded contact under an oil film at the start or at the end of the run \[m/s\]; 0 without oil. Above 0.5
+    /// is warned of.
+    pub film_slip: f64,
     /// Steps accepted before t = 0, while the start settled; counted nowhere else.
     pub settling_accepted: usize,
     /// Evaluations before t = 0, while the start settled; counted nowhere else.

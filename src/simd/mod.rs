@@ -5,6 +5,7 @@
 //! into one program and picks one at run time.
 
 mod choice;
+mod curves;
 mod inverse_root;
 mod isa;
 mod lanes;
@@ -13,6 +14,7 @@ mod proof;
 mod vector;
 
 pub use choice::{Distrust, UnknownInstructionSet};
+pub(crate) use curves::{arctan_over, ln};
 pub(crate) use inverse_root::inverse_root;
 pub use isa::InstructionSet;
 pub(crate) use isa::Task;

@@ -61,6 +61,13 @@ pub(crate) trait Number:
         self.curve(guess_inverse_root, |_, _| 0.0)
     }
 
+    /// k and m of each normal x = 2^k m > 0, 1 ≤ m < 2; no slope is known of them.
+    #[inline(always)]
+    fn exponent_and_mantissa(self) -> (Self, Self) {
+        let part = |f: fn(f64) -> f64| self.curve(f, |_, _| 0.0);
+        (part(exponent), part(mantissa))
+    }
+
     /// e to the power of each.
     fn exp(self) -> Self {
         self.curve(f64::exp, |_, value| value)
@@ -81,6 +88,24 @@ fn guess_inverse_root(x: f64) -> f64 {
 pub(crate) trait Decision: Copy {
     /// Where both say yes.
     fn and(self, other: Self) -> Self;
+}
+
+/// Bits of a mantissa, and of an exponent of 0.
+pub(super) const MANTISSA: u64 = 0x000f_ffff_ffff_ffff;
+pub(super) const ONE: u64 = 0x3ff0_0000_0000_0000;
+
+#[inline(always)]
+fn exponent(x: f64) -> f64 {
+    // Eleven bits.
+    #[allow(clippy::cast_precision_loss)]
+    let raised = (x.to_bits() >> 52) as f64;
+    // What is not a number stays so.
+    raised - 1023.0 + x * 0.0
+}
+
+#[inline(always)]
+fn mantissa(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() & MANTISSA | ONE)
 }
 
 impl Decision for bool {

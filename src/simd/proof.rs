@@ -8,6 +8,7 @@ use std::hint::black_box;
 
 use super::isa::{InstructionSet, Task};
 use super::lanes::{Counters, LANES, Lanes, Mask};
+use super::number::Number;
 use super::vector::{Simd, Vector, Wide};
 
 /// Numbers whose sums, products, quotients and roots are exact, so that fused and unfused products agree.
@@ -84,6 +85,15 @@ fn arithmetic<S: Simd>(simd: S) -> Vec<Verdict> {
         ("neg", each(-a, |i| 0.0 - A[i])),
         ("abs", each(a.abs(), |i| A[i].abs())),
         ("sqrt", each((a * a).sqrt(), |i| A[i].abs())),
+        (
+            "exponent_and_mantissa",
+            each((a * a + 2.0).exponent_and_mantissa().0, |i| {
+                (A[i] * A[i] + 2.0).log2().floor()
+            }) && each((a * a + 2.0).exponent_and_mantissa().1, |i| {
+                let x = A[i] * A[i] + 2.0;
+                x / x.log2().floor().exp2()
+            }),
+        ),
         ("mul_add", each(a.mul_add(b, c), |i| A[i] * B[i] + C[i])),
         ("or_more", each(a.or_more(b), |i| A[i].max(B[i]))),
         ("or_less", each(a.or_less(b), |i| A[i].min(B[i]))),

@@ -12,7 +12,7 @@ use pulp::Scalar256b;
 pub(crate) use pulp::{Simd, WithSimd as Wide};
 
 use super::lanes::LANES;
-use super::number::{Decision, GUESS, Number};
+use super::number::{Decision, GUESS, MANTISSA, Number, ONE};
 
 /// The numbers of a register.
 #[derive(Debug, Clone, Copy)]
@@ -324,6 +324,25 @@ impl<S: Simd> Number for Vector<S> {
         let halved: S::u64s = pulp::cast(simd.wrapping_dyn_shr_u32s(words, simd.splat_u32s(1)));
         let guess = simd.sub_u64s(simd.splat_u64s(GUESS), halved);
         self.with(simd.transmute_f64s_u64s(guess))
+    }
+
+    #[inline(always)]
+    fn exponent_and_mantissa(self) -> (Self, Self) {
+        /// 2⁵², whose mantissa's last bits count ones, and the bits of the upper word that hold an exponent once it is shifted to its end.
+        const COUNTS: f64 = 4_503_599_627_370_496.0;
+        const UPPER: u64 = 0x0000_07ff_0000_0000;
+        let simd = self.simd;
+        let bits = simd.transmute_u64s_f64s(self.numbers);
+        let and = |of: u64| simd.and_u64s(bits, simd.splat_u64s(of));
+        let mantissa = simd.or_u64s(and(MANTISSA), simd.splat_u64s(ONE));
+        // Only words of 32 bits can be shifted: the exponent comes out 2³² times too large.
+        let words: S::u32s = pulp::cast(self.numbers);
+        let shifted: S::u64s = pulp::cast(simd.wrapping_dyn_shr_u32s(words, simd.splat_u32s(20)));
+        let shifted = simd.and_u64s(shifted, simd.splat_u64s(UPPER));
+        let counted = simd.or_u64s(shifted, simd.splat_u64s(COUNTS.to_bits()));
+        let counted = self.with(simd.transmute_f64s_u64s(counted)) + -COUNTS;
+        let exponent = counted * (-32.0_f64).exp2() + -1023.0 + self * 0.0;
+        (exponent, self.with(simd.transmute_f64s_u64s(mantissa)))
     }
 }
 

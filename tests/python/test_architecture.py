@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import subprocess
+import sys
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -58,3 +60,39 @@ def test_modules_import_each_other_one_way(everywhere: bool) -> None:
     assert order.index("ballrace.scene.time") < order.index("ballrace.scene.load")
     if everywhere:
         assert order.index("ballrace.plot") < order.index("ballrace.paper.report")
+
+
+def test_an_import_loads_what_a_run_needs() -> None:
+    """The rest comes when it is asked for: a program that only runs bearings is there in half the time."""
+    program = (
+        "import sys, ballrace;"
+        "print(*(name.split('.')[1] for name in sys.modules if name.startswith('ballrace.')))"
+    )
+    told = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    later = {
+        "bearings",
+        "campaigns",
+        "cli",
+        "life",
+        "measuring",
+        "operating",
+        "plot",
+        "report",
+        "spectra",
+    }
+    assert not later & set(told.stdout.split())
+    assert {"model", "run", "scene", "signals", "statics"} <= set(told.stdout.split())
+
+
+def test_what_comes_later_is_there() -> None:
+    program = (
+        "import ballrace as br;"
+        "assert not set(br.__all__) - set(dir(br));"
+        "assert all(getattr(br, name) is getattr(br, name) for name in br.__all__);"
+        "from ballrace import *; assert campaign is br.campaigns.campaign"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True)
+    with pytest.raises(AttributeError, match="'ballrace' has no attribute 'bearing_'"):
+        ballrace.bearing_  # type: ignore[attr-defined]  # noqa: B018

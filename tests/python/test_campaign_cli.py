@@ -63,13 +63,13 @@ def test_from_a_file_to_a_table(sweep: Path, capsys: pytest.CaptureFixture[str])
     assert "outer.ax.rms" not in manifest.columns
 
 
-def test_the_sweep_of_the_readme(tmp_path: Path) -> None:
-    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
-    found = re.search(r"^```toml\n(.*?)^```", readme, flags=re.DOTALL | re.MULTILINE)
+def test_the_sweep_of_the_guide(tmp_path: Path) -> None:
+    guide = (Path(__file__).parents[2] / "docs" / "campaigns.md").read_text(encoding="utf-8")
+    found = re.search(r"^```toml\n(.*?)^```", guide, flags=re.DOTALL | re.MULTILINE)
     assert found
     (tmp_path / "sweep.toml").write_text(found[1])
     sweep = read(tmp_path / "sweep.toml")
-    assert (sweep["cases"].height, sweep["duration"]) == (75, 0.2)
+    assert (sweep["cases"].height, sweep["duration"]) == (6, 0.02)
     assert sweep["scene"] == br.presets.wheel_bearing()
 
 

@@ -1,4 +1,10 @@
-"""What the documentation shows is true: README and docstrings run."""
+"""What the documentation shows is true: the blocks of README and guide run, and so do docstrings.
+
+Blocks of a page run in their order in one empty folder: ``python`` in one namespace, ``sh`` in a shell that knows
+``ballrace``. ``toml`` whose first line is a comment with a file's name becomes that file. ``rust`` has to be an
+example of the crate's own documentation, which cargo runs. A second word says what a block is instead: ``no-run``,
+or ``record`` where it wants a measured record.
+"""
 
 from __future__ import annotations
 
@@ -7,51 +13,108 @@ import importlib
 import os
 import pkgutil
 import re
+import subprocess
+import sys
+import tomllib
+from collections.abc import Iterator
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
 import ballrace
 
-README = Path(__file__).parents[2] / "README.md"
-GUIDE = README.parent / "docs"
-RECORDS = Path(os.environ.get("BALLRACE_CWRU") or README.parents[1] / "shared" / "data" / "cwru")
+ROOT = Path(__file__).parents[2]
+GUIDE = ROOT / "docs"
+RECORDS = Path(os.environ.get("BALLRACE_CWRU") or ROOT.parent / "shared" / "data" / "cwru")
 MODULES = [
     m.name
     for m in pkgutil.walk_packages(ballrace.__path__, "ballrace.")
     if m.name not in ("ballrace.__main__", "ballrace._core")
 ]
-PAGES = sorted(GUIDE.glob("*.md"))
+BLOCK = re.compile(r"^```(\w+)(?: +([\w-]+))? *\n(.*?)^```", flags=re.DOTALL | re.MULTILINE)
+SHELL = f'ballrace() {{ "{sys.executable}" -m ballrace "$@"; }}\n'
 
 
-def run_blocks(page: Path, kinds: str) -> None:
-    """Run the ```python blocks of a page in their order, in one namespace, of these kinds and of none."""
+class Block(NamedTuple):
+    """A block of code: its language, the word behind that, its text and the line before it."""
+
+    language: str
+    kind: str
+    text: str
+    line: int
+
+
+def blocks(page: Path) -> Iterator[Block]:
     text = page.read_text(encoding="utf-8")
-    pattern = rf"^```python *(?:{kinds}) *\n(.*?)^```"
-    blocks = list(re.finditer(pattern, text, flags=re.DOTALL | re.MULTILINE))
-    assert blocks, f"{page.name} shows no Python"
-    names: dict[str, object] = {"__name__": page.stem}
-    for block in blocks:
-        line = text.count("\n", 0, block.start(1))
-        exec(compile("\n" * line + block[1], str(page), "exec"), names)
+    for found in BLOCK.finditer(text):
+        yield Block(found[1], found[2] or "", found[3], text.count("\n", 0, found.start(3)))
 
 
-def test_readme_code_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """All but ```python no-run."""
-    monkeypatch.chdir(tmp_path)
-    run_blocks(README, "")
+PAGES = [
+    page
+    for page in [ROOT / "README.md", *sorted(GUIDE.glob("*.md"))]
+    if any(block.language in ("python", "sh", "toml") for block in blocks(page))
+]
+
+
+def run_toml(text: str) -> None:
+    """Have a document be one, and write it where its first line has a name for it."""
+    tomllib.loads(text)
+    if name := re.match(r"# (\S+\.toml)", text):
+        Path(name[1]).write_text(text, encoding="utf-8")
+
+
+def run_shell(text: str) -> None:
+    done = subprocess.run(
+        ["bash", "-euo", "pipefail", "-c", SHELL + text],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, f"{text}{done.stdout}{done.stderr}"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_guide_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Blocks that want a measured record run where it is."""
+def test_page_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     record = RECORDS / "105.mat"
+    kinds = {""}
     if record.is_file():
         (tmp_path / record.name).symlink_to(record)
-        run_blocks(page, "|record")
-    else:
-        run_blocks(page, "")
+        kinds.add("record")
+    names: dict[str, object] = {"__name__": page.stem}
+    for block in blocks(page):
+        if block.kind not in kinds:
+            assert block.kind in ("record", "no-run"), block
+        elif block.language == "python":
+            exec(compile("\n" * block.line + block.text, str(page), "exec"), names)
+        elif block.language == "sh":
+            run_shell(block.text)
+        elif block.language == "toml":
+            run_toml(block.text)
+
+
+def rust_examples() -> Iterator[str]:
+    """Return the examples of the crate's documentation, as rustdoc shows them."""
+    for file in sorted((ROOT / "src").rglob("*.rs")):
+        lines = file.read_text(encoding="utf-8").splitlines()
+        told = [re.sub(r"^\s*//[/!] ?", "", line) for line in lines if re.match(r"\s*//[/!]", line)]
+        for example in re.findall(
+            r"^```\n(.*?)^```", "\n".join(told) + "\n", re.DOTALL | re.MULTILINE
+        ):
+            yield "".join(
+                line for line in example.splitlines(keepends=True) if not re.match(r"#( |$)", line)
+            )
+
+
+def test_rust_is_that_of_the_crates_documentation() -> None:
+    examples = list(rust_examples())
+    shown = [block for page in [ROOT / "README.md", *GUIDE.glob("*.md")] for block in blocks(page)]
+    rust = [block for block in shown if block.language == "rust"]
+    assert rust
+    for block in rust:
+        assert any(block.text.strip() in example for example in examples), block.text
 
 
 @pytest.mark.parametrize("name", MODULES)

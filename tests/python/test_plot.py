@@ -83,7 +83,7 @@ def test_pictures_come_with_the_package_and_plotly_when_drawn() -> None:
     subprocess.run([sys.executable, "-c", code], check=True)
     assert "plot" in br.__all__
     with pytest.raises(AttributeError, match="no attribute 'plots'"):
-        br.plots  # noqa: B018
+        br.plots  # type: ignore[attr-defined]  # noqa: B018
 
 
 def drawn(faulty: br.Signals, wheel: br.Scene) -> dict[str, Callable[..., go.Figure]]:

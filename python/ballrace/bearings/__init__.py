@@ -5,13 +5,13 @@
 9
 >>> scene = br.bearing("6205", radial_load=500.0, speed_rpm=1797.0)
 
-============  =====================================================================
-``catalogue`` the rows of ``bearings.csv``, found by designation
-``names``     which designations mean a row: makers, seals, clearances
-``sources``   where each number of a row comes from
-``clearance`` the classes of ISO 5753
-``build``     a scene of a row: clearance, cage, friction, supports
-============  =====================================================================
+=============  ====================================================================
+``catalogue``  the rows of ``bearings.csv``, found by designation
+``names``      which designations mean a row: makers, seals, clearances
+``sources``    where each number of a row comes from
+``clearance``  the classes of ISO 5753
+``build``      a scene of a row: clearance, cage, friction, supports
+=============  ====================================================================
 
 Makers print bore, outside diameter, width and load ratings of a bearing, not its balls. Those of most rows are
 worked out: the number of balls and their diameter in 1/64 inch whose ratings come nearest to the printed ones,

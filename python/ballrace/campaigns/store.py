@@ -80,7 +80,10 @@ class Store:
                 f"{path}: damaged, not the description of a campaign; give another folder"
             ) from None
         if form != _FORMAT:
-            raise CampaignError(f"{path}: format {form}; this version of ballrace reads {_FORMAT}")
+            raise CampaignError(
+                f"{path}: format {form}, this version of ballrace reads {_FORMAT}; "
+                "give another folder, or use the version that made this one"
+            )
         self._verified: set[tuple[str, int, int]] = set()
         self.key = hashlib.blake2b(text.encode(), digest_size=16).hexdigest()
 

@@ -96,7 +96,7 @@ def _run(options: argparse.Namespace) -> None:
 
 def _scene(options: argparse.Namespace) -> None:
     print(
-        f"# The preset {options.name} of ballrace; SI units. What each field means: help(ballrace.scene)."
+        f"# The preset {options.name} of ballrace; SI units. Fields that are left out: help(ballrace.scene)."
     )
     print(f"# Run it: ballrace run {options.name}.toml -o {options.name}.parquet\n")
-    print(getattr(presets, options.name)().to_toml(), end="")
+    print(getattr(presets, options.name)().to_toml(comments=True), end="")

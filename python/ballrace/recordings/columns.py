@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from ..errors import SceneError
 from .libraries import needed
 from .windows import Origin, windows
-from .writing import write
 
 if TYPE_CHECKING:
     import os
@@ -175,6 +174,8 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         >>> again.fs, again.units["DE"], bool((again["DE"] == out["outer.ay"]).all())
         (50000.0, 'm/s^2', True)
         """
+        from .writing import write
+
         if isinstance(columns, Mapping):
             samples = self._samples(self._chosen(columns))
             samples.columns = {columns[old]: x for old, x in samples.columns.items()}

@@ -68,7 +68,7 @@ class GothicArch(Part):
     shim_angle : float
         Between the plane and the normals of a resting ball [rad]; above 0, at most 80°.
     conformities : tuple of two floats, or None
-        Conformities of the flanks towards -z and +z, above 0.5 and at most 1; None: that of the race, both.
+        Conformities of the flanks towards -z and +z [1], above 0.5 and at most 1; None: that of the race, both.
     """
 
     shim_angle: float
@@ -88,11 +88,12 @@ class Row(Part):
     pitch_diameter : float
         Pitch diameter [m].
     outer_conformity, inner_conformity : float
-        Groove radius over ball diameter, above 0.5 and at most 1.
+        Groove radius over ball diameter [1], above 0.5 and at most 1.
     contact_angle : float
         Nominal contact angle at zero clearance [rad], 0 to 80°.
     side : int
-        Sign of the axial part of the direction from ball to outer contact, +1 or -1.
+        Sign of the axial part of the direction from ball to outer contact, +1 or -1. A row of side +1 takes thrust
+        towards +z on the inner ring.
     axial_position : float
         Axial place of the row [m].
     clearance : float
@@ -111,7 +112,7 @@ class Row(Part):
     outer_arch, inner_arch : GothicArch or None
         Race as a gothic arch, as in a four-point bearing.
     outer_waviness, inner_waviness : tuple of Waviness
-        Waviness of the races; turns with the rings.
+        Waviness of the race; turns with its ring. Empty: none.
     diameter_errors : tuple of float
         Diameter error of each ball [m]; empty: none.
     ball_mass : float or None

@@ -30,7 +30,7 @@ class Iso16281(Variant, tag="iso16281"):
     constant : float
         Constant of the law for lengths in metres [N/m²].
     length_ratio : float
-        Equivalent length of the line contact over the ball diameter.
+        Equivalent length of the line contact over the ball diameter [1].
     """
 
     constant: float = 3.5948e10
@@ -74,7 +74,7 @@ class AccurateSlices(Variant, tag="accuracy", wraps=True):
     Attributes
     ----------
     accuracy : float
-        Error of the force over the normal force, 1e-9 to 0.1; each race has its own number of nodes.
+        Error of the force over the normal force [1], 1e-9 to 0.1; each race has its own number of nodes.
     """
 
     accuracy: float

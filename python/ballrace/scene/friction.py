@@ -17,7 +17,7 @@ class Coulomb(Variant, tag="coulomb"):
     Attributes
     ----------
     coefficient : float
-        Coefficient.
+        Coefficient of friction [1].
     slip_speed : float
         Slip speed below which friction fades [m/s].
     """
@@ -33,7 +33,7 @@ class Stribeck(Variant, tag="stribeck"):
     Attributes
     ----------
     static_coefficient, kinetic_coefficient : float
-        The two coefficients, s and k.
+        The two coefficients, s and k [1].
     stribeck_speed : float
         Stribeck speed u_s [m/s].
     slip_speed : float
@@ -53,13 +53,13 @@ class Traction(Variant, tag="traction"):
     Attributes
     ----------
     a : float
-        Traction at no slip, less ``d``.
+        Traction coefficient at no slip, less ``d`` [1].
     b : float
         Initial slope [s/m].
     c : float
         Decay [s/m].
     d : float
-        Traction at high slip.
+        Traction coefficient at high slip [1].
     slip_speed : float
         Slip speed below which friction fades [m/s].
     """

@@ -20,7 +20,7 @@ class Load(Part):
     ring : {"outer", "inner"}
         The loaded ring.
     direction : tuple of three floats
-        Direction; its length does not matter.
+        Direction along x, y, z [1]; its length does not matter.
     force : TimeFunction
         Force along the direction [N].
     at : tuple of three floats, or None

@@ -51,10 +51,10 @@ class Lubricant(Part):
     pressure_viscosity : float or None
         Pressure-viscosity coefficient α [1/Pa]; None: by viscosity and base (Gold et al. 2001).
     limiting_stress : float or None
-        Limiting shear stress over pressure, the traction coefficient at large slip, between 0 and 0.5; None: by
-        base.
+        Limiting shear stress over pressure, the traction coefficient at large slip [1], between 0 and 0.5; None:
+        by base.
     boundary_friction : float
-        Coefficient of friction where asperities touch, between 0 and 0.5.
+        Coefficient of friction where asperities touch [1], between 0 and 0.5.
     conductivity : float
         Thermal conductivity [W/(m K)].
     roughness : float
@@ -62,7 +62,7 @@ class Lubricant(Part):
     oil_layer : OilLayer
         Free oil in front of a contact [m], which bounds its film; ``"flooded"``: as much as the film asks for.
     hysteresis : float
-        Share of the elastic work that the rolled-over steel loses.
+        Share of the elastic work that the rolled-over steel loses [1].
     slip_floor : float
         Slip speed that softens the onset of traction, numerical [m/s]; more of it makes runs faster and torque
         smaller.
@@ -73,7 +73,7 @@ class Lubricant(Part):
     reference_load : float or None
         Contact load for which the film is made [N]; None: that of the equilibrium.
     fill : float
-        Share of oil in the way of the balls, 0 to 1, for their drag.
+        Share of oil in the way of the balls for their drag [1], 0 to 1.
     film, damping, traction, rolling : bool
         Whether the film separates the surfaces, damps their approach, takes the place of dry friction, and resists
         rolling.

@@ -20,7 +20,7 @@ class Material(Part):
     youngs_modulus : float
         Young's modulus [Pa]; used by the Hertz law.
     poisson_ratio : float
-        Poisson's ratio.
+        Poisson's ratio [1].
     """
 
     density: float = 7850.0
@@ -35,7 +35,7 @@ class Materials(Part):
     Attributes
     ----------
     rings, balls : Material
-        Of both rings, and of the balls.
+        Material of both rings, and of the balls.
     """
 
     rings: Material = Material()

@@ -48,7 +48,8 @@ Component = Literal[
 ring's tilt [rad]."""
 
 ContactQuantity = Literal["load", "angle", "zone_centre", "zone_width", "slip"]
-"""One quantity of a contact: load [N], angle [rad], middle and extent of the zone [m], slip speed [m/s]."""
+"""One quantity of a contact: normal force [N], contact angle [rad], axial place of the zone's middle of force in
+the ring's frame [m], axial extent of what touches [m], slip speed weighed by the load [m/s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -163,6 +164,9 @@ class LubricationProbe(Variant, tag="lubrication"):
 @dataclass(frozen=True, kw_only=True)
 class SlicesProbe(Variant, tag="slices"):
     """Forces of the single slices of chosen contacts at chosen times; a table beside the signals.
+
+    ``out.slices`` has a line a slice: ``probe``, ``row``, ``ball``, ``race``, ``time`` [s], its axial place in the
+    ball ``zeta`` and in the ring ``z`` [m], its ``width`` and ``penetration`` [m], and its ``force`` [N].
 
     Attributes
     ----------

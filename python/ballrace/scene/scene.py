@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -50,9 +50,9 @@ class Scene(Part):
     rows : tuple of Row
         The rows of balls, at least one.
     outer_ring, inner_ring : Ring
-        The rings.
+        Mass of the ring, and how it is held.
     materials : Materials
-        Materials.
+        Materials of rings and balls.
     contact : Contact
         Contact of balls and races.
     friction : Friction
@@ -126,7 +126,12 @@ class Scene(Part):
         SceneError
             Names the first field that is unknown, missing or not usable.
         """
-        return cls._read(_core.scene_from_toml(text))
+        try:
+            return cls._read(_core.scene_from_toml(text))
+        except SceneError as error:
+            import tomllib
+
+            raise _newer(error, tomllib.loads, text) from None
 
     @classmethod
     def from_json(cls, text: str) -> Scene:
@@ -137,7 +142,10 @@ class Scene(Part):
         SceneError
             Names the first field that is unknown, missing or not usable.
         """
-        return cls._read(_core.scene_from_json(text))
+        try:
+            return cls._read(_core.scene_from_json(text))
+        except SceneError as error:
+            raise _newer(error, json.loads, text) from None
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Scene:
@@ -184,15 +192,25 @@ class Scene(Part):
         """
         return tuple(_core.scene_doubts(self._document()))
 
-    def to_toml(self) -> str:
+    def to_toml(self, *, comments: bool = False) -> str:
         """Check the scene and return it as TOML.
+
+        Parameters
+        ----------
+        comments : bool
+            Whether a comment at every field says what it is, and in which unit.
 
         Raises
         ------
         SceneError
             A field is not usable.
         """
-        return _core.scene_to_toml(self._document())
+        text = _core.scene_to_toml(self._document())
+        if not comments:
+            return text
+        from .comments import commented
+
+        return commented(text, Scene)
 
     def to_json(self) -> str:
         """Check the scene and return it as JSON on one line, every field written out.
@@ -235,6 +253,18 @@ class Scene(Part):
             text = json.dumps(encode(self, ""))
             object.__setattr__(self, "_text", text)
         return text
+
+
+def _newer(error: SceneError, parse: Callable[[str], Any], text: str) -> SceneError:
+    """Return why a document of a newer schema is refused: what looks wrong in it may be no mistake."""
+    try:
+        found = parse(text)["schema"]
+    except (ValueError, LookupError, TypeError, RecursionError):
+        return error
+    if not isinstance(found, int) or found <= Scene.schema:
+        return error
+    allowed = f"at most {Scene.schema}; a newer ballrace wrote this, pip install --upgrade ballrace"
+    return SceneError("schema", str(found), allowed)
 
 
 def checked_scene(given: object) -> Scene:

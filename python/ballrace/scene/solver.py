@@ -38,7 +38,7 @@ class Solver(Part):
         later and those of ``"implicit-friction"`` not at all. Methods of fixed steps take the largest step
         allowed.
     rtol : float
-        Relative tolerance, 1e-12 to 1e-1; each kind of state has its scale from the scene.
+        Relative tolerance [1], 1e-12 to 1e-1; each kind of state has its scale from the scene.
     first_step : float or None
         First step [s]; None: Hairer's estimate.
     max_step : float or None

@@ -16,7 +16,8 @@ class Ramp(Variant, tag="ramp"):
     Attributes
     ----------
     from_, to : float
-        Value before ``start`` and from ``end`` on. In documents and paths the first is named ``from``.
+        Value before ``start`` and from ``end`` on [unit of the field]. In documents and paths the first is named
+        ``from``.
     start, end : float
         Times at which the change begins and is over [s].
     """
@@ -34,7 +35,7 @@ class Sine(Variant, tag="sine"):
     Attributes
     ----------
     mean, amplitude : float
-        Mean value and amplitude.
+        Mean value and amplitude [unit of the field].
     frequency : float
         Frequency [Hz].
     phase : float
@@ -56,7 +57,7 @@ class Table(Variant, tag="table"):
     times : tuple of float
         Times, not decreasing [s].
     values : tuple of float
-        A value a time.
+        A value a time [unit of the field].
     """
 
     times: tuple[float, ...]

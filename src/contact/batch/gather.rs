@@ -5,7 +5,7 @@
 
 use crate::contact::fault::Sight;
 use crate::contact::profile::{Raise, Section};
-use crate::contact::{Motion, Pair};
+use crate::contact::{FilmNumbers, Motion, Pair};
 use crate::simd::{Lanes, Mask};
 
 /// Positions of eight balls of one row, for [`Pair::near`].
@@ -39,6 +39,8 @@ pub(crate) struct EightContacts {
     pub q: [Lanes; 3],
     /// Velocity \[m/s\] and angular speed \[rad/s\] of the ball.
     pub v: [Lanes; 4],
+    /// Of their films, if they have any.
+    pub film: Option<FilmNumbers<Lanes>>,
 }
 
 /// Constants of a contact, or of eight.

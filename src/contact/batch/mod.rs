@@ -143,7 +143,7 @@ impl Pair {
             spin: (eight.v[3] - ring.omega) * sigma,
             rolling: self.rolling(eight, ring, d, across),
             arm: raised - d,
-            oil: FilmEffect::of(self.law.film.as_ref(), whole.half),
+            oil: FilmEffect::of(eight.film.as_ref(), whole.half),
         };
         let lean = eight.wavy.then(|| eight.raise.slope * over);
         (

@@ -71,7 +71,7 @@ impl Pair {
             rolling: self.rolling(eight, ring, d, across),
             // Heights of the race are those over the ring's axis.
             arm: eight.raise.height - d,
-            oil: FilmEffect::of(self.law.film.as_ref(), whole.half),
+            oil: FilmEffect::of(eight.film.as_ref(), whole.half),
         };
         let place = Place {
             n,

@@ -48,7 +48,12 @@ pub(in crate::contact) const HAIR: f64 = 1e-12;
 
 impl Contact<'_> {
     /// What the meridional direction and the axial place have to say to an element's energy under the Hertz law.
-    pub(super) fn tilt<S: Sink>(&self, node: &Node, met: &ElementPair<Sloped>, sink: &mut S) {
+    pub(super) fn tilt<S: Sink + ?Sized>(
+        &self,
+        node: &Node,
+        met: &ElementPair<Sloped>,
+        sink: &mut S,
+    ) {
         let Some((cos, sin)) = self.common() else {
             return;
         };
@@ -70,7 +75,7 @@ impl Contact<'_> {
     }
 
     /// What the axial end of a defect at a place ζ adds.
-    pub(in crate::contact) fn end<S: Sink>(
+    pub(in crate::contact) fn end<S: Sink + ?Sized>(
         &self,
         line: &Line,
         zeta: f64,
@@ -177,7 +182,9 @@ mod tests {
     }
 
     impl Sink for Found {
-        const ENERGY: bool = true;
+        fn asks_energy(&self) -> bool {
+            true
+        }
 
         fn touch(&mut self, touch: &Touch) {
             self.energy += touch.energy;

@@ -8,7 +8,7 @@ use crate::contact::{Aside, Sink, Touch, V2, turned};
 
 impl Contact<'_> {
     /// One slice against whatever it meets.
-    pub(in crate::contact) fn slice<S: Sink>(&self, node: &Node, sink: &mut S) {
+    pub(in crate::contact) fn slice<S: Sink + ?Sized>(&self, node: &Node, sink: &mut S) {
         if node.depth <= 0.0 {
             return;
         }
@@ -34,7 +34,12 @@ impl Contact<'_> {
     }
 
     /// Elastic force, damping and friction of one feature of the ring against one of the ball; false without any.
-    fn force<D: Depth, S: Sink>(&self, node: &Node, met: &ElementPair<D>, sink: &mut S) -> bool {
+    fn force<D: Depth, S: Sink + ?Sized>(
+        &self,
+        node: &Node,
+        met: &ElementPair<D>,
+        sink: &mut S,
+    ) -> bool {
         let pair = self.pair;
         let share = self.drop_share();
         let (feature, tan) = (&met.feature, met.tan);
@@ -67,7 +72,7 @@ impl Contact<'_> {
             rubbing: node.rubbing,
             elastic,
             normal: force.normal,
-            energy: if S::ENERGY {
+            energy: if sink.asks_energy() {
                 split(&|depth| pair.law.elastic.energy(depth, node.width))
             } else {
                 0.0

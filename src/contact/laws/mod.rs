@@ -47,6 +47,14 @@ impl Law {
         self.traction.is_none() && self.film.is_none()
     }
 
+    /// Whether friction and films follow the same equations as another law's: numbers of films may differ.
+    pub(crate) fn rubs_like(&self, other: &Self) -> bool {
+        let effects = |law: &Self| law.film.map(|oiled| oiled.film.effects());
+        let films = |law: &Self| law.traction.is_some_and(|traction| traction.is_film());
+        effects(self) == effects(other)
+            && (self.traction == other.traction || films(self) && films(other))
+    }
+
     /// Whether forces along the race turn balls: friction's, or rolling resistance.
     pub(crate) fn turns_balls(&self) -> bool {
         self.traction.is_some() || self.film.is_some_and(|oiled| oiled.film.effects().rolling)

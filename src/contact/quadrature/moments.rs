@@ -60,9 +60,7 @@ impl Moments {
     #[inline(always)]
     pub fn of<T: Number, const FMA: bool>(&self, needles: &Needles<T>, like: T) -> Powers<T> {
         let mut powers = [like.same(0.0); POWERS];
-        for needle in needles.iter() {
-            needle.add_moments::<FMA>(&mut powers[..self.count]);
-        }
+        needles.moments::<FMA>(&mut powers[..self.count]);
         powers
     }
 
@@ -127,8 +125,8 @@ fn times(a: &[f64], b: &[f64]) -> Vec<f64> {
 
 /// (1 + x)^low (1 − x)^high as a polynomial: exact for whole exponents, else fitted.
 fn weight(ends: [f64; 2]) -> Vec<f64> {
-    /// Powers that stand for what is left of an exponent beside its whole part: 2e-4 of the weight's largest value.
-    const FITTED: usize = 11;
+    /// Powers that stand for what is left of an exponent beside its whole part: to 2e-3 of the weight's largest value.
+    const FITTED: usize = 7;
     const PLACES: usize = 400;
     let mut whole = vec![1.0];
     for (exponent, slope) in ends.into_iter().zip([1.0, -1.0]) {

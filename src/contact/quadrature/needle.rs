@@ -4,30 +4,29 @@
 #![allow(clippy::inline_always)]
 
 use crate::contact::slip::Slip;
-use crate::simd::{Number, inverse_root};
+use crate::simd::{Number, arctan_over, inverse_root, ln};
 
-/// 1/(1 + z) ≈ 1 − z + A z² − B z³ to 4e-3 for 0 ≤ z ≤ 1, best in the largest error.
-const SERIES: [f64; 2] = [0.824_151_54, 0.328_086_07];
 /// Places of slip's zeros beyond the zone that are still looked at, over half of its length.
 const REACH: f64 = 1.2;
 /// Keeps quotients of what may both vanish finite; no square of a speed is as small.
 const TINY: f64 = 1e-300;
 
 /// The needles of a film's friction K = 1/(h (c + √(u_t² + u_m² + c²))) at the places x_0 where slip along the race vanishes: with
-/// ρ = b √((x − x_0)² + η²)
+/// y = x − x_0 and r = √(y² + η²)
 ///
 /// ```text
-/// K ≈ (1/ρ − c/ρ² + A c²/ρ³ − B c³/ρ⁴)/h_0
+/// K ≈ (k + κ y² dk/dy)/(b h_0),   k = 1/(γ + r),   dk/dy = −y k²/r
 /// ```
 ///
 /// | symbol | meaning |
 /// |---|---|
 /// | x | place in the zone, −1 … 1 |
 /// | b | slope of u_t by x at x_0, in size |
-/// | b η | √(u_m² + c²) at x_0: a thousandth to a tenth of what slip sweeps over the zone |
+/// | γ | c/b: a thousandth to a tenth |
+/// | η | √(u_m² + c²)/b at x_0; μ = |u_m|/b |
+/// | κ | curvature u_t''/(2 u_t') at x_0, of u_t = b (y + κ y²) |
 /// | h_0 | h at x_0 |
 ///
-/// with, of the curvature κ = u_t''/(2 u_t'), what y = x − x_0 adds to them, −κ y³/r³ + 2 κ c y³/(b r⁴), r = ρ/b.
 /// What is left of K is smooth on the scale of the zone, and a rule of few places integrates it; the needles are integrated in closed form.
 /// Both sums hold for any x_0 and b, which only say how smooth the rest is: two zeros are those of u_t's first three powers, mended by
 /// Newton's method; where they meet or leave the zone their needles are wide, and nothing jumps.
@@ -45,11 +44,13 @@ pub(super) struct Needle<T> {
     place: T,
     /// 1/(b h_0).
     size: T,
-    /// η².
-    width: T,
-    /// c/b.
+    /// μ² and γ.
+    across: T,
     bend: T,
-    /// Curvature of u_t over twice its slope.
+    /// η², and η.
+    width: T,
+    blunt: T,
+    /// κ.
     curve: T,
 }
 
@@ -81,10 +82,27 @@ impl<T: Number> Needles<T> {
         }
     }
 
-    /// Those that are there.
+    /// Their integrals over the zone times powers of x.
     #[inline(always)]
-    pub fn iter(&self) -> impl Iterator<Item = &Needle<T>> {
-        self.needles[..self.count].iter()
+    pub fn moments<const FMA: bool>(&self, to: &mut [T]) {
+        let [first, second] = &self.needles;
+        match self.count {
+            0 => {}
+            1 => {
+                let mut first = Known::new::<FMA>(first);
+                for (k, to) in to.iter_mut().enumerate() {
+                    *to = first.next::<FMA>(k);
+                }
+            }
+            // Side by side, since each power waits for those below it.
+            _ => {
+                let mut first = Known::new::<FMA>(first);
+                let mut second = Known::new::<FMA>(second);
+                for (k, to) in to.iter_mut().enumerate() {
+                    *to = first.next::<FMA>(k) + second.next::<FMA>(k);
+                }
+            }
+        }
     }
 
     /// Their sum at x.
@@ -155,14 +173,19 @@ impl<T: Number> Needle<T> {
         let across = m_2.mul_add::<FMA>(place, m_1).mul_add::<FMA>(place, m_0);
         let u = zone.half.mul_add::<FMA>(place, zone.centre);
         let (fading, bend) = zone.slip.fading_and_bend::<FMA>(u);
-        let width = across.mul_add::<FMA>(across, bend * bend) * over_steep * over_steep;
+        let (across, bend) = (across * over_steep, bend * over_steep);
+        let width = across.mul_add::<FMA>(across, bend * bend);
         // A needle as wide as the zone is none, and would not be a number where nothing slips.
         let narrow = (one - width).gates(near);
+        let none = one - narrow;
+        let width = narrow.gates(width) + none;
         Self {
             place,
             size: narrow.gates(over_steep / fading),
-            width: narrow.gates(width) + (one - narrow),
-            bend: narrow.gates(bend * over_steep),
+            across: narrow.gates(across * across),
+            bend: narrow.gates(bend) + none,
+            width,
+            blunt: width.sqrt(),
             // No more than a needle of its width can bend.
             curve: narrow
                 .gates(second * slope / (second * second).mul_add::<FMA>(width * 4.0, steepest)),
@@ -178,82 +201,136 @@ impl<T: Number> Needle<T> {
     #[inline(always)]
     fn at<const FMA: bool>(&self, x: T) -> T {
         let y = x - self.place;
-        let over = inverse_root::<T, FMA>(y.mul_add::<FMA>(y, self.width));
-        let bent = self.bend * over;
-        let [third, fourth] = SERIES;
-        let series = (bent * -fourth + third)
-            .mul_add::<FMA>(bent, x.same(-1.0))
-            .mul_add::<FMA>(bent, x.same(1.0));
-        let cubic = y * over * (self.width * -1.0).mul_add::<FMA>(over * over, x.same(1.0));
-        let bent = self.curve * cubic * (bent * 2.0 + -1.0);
-        self.size * over.mul_add::<FMA>(series, bent)
+        let square = y.mul_add::<FMA>(y, self.width);
+        let over = inverse_root::<T, FMA>(square);
+        let root = inverse_root::<T, FMA>(square.mul_add::<FMA>(over, self.bend));
+        let k = root * root;
+        let bent = y * y * y * over * k;
+        self.size * k * (-bent).mul_add::<FMA>(self.curve, x.same(1.0))
     }
 
-    /// Adds its integrals over the zone times powers of x to the first of `to`.
+    /// ∫ k and ∫ y k over the zone, and ∫ r.
     #[inline(always)]
-    pub fn add_moments<const FMA: bool>(&self, to: &mut [T]) {
+    fn first_integrals<const FMA: bool>(&self, low: &End<T>, high: &End<T>) -> [T; 3] {
         let Self {
             place,
-            size,
-            width,
+            across,
             bend,
-            curve,
+            width,
+            blunt,
+            ..
         } = *self;
         let one = place.same(1.0);
-        let (high, low) = (one - place, -(one + place));
-        let square = place.mul_add::<FMA>(place, width);
-        let (r_1, r_0) = (
-            high.mul_add::<FMA>(high, width).sqrt(),
-            low.mul_add::<FMA>(low, width).sqrt(),
-        );
-        let eta = width.sqrt();
-        let (over_1, over_0, over_eta) = (one / r_1, one / r_0, one / eta);
-        // asinh(high/η) − asinh(low/η) as one logarithm, in which nothing cancels, of the two ends as the middle lies left of x_0.
+        // asinh(y/η) at the two ends as one logarithm, in which nothing cancels, of the farther and the nearer end.
         let (near, far) = (place.abs() + -1.0, place.abs() + 1.0);
-        let long = far.mul_add::<FMA>(far, width).sqrt();
-        let short = near.mul_add::<FMA>(near, width).sqrt();
+        let (sum, apart) = (high.r + low.r, (high.r - low.r).abs());
+        let (long, short) = ((sum + apart) * 0.5, (sum - apart) * 0.5);
         let beyond = near.gates(one);
-        let under = beyond * (near + short) + (one - beyond) * (width / (short - near));
-        let log = ((far + long) / under).curve(f64::ln, |_, _| 0.0);
-        // atan(high/η) − atan(low/η) as one angle.
-        let angle = (eta + eta).zip(high.mul_add::<FMA>(low, width), f64::atan2);
-        // ∫ x^k/r, ∫ x^k/r², ∫ x^k/r³ and ∫ x^k/r⁴ with r² = (x − x_0)² + η².
-        let mut roots = [log, (r_1 - r_0) + place * log];
-        let mut squares = [
-            angle * over_eta,
-            place * (angle * over_eta) + (r_1 * over_0).curve(f64::ln, |_, _| 0.0),
-        ];
-        let cube = (high * over_1 - low * over_0) / width;
-        let mut cubes = [cube, place * cube - (over_1 - over_0)];
-        let (square_1, square_0) = (over_1 * over_1, over_0 * over_0);
-        let fourth = (high * square_1 - low * square_0 + squares[0]) / width * 0.5;
-        let mut fourths = [fourth, place * fourth - (square_1 - square_0) * 0.5];
-        let by_third = bend * bend * SERIES[0];
-        let by_fourth = bend * bend * bend * -SERIES[1];
-        for (k, to) in to.iter_mut().enumerate() {
-            let all = squares[0].mul_add::<FMA>(-bend, roots[0]);
-            let all = cubes[0].mul_add::<FMA>(by_third, all);
-            let all = fourths[0].mul_add::<FMA>(by_fourth, all);
-            // ∫ x^k y³/r³ and ∫ x^k y³/r⁴.
-            let along = roots[1] - place * roots[0] - width * (cubes[1] - place * cubes[0]);
-            let beyond =
-                squares[1] - place * squares[0] - width * (fourths[1] - place * fourths[0]);
-            let bent = (beyond * bend * 2.0 - along) * curve;
-            *to = size.mul_add::<FMA>(all + bent, *to);
-            let n = k as f64;
-            let sides = if k % 2 == 0 { r_1 + r_0 } else { r_1 - r_0 };
-            let even = if k % 2 == 0 { 2.0 / (n + 1.0) } else { 0.0 };
-            let cube = place.mul_add::<FMA>(cubes[1] * 2.0, roots[0]) - square * cubes[0];
-            let fourth = place.mul_add::<FMA>(fourths[1] * 2.0, squares[0]) - square * fourths[0];
-            let next =
-                place.mul_add::<FMA>(squares[1] * 2.0, place.same(even)) - square * squares[0];
-            // (k + 2) R_{k+2} = [x^{k+1} r] + (2k + 3) x_0 R_{k+1} − (k + 1)(x_0² + η²) R_k.
-            let root = (place * roots[1]).mul_add::<FMA>(place.same(2.0 * n + 3.0), sides)
-                - square * roots[0] * (n + 1.0);
-            roots = [roots[1], root * (1.0 / (n + 2.0))];
-            squares = [squares[1], next];
-            cubes = [cubes[1], cube];
-            fourths = [fourths[1], fourth];
+        let within = one - beyond;
+        let over = beyond + within * (short - near);
+        let under = beyond * (near + short) + within * width;
+        let asinh = ln::<T, FMA>((far + long) * over / under);
+        // ∫ dy/(r (γ + r)) as one arctangent: 2 arctan(μ g)/μ.
+        let (e_0, e_1) = (blunt + low.r, blunt + high.r);
+        let square = (blunt + bend) * (blunt + bend);
+        let turned = (high.y * e_0 - low.y * e_1) * (blunt + bend);
+        let g = turned / (square * e_0).mul_add::<FMA>(e_1, across * high.y * low.y);
+        let angle = arctan_over::<T, FMA>(across * g * g) * g * 2.0;
+        // dr = y dy/r, and so ∫ y k = r − γ ln(γ + r).
+        let log = ln::<T, FMA>((bend + high.r) * low.k);
+        [
+            asinh - bend * angle,
+            (high.r - low.r) - bend * log,
+            (high.y * high.r - low.y * low.r + width * asinh) * 0.5,
+        ]
+    }
+}
+
+/// What is known of a needle before its integral over the zone times x^n.
+///
+/// With I_n = ∫ x^n k, R_n = ∫ x^n r, e_n = ∫ x^n and V_n = ∫ x^n y² k = R_n − γ e_n − μ² I_n, which is k (r² − γ²) = r − γ,
+///
+/// ```text
+/// I_{n+2} = 2 x_0 I_{n+1} − x_0² I_n + V_n
+/// (n + 3) R_{n+1} = (2 n + 3) x_0 R_n − n (x_0² + η²) R_{n−1} + [x^n r³]
+/// ∫ x^n y² dk/dy = [x^n y² k] − n V_{n−1} − 2 (I_{n+1} − x_0 I_n)
+/// ```
+struct Known<'a, T> {
+    needle: &'a Needle<T>,
+    /// I_n and I_{n+1}, R_{n−1} and R_n, V_{n−1}.
+    integrals: [T; 2],
+    roots: [T; 2],
+    before: T,
+    /// [x^n r³] and [x^n y² k], of even and of odd n.
+    cubes: [T; 2],
+    bounds: [T; 2],
+    /// 2 x_0, x_0² and x_0² + η².
+    twice: T,
+    square: T,
+    reach: T,
+}
+
+impl<'a, T: Number> Known<'a, T> {
+    #[inline(always)]
+    fn new<const FMA: bool>(needle: &'a Needle<T>) -> Self {
+        let (place, one) = (needle.place, needle.place.same(1.0));
+        // One by one: what is mapped over an array is not taken into this loop.
+        let [low, high] = [End::new(needle, -one), End::new(needle, one)];
+        let [first, second, root] = needle.first_integrals::<FMA>(&low, &high);
+        let (low_cube, high_cube) = (low.r * low.r * low.r, high.r * high.r * high.r);
+        let (low_bound, high_bound) = (low.y * low.y * low.k, high.y * high.y * high.k);
+        let square = place * place;
+        Self {
+            needle,
+            integrals: [first, place.mul_add::<FMA>(first, second)],
+            roots: [one.same(0.0), root],
+            before: one.same(0.0),
+            cubes: [high_cube - low_cube, high_cube + low_cube],
+            bounds: [high_bound - low_bound, high_bound + low_bound],
+            twice: place + place,
+            square,
+            reach: square + needle.width,
+        }
+    }
+
+    /// The integral with x^n.
+    #[inline(always)]
+    fn next<const FMA: bool>(&mut self, n: usize) -> T {
+        let needle = self.needle;
+        let (place, parity, n) = (needle.place, n % 2, n as f64);
+        let even = if parity == 0 { 2.0 / (n + 1.0) } else { 0.0 };
+        let [now, next] = self.integrals;
+        let [lower, root] = self.roots;
+        let beyond = (needle.bend * -even - needle.across * now) + root;
+        let along = place.mul_add::<FMA>(-now, next);
+        let bent = self.bounds[parity] - self.before * n - along * 2.0;
+        let after = self.twice.mul_add::<FMA>(next, beyond - self.square * now);
+        let higher = (place * (2.0 * n + 3.0))
+            .mul_add::<FMA>(root, self.cubes[parity] - self.reach * lower * n);
+        self.integrals = [next, after];
+        self.roots = [root, higher * (1.0 / (n + 3.0))];
+        self.before = beyond;
+        needle.size * needle.curve.mul_add::<FMA>(bent, now)
+    }
+}
+
+/// An end of the zone.
+#[derive(Clone, Copy)]
+struct End<T> {
+    y: T,
+    r: T,
+    k: T,
+}
+
+impl<T: Number> End<T> {
+    #[inline(always)]
+    fn new(needle: &Needle<T>, x: T) -> Self {
+        let y = x - needle.place;
+        let r = (y * y + needle.width).sqrt();
+        Self {
+            y,
+            r,
+            k: x.same(1.0) / (needle.bend + r),
         }
     }
 }

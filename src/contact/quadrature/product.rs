@@ -82,22 +82,17 @@ impl Product {
         self.shares[i / 2 * self.fine.len() + j][i % 2]
     }
 
-    /// Adds up K̂/K at the nodes of a piece that reaches `half` to both sides of its centre, along which a contact slips: what
-    /// friction weighs there over the normal force. `add` takes parts of it by the nodes' numbers.
+    /// Adds K̂/K at the nodes of a piece that reaches `half` to both sides of its centre, along which a contact slips, to the first
+    /// of `to`: what friction weighs there over the normal force.
     ///
     /// Where K peaks like a needle beside a node, a node may weigh less than nothing, as in any rule for such a K; the sum over
     /// a contact is what is meant, and that takes power out.
     #[inline(always)]
-    pub fn weights<T: Number, const FMA: bool>(
-        &self,
-        slip: &Slip<T>,
-        zone: (T, T),
-        add: impl FnMut(usize, T),
-    ) {
+    pub fn weights<T: Number, const FMA: bool>(&self, slip: &Slip<T>, zone: (T, T), to: &mut [T]) {
         if self.moments.is_some() {
-            self.weighed::<T, FMA, true>(slip, zone, add);
+            self.weighed::<T, FMA, true>(slip, zone, to);
         } else {
-            self.weighed::<T, FMA, false>(slip, zone, add);
+            self.weighed::<T, FMA, false>(slip, zone, to);
         }
     }
 
@@ -106,7 +101,7 @@ impl Product {
         &self,
         slip: &Slip<T>,
         (centre, half): (T, T),
-        mut add: impl FnMut(usize, T),
+        to: &mut [T],
     ) {
         let needles = match &self.moments {
             Some(moments) if FILM => {
@@ -138,10 +133,7 @@ impl Product {
                         }
                         _ => sum,
                     };
-                    add(
-                        of,
-                        slip.over_peak::<FMA, FILM>(sum, slip.square::<FMA>(u), u),
-                    );
+                    to[of] += slip.over_peak::<FMA, FILM>(sum, slip.square::<FMA>(u), u);
                 }
             }
         }

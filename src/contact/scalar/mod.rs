@@ -13,8 +13,8 @@ use super::laws::traction::Rolling;
 use super::profile::{Before, Meeting, Raise, Section, Surface};
 use super::slip::{Moves, Slip};
 use super::{
-    Cut, Fault, FilmEffect, Law, Motion, OilTouch, Oiled, Sink, Slices, Torus, Touch, V2, Waves,
-    turned,
+    Cut, Fault, FilmEffect, FilmNumbers, Law, Motion, OilTouch, Oiled, Sink, Slices, Torus, Touch,
+    V2, Waves, turned,
 };
 
 /// What all contacts of a row's balls with one race share.
@@ -50,7 +50,18 @@ impl Pair {
     }
 
     /// All forces between a ball and the race of its ring.
-    pub fn evaluate<S: Sink>(&self, ball: &BallSide, b: &Motion, r: &Motion, sink: &mut S) {
+    pub fn evaluate(&self, ball: &BallSide, b: &Motion, r: &Motion, sink: &mut dyn Sink) {
+        self.evaluate_into(ball, b, r, sink);
+    }
+
+    /// The same into a sink whose code is taken in: compiled anew for each, so only what a run spends its time in asks for it.
+    pub(crate) fn evaluate_into<S: Sink + ?Sized>(
+        &self,
+        ball: &BallSide,
+        b: &Motion,
+        r: &Motion,
+        sink: &mut S,
+    ) {
         let seen = b.seen_from(r);
         let apart = seen.centre;
         let distance = apart.norm();
@@ -99,7 +110,7 @@ impl Pair {
     }
 
     /// One contact with a race through points.
-    fn meet<S: Sink>(
+    fn meet<S: Sink + ?Sized>(
         &self,
         ball: &BallSide,
         motions: [&Motion; 2],
@@ -261,14 +272,20 @@ pub(super) struct Contact<'a> {
 
 impl Contact<'_> {
     /// Hands all its forces to the sink.
-    fn press<S: Sink>(mut self, line: &Line, motions: [&Motion; 2], facing: &Facing, sink: &mut S) {
+    fn press<S: Sink + ?Sized>(
+        mut self,
+        line: &Line,
+        motions: [&Motion; 2],
+        facing: &Facing,
+        sink: &mut S,
+    ) {
         let mut moves = self.pair.moves(motions, facing);
         let oiled = self.pair.law.film.as_ref().map(|oiled| {
             let r = self.load_measure(oiled, line);
             (oiled, r)
         });
         if let Some((oiled, r)) = oiled {
-            self.oil = FilmEffect::at(oiled, r);
+            self.oil = FilmEffect::at(&FilmNumbers::new(oiled), r);
             moves.oil = self.oil;
         }
         self.slip = self.pair.slip_along(line, &self.section, &moves);

@@ -178,7 +178,7 @@ const MOST_ENDS: usize = 16;
 
 impl Contact<'_> {
     /// Hands the forces of all slices to the sink.
-    pub(super) fn slices<S: Sink>(&self, line: &Line, sink: &mut S) {
+    pub(super) fn slices<S: Sink + ?Sized>(&self, line: &Line, sink: &mut S) {
         match &self.pair.slices {
             Slices::Fixed(count) => self.fixed(line, *count, sink),
             Slices::Fitted(rules) => self.fitted(line, rules, sink),
@@ -215,7 +215,7 @@ impl Contact<'_> {
         faults.filter(|_| self.ball_open).flat_map(Fault::ends)
     }
 
-    fn fixed<S: Sink>(&self, line: &Line, count: usize, sink: &mut S) {
+    fn fixed<S: Sink + ?Sized>(&self, line: &Line, count: usize, sink: &mut S) {
         let radius = self.ball.radius;
         let width = line.of_slice(2.0 * radius / count as f64);
         let ends = [line.low, line.high].map(|u| line.zeta(u).0.clamp(-radius, radius));
@@ -230,7 +230,7 @@ impl Contact<'_> {
     }
 
     /// The zone in pieces between the ends of shoulders and of defects in reach.
-    fn fitted<S: Sink>(&self, line: &Line, rules: &Rules, sink: &mut S) {
+    fn fitted<S: Sink + ?Sized>(&self, line: &Line, rules: &Rules, sink: &mut S) {
         let race = &self.race;
         let dz = self.z;
         let shoulders = [race.centre + race.lowest, race.centre + race.highest];
@@ -253,7 +253,7 @@ impl Contact<'_> {
         }
     }
 
-    fn piece<S: Sink>(&self, line: &Line, piece: Piece, rules: &Rules, sink: &mut S) {
+    fn piece<S: Sink + ?Sized>(&self, line: &Line, piece: Piece, rules: &Rules, sink: &mut S) {
         let open = (self.ring_open || self.ball_open)
             && self
                 .node(line, f64::midpoint(piece.low, piece.high), 0.0)
@@ -279,7 +279,7 @@ impl Contact<'_> {
         }
     }
 
-    fn nodes<S: Sink>(&self, line: &Line, piece: Piece, rules: &Rules, sink: &mut S) {
+    fn nodes<S: Sink + ?Sized>(&self, line: &Line, piece: Piece, rules: &Rules, sink: &mut S) {
         let (centre, half) = (
             f64::midpoint(piece.low, piece.high),
             (piece.high - piece.low) / 2.0,
@@ -289,7 +289,7 @@ impl Contact<'_> {
         let mut rubbing = [if weighed.is_some() { 0.0 } else { 1.0 }; 2 * MOST];
         if let Some((slip, product)) = weighed {
             let zone = (centre - self.middle, half);
-            product.weights::<_, false>(slip, zone, |k, weight| rubbing[k] += weight);
+            product.weights::<_, false>(slip, zone, &mut rubbing);
         }
         for (k, (x, weight)) in rules.on(piece.sealed).iter().enumerate() {
             if let Some(mut node) = self.node(line, centre + half * x, half * weight) {

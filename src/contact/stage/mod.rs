@@ -85,12 +85,7 @@ impl Around {
         let Self {
             rolling: Rolling { turns, d },
             radii,
-            oil:
-                FilmEffect {
-                    bend,
-                    damping,
-                    rolling,
-                },
+            oil,
             distance,
             lever,
         } = self;
@@ -101,11 +96,7 @@ impl Around {
                 d: Lanes::all(d[lane]),
             },
             radii: [Lanes::all(radii[0][lane]), Lanes::all(radii[1][lane])],
-            oil: FilmEffect {
-                bend: all(bend),
-                damping: all(damping),
-                rolling: all(rolling),
-            },
+            oil: oil.map(all),
             distance: all(distance),
             lever: all(lever),
         }

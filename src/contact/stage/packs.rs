@@ -1,7 +1,7 @@
 //! Slices of contacts that are evaluated alone, in packs of eight.
 
 use super::{Around, PlaneVector, StageElement, StageRolling};
-use crate::contact::{Aside, FilmEffect, OilTouch, Sink, Touch, V2, cross, turned};
+use crate::contact::{Aside, OilTouch, Sink, Touch, V2, cross, turned};
 use crate::simd::{LANES, Lanes};
 
 /// Eight slices of one contact, each with its own direction.
@@ -82,11 +82,7 @@ impl Sink for SlicePacking<'_> {
             return;
         }
         if let Some((_, around)) = self.contacts.last_mut() {
-            around.oil = FilmEffect {
-                bend: Lanes::all(touch.oil.bend),
-                damping: Lanes::all(touch.oil.damping),
-                rolling: Lanes::all(touch.oil.rolling),
-            };
+            around.oil = touch.oil.map(|number| Lanes::all(*number));
             around.distance = Lanes::all(touch.apart.norm());
             around.lever = Lanes::all(touch.lever);
         }

@@ -19,6 +19,7 @@ fn state<T: crate::simd::Number>(of: impl Fn(f64) -> T, velocity: [T; 3]) -> Sta
         rolling: Rolling::resting(of(0.03)),
         radii: [of(6e-3), of(6.2e-3)],
         oil: FilmEffect {
+            friction: of(0.05),
             bend: of(2e-3),
             damping: of(0.1),
             rolling: of(0.0),

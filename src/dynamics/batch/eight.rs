@@ -2,7 +2,8 @@
 
 use super::Single;
 use crate::contact::{
-    BatchForces, Constants, Contour, EightContacts, Motion, Raise, Rubbing, Summing,
+    BatchForces, Constants, Contour, EightContacts, FilmNumbers, Motion, Pair, Raise, Rubbing,
+    Summing,
 };
 use crate::forces::State;
 use crate::model::{Ball, BodyId, Model, Race};
@@ -15,6 +16,10 @@ pub(crate) struct SideConstants {
     pub balls: Vec<Constants<f64>>,
     /// What the balls of a class of rows share, by class.
     classes: Vec<ClassConstants>,
+    /// Of the films of rows, where they have any.
+    films: Vec<Option<FilmNumbers<f64>>>,
+    /// The rows of balls.
+    rows: Vec<usize>,
 }
 
 /// What the contacts of a class of rows share.
@@ -26,6 +31,10 @@ struct ClassConstants {
     alike: bool,
     /// Whether any race has waves.
     wavy: bool,
+    /// The film of the first row in all lanes, if it has one.
+    film: Option<FilmNumbers<Lanes>>,
+    /// Whether the other rows have that very film.
+    one_film: bool,
 }
 
 #[derive(Debug, Clone, Copy, Default)]
@@ -51,20 +60,27 @@ impl SideConstants {
     pub fn new(model: &Model, race: Race) -> Self {
         let of = |ball: &Ball| model.rows[ball.row].pairs[race].constants(ball.side.radius);
         let balls: Vec<_> = model.balls.iter().map(of).collect();
-        let class = |class: usize| ClassConstants::new(model, race, &balls, class);
+        let films = films(model, race);
+        let class = |class: usize| ClassConstants::new(model, race, (&balls, &films), class);
         Self {
             classes: (0..model.rows.len()).map(class).collect(),
             balls,
+            films,
+            rows: model.balls.iter().map(|ball| ball.row).collect(),
         }
     }
 
-    /// Takes over the radii of races.
+    /// Takes over the radii of races and the numbers of their films.
     pub fn coat(&mut self, model: &Model, race: Race) {
         for (of, ball) in self.balls.iter_mut().zip(&model.balls) {
             of.r = model.rows[ball.row].pairs[race].race.r;
         }
         for (class, of) in self.classes.iter_mut().enumerate() {
             of.first.r = Lanes::all(model.rows[class].pairs[race].race.r);
+        }
+        self.films = films(model, race);
+        for (class, of) in self.classes.iter_mut().enumerate() {
+            of.film = in_all_lanes(self.films[class].as_ref());
         }
     }
 
@@ -78,13 +94,20 @@ impl SideConstants {
         contacts: &[Touching; LANES],
         state: &State,
     ) -> EightContacts {
-        let ClassConstants { first, alike, wavy } = &self.classes[class];
+        let ClassConstants {
+            first,
+            alike,
+            wavy,
+            film,
+            one_film,
+        } = &self.classes[class];
         let State { q, v, .. } = state;
         let ([x, y, z, _], v) = (q.directions(), v.directions());
         let q = [x, y, z];
         let mut eight = EightContacts {
             constants: *first,
             wavy: *wavy,
+            film: *film,
             ..EightContacts::default()
         };
         for (lane, contact) in contacts.iter().enumerate() {
@@ -93,6 +116,12 @@ impl SideConstants {
                 eight.constants.centre[lane] = of.centre;
             } else {
                 eight.constants.set(lane, of);
+            }
+            if !*one_film
+                && let (Some(to), Some(film)) =
+                    (&mut eight.film, &self.films[self.rows[contact.ball]])
+            {
+                to.set(lane, film);
             }
             if *wavy {
                 eight.raise.set(lane, contact.raise);
@@ -110,11 +139,17 @@ impl SideConstants {
 }
 
 impl ClassConstants {
-    fn new(model: &Model, race: Race, balls: &[Constants<f64>], class: usize) -> Self {
+    fn new(
+        model: &Model,
+        race: Race,
+        (balls, films): (&[Constants<f64>], &[Option<FilmNumbers<f64>>]),
+        class: usize,
+    ) -> Self {
         let own = balls[model.rows[class].first];
         let mut first = Constants::default();
         (0..LANES).for_each(|lane| first.set(lane, &own));
         let rows = || model.rows.iter().filter(|row| row.class == class);
+        let own_film = model.rows[class].pairs[race].law.film;
         let like = |other: &Constants<f64>| {
             let centre = own.centre;
             Constants { centre, ..*other } == own
@@ -123,8 +158,24 @@ impl ClassConstants {
             first,
             alike: rows().all(|row| balls[row.balls()].iter().all(like)),
             wavy: rows().any(|row| !row.pairs[race].waves.is_round()),
+            film: in_all_lanes(films[class].as_ref()),
+            one_film: rows().all(|row| row.pairs[race].law.film == own_film),
         }
     }
+}
+
+/// Numbers of the films of all rows on a race.
+fn films(model: &Model, race: Race) -> Vec<Option<FilmNumbers<f64>>> {
+    let of = |pair: &Pair| pair.law.film.as_ref().map(FilmNumbers::new);
+    model.rows.iter().map(|row| of(&row.pairs[race])).collect()
+}
+
+fn in_all_lanes(film: Option<&FilmNumbers<f64>>) -> Option<FilmNumbers<Lanes>> {
+    let mut lanes = FilmNumbers::default();
+    film.map(|film| {
+        (0..LANES).for_each(|lane| lanes.set(lane, film));
+        lanes
+    })
 }
 
 /// Hands over the contacts that were not regular, to be evaluated one by one.

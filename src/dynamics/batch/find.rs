@@ -118,6 +118,8 @@ impl Task for Find<'_> {
                             stretch.lanes(&state.v, Dof::Z),
                             Lanes::ZERO,
                         ],
+                        // Closed forms have none.
+                        film: None,
                     };
                     let summing = Summing::AsOne(stiffness);
                     let found = pair.forces::<FMA, false>(&eight, ring, skip, summing);

@@ -214,7 +214,7 @@ impl Batch {
         let one = |single: &mut Single| {
             let ball = &model.balls[single.ball];
             let motion = state.motion(BodyId::ball(single.ball));
-            model.rows[ball.row].pairs[single.race].evaluate(
+            model.rows[ball.row].pairs[single.race].evaluate_into(
                 &ball.side,
                 &motion,
                 &rings[single.race],

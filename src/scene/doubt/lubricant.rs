@@ -22,6 +22,9 @@ const LAMBDA: f64 = 0.2;
 /// Pressure up to which the formulas of traction were compared with measured oils \[Pa\].
 const PRESSURE: f64 = 3e9;
 
+/// Slip up to which a film's traction holds \[m/s\].
+const SLIP: f64 = 0.5;
+
 /// By what a film's formulas are judged.
 pub(crate) struct FilmJudged {
     /// Length of the ellipse over its width.
@@ -60,6 +63,21 @@ impl Doubt {
             tell("pressure", format!("{:.2} GPa", 1e-9 * pressure), usual);
         }
         found
+    }
+}
+
+impl Doubt {
+    /// Of the slip of contacts under films \[m/s\], if they rub too fast.
+    pub(crate) fn film_slip(slip: f64) -> Option<Self> {
+        let usual = "above 0.5 m/s oil heats in the contact and rubs less than is computed; more load, thicker oil or a lower speed \
+                     make less of it";
+        (slip > SLIP).then(|| {
+            Self::new(
+                "slip of contacts".to_owned(),
+                format!("{} m/s", number(slip)),
+                usual,
+            )
+        })
     }
 }
 

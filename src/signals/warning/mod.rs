@@ -118,7 +118,13 @@ impl Signals {
     /// ```
     pub fn warnings(&self) -> Vec<Warning> {
         let of_contacts = inspect::doubts(self.stats.largest_pressure, &self.provenance.films);
-        let doubts = self.scene.doubts().into_iter().chain(of_contacts);
+        let of_slip = Doubt::film_slip(self.stats.film_slip);
+        let doubts = self
+            .scene
+            .doubts()
+            .into_iter()
+            .chain(of_contacts)
+            .chain(of_slip);
         let defects = self.provenance.defects.iter();
         let untouched = defects.filter_map(|of| not_touched(of, self.provenance.duration));
         [

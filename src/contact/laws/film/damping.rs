@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 
 use super::conjunction::{Conjunction, Groups};
-use crate::simd::Number;
+use crate::simd::{Lanes, Number};
 
 /// Damping of a film at the reference load and speed, in the form of Hunt and Crossley: F = F_el (1 + 3/2 α_f v_n).
 ///
@@ -65,12 +65,12 @@ fn wijnant(at: &Conjunction, groups: &Groups) -> f64 {
 }
 
 /// Damping by the load measure r.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct DampingNow {
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct DampingNow<T = f64> {
     /// 3/2 α_f (r² + ζ_h)² \[s/m\].
-    rate: f64,
+    rate: T,
     /// ζ_h.
-    gap: f64,
+    gap: T,
 }
 
 impl DampingNow {
@@ -79,11 +79,22 @@ impl DampingNow {
         rate: 0.0,
         gap: 1.0,
     };
+}
 
+impl<T: Number> DampingNow<T> {
     /// 3/2 α_f \[s/m\].
     #[inline(always)]
-    pub fn rate<T: Number>(&self, r: T) -> T {
+    pub fn rate(&self, r: T) -> T {
         let approach = r * r + self.gap;
-        r.same(self.rate) / (approach * approach)
+        self.rate / (approach * approach)
+    }
+}
+
+impl DampingNow<Lanes> {
+    /// Takes the numbers of one contact into a lane.
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, of: &DampingNow) {
+        self.rate[lane] = of.rate;
+        self.gap[lane] = of.gap;
     }
 }

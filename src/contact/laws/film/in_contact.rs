@@ -3,8 +3,11 @@
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
 
+use super::damping::DampingNow;
+use super::rolling::RollingNow;
+use super::traction::TractionNow;
 use super::{Film, FilmNow};
-use crate::simd::Number;
+use crate::simd::{Lanes, Number};
 
 /// The film of a race of a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,9 +31,44 @@ impl Oiled {
     }
 }
 
+/// The numbers of a film that contacts ask for, or of the films of eight contacts.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct FilmNumbers<T> {
+    /// 1/half_ref \[1/m\].
+    shortness: T,
+    traction: TractionNow<T>,
+    damping: DampingNow<T>,
+    rolling: RollingNow<T>,
+}
+
+impl FilmNumbers<f64> {
+    /// Those of a race's film.
+    pub fn new(oiled: &Oiled) -> Self {
+        Self {
+            shortness: 1.0 / oiled.film.reference().half_length,
+            traction: oiled.now.traction,
+            damping: oiled.now.damping,
+            rolling: oiled.now.rolling,
+        }
+    }
+}
+
+impl FilmNumbers<Lanes> {
+    /// Takes the numbers of one contact into a lane.
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, of: &FilmNumbers<f64>) {
+        self.shortness[lane] = of.shortness;
+        self.traction.set(lane, &of.traction);
+        self.damping.set(lane, &of.damping);
+        self.rolling.set(lane, &of.rolling);
+    }
+}
+
 /// What the film of a contact does.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct FilmEffect<T> {
+    /// Friction coefficient μ at large slip.
+    pub friction: T,
     /// Half of the slip speed at which traction bends \[m/s\].
     pub bend: T,
     /// 3/2 α_f \[s/m\].
@@ -39,34 +77,38 @@ pub(crate) struct FilmEffect<T> {
     pub rolling: T,
 }
 
-impl<T: Number> FilmEffect<T> {
-    /// None.
+impl<T> FilmEffect<T> {
+    /// Each of its numbers by a function.
     #[inline(always)]
-    pub fn none(like: T) -> Self {
-        let zero = like.same(0.0);
-        Self {
-            bend: zero,
-            damping: zero,
-            rolling: zero,
+    pub fn map<U>(&self, f: impl Fn(&T) -> U) -> FilmEffect<U> {
+        FilmEffect {
+            friction: f(&self.friction),
+            bend: f(&self.bend),
+            damping: f(&self.damping),
+            rolling: f(&self.rolling),
         }
     }
+}
 
+impl<T: Number> FilmEffect<T> {
     /// In a contact whose zone is half as long as this \[m\]; none without a film.
     #[inline(always)]
-    pub fn of(film: Option<&Oiled>, half: T) -> Self {
+    pub fn of(film: Option<&FilmNumbers<T>>, half: T) -> Self {
         match film {
-            None => Self::none(half),
-            Some(oiled) => Self::at(oiled, half * (1.0 / oiled.film.reference().half_length)),
+            None => FilmEffect::<f64>::default().map(|none| half.same(*none)),
+            Some(film) => Self::at(film, half * film.shortness),
         }
     }
 
     /// In a contact by the cube root r of its load over the reference load.
     #[inline(always)]
-    pub fn at(oiled: &Oiled, r: T) -> Self {
+    pub fn at(film: &FilmNumbers<T>, r: T) -> Self {
+        let [oil, steel] = film.rolling.parts(r);
         Self {
-            bend: oiled.now.bend(r),
-            damping: oiled.now.damping(r),
-            rolling: oiled.now.rolling(r),
+            friction: film.traction.friction,
+            bend: film.traction.bend(r),
+            damping: film.damping.rate(r),
+            rolling: oil + steel,
         }
     }
 }

@@ -23,7 +23,7 @@ mod traction;
 
 pub use conjunction::Race;
 pub use constants::{Effects, Film, Limits, Reference};
-pub(crate) use in_contact::FilmEffect;
 pub use in_contact::Oiled;
+pub(crate) use in_contact::{FilmEffect, FilmNumbers};
 pub use now::FilmNow;
 pub use oil::Oil;

@@ -1,12 +1,8 @@
 //! A film at a speed of the rings.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use super::damping::DampingNow;
 use super::rolling::RollingNow;
 use super::traction::TractionNow;
-use crate::simd::Number;
 
 /// A film at a speed of the rings; with a steady drive it stays.
 ///
@@ -74,27 +70,23 @@ impl FilmNow {
     }
 
     /// c = v/2 \[m/s\].
-    #[inline(always)]
-    pub(crate) fn bend<T: Number>(&self, r: T) -> T {
+    pub(crate) fn bend(&self, r: f64) -> f64 {
         self.traction.bend(r)
     }
 
     /// 3/2 α_f \[s/m\], to add to 3/2 α_d.
-    #[inline(always)]
-    pub(crate) fn damping<T: Number>(&self, r: T) -> T {
+    pub(crate) fn damping(&self, r: f64) -> f64 {
         self.damping.rate(r)
     }
 
     /// F_R over the entrainment speed u of the contact \[N s/m\].
-    #[inline(always)]
-    pub(crate) fn rolling<T: Number>(&self, r: T) -> T {
+    pub(crate) fn rolling(&self, r: f64) -> f64 {
         let [film, steel] = self.rolling_parts(r);
         film + steel
     }
 
     /// The same of film and of steel.
-    #[inline(always)]
-    pub(crate) fn rolling_parts<T: Number>(&self, r: T) -> [T; 2] {
+    pub(crate) fn rolling_parts(&self, r: f64) -> [f64; 2] {
         self.rolling.parts(r)
     }
 }

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 use super::conjunction::{Conjunction, Groups};
 use super::speed::SpeedPowers;
-use crate::simd::Number;
+use crate::simd::{Lanes, Number};
 
 /// Rolling resistance of a race of a row, by the rings' speed.
 ///
@@ -90,18 +90,18 @@ fn starvation(supply: f64) -> f64 {
 }
 
 /// Rolling resistance by the load measure r.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct RollingNow {
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct RollingNow<T = f64> {
     /// 2 a E'R_x φ_S B/(heat ũ) \[N s/m\].
-    rigid: f64,
+    rigid: T,
     /// The same with A in place of B, times M/(6.6 r³) \[N s/m\].
-    elastic: f64,
+    elastic: T,
     /// M/(6.6 r³).
-    transition: f64,
+    transition: T,
     /// ζ_h.
-    gap: f64,
+    gap: T,
     /// F_h/(r⁴ ũ) \[N s/m\].
-    hysteresis: f64,
+    hysteresis: T,
 }
 
 impl RollingNow {
@@ -113,15 +113,29 @@ impl RollingNow {
         gap: 1.0,
         hysteresis: 0.0,
     };
+}
 
+impl<T: Number> RollingNow<T> {
     /// F_hd/ũ and F_h/ũ \[N s/m\]: A + (B − A)/(1 + m r³) = (B + A m r³)/(1 + m r³) leaves one division.
     #[inline(always)]
-    pub fn parts<T: Number>(&self, r: T) -> [T; 2] {
+    pub fn parts(&self, r: T) -> [T; 2] {
         let square = r * r;
         let cube = square * r;
         let ends = (cube * self.transition + 1.0) * (square + self.gap);
         let film = cube * (cube * self.elastic + self.rigid) / ends;
         [film, square * square * self.hysteresis]
+    }
+}
+
+impl RollingNow<Lanes> {
+    /// Takes the numbers of one contact into a lane.
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, of: &RollingNow) {
+        self.rigid[lane] = of.rigid;
+        self.elastic[lane] = of.elastic;
+        self.transition[lane] = of.transition;
+        self.gap[lane] = of.gap;
+        self.hysteresis[lane] = of.hysteresis;
     }
 }
 

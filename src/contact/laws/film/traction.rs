@@ -5,7 +5,7 @@
 
 use super::conjunction::Conjunction;
 use super::oil::Oil;
-use crate::simd::Number;
+use crate::simd::{Lanes, Number};
 
 /// Friction −μ F u⃗ / (c + √(u² + c²)) of an element that slides at u⃗, c = v/2.
 ///
@@ -27,22 +27,22 @@ use crate::simd::Number;
 ///
 /// Source: the limit Λ p of S. Bair and W. O. Winer; η(p) in the form of P. S. Y. Chu and A. Cameron; φ_a near R. S. Zhou
 /// and M. R. Hoeprich. Without heat: too high above 0.5 to 1 m/s of slip.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct TractionNow {
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct TractionNow<T = f64> {
     /// μ.
-    pub friction: f64,
+    pub friction: T,
     /// ψ³, share of the asperities in the stiffness at small slip.
-    boundary_share: f64,
+    boundary_share: T,
     /// v_b/r \[m/s\].
-    boundary: f64,
+    boundary: T,
     /// Λ p̃ h/(η r), Λ ũ h/(0.7 b) and Λ ũ b/(2R_x): the parts of v_f without r \[m/s\].
-    viscous: f64,
-    shear: f64,
-    creep: f64,
+    viscous: T,
+    shear: T,
+    creep: T,
     /// α_p p̃/(16 r).
-    piezo: f64,
+    piezo: T,
     /// v_0/2 \[m/s\].
-    floor: f64,
+    floor: T,
 }
 
 /// Mean pressure that traction sees, over the largest.
@@ -68,18 +68,35 @@ impl TractionNow {
             floor: 0.5 * oil.slip_floor,
         }
     }
+}
 
+impl<T: Number> TractionNow<T> {
     /// c = v/2 \[m/s\]. Numerator and denominator of v are taken times r η(p̃)/η, which leaves one division.
     #[inline(always)]
-    pub fn bend<T: Number>(&self, r: T) -> T {
+    pub fn bend(&self, r: T) -> T {
         let root = r * self.piezo + 1.0;
         let thickening = fourth(fourth(root));
         let square = r * r;
         let film = square * self.viscous + thickening * (square * self.creep + self.shear);
         let boundary = r * self.boundary;
         let both =
-            film * self.boundary_share + boundary * r * thickening * (1.0 - self.boundary_share);
+            film * self.boundary_share + boundary * r * thickening * (-self.boundary_share + 1.0);
         boundary * film / both * 0.5 + self.floor
+    }
+}
+
+impl TractionNow<Lanes> {
+    /// Takes the numbers of one contact into a lane.
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, of: &TractionNow) {
+        self.friction[lane] = of.friction;
+        self.boundary_share[lane] = of.boundary_share;
+        self.boundary[lane] = of.boundary;
+        self.viscous[lane] = of.viscous;
+        self.shear[lane] = of.shear;
+        self.creep[lane] = of.creep;
+        self.piezo[lane] = of.piezo;
+        self.floor[lane] = of.floor;
     }
 }
 

@@ -13,7 +13,7 @@ use crate::simd::Number;
 /// | μ | traction coefficient at large slip: of the film's limiting shear stress and of asperities | |
 /// | c | half of the slip at which the film's compliance and asperities' creep give way to the limit | m/s |
 ///
-/// c is each contact's own; what stands here is that of the contact under the reference load.
+/// Both are each contact's own; what stands here is that of the contact under the reference load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmTraction {
     /// μ.
@@ -24,19 +24,19 @@ pub struct FilmTraction {
 
 impl FilmTraction {
     #[inline(always)]
-    pub(super) fn factor<T: Number>(&self, element: &Sliding<T>) -> T {
+    pub(super) fn factor<T: Number>(element: &Sliding<T>) -> T {
         let c = element.bend;
         let root = (element.squared + c * c).sqrt();
-        c.same(self.coefficient) / (c + root)
+        element.friction / (c + root)
     }
 
     /// φ, and φ'(u)/u = −φ/((c + ρ) ρ), ρ = √(u² + c²).
     #[inline(always)]
-    pub(super) fn factor_and_bend<T: Number>(&self, element: &Sliding<T>) -> (T, T) {
+    pub(super) fn factor_and_bend<T: Number>(element: &Sliding<T>) -> (T, T) {
         let c = element.bend;
         let root = (element.squared + c * c).sqrt();
         let both = c + root;
-        let factor = c.same(self.coefficient) / both;
+        let factor = element.friction / both;
         (factor, -(factor / (both * root)))
     }
 }

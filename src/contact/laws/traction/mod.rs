@@ -36,7 +36,8 @@ pub(in crate::contact) struct Sliding<T> {
     pub approach: T,
     /// Radii of ball and groove \[m\].
     pub radii: [T; 2],
-    /// Half of the slip speed at which a film's traction bends \[m/s\]; 0 without a film.
+    /// Of a film: friction coefficient at large slip, and half of the slip speed at which traction bends \[m/s\]; 0 without.
+    pub friction: T,
     pub bend: T,
 }
 
@@ -169,6 +170,14 @@ impl Traction {
         }
     }
 
+    /// Friction coefficient of a film at large slip; 0 of other laws, which know their own.
+    fn limit(&self) -> f64 {
+        match self {
+            Self::Film(law) => law.coefficient,
+            Self::Coulomb(_) | Self::Stribeck(_) | Self::Curve(_) => 0.0,
+        }
+    }
+
     /// Whether it is that of an oil film, which has a width of its own in every contact.
     pub(in crate::contact) fn is_film(&self) -> bool {
         matches!(self, Self::Film(_))
@@ -181,7 +190,7 @@ impl Traction {
             Self::Coulomb(law) => law.factor(element),
             Self::Stribeck(law) => apart(element, |element| law.factor(element)),
             Self::Curve(law) => apart(element, |element| law.factor(element)),
-            Self::Film(law) => law.factor(element),
+            Self::Film(_) => FilmTraction::factor(element),
         }
     }
 
@@ -190,7 +199,7 @@ impl Traction {
     pub(in crate::contact) fn factor_and_bend<T: Number>(&self, element: &Sliding<T>) -> (T, T) {
         match self {
             Self::Coulomb(law) => law.factor_and_bend(element),
-            Self::Film(law) => law.factor_and_bend(element),
+            Self::Film(_) => FilmTraction::factor_and_bend(element),
             Self::Stribeck(_) | Self::Curve(_) => {
                 let apart = *element;
                 self.differentiated(&apart)
@@ -214,6 +223,7 @@ impl Traction {
             depth: of(element.depth),
             approach: of(element.approach),
             radii: [of(element.radii[0]), of(element.radii[1])],
+            friction: of(element.friction),
             bend: of(element.bend),
         });
         // By u over u is twice that by u².
@@ -230,6 +240,7 @@ impl Traction {
             depth: 0.0,
             approach: 0.0,
             radii: [1.0; 2],
+            friction: self.limit(),
             bend: self.width(),
         })
     }
@@ -273,6 +284,7 @@ pub(in crate::contact) mod tests {
             depth: 0.0,
             approach: 0.0,
             radii: [arm, 5.2e-3],
+            friction: 0.0,
             bend: 0.0,
         };
         let [ball, ring] = sliding.surfaces();
@@ -322,6 +334,7 @@ pub(in crate::contact) mod tests {
                     depth: 0.0,
                     approach: 0.0,
                     radii: [1.0; 2],
+                    friction: law.limit(),
                     bend: law.width(),
                 };
                 let (factor, bend) = law.factor_and_bend(&sliding);

@@ -2,10 +2,11 @@
 
 use std::f64::consts::TAU;
 
+use super::super::{FilmEffect, FilmNumbers, Oiled};
 use super::{
     Effects, Film, FilmNow, Oil, Race, SPEED, answers, film, film_of, near, race, reference, vg68,
 };
-use crate::simd::Lanes;
+use crate::simd::{LANES, Lanes};
 
 /// Limit: as η → 0 over nine decades film, damping and rolling of the film go, and asperities stay.
 #[test]
@@ -249,11 +250,13 @@ fn slow_damping_falls_with_frequency() {
 /// Eight contacts side by side are eight contacts, bit for bit.
 #[test]
 fn lanes_are_single_contacts() {
-    let now = film().at(0.8);
+    let films = [0.8, 0.3].map(|w| FilmNumbers::new(&Oiled::new(film(), 4e-3, w * SPEED)));
     let lanes = Lanes::from_fn(|i| 0.2 * i as f64);
-    let together = [now.bend(lanes), now.damping(lanes), now.rolling(lanes)];
+    let mut numbers = FilmNumbers::default();
+    (0..LANES).for_each(|i| numbers.set(i, &films[i % 2]));
+    let together = FilmEffect::at(&numbers, lanes);
     for (i, &r) in lanes.numbers().iter().enumerate() {
-        let alone = [now.bend(r), now.damping(r), now.rolling(r)];
+        let alone = FilmEffect::at(&films[i % 2], r);
         assert_eq!(together.map(|all| all[i]), alone);
     }
 }

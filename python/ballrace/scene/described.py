@@ -1,0 +1,114 @@
+"""What a document may hold, from the dataclasses themselves: names, types, choices, defaults, meanings with units.
+
+It is said as JSON Schema has it. What a number may be depends on the others, and is checked as a scene is read.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import re
+import types
+import typing
+from collections.abc import Mapping
+from typing import Any
+
+from .._document import INSTEAD, Part, Variant, encode
+
+__all__ = ["described"]
+
+
+def described(kind: type[Part]) -> dict[str, Any]:
+    """Return the JSON Schema of a part: its fields, and those of all parts below it under ``$defs``."""
+    known: dict[str, Any] = {}
+    whole = _part(kind, known)
+    return {**whole, "$defs": dict(sorted(known.items()))}
+
+
+def _part(kind: type[Part], known: dict[str, Any]) -> dict[str, Any]:
+    hints, told = typing.get_type_hints(kind), _told(kind)
+    properties, required, either = {}, [], {}
+    for field in dataclasses.fields(kind):
+        key = field.name.removesuffix("_")
+        properties[key] = _type(hints[field.name], known) | _about(field, told)
+        if INSTEAD in field.metadata:
+            other, meaning = field.metadata[INSTEAD]
+            properties[other] = _type(hints[field.name], known) | {"description": meaning}
+            either = {"oneOf": [{"required": [key]}, {"required": [other]}]}
+        elif field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING:
+            required.append(key)
+    of = {"type": "object", "properties": properties, "additionalProperties": False}
+    text = {"description": _plain((inspect.getdoc(kind) or "").split("\n")[0])}
+    return text | of | ({"required": required} if required else {}) | either
+
+
+def _about(field: dataclasses.Field[Any], told: Mapping[str, str]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    if field.name in told:
+        found["description"] = told[field.name]
+    if field.default is not dataclasses.MISSING and field.default is not None:
+        found["default"] = encode(field.default, field.name)
+    return found
+
+
+def _told(kind: type[Part]) -> dict[str, str]:
+    """Return what a docstring says of each field, in words that hold for documents."""
+    told: dict[str, str] = {}
+    lines = (inspect.getdoc(kind) or "").partition("Attributes\n----------\n")[2].splitlines()
+    names: list[str] = []
+    for line in lines:
+        if not line:
+            break
+        if line.startswith(" "):
+            for name in names:
+                told[name] = f"{told.get(name, '')} {line.strip()}".strip()
+        else:
+            names = re.split(r",\s*", line.partition(" : ")[0])
+    return {name: _plain(text) for name, text in told.items()}
+
+
+def _plain(text: str) -> str:
+    """Return the text without the marks of docstrings; what is None there, a document leaves out."""
+    text = re.sub(r":\w+:`~?\.?([^`]*)`", r"`\1`", text).replace("``", "`")
+    return re.sub(r"\bNone\b", "absent", re.sub(r"(?<=\. )None\b", "Absent", text))
+
+
+def _type(hint: Any, known: dict[str, Any]) -> dict[str, Any]:
+    origin, arguments = typing.get_origin(hint), typing.get_args(hint)
+    if origin in (typing.Union, types.UnionType):
+        return {"anyOf": [_type(choice, known) for choice in arguments]}
+    if origin is typing.Literal:
+        return {"enum": list(arguments)}
+    if origin is tuple:
+        if arguments[-1] is Ellipsis:
+            return {"type": "array", "items": _type(arguments[0], known)}
+        size = len(arguments)
+        return {
+            "type": "array",
+            "items": _type(arguments[0], known),
+            "minItems": size,
+            "maxItems": size,
+        }
+    if origin is Mapping:
+        return {"type": "object", "additionalProperties": _type(arguments[1], known)}
+    if isinstance(hint, type) and issubclass(hint, Part):
+        return _reference(hint, known)
+    plain = {float: "number", int: "integer", bool: "boolean", str: "string", type(None): "null"}
+    return {"type": plain[hint]}
+
+
+def _reference(kind: type[Part], known: dict[str, Any]) -> dict[str, Any]:
+    name = kind.__name__
+    if name not in known:
+        known[name] = {}  # stands while its fields are looked at
+        known[name] = _variant(kind, known) if issubclass(kind, Variant) else _part(kind, known)
+    return {"$ref": f"#/$defs/{name}"}
+
+
+def _variant(kind: type[Variant], known: dict[str, Any]) -> dict[str, Any]:
+    """Return a variant: an object with its tag alone, which holds its fields or its one value."""
+    inner = _part(kind, known)
+    if kind.wraps:
+        (inner,) = inner["properties"].values()
+    of = {"type": "object", "properties": {kind.tag: inner}, "required": [kind.tag]}
+    return of | {"additionalProperties": False}
