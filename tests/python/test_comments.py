@@ -47,7 +47,7 @@ def test_a_title_that_looks_like_toml() -> None:
     text = odd.to_toml(comments=True)
     assert s.Scene.from_toml(text) == odd
     assert '# A title.\nname = """' in text
-    assert text.count("# A force on a ring's centre, in a fixed direction") == 2
+    assert text.count("# A force on a ring's centre or on another point of it, in a fixed") == 2
 
 
 def test_comments_are_those_of_the_schema() -> None:

@@ -45,7 +45,7 @@ class Moment(Part):
     ring : {"outer", "inner"}
         The loaded ring.
     direction : tuple of three floats
-        What it turns about; its length does not matter.
+        What it turns about, along x, y, z [1]; its length does not matter.
     moment : TimeFunction
         Moment about the direction [N m].
     """

@@ -35,15 +35,14 @@ class CoupledSupport(Part):
     """Springs and dampers between all directions of a ring, in the order x, y, z, tilt_x, tilt_y, theta.
 
     Both matrices are symmetric and positive semidefinite; rows and columns of a driven rotation are 0.
-    Directions that
-    are fixed stay where they are.
+    Directions that are fixed stay where they are.
 
     Attributes
     ----------
     stiffness : 6 x 6 numbers
         Stiffness [N/m], [N/rad], [N m/rad].
     damping : 6 x 6 numbers
-        Damping, the same times seconds.
+        Damping, the same times seconds [N s/m], [N s/rad], [N m s/rad].
     axial_position : float
         Place on the ring's axis that they hold, in the ring's frame [m].
     """
