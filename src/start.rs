@@ -1,9 +1,14 @@
-//! How a run begins: at rest in the cage's frame, or rolling from nominal places (model section 8).
+//! How a run begins: at rest in the cage's frame, or rolling from nominal places (model sections 8 and 13.5).
+
+mod rolling;
 
 use crate::equilibrium;
 use crate::error::{Error, Result};
 use crate::inspect;
+use crate::inspect::ContactSummary;
 use crate::model::{BodyId, Dof, Layout, Model, Race};
+
+use rolling::{Between, Rolling};
 
 /// How a run begins.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -87,7 +92,27 @@ fn roll(model: &Model, y: &mut [f64]) {
         let (orbit, spin) = model.rolling_speeds(ball.row);
         set_orbit(layout, y, BodyId::ball(j), orbit);
         y[layout.speed_at(BodyId::ball(j), Dof::Theta)] = spin;
+        if model.balls_turn() {
+            let row = &model.scene.rows[ball.row];
+            let angle = row.contact_angle * f64::from(row.side);
+            let between = Between {
+                radius: row.ball_diameter / 2.0,
+                distance: row.pitch_diameter / 2.0,
+                angles: [angle; 2],
+                speed: model.scene.drive.initial_speed(),
+            };
+            set_spin(layout, y, BodyId::ball(j), &between.resisted([1.0; 2]));
+        }
     }
+}
+
+/// Lets a ball spin freely.
+fn set_spin(layout: Layout, y: &mut [f64], ball: BodyId, rolling: &Rolling) {
+    let [x, y_, _] = layout.centre(y, ball);
+    let outward = rolling.outward / x.hypot(y_);
+    y[layout.speed_at(ball, Dof::Theta)] = rolling.axial;
+    y[layout.speed_at(ball, Dof::TurnX)] = outward * x;
+    y[layout.speed_at(ball, Dof::TurnY)] = outward * y_;
 }
 
 /// Lets a ball turn about the axis.
@@ -104,6 +129,9 @@ fn set_orbit(layout: Layout, y: &mut [f64], ball: BodyId, orbit: f64) {
 /// θ̇ = −ω_c r/ρ_o, on the inner θ̇ = (ω_c r − Ω(r − ρ_i))/ρ_i; both hold for ω_c r (1 + ρ_i/ρ_o) = Ω(r − ρ_i).
 /// The nominal angle would leave a thrust-loaded bearing to find its speeds by friction.
 fn settle_speeds(model: &Model, y: &mut [f64]) {
+    if model.balls_turn() {
+        return settle_free(model, y);
+    }
     let layout = model.layout();
     let speed = model.scene.drive.initial_speed();
     for row in 0..model.rows.len() {
@@ -144,4 +172,47 @@ fn settle_speeds(model: &Model, y: &mut [f64]) {
             }
         }
     }
+}
+
+/// The same of balls that spin freely: each as its contacts ask that resist pivoting like Q a², all of a row with one orbit speed.
+fn settle_free(model: &Model, y: &mut [f64]) {
+    let layout = model.layout();
+    let speed = model.scene.drive.initial_speed();
+    for row in &model.rows {
+        let mut rolling = Vec::new();
+        let (mut weighted, mut weight) = (0.0, 0.0);
+        for j in row.balls() {
+            let contacts = Race::BOTH.map(|race| inspect::contact(model, y, j, race));
+            if contacts.iter().any(|contact| contact.load == 0.0) {
+                continue;
+            }
+            let [x, y_, _] = layout.centre(y, BodyId::ball(j));
+            let between = Between {
+                radius: model.balls[j].side.radius,
+                distance: x.hypot(y_),
+                angles: contacts.map(|contact| contact.angle * row.side),
+                speed,
+            };
+            let found = between.resisted(contacts.map(|contact| resistance(&contact)));
+            let load = contacts[0].load.min(contacts[1].load);
+            weighted += load * found.orbit;
+            weight += load;
+            rolling.push((j, found));
+        }
+        if weight == 0.0 {
+            continue;
+        }
+        for j in row.balls() {
+            set_orbit(layout, y, BodyId::ball(j), weighted / weight);
+        }
+        for (j, found) in rolling {
+            set_spin(layout, y, BodyId::ball(j), &found);
+        }
+    }
+}
+
+/// How a contact resists pivoting, but for a factor: load times the square of the half-length of its zone \[N m²\].
+fn resistance(contact: &ContactSummary) -> f64 {
+    let half = 0.5 * contact.zone_width / contact.angle.cos();
+    contact.load * half * half
 }

@@ -31,7 +31,7 @@ pub struct Motion {
     pub(crate) vz: f64,
     /// Angular speed about z \[rad/s\].
     pub(crate) omega: f64,
-    /// Angular velocity across z \[rad/s\]: of a ball as a ring sees it that tilts.
+    /// Angular velocity about x and y \[rad/s\]: of a ball that spins freely, or as a ring sees it that tilts.
     pub(crate) across: V2,
 }
 
@@ -49,6 +49,15 @@ impl Motion {
             vz: v[2],
             omega: v[3],
             across: V2::zeros(),
+        }
+    }
+
+    /// The same with an angular velocity about x and y \[rad/s\].
+    #[must_use]
+    pub(crate) fn turning_across(self, [x, y]: [f64; 2]) -> Self {
+        Self {
+            across: V2::new(x, y),
+            ..self
         }
     }
 
@@ -113,12 +122,14 @@ pub(crate) struct LeaningRing {
     /// Axial place of the centre of mass in its frame \[m\].
     offset: f64,
     theta: f64,
+    /// Whether its balls spin freely.
+    balls_turn: bool,
 }
 
 impl LeaningRing {
     /// Of a ring whose places x, y and z tell how far its centre of mass is from where it nominally is, an axial place of the
-    /// ring's frame \[m\].
-    pub fn new(motion: &Motion, rotation: Rotation, offset: f64) -> Self {
+    /// ring's frame \[m\]; its balls spin freely, or about its axis.
+    pub fn new(motion: &Motion, rotation: Rotation, offset: f64, balls_turn: bool) -> Self {
         Self {
             rotation,
             centre: Vector3::new(motion.centre.x, motion.centre.y, motion.z + offset),
@@ -126,6 +137,7 @@ impl LeaningRing {
             turning: rotation.frame.to_ring(&rotation.angular_velocity()),
             offset,
             theta: motion.theta,
+            balls_turn,
         }
     }
 
@@ -134,21 +146,28 @@ impl LeaningRing {
         Vector3::new(ball.centre.x, ball.centre.y, ball.z) - self.centre
     }
 
-    /// A ball, whose spin each of its contacts takes to be about the axis of the ring it touches, and this ring, both as who
-    /// turns with the ring sees them in its frame: the ring stands still, its mark at θ.
+    /// A ball and this ring, both as who turns with the ring sees them in its frame: the ring stands still, its mark at θ. Where
+    /// balls do not spin freely, each contact takes a ball's spin to be about the axis of the ring it touches.
     pub fn facing(&self, ball: &Motion) -> [Motion; 2] {
         let frame = &self.rotation.frame;
         let place = frame.to_ring(&self.arm(ball));
         let velocity = Vector3::new(ball.velocity.x, ball.velocity.y, ball.vz) - self.velocity;
         let velocity = frame.to_ring(&velocity) - self.turning.cross(&place);
+        let spin = Vector3::new(ball.across.x, ball.across.y, ball.omega);
+        let spin = if self.balls_turn {
+            frame.to_ring(&spin)
+        } else {
+            spin
+        };
+        let turning = spin - self.turning;
         let seen = Motion {
             centre: place.xy(),
             z: place.z + self.offset,
             theta: ball.theta,
             velocity: velocity.xy(),
             vz: velocity.z,
-            omega: ball.omega - self.turning.z,
-            across: -self.turning.xy(),
+            omega: turning.z,
+            across: turning.xy(),
         };
         let own = Motion {
             theta: self.theta,

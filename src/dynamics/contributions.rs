@@ -33,7 +33,7 @@ pub fn contributions(model: &Model, t: f64, y: &[f64]) -> Vec<(&'static str, Vec
     let mut parts = vec![Table::zeros(bodies); names.len()];
     let rings = state.rings();
     let leaning = model
-        .leans()
+        .is_spatial()
         .then(|| Race::BOTH.map(|race| state.leaning(model, race)));
     for (j, ball) in model.balls.iter().enumerate() {
         let body = BodyId::ball(j);

@@ -1,6 +1,6 @@
-//! Contacts and moments of rings that may tilt: every contact by itself, in the frame of its ring.
+//! Contacts and moments of rings that may tilt and of balls that spin freely: every contact by itself, in the frame of its ring.
 //!
-//! Right before fast: rings that stay parallel do not come here.
+//! Right before fast: balls that spin about the axis of parallel rings do not come here.
 
 use nalgebra::Vector3;
 
@@ -9,12 +9,14 @@ use crate::contact::LeaningRing;
 use crate::forces::{self, State, Table, drive};
 use crate::model::{BodyId, Degree, Dof, Model, Race};
 
-/// What an evaluation knows of rings that may tilt.
+/// What an evaluation knows of what turns about x and y.
 #[derive(Debug)]
 pub(super) struct Leaning {
     rings: [LeaningRing; 2],
     /// Moments about the rings' centres of mass, in the scene's frame \[N m\].
     moments: [Vector3<f64>; 2],
+    /// Moments about x and y on balls that spin freely \[N m\]; none where they do not.
+    across: Vec<[f64; 2]>,
     pub pulls: usize,
     pub truncated: usize,
     /// The first ball that has left its groove.
@@ -22,13 +24,18 @@ pub(super) struct Leaning {
 }
 
 impl Leaning {
-    /// None where no ring may tilt.
+    /// None where nothing turns about x or y.
     pub fn new(model: &Model) -> Option<Box<Self>> {
         let state = State::new(model);
-        model.leans().then(|| {
+        model.is_spatial().then(|| {
             Box::new(Self {
                 rings: Race::BOTH.map(|race| state.leaning(model, race)),
                 moments: [Vector3::zeros(); 2],
+                across: if model.balls_turn() {
+                    vec![[0.0; 2]; model.balls.len()]
+                } else {
+                    Vec::new()
+                },
                 pulls: 0,
                 truncated: 0,
                 lost: None,
@@ -40,6 +47,7 @@ impl Leaning {
     pub fn add_contacts(&mut self, model: &Model, state: &State, forces: &mut Table) -> [f64; 2] {
         self.rings = Race::BOTH.map(|race| state.leaning(model, race));
         self.moments = [Vector3::zeros(); 2];
+        self.across.fill([0.0; 2]);
         (self.pulls, self.truncated, self.lost) = (0, 0, None);
         for (j, ball) in model.balls.iter().enumerate() {
             let motion = state.motion(BodyId::ball(j));
@@ -55,7 +63,15 @@ impl Leaning {
                 self.truncated += usize::from(sum.truncated);
                 let on_ball = sum.wrench.turned(|v| ring.rotation.frame.to_scene(v));
                 let [x, y, z] = on_ball.force.into();
-                forces.add(BodyId::ball(j), &[x, y, z, sum.wrench.moment.z]);
+                let about = match self.across.get_mut(j) {
+                    None => sum.wrench.moment.z,
+                    Some(across) => {
+                        across[0] += on_ball.moment.x;
+                        across[1] += on_ball.moment.y;
+                        on_ball.moment.z
+                    }
+                };
+                forces.add(BodyId::ball(j), &[x, y, z, about]);
                 forces.add(race.ring(), &[-x, -y, -z, 0.0]);
                 self.moments[race] += on_ball.moment_on_ring(&ring.arm(&motion));
             }
@@ -68,9 +84,16 @@ impl Leaning {
         forces::leaning::add(model, t, state, forces, &mut self.moments);
     }
 
-    /// Writes the accelerations of the rings' rotations.
+    /// Writes the accelerations of the rings' rotations, and of balls that spin freely: a sphere has no gyroscopic moment.
     pub fn accelerate(&self, model: &Model, t: f64, accelerations: &mut [f64]) {
         let layout = model.layout();
+        for (j, moments) in self.across.iter().enumerate() {
+            let ball = BodyId::ball(j);
+            for (dof, moment) in Dof::TURNS.into_iter().zip(moments) {
+                let inertia = model.bodies[ball].mass[Dof::Theta];
+                accelerations[layout.at(ball, dof)] = moment / inertia;
+            }
+        }
         for race in Race::BOTH {
             let ring = race.ring();
             let spin = match model.bodies[ring].degrees[Dof::Theta] {

@@ -20,7 +20,7 @@ const SPRING: Mount = Mount::Spring {
 };
 
 /// Two rows of five balls back to back between rings that are free in all directions, pressed apart.
-fn free_rings(law: &NormalLaw) -> Scene {
+pub(super) fn free_rings(law: &NormalLaw) -> Scene {
     let row = |side: i8| {
         let mut row = Row::new(5, 9e-3, 40e-3, 0.53, 0.52);
         (row.contact_angle, row.side) = (20_f64.to_radians(), side);
@@ -47,7 +47,7 @@ fn free_rings(law: &NormalLaw) -> Scene {
 }
 
 /// A state in which everything moves and leans.
-fn stirred(model: &Model) -> Vec<f64> {
+pub(super) fn stirred(model: &Model) -> Vec<f64> {
     let mut y = start(model, &Start::Rolling).unwrap();
     let layout = model.layout();
     for (k, race) in Race::BOTH.into_iter().enumerate() {
@@ -73,7 +73,7 @@ fn stirred(model: &Model) -> Vec<f64> {
 }
 
 /// All of linear and angular momentum, balls and rings, about the origin.
-fn momenta(model: &Model, y: &[f64]) -> [Vector3<f64>; 2] {
+pub(super) fn momenta(model: &Model, y: &[f64]) -> [Vector3<f64>; 2] {
     let layout = model.layout();
     let [mut linear, mut angular] = [Vector3::zeros(); 2];
     for id in layout.bodies() {
@@ -81,7 +81,10 @@ fn momenta(model: &Model, y: &[f64]) -> [Vector3<f64>; 2] {
         let velocity = Vector3::from(Dof::TRANSLATIONS.map(|dof| y[layout.speed_at(id, dof)]));
         let spin = y[layout.speed_at(id, Dof::Theta)];
         let turning = match Race::BOTH.into_iter().find(|race| race.ring() == id) {
-            None => Vector3::z() * (spin * model.bodies[id].mass[Dof::Theta]),
+            None => {
+                let across = layout.motion(y, id).across;
+                Vector3::new(across.x, across.y, spin) * model.bodies[id].mass[Dof::Theta]
+            }
             Some(race) => {
                 place.z += model.rings[race].centre_of_mass;
                 let rotation = model.leaning(y, race).rotation;
@@ -98,7 +101,7 @@ fn momenta(model: &Model, y: &[f64]) -> [Vector3<f64>; 2] {
     [linear, angular]
 }
 
-fn laws() -> [NormalLaw; 2] {
+pub(super) fn laws() -> [NormalLaw; 2] {
     [NormalLaw::Hertz, NormalLaw::iso16281()]
 }
 

@@ -12,6 +12,8 @@ mod leaning_tests;
 mod lost;
 mod planar;
 mod rolling;
+#[cfg(test)]
+mod spinning_tests;
 mod sums;
 
 use std::sync::Arc;

@@ -71,6 +71,9 @@ pub struct Explanation {
 /// What is told of a scene whose rings may tilt.
 const LEANS: &str = "a ring may tilt: contacts are evaluated one by one, in the frames of their rings, and nothing is left out";
 
+/// What is told of a scene whose balls spin freely.
+const TURNS: &str = "balls spin about any axis, with two states more each: contacts are evaluated one by one, and nothing is left out";
+
 /// How the contacts of a race are evaluated.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct ContactKind {
@@ -131,6 +134,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         notes: run::note(&model)
             .into_iter()
             .chain(model.leans().then_some(LEANS))
+            .chain(model.balls_turn().then_some(TURNS))
             .collect(),
     })
 }

@@ -49,7 +49,7 @@ pub(crate) fn add(model: &Model, steady: bool, t: f64, forces: &mut Table) {
         let force = at(load, t);
         forces.add(load.ring.ring(), &[force.x, force.y, force.z, 0.0]);
     }
-    if model.leans() {
+    if model.is_spatial() {
         // Moments come with those of all else.
         return;
     }

@@ -110,7 +110,8 @@ impl Table {
 
     /// Writes what [`Table::read`] reads.
     fn write(&self, half: &mut [f64]) {
-        for (body, numbers) in Layout::each_mut(half).iter_mut().enumerate() {
+        let bodies = self.stride - LANES;
+        for (body, numbers) in Layout::each_mut(half)[..bodies].iter_mut().enumerate() {
             *numbers = self.of(BodyId::new(body));
         }
     }
@@ -121,10 +122,12 @@ impl Table {
 pub(crate) struct State {
     pub q: Table,
     pub v: Table,
-    /// Where the tilts of rings that lean stand; none where none does.
+    /// Where the tilts of rings that lean and the turning of balls that spin freely stand; none where nothing does either.
     layout: Option<Layout>,
     /// Tilt of each ring \[rad\] and its rates \[rad/s\].
     tilts: [[[f64; 2]; 2]; 2],
+    /// Angular velocities of balls that spin freely about x and y \[rad/s\]; none where they do not.
+    across: Vec<[f64; 2]>,
 }
 
 impl State {
@@ -137,8 +140,13 @@ impl State {
         Self {
             q,
             v,
-            layout: model.leans().then(|| model.layout()),
+            layout: model.is_spatial().then(|| model.layout()),
             tilts: model.rings.each_ref().map(|ring| [ring.tilt, [0.0; 2]]),
+            across: if model.balls_turn() {
+                vec![[0.0; 2]; model.balls.len()]
+            } else {
+                Vec::new()
+            },
         }
     }
 
@@ -156,6 +164,9 @@ impl State {
                     }
                 }
             }
+            for (j, across) in self.across.iter_mut().enumerate() {
+                *across = Dof::TURNS.map(|dof| v[layout.at(BodyId::ball(j), dof)]);
+            }
         }
     }
 
@@ -168,6 +179,7 @@ impl State {
 
     #[inline]
     pub fn motion(&self, body: BodyId) -> Motion {
+        let across = body.as_ball().and_then(|ball| self.across.get(ball));
         let ([x, y, z, theta], [vx, vy, vz, omega]) = (self.q.of(body), self.v.of(body));
         Motion {
             centre: V2::new(x, y),
@@ -176,7 +188,7 @@ impl State {
             velocity: V2::new(vx, vy),
             vz,
             omega,
-            across: V2::zeros(),
+            across: across.map_or_else(V2::zeros, |across| V2::from(*across)),
         }
     }
 

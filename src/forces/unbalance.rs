@@ -96,7 +96,7 @@ pub(crate) fn on_leaning(
 /// On both rings, after all other forces.
 #[inline]
 pub(crate) fn add(model: &Model, t: f64, state: &State, forces: &mut Table) {
-    if !(model.unbalances.is_empty() || model.leans()) {
+    if !(model.unbalances.is_empty() || model.is_spatial()) {
         for race in Race::BOTH {
             let others = forces.of(race.ring());
             forces.add(race.ring(), &on(model, t, state, race, &others));

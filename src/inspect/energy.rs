@@ -82,6 +82,10 @@ pub fn energy(model: &Model, y: &[f64]) -> Energy {
             let speed = y[layout.speed_at(id, dof)];
             energy.kinetic += 0.5 * body.mass[dof] * speed * speed;
         }
+        if layout.has(id, Dof::TurnX) {
+            let [x, y] = Dof::TURNS.map(|dof| y[layout.speed_at(id, dof)]);
+            energy.kinetic += 0.5 * body.mass[Dof::Theta] * (x * x + y * y);
+        }
     }
     if model.leans() {
         energy.kinetic += leaning(model, y);

@@ -72,7 +72,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     let unbalances = unbalances(scene, &bodies, &rings)?;
     let mut model = Model {
         scene: scene.clone(),
-        layout: Model::layout_of(balls.len(), &rings),
+        layout: Model::layout_of(balls.len(), &rings, scene.balls_turn()),
         rows,
         balls,
         loads: loads(scene, &rings),

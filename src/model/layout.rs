@@ -1,7 +1,7 @@
 //! Bodies, races and directions, and the one place that says where they stand in a state vector.
 //!
 //! A state vector holds the places of all bodies, then their speeds in the same order. Tilts of rings, as far as they move,
-//! stand behind all bodies in each half. Nobody else computes with the number of a body's directions or with the bodies before
+//! stand behind all bodies in each half, and behind them how balls that spin freely turn about x and y. Nobody else computes with the number of a body's directions or with the bodies before
 //! the balls: a direction more is a change of this file.
 
 use std::ops::{Index, IndexMut, Range};
@@ -169,6 +169,10 @@ pub enum Dof {
     TiltX,
     /// Of a ring, its tilt about y \[rad\].
     TiltY,
+    /// Of a ball that spins freely, its angular velocity about x, which adds up to a place \[rad\] that nothing reads.
+    TurnX,
+    /// Of a ball that spins freely, the same about y.
+    TurnY,
 }
 
 impl Dof {
@@ -180,6 +184,8 @@ impl Dof {
     pub const SYMMETRIC: [Self; 2] = [Self::X, Self::Y];
     /// Those by which rings lean.
     pub const TILTS: [Self; 2] = [Self::TiltX, Self::TiltY];
+    /// Those in which balls spin freely, beside that about the bearing's axis.
+    pub const TURNS: [Self; 2] = [Self::TurnX, Self::TurnY];
 
     /// Its number among those of a body.
     #[inline]
@@ -187,7 +193,7 @@ impl Dof {
         self as usize
     }
 
-    /// `x`, `y`, `z`, `theta`, `tilt_x` or `tilt_y`: as in the names of states.
+    /// `x`, `y`, `z`, `theta`, `tilt_x`, `tilt_y`, `turn_x` or `turn_y`: as in the names of states.
     pub const fn name(self) -> &'static str {
         match self {
             Self::X => "x",
@@ -196,13 +202,15 @@ impl Dof {
             Self::Theta => "theta",
             Self::TiltX => "tilt_x",
             Self::TiltY => "tilt_y",
+            Self::TurnX => "turn_x",
+            Self::TurnY => "turn_y",
         }
     }
 
     /// Whether it is an angle, its speed in rad/s and its force a moment.
     #[inline]
     pub const fn is_rotation(self) -> bool {
-        matches!(self, Self::Theta | Self::TiltX | Self::TiltY)
+        !matches!(self, Self::X | Self::Y | Self::Z)
     }
 }
 
@@ -212,6 +220,8 @@ pub struct Layout {
     bodies: usize,
     /// Which tilts of outer and inner ring move: bits in the order of their places.
     tilts: u8,
+    /// Whether balls spin freely.
+    turns: bool,
 }
 
 impl Layout {
@@ -221,7 +231,13 @@ impl Layout {
         Self {
             bodies: RINGS + balls,
             tilts: 0,
+            turns: false,
         }
+    }
+
+    /// The same where balls spin freely, or do not.
+    pub(crate) fn with_turns(self, turns: bool) -> Self {
+        Self { turns, ..self }
     }
 
     /// The same where some tilts about x and y of the rings move.
@@ -234,9 +250,10 @@ impl Layout {
     /// Whether a state vector holds a direction of a body.
     #[inline]
     pub const fn has(self, body: BodyId, dof: Dof) -> bool {
-        match tilt_bit(body, dof) {
-            None => true,
-            Some(bit) => body.0 < RINGS && self.tilts >> bit & 1 == 1,
+        match dof {
+            Dof::TiltX | Dof::TiltY => body.0 < RINGS && self.tilts >> tilt_bit(body, dof) & 1 == 1,
+            Dof::TurnX | Dof::TurnY => body.0 >= RINGS && self.turns,
+            _ => true,
         }
     }
 
@@ -249,18 +266,31 @@ impl Layout {
     /// Number of places, and of speeds.
     #[inline]
     pub const fn half(self) -> usize {
+        let turns = if self.turns {
+            2 * (self.bodies - RINGS)
+        } else {
+            0
+        };
+        self.first_turn() + turns
+    }
+
+    /// Where the turning of balls begins.
+    #[inline]
+    const fn first_turn(self) -> usize {
         DOFS * self.bodies + self.tilts.count_ones() as usize
     }
 
     /// Where a place stands in a state vector, or a speed among the speeds.
     #[inline]
     pub const fn at(self, body: BodyId, dof: Dof) -> usize {
-        match tilt_bit(body, dof) {
-            None => DOFS * body.0 + dof.index(),
-            Some(bit) => {
-                let before = self.tilts & ((1 << bit) - 1);
+        match dof {
+            Dof::TiltX | Dof::TiltY => {
+                let before = self.tilts & ((1 << tilt_bit(body, dof)) - 1);
                 DOFS * self.bodies + before.count_ones() as usize
             }
+            Dof::TurnX => self.first_turn() + 2 * (body.0 - RINGS),
+            Dof::TurnY => self.first_turn() + 2 * (body.0 - RINGS) + 1,
+            _ => DOFS * body.0 + dof.index(),
         }
     }
 
@@ -276,6 +306,9 @@ impl Layout {
         let all = DOFS * self.bodies;
         if at < all {
             return (BodyId(at / DOFS), Dof::ALL[at % DOFS]);
+        }
+        if let Some(turn) = at.checked_sub(self.first_turn()) {
+            return (BodyId(RINGS + turn / 2), Dof::TURNS[turn % 2]);
         }
         let (mut bit, mut left) = (0, at - all);
         while self.tilts >> bit & 1 == 0 || left > 0 {
@@ -313,7 +346,7 @@ impl Layout {
         &mut half.as_chunks_mut().0[body.0]
     }
 
-    /// The numbers of all bodies in half a state vector, body by body; tilts behind them may look like one body more.
+    /// The numbers of all bodies in half a state vector, body by body; what stands behind them may look like more bodies.
     #[inline]
     pub fn each(half: &[f64]) -> &[[f64; DOFS]] {
         half.as_chunks().0
@@ -332,7 +365,12 @@ impl Layout {
     #[inline]
     pub fn motion(self, y: &[f64], body: BodyId) -> Motion {
         let (q, v) = y.split_at(self.half());
-        Motion::new(self.of(q, body), self.of(v, body))
+        let motion = Motion::new(self.of(q, body), self.of(v, body));
+        if self.has(body, Dof::TurnX) {
+            let [x, y] = Dof::TURNS.map(|dof| v[self.at(body, dof)]);
+            return motion.turning_across([x, y]);
+        }
+        motion
     }
 
     /// The place of a body's centre in a state \[m\].
@@ -345,13 +383,9 @@ impl Layout {
     }
 }
 
-/// The bit of a ring's tilt, in the order of their places; none for other directions.
-const fn tilt_bit(body: BodyId, dof: Dof) -> Option<usize> {
-    match dof {
-        Dof::TiltX => Some(2 * body.0),
-        Dof::TiltY => Some(2 * body.0 + 1),
-        _ => None,
-    }
+/// The bit of a ring's tilt, in the order of their places.
+const fn tilt_bit(body: BodyId, tilt: Dof) -> usize {
+    2 * body.0 + (tilt.index() - Dof::TiltX.index())
 }
 
 /// What has one entry a race is indexed by the race.

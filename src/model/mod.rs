@@ -1,7 +1,7 @@
 //! The scene compiled: indices, arrays and constants that a run only reads.
 //!
 //! Bodies stand in one order everywhere: outer ring, inner ring, balls row by row. The state vector holds
-//! (x, y, z, θ) of every body, then (vx, vy, vz, ω) of every body; [`Layout`] says where, also of the tilts of rings that tilt.
+//! (x, y, z, θ) of every body, then (vx, vy, vz, ω) of every body; [`Layout`] says where, also of what tilts and spins freely.
 
 mod body;
 mod compile;
@@ -209,18 +209,14 @@ impl Model {
                 .collect::<Vec<_>>()
         };
         let (positions, velocities) = Component::ALL.split_at(DOFS);
-        let tilts = |[of_x, of_y]: [Component; 2]| {
-            let tilts = self.layout.degrees().skip(DOFS * self.bodies.len());
-            let name = move |(body, dof): (BodyId, Dof)| {
-                let component = if dof == Dof::TiltX { of_x } else { of_y };
-                format!("{}.{}", self.bodies[body].name, component.label().0)
+        let [places, speeds] = [0, 1].map(|derivative| {
+            let beside = self.layout.degrees().skip(DOFS * self.bodies.len());
+            let name = |(body, dof): (BodyId, Dof)| {
+                let (label, _) = Component::of(dof.index(), derivative).label();
+                format!("{}.{label}", self.bodies[body].name)
             };
-            tilts.map(name).collect()
-        };
-        let [places, speeds] = [
-            tilts([Component::TiltX, Component::TiltY]),
-            tilts([Component::TiltVx, Component::TiltVy]),
-        ];
+            beside.map(name).collect()
+        });
         [of(positions), places, of(&velocities[..DOFS]), speeds].concat()
     }
 

@@ -67,10 +67,24 @@ impl Model {
         }
     }
 
-    /// The layout of all bodies and of the tilts that move.
-    pub(super) fn layout_of(balls: usize, rings: &[RingModel; 2]) -> Layout {
+    /// Whether balls spin freely: their angular velocity is a vector.
+    #[inline]
+    pub(crate) fn balls_turn(&self) -> bool {
+        self.layout.has(BodyId::ball(0), Dof::TurnX)
+    }
+
+    /// Whether anything turns about x or y: contacts are then evaluated in the frames of their rings.
+    #[inline]
+    pub(crate) fn is_spatial(&self) -> bool {
+        self.leans || self.balls_turn()
+    }
+
+    /// The layout of all bodies, of the tilts that move, and of balls that spin freely.
+    pub(super) fn layout_of(balls: usize, rings: &[RingModel; 2], balls_turn: bool) -> Layout {
         let moves = |ring: &RingModel| ring.degrees.map(|degree| degree.is_free());
-        Layout::of_balls(balls).with_tilts(rings.each_ref().map(moves))
+        Layout::of_balls(balls)
+            .with_tilts(rings.each_ref().map(moves))
+            .with_turns(balls_turn)
     }
 
     /// Tilt of a ring \[rad\] and its rates \[rad/s\] in a state.
@@ -99,13 +113,14 @@ impl Model {
         [tilt, rates]: [[f64; 2]; 2],
     ) -> LeaningRing {
         let rotation = Rotation::new(tilt, rates, motion.omega);
-        LeaningRing::new(motion, rotation, self.rings[race].centre_of_mass)
+        let offset = self.rings[race].centre_of_mass;
+        LeaningRing::new(motion, rotation, offset, self.balls_turn())
     }
 
     /// A ball and a ring in a state as their contact sees them: in the scene's frame, or in that of a ring that leans.
     pub(crate) fn facing(&self, y: &[f64], ball: usize, race: Race) -> [Motion; 2] {
         let at = self.layout.motion(y, BodyId::ball(ball));
-        if self.leans {
+        if self.is_spatial() {
             self.leaning(y, race).facing(&at)
         } else {
             [at, self.layout.motion(y, race.ring())]

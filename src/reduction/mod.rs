@@ -129,7 +129,7 @@ impl Reduction {
     }
 
     /// What a run from a state of all bodies leaves out; absent where it integrates all states in the order of
-    /// [`Model::names`], since implicit steps solve for a block a body, or since rings may tilt.
+    /// [`Model::names`], since implicit steps solve for a block a body, or since rings may tilt or balls spin freely.
     ///
     /// # Panics
     /// If the length of `start` is wrong.
@@ -139,7 +139,7 @@ impl Reduction {
         match solver.method {
             Method::ImplicitFriction | Method::Auto => None,
             // What they may leave out is not known yet.
-            _ if model.leans() => None,
+            _ if model.is_spatial() => None,
             _ => Some(Self::leaving_out(model, start, solver.reduce)),
         }
     }

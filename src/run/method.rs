@@ -41,7 +41,7 @@ impl fmt::Display for Choice {
     }
 }
 
-/// Refuses methods that do not know all directions of rings that may tilt.
+/// Refuses methods that do not know all directions of rings that may tilt and of balls that spin freely.
 pub(crate) fn check(model: &Model) -> error::Result<()> {
     let name = match model.scene().solver.method {
         Method::Adams => "adams",
@@ -49,14 +49,14 @@ pub(crate) fn check(model: &Model) -> error::Result<()> {
         Method::Auto => "auto",
         _ => return Ok(()),
     };
-    if !model.leans() {
+    let allowed = if model.leans() {
+        "an explicit one where a ring may tilt, such as dormand-prince: the matrix of friction knows parallel rings only"
+    } else if model.balls_turn() {
+        "an explicit one where balls spin freely, such as dormand-prince: the matrix of friction knows spin about the axis only"
+    } else {
         return Ok(());
-    }
-    Err(Error::scene(
-        "solver.method",
-        name,
-        "an explicit one where a ring may tilt, such as dormand-prince: the matrix of friction knows parallel rings only",
-    ))
+    };
+    Err(Error::scene("solver.method", name, allowed))
 }
 
 /// From where to where, and how well.

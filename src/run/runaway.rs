@@ -38,7 +38,7 @@ impl Bounds {
         let pitch = scene.rows.iter().map(pitch).fold(0.0, f64::max);
         let fastest = FASTEST.max(driven * pitch);
         let place = |&(body, dof): &(BodyId, Dof)| match (body.kind(), dof) {
-            (_, Dof::Theta) => (0.0, f64::MAX),
+            (_, Dof::Theta | Dof::TurnX | Dof::TurnY) => (0.0, f64::MAX),
             (_, Dof::TiltX | Dof::TiltY) => (0.0, FURTHEST),
             (BodyKind::Ball(_), Dof::X | Dof::Y) => (0.0, 1.5 * pitch),
             _ => (y0[model.layout().at(body, dof)], pitch),

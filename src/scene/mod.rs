@@ -30,6 +30,7 @@ pub mod presets;
 mod probe;
 mod recorded;
 mod solver;
+mod spin;
 mod tilt;
 mod time;
 mod validate;
@@ -59,6 +60,7 @@ pub(crate) use oils::CENTISTOKE;
 pub use oils::{Base, NAMED_OILS, NamedOil, OilSheet, OilSource, Sourced, named_oil};
 pub use probe::{Component, ContactQuantity, Probe};
 pub use solver::{Method, Solver};
+pub use spin::Spin;
 pub use time::{Profile, TimeFunction};
 
 /// Version of the document this crate reads.
@@ -95,6 +97,9 @@ pub struct Scene {
     /// Oil between balls and races; absent: dry. Its traction takes the place of `friction`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lubricant: Option<Lubricant>,
+    /// How balls spin; absent: about the bearing's axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spin: Option<Spin>,
     /// Cage; absent: the balls are not linked.
     #[serde(default)]
     pub cage: Option<Cage>,
@@ -162,6 +167,7 @@ impl Scene {
             contact: Contact::default(),
             friction: Friction::default(),
             lubricant: None,
+            spin: None,
             cage: None,
             drive,
             gravity: defaults::gravity(),

@@ -56,7 +56,7 @@ pub(super) fn show_absent(scene: &mut Value) {
             }
         }
     };
-    show(&[], &["lubricant"]);
+    show(&[], &["lubricant", "spin"]);
     show(&["rows", ALL], &["lubricant"]);
     for ring in ["outer_ring", "inner_ring"] {
         show(&[ring], &["tilt", "transverse_inertia", "centre_of_mass"]);

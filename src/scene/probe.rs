@@ -16,7 +16,8 @@ pub enum Probe {
     Motion {
         /// `outer`, `inner` or a ball such as `row0.ball3`.
         body: String,
-        /// Which of them; absent: all twelve, and of a ring that may lean those of its tilts.
+        /// Which of them; absent: all twelve, of a ring that may lean also those of its tilts, of a ball
+        /// that spins freely also those about x and y.
         #[serde(default)]
         components: Option<Vec<Component>>,
     },
@@ -119,6 +120,18 @@ pub enum Component {
     TiltAx,
     /// Acceleration of the tilt about y \[rad/s²\].
     TiltAy,
+    /// Of a ball that spins freely, ω_x added up over time \[rad\].
+    TurnX,
+    /// Of a ball that spins freely, ω_y added up over time \[rad\].
+    TurnY,
+    /// Angular velocity about x of a ball that spins freely \[rad/s\].
+    OmegaX,
+    /// Angular velocity about y of a ball that spins freely \[rad/s\].
+    OmegaY,
+    /// Angular acceleration about x of a ball that spins freely \[rad/s²\].
+    AlphaX,
+    /// Angular acceleration about y of a ball that spins freely \[rad/s²\].
+    AlphaY,
 }
 
 impl Component {
@@ -138,20 +151,8 @@ impl Component {
         Self::Alpha,
     ];
 
-    /// Of a ring that may lean: those of every body, then those of the tilts.
-    pub const OF_LEANING: [Self; 18] = [
-        Self::X,
-        Self::Y,
-        Self::Z,
-        Self::Theta,
-        Self::Vx,
-        Self::Vy,
-        Self::Vz,
-        Self::Omega,
-        Self::Ax,
-        Self::Ay,
-        Self::Az,
-        Self::Alpha,
+    /// Of a ring that may lean, beside those of every body.
+    pub const OF_TILTS: [Self; 6] = [
         Self::TiltX,
         Self::TiltY,
         Self::TiltVx,
@@ -160,19 +161,41 @@ impl Component {
         Self::TiltAy,
     ];
 
-    /// The direction it is of: 0 to 2 along x, y, z, 3 about z, 4 and 5 of the tilts about x and y.
+    /// Of a ball that spins freely, beside those of every body.
+    pub const OF_TURNS: [Self; 6] = [
+        Self::TurnX,
+        Self::TurnY,
+        Self::OmegaX,
+        Self::OmegaY,
+        Self::AlphaX,
+        Self::AlphaY,
+    ];
+
+    /// Of a direction, so many times derived: 0 for a place, 1 for a speed, 2 for an acceleration.
+    pub(crate) fn of(direction: usize, derivative: usize) -> Self {
+        match direction {
+            0..4 => Self::ALL[4 * derivative + direction],
+            4 | 5 => Self::OF_TILTS[2 * derivative + direction - 4],
+            _ => Self::OF_TURNS[2 * derivative + direction - 6],
+        }
+    }
+
+    /// The direction it is of: 0 to 2 along x, y, z, 3 about z, 4 and 5 of the tilts about x and y, 6 and 7 of how a ball turns
+    /// about x and y.
     pub fn direction(self) -> usize {
-        match (self as usize).checked_sub(Self::ALL.len()) {
-            None => self as usize % 4,
-            Some(of_tilts) => 4 + of_tilts % 2,
+        match self as usize {
+            common @ 0..12 => common % 4,
+            of_tilts @ 12..18 => 4 + of_tilts % 2,
+            of_turns => 6 + of_turns % 2,
         }
     }
 
     /// 0 for a place, 1 for a speed, 2 for an acceleration.
     pub fn derivative(self) -> usize {
-        match (self as usize).checked_sub(Self::ALL.len()) {
-            None => self as usize / 4,
-            Some(of_tilts) => of_tilts / 2,
+        match self as usize {
+            common @ 0..12 => common / 4,
+            of_tilts @ 12..18 => (of_tilts - 12) / 2,
+            of_turns => (of_turns - 18) / 2,
         }
     }
 
@@ -197,6 +220,12 @@ impl Component {
             ("tilt_vy", "rad/s"),
             ("tilt_ax", "rad/s^2"),
             ("tilt_ay", "rad/s^2"),
+            ("turn_x", "rad"),
+            ("turn_y", "rad"),
+            ("omega_x", "rad/s"),
+            ("omega_y", "rad/s"),
+            ("alpha_x", "rad/s^2"),
+            ("alpha_y", "rad/s^2"),
         ][self as usize]
     }
 }

@@ -32,12 +32,18 @@ impl Scene {
         })
     }
 
-    /// Whether a body can move along x, y, z and about z, and tilt about x and y; numbered as by [`Scene::body_index`].
-    pub(super) fn moves(&self, body: usize) -> [bool; 6] {
+    /// Whether a body can move along x, y, z and about z, tilt about x and y, and turn freely about x and y; numbered as by
+    /// [`Scene::body_index`].
+    pub(super) fn moves(&self, body: usize) -> [bool; 8] {
         let can = |support: &Support, absent| {
             let [x, y, z, theta] = support.mounts(absent);
             let [tilt_x, tilt_y] = support.tilt_mounts();
-            [x, y, z, theta, tilt_x, tilt_y].map(|mount| mount != Mount::Fixed)
+            let turns = if self.balls_turn() {
+                Mount::Free
+            } else {
+                Mount::Fixed
+            };
+            [x, y, z, theta, tilt_x, tilt_y, turns, turns].map(|mount| mount != Mount::Fixed)
         };
         match body {
             0 => can(&self.outer_ring.support, Mount::Fixed),
@@ -53,7 +59,7 @@ impl Scene {
                     ball = ball.saturating_sub(row.ball_count);
                     is_here
                 });
-                row.map_or([true; 6], |row| can(&row.ball_support, Mount::Free))
+                row.map_or([true; 8], |row| can(&row.ball_support, Mount::Free))
             }
         }
     }
@@ -61,14 +67,13 @@ impl Scene {
     /// The motion of a ring as far as it can move.
     fn motion(&self, ring: usize) -> Probe {
         let moves = self.moves(ring);
-        let can_move = |component: &&Component| moves[component.direction()];
+        let can_move = |component: &Component| moves[component.direction()];
         Probe::Motion {
             body: RINGS[ring].to_owned(),
             components: Some(
-                Component::OF_LEANING
-                    .iter()
+                self.components_of(RINGS[ring])
+                    .into_iter()
                     .filter(can_move)
-                    .copied()
                     .collect(),
             ),
         }

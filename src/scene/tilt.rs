@@ -27,18 +27,17 @@ impl Ring {
 }
 
 impl Scene {
-    /// The components of a body's motion, where nobody says which: of a ring that may lean also those of its tilts.
-    pub(crate) fn components_of(&self, body: &str) -> &'static [Component] {
-        let leans = match body {
-            "outer" => self.outer_ring.leans(),
-            "inner" => self.inner_ring.leans(),
-            _ => false,
+    /// The components of a body's motion, where nobody says which: of a ring that may lean also those of its tilts, of a ball that
+    /// spins freely also those about x and y.
+    pub(crate) fn components_of(&self, body: &str) -> Vec<Component> {
+        let beside: &[Component] = match body {
+            "outer" if self.outer_ring.leans() => &Component::OF_TILTS,
+            "inner" if self.inner_ring.leans() => &Component::OF_TILTS,
+            "outer" | "inner" => &[],
+            _ if self.balls_turn() => &Component::OF_TURNS,
+            _ => &[],
         };
-        if leans {
-            &Component::OF_LEANING
-        } else {
-            &Component::ALL
-        }
+        [&Component::ALL, beside].concat()
     }
 
     /// Whether a ring may lean. Where none does, rings have four directions and nobody hears of tilts.
@@ -48,13 +47,12 @@ impl Scene {
 
     /// What reductions by request do not know yet is refused.
     pub(super) fn check_leaning(&self) -> Result<()> {
-        if self.leans() && self.approximations != Approximations::NONE {
-            return Err(Error::scene(
-                "approximations",
-                "asked for",
-                "none where a ring may tilt: they are of rings that stay parallel",
-            ));
-        }
-        Ok(())
+        let allowed = match (self.leans(), self.balls_turn()) {
+            _ if self.approximations == Approximations::NONE => return Ok(()),
+            (true, _) => "none where a ring may tilt: they are of rings that stay parallel",
+            (_, true) => "none where balls spin freely: they are of balls that spin about the axis",
+            _ => return Ok(()),
+        };
+        Err(Error::scene("approximations", "asked for", allowed))
     }
 }

@@ -154,7 +154,7 @@ impl Probes {
         components: Option<&[Component]>,
     ) -> Reader {
         let all = model.scene.components_of(&model.bodies[body].name);
-        let components = components.unwrap_or(all).to_vec();
+        let components = components.map_or(all, <[_]>::to_vec);
         for component in &components {
             let (label, unit) = component.label();
             let derived = component.derivative() == 2;
@@ -275,7 +275,16 @@ impl Reader {
 }
 
 /// What a motion's components are of, by [`Component::direction`].
-const DIRECTIONS: [Dof; 6] = [Dof::X, Dof::Y, Dof::Z, Dof::Theta, Dof::TiltX, Dof::TiltY];
+const DIRECTIONS: [Dof; 8] = [
+    Dof::X,
+    Dof::Y,
+    Dof::Z,
+    Dof::Theta,
+    Dof::TiltX,
+    Dof::TiltY,
+    Dof::TurnX,
+    Dof::TurnY,
+];
 
 /// A component of a tilt that does not move.
 fn held(model: &Model, body: BodyId, component: Component) -> f64 {

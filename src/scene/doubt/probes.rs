@@ -4,13 +4,15 @@ use super::Doubt;
 use crate::scene::{Component, Probe, Scene};
 
 /// Words for the directions of a body.
-const DIRECTIONS: [&str; 6] = [
+const DIRECTIONS: [&str; 8] = [
     "along x",
     "along y",
     "along z",
     "about z",
     "from tilting about x",
     "from tilting about y",
+    "from turning about x",
+    "from turning about y",
 ];
 
 pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
@@ -36,9 +38,8 @@ fn still(scene: &Scene, name: &str, body: &str, components: Option<&[Component]>
         moves[3..].fill(true);
     }
     let columns: Vec<Component> = components
-        .unwrap_or(scene.components_of(body))
-        .iter()
-        .copied()
+        .map_or_else(|| scene.components_of(body), <[_]>::to_vec)
+        .into_iter()
         .filter(|component| !moves[component.direction()])
         .collect();
     let held: Vec<&str> = (0..DIRECTIONS.len())

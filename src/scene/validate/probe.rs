@@ -15,7 +15,12 @@ pub(super) fn probe(scene: &Scene, path: &str, probe: &Probe) -> Result<()> {
         Probe::Motion { body, components } => {
             let path = format!("{path}.motion");
             known_body(scene, &path, body)?;
-            of_body(&path, body, components.as_deref().unwrap_or_default())
+            of_body(
+                scene,
+                &path,
+                body,
+                components.as_deref().unwrap_or_default(),
+            )
         }
         Probe::Forces { body } => known_body(scene, &format!("{path}.forces"), body),
         Probe::Cage { row } => scene.row_index(&format!("{path}.cage"), *row).map(|_| ()),
@@ -35,18 +40,23 @@ pub(super) fn probe(scene: &Scene, path: &str, probe: &Probe) -> Result<()> {
     }
 }
 
-/// Balls have no tilt.
-fn of_body(path: &str, body: &str, components: &[Component]) -> Result<()> {
+/// Balls have no tilt, and only balls that spin freely turn about x and y.
+fn of_body(scene: &Scene, path: &str, body: &str, components: &[Component]) -> Result<()> {
     let is_ring = ["outer", "inner"].contains(&body);
-    let common = |component: &&Component| Component::ALL.contains(*component);
-    match components.iter().find(|of| !(is_ring || common(of))) {
-        None => Ok(()),
-        Some(tilt) => Err(Error::scene(
-            format!("{path}.components"),
-            tilt.label().0,
-            format!("of rings alone: {body} has no tilt"),
-        )),
+    for component in components {
+        let allowed = if Component::OF_TILTS.contains(component) && !is_ring {
+            format!("of rings alone: {body} has no tilt")
+        } else if Component::OF_TURNS.contains(component) && is_ring {
+            format!("of balls alone: {body} is a ring")
+        } else if Component::OF_TURNS.contains(component) && !scene.balls_turn() {
+            format!(r#"with spin = "free": {body} spins about the bearing's axis alone"#)
+        } else {
+            continue;
+        };
+        let path = format!("{path}.components");
+        return Err(Error::scene(path, component.label().0, allowed));
     }
+    Ok(())
 }
 
 fn lubricated(scene: &Scene, path: &str, row: usize) -> Result<()> {

@@ -1,0 +1,151 @@
+//! Analytic: balls that spin about any axis keep what a conservative system keeps, lose what is told, and in the plane are those
+//! that spin about the axis alone.
+
+use super::leaning_tests::{free_rings, laws, momenta, stirred};
+use super::{Dynamics, rhs};
+use crate::equilibrium::compile;
+use crate::inspect;
+use crate::integrate::{Options, Tolerance, VERNER, integrate};
+use crate::model::{BodyId, Dof, Model};
+use crate::scene::{Friction, NormalLaw, Scene, Slices, Spin};
+use crate::start::{Start, start};
+
+/// Two rows between free rings whose balls spin freely, with friction.
+fn free_balls(law: &NormalLaw) -> Scene {
+    let mut scene = free_rings(law);
+    scene.spin = Some(Spin::Free);
+    scene.contact.slices = Slices::Fitted(16);
+    scene.friction = Friction::Coulomb {
+        coefficient: 0.1,
+        slip_speed: 0.05,
+    };
+    scene
+}
+
+/// A state in which everything moves, leans and spins.
+fn spun(model: &Model) -> Vec<f64> {
+    let mut y = stirred(model);
+    let layout = model.layout();
+    for j in 0..model.balls.len() {
+        let ball = BodyId::ball(j);
+        y[layout.speed_at(ball, Dof::TurnX)] += 30.0 * (j as f64).cos();
+        y[layout.speed_at(ball, Dof::TurnY)] -= 50.0 * (1.3 * j as f64).sin();
+    }
+    y
+}
+
+/// The state after a while.
+fn after(model: &Model, y0: &[f64], duration: f64) -> Vec<f64> {
+    let mut dynamics = Dynamics::new(model);
+    let tolerance = Tolerance::uniform(y0.len(), 1e-13, 1e-13).unwrap();
+    let options = Options {
+        max_step: 0.2 / model.scales.frequency,
+        ..Options::default()
+    };
+    let nobody = &mut |_: &mut Dynamics<'_>,
+                       _: &crate::integrate::DenseStep<'_>,
+                       _: &crate::integrate::Statistics| {
+        std::ops::ControlFlow::Continue(())
+    };
+    let span = (0.0, duration);
+    let end = integrate(
+        &mut dynamics,
+        &VERNER,
+        span,
+        y0,
+        &tolerance,
+        &options,
+        nobody,
+    );
+    end.unwrap().y
+}
+
+/// Linear momentum and all of angular momentum between rings that tilt, with friction; energy too, without.
+#[test]
+fn free_balls_keep_momenta_and_energy() {
+    for law in laws() {
+        for rubs in [false, true] {
+            let mut scene = free_balls(&law);
+            if !rubs {
+                scene.friction = Friction::None;
+            }
+            let model = compile(&scene).unwrap();
+            let y0 = spun(&model);
+            let end = after(&model, &y0, 1e-4);
+            let [before, after] = [&y0, &end].map(|y| inspect::energy(&model, y).total());
+            let [from, to] = [&y0, &end].map(|y| momenta(&model, y));
+            println!("{law:?} {rubs}: {:e}", after / before - 1.0);
+            assert!((after / before - 1.0).abs() < 1e-9 || rubs, "{law:?}");
+            assert!(
+                after < before * (1.0 - 1e-5) || !rubs,
+                "friction takes {law:?}"
+            );
+            for (from, to) in from.into_iter().zip(to) {
+                println!("{from} {:e}", (from - to).norm());
+                assert!((from - to).norm() < 1e-12 * from.norm().max(0.1), "{law:?}");
+            }
+        }
+    }
+}
+
+/// Truth: the energy, differentiated along the motion. What is told to be lost is lost, and nothing else.
+#[test]
+fn powers_of_free_balls_balance() {
+    for law in laws() {
+        let mut scene = free_balls(&law);
+        scene.contact.damping = 0.3;
+        scene.contact.slices = Slices::Fitted(24);
+        let model = compile(&scene).unwrap();
+        let y = spun(&model);
+        let mut dy = vec![0.0; y.len()];
+        rhs(&model, 0.0, &y, &mut dy);
+        let moved = |h: f64| -> Vec<f64> { y.iter().zip(&dy).map(|(y, d)| y + h * d).collect() };
+        let energy = |h: f64| inspect::energy(&model, &moved(h)).total();
+        let h = 2e-9;
+        let rate =
+            (8.0 * (energy(h) - energy(-h)) - energy(2.0 * h) + energy(-2.0 * h)) / (12.0 * h);
+        let told = inspect::energy(&model, &y);
+        let lost = told.damping_power + told.friction_power;
+        println!("{law:?}: {rate} {lost}");
+        assert!(told.friction_power > 1.0);
+        // The nodes of a law in slices are exact to so much.
+        assert!((rate + lost).abs() < 2e-5 * lost, "{law:?}: {rate} {lost}");
+    }
+}
+
+/// Limits: in the plane a ball that spins freely is one that spins about the axis.
+#[test]
+fn in_the_plane_balls_spin_about_the_axis() {
+    let mut scene = crate::scene::presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    let axial = compile(&scene).unwrap();
+    scene.spin = Some(Spin::Free);
+    let free = compile(&scene).unwrap();
+    let (y, plain) = (
+        start(&free, &Start::Equilibrium).unwrap(),
+        start(&axial, &Start::Equilibrium).unwrap(),
+    );
+    let (half, bodies) = (free.layout().half(), axial.layout().half());
+    let mut dy = [vec![0.0; y.len()], vec![0.0; plain.len()]];
+    rhs(&free, 0.0, &y, &mut dy[0]);
+    rhs(&axial, 0.0, &plain, &mut dy[1]);
+    let size = dy[1].iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+    for at in 0..bodies {
+        let (a, b) = (y[half + at], plain[bodies + at]);
+        assert!(
+            (a - b).abs() < 1e-3 * b.abs().max(1.0),
+            "speed {at}: {a} {b}"
+        );
+    }
+    let mut y = y;
+    y[half..half + bodies].copy_from_slice(&plain[bodies..]);
+    y[half + bodies..].fill(0.0);
+    rhs(&free, 0.0, &y, &mut dy[0]);
+    for at in 0..half {
+        let expected = if at < bodies { dy[1][bodies + at] } else { 0.0 };
+        let found = dy[0][half + at];
+        assert!(
+            (found - expected).abs() < 1e-10 * size,
+            "{at}: {found} {expected}"
+        );
+    }
+}
