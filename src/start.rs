@@ -1,14 +1,10 @@
 //! How a run begins: at rest in the cage's frame, or rolling from nominal places (model sections 8 and 13.5).
 
-mod rolling;
-
 use crate::equilibrium;
 use crate::error::{Error, Result};
 use crate::inspect;
 use crate::inspect::ContactSummary;
-use crate::model::{BodyId, Dof, Layout, Model, Race};
-
-use rolling::{Between, Rolling};
+use crate::model::{Between, BodyId, Dof, Layout, Model, Race, Rolling};
 
 /// How a run begins.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -11,6 +11,7 @@ mod nodes;
 mod oil;
 mod race;
 mod ring;
+mod rolling;
 mod scales;
 
 use std::mem::discriminant;
@@ -28,6 +29,7 @@ pub(crate) use compile::{ball_fault, compile_placed, race_fault};
 pub use layout::{BodyId, BodyKind, DOFS, Dof, Layout, Race};
 pub(crate) use layout::{RING_DOFS, RINGS};
 pub(crate) use ring::{CoupledModel, RingModel};
+pub(crate) use rolling::{Between, Rolling};
 pub use scales::Scales;
 
 /// A compiled scene. Immutable and shared by threads.

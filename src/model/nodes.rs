@@ -1,6 +1,6 @@
 //! As many nodes as a contact needs for a requested accuracy of its force.
 
-use super::{Model, Race, RowModel, Scales};
+use super::{Between, Model, Race, Scales};
 use crate::contact::{BallSide, Motion, Pair, Rules, Sink, Slices, Touch, V2, Waves};
 
 /// Nodes against which others are measured.
@@ -90,13 +90,7 @@ fn worst(model: &Model, row: usize, race: Race, rules: &Slices) -> f64 {
                 .contact_angle
                 .max(pair.nominal_angle().abs())
                 + turn;
-            let (b, r) = rolling(
-                model,
-                (row, compiled),
-                &pair,
-                (approach, angle),
-                ball.radius,
-            );
+            let (b, r) = rolling(model, (row, race), &pair, (approach, angle), ball.radius);
             let [few, exact] = [&pair, &many].map(|pair| {
                 let mut force = Force::default();
                 pair.evaluate(&ball, &b, &r, &mut force);
@@ -116,10 +110,11 @@ fn worst(model: &Model, row: usize, race: Race, rules: &Slices) -> f64 {
     largest
 }
 
-/// Ball and ring in pure rolling, pressed by a share of the scene's approach at an angle.
+/// Ball and ring in pure rolling, pressed by a share of the scene's approach at an angle. A ball that spins freely pivots on this
+/// race alone.
 fn rolling(
     model: &Model,
-    (row, compiled): (usize, &RowModel),
+    (row, side): (usize, Race),
     pair: &Pair,
     (share, angle): (f64, f64),
     radius: f64,
@@ -130,7 +125,7 @@ fn rolling(
     // The outer contact leans to the row's side, the inner one away from it.
     let nominal = pair.nominal_angle();
     let towards = if nominal == 0.0 {
-        race.sigma * compiled.side
+        race.sigma * model.rows[row].side
     } else {
         // A flank of a gothic arch knows itself.
         nominal.signum()
@@ -144,6 +139,22 @@ fn rolling(
         velocity: V2::new(0.0, orbit * distance),
         omega: spin,
         ..Motion::default()
+    };
+    let ball = if model.balls_turn() {
+        let between = Between {
+            radius,
+            distance,
+            angles: [towards * race.sigma * angle; 2],
+            speed: model.scene.drive.initial_speed(),
+        };
+        let rolling = between.controlled_by(side.other());
+        Motion {
+            velocity: V2::new(0.0, rolling.orbit * distance),
+            omega: rolling.axial,
+            ..ball.turning_across([rolling.outward, 0.0])
+        }
+    } else {
+        ball
     };
     let turning = if race.sigma > 0.0 {
         0.0

@@ -35,7 +35,7 @@ from .probe import (
     SlicesProbe,
     TorqueProbe,
 )
-from .scene import Scene
+from .scene import Scene, Spin
 from .solver import Method, Solver
 from .support import CoupledSupport, Mount, Spring, Support
 from .time import Ramp, Sine, Table, TimeFunction
@@ -89,6 +89,7 @@ __all__ = [
     "SlicesProbe",
     "Solver",
     "SpeedDrive",
+    "Spin",
     "Spring",
     "Stribeck",
     "Support",

@@ -43,9 +43,15 @@ Component = Literal[
     "tilt_vy",
     "tilt_ax",
     "tilt_ay",
+    "turn_x",
+    "turn_y",
+    "omega_x",
+    "omega_y",
+    "alpha_x",
+    "alpha_y",
 ]
 """One component of a motion: position [m], angle [rad], their rates and the rates of those; likewise of a
-ring's tilt [rad]."""
+ring's tilt [rad], and of how a ball turns about x and y that spins freely [rad]."""
 
 ContactQuantity = Literal["load", "angle", "zone_centre", "zone_width", "slip"]
 """One quantity of a contact: normal force [N], contact angle [rad], axial place of the zone's middle of force in
@@ -61,7 +67,8 @@ class MotionProbe(Variant, tag="motion"):
     body : str
         ``outer``, ``inner`` or a ball such as ``row0.ball3``.
     components : tuple of Component, or None
-        Which of them; None: all twelve, and of a ring that may lean those of its tilts.
+        Which of them; None: all twelve, of a ring that may lean also those of its tilts, of a ball that
+        spins freely also those about x and y.
     """
 
     body: str

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Literal
 
 from .. import _core
 from .._document import LEFT_OUT, Part, decode, encode
@@ -26,7 +26,11 @@ from .material import Materials
 from .probe import Probe
 from .solver import Solver
 
-__all__ = ["Scene", "checked_scene"]
+__all__ = ["Scene", "Spin", "checked_scene"]
+
+
+Spin = Literal["axial", "free"]
+"""How balls spin: about the bearing's axis, or about any axis, as friction turns them."""
 
 
 _NAMED = ("loads", "moments", "unbalances", "defects", "probes")
@@ -59,6 +63,10 @@ class Scene(Part):
         Friction of balls and races.
     lubricant : Lubricant or None
         Oil of balls and races, whose traction takes the place of ``friction``; None: they are dry.
+    spin : Spin or None
+        How balls spin. ``"axial"``, or None: about the bearing's axis (of a ring that leans, its own), one state
+        a ball. ``"free"``: about any axis, three states a ball; then contacts that lean roll and pivot as friction
+        lets them. At a contact angle of 0 both are the same.
     cage : Cage or None
         Cage; None: the balls are not linked.
     drive : Drive
@@ -100,6 +108,7 @@ class Scene(Part):
     contact: Contact = Contact()
     friction: Friction = "none"
     lubricant: Lubricant | None = field(default=None, metadata=LEFT_OUT)
+    spin: Spin | None = field(default=None, metadata=LEFT_OUT)
     cage: Cage | None = None
     drive: Drive
     gravity: tuple[float, float, float] = (0.0, -9.81, 0.0)

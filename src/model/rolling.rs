@@ -15,11 +15,11 @@
 //! That leaves one number open: how pivoting is shared between the races. With none at the outer race it is what Jones and
 //! Harris call outer race control, with none at the inner race inner race control. Neither is a law of this model.
 
-use crate::model::Race;
+use super::Race;
 
 /// A ball that rolls without slip on the outer race, which rests, and on the inner race.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Rolling {
+pub(crate) struct Rolling {
     pub orbit: f64,
     /// ω_z.
     pub axial: f64,
@@ -29,7 +29,7 @@ pub(super) struct Rolling {
 
 /// A ball between its races.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Between {
+pub(crate) struct Between {
     /// R.
     pub radius: f64,
     /// d.
