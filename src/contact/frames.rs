@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 
 use super::{V2, cross};
 use crate::simd::Number;
-use crate::tilt::Rotation;
+use crate::tilt::{Frame, Rotation};
 
 /// Where a body is and how it moves: x, y, z and the angle about z.
 #[derive(Debug, Clone, Copy, Default)]
@@ -33,6 +33,8 @@ pub struct Motion {
     pub(crate) omega: f64,
     /// Angular velocity across z \[rad/s\]: of a ball as a ring sees it that tilts.
     pub(crate) across: V2,
+    /// Tilt of the ring that sees it so, where that leans.
+    pub(crate) seen_by: Option<[f64; 2]>,
 }
 
 impl Motion {
@@ -49,6 +51,7 @@ impl Motion {
             vz: v[2],
             omega: v[3],
             across: V2::zeros(),
+            seen_by: None,
         }
     }
 
@@ -86,6 +89,17 @@ impl Motion {
     #[inline]
     pub(crate) fn direction_of(&self, angle: f64) -> f64 {
         self.theta + angle
+    }
+
+    /// A direction that is fixed in this body, given in its own frame: it turns about z of the scene by θ.
+    pub(crate) fn carried(&self, own: &Vector3<f64>) -> Vector3<f64> {
+        let (sin, cos) = self.theta.sin_cos();
+        let [x, y] = [own.x * cos - own.y * sin, own.x * sin + own.y * cos];
+        let in_scene = Vector3::new(x, y, own.z);
+        match self.seen_by {
+            None => in_scene,
+            Some(tilt) => Frame::new(tilt).to_ring(&in_scene),
+        }
     }
 
     /// The direction from the axis to this body's centre \[rad\].
@@ -149,6 +163,7 @@ impl LeaningRing {
             vz: velocity.z,
             omega: ball.omega - self.turning.z,
             across: -self.turning.xy(),
+            seen_by: Some(frame.tilt),
         };
         let own = Motion {
             theta: self.theta,

@@ -177,6 +177,7 @@ impl State {
             vz,
             omega,
             across: V2::zeros(),
+            seen_by: None,
         }
     }
 

@@ -290,6 +290,9 @@ pub(crate) fn race_fault(defect: &Defect, row: &Row, race: &Pair) -> Fault {
 
 /// A defect of a ball of this radius, compiled.
 pub(crate) fn ball_fault(defect: &Defect, radius: f64) -> Fault {
+    if defect.is_cap() {
+        return Fault::cap(defect, offset(defect), radius);
+    }
     let reach = offset(defect).abs() + defect.length / 2.0;
     let slice = (radius * radius - reach * reach).max(0.0).sqrt();
     Fault::new(defect, offset(defect), slice)
