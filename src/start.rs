@@ -1,5 +1,6 @@
 //! How a run begins: at rest in the cage's frame, or rolling from nominal places (model sections 8 and 13.5).
 
+use crate::contact::attitude_rates;
 use crate::equilibrium;
 use crate::error::{Error, Result};
 use crate::inspect;
@@ -34,12 +35,14 @@ pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
             }
             lean(model, &mut y);
             roll(model, &mut y);
+            face(model, &mut y);
             Ok(y)
         }
         Start::Equilibrium => {
             let mut y = equilibrium::positions(model)?;
             roll(model, &mut y);
             settle_speeds(model, &mut y);
+            face(model, &mut y);
             Ok(y)
         }
         Start::State(state) => {
@@ -52,6 +55,22 @@ pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
                 )),
                 None => Ok(state.clone()),
             }
+        }
+    }
+}
+
+/// Gives balls that tumble the attitude that their angle about z says, which changes with their angular velocity: ė = ½ ω e.
+pub(crate) fn face(model: &Model, y: &mut [f64]) {
+    let layout = model.layout();
+    for ball in layout.tumbling().map(BodyId::ball) {
+        let (sin, cos) = (0.5 * y[layout.at(ball, Dof::Theta)]).sin_cos();
+        let attitude = [cos, 0.0, 0.0, sin];
+        let rates = attitude_rates(&layout.motion(y, ball).turning(), attitude);
+        for (dof, (place, rate)) in Dof::ATTITUDE
+            .into_iter()
+            .zip(attitude.into_iter().zip(rates))
+        {
+            (y[layout.at(ball, dof)], y[layout.speed_at(ball, dof)]) = (place, rate);
         }
     }
 }

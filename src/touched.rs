@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::contact::{Fault, Pair, Sighted, Slices, wrapped};
+use crate::contact::{Fault, Pair, Sighted, Slices, Toward};
 use crate::dynamics::Dynamics;
 use crate::equilibrium::Placed;
 use crate::integrate::DenseStep;
@@ -125,6 +125,16 @@ enum Pass {
     Touched,
 }
 
+/// How a contact stands to a defect.
+struct Look {
+    /// How far its direction is from the defect's \[rad\].
+    aside: f64,
+    /// How fast that changes \[rad/s\].
+    rate: f64,
+    /// Half of the angle over which it meets the defect \[rad\].
+    half: f64,
+}
+
 impl Watch {
     /// For a run of a model that has begun nowhere yet.
     pub fn new(model: &Model) -> Self {
@@ -229,7 +239,7 @@ impl Watched {
         };
         let (fault, origin) = compiled(model, defect);
         let diameter = model.scene().rows[defect.row].ball_diameter;
-        let slices = slices(defect.length, diameter);
+        let slices = slices(defect.extent(), diameter);
         let pairs = pairs.entry((defect.row, slices)).or_insert_with(|| {
             Arc::new(row.pairs.each_ref().map(|pair| {
                 let mut finer = pair.clone();
@@ -254,11 +264,10 @@ impl Watched {
 
     /// Looks at all contacts in a state of all bodies; the least time until one comes to the defect \[s\].
     fn look(&mut self, model: &Model, y: &[f64]) -> f64 {
-        let half = self.fault.reach / 2.0;
         let mut wait = f64::INFINITY;
         for i in 0..self.eyes.len() {
             let eye = &mut self.eyes[i];
-            let (aside, rate) = eye.look(model, y, &self.fault, self.on);
+            let Look { aside, rate, half } = eye.look(model, y, &self.fault, self.on);
             let before = std::mem::replace(&mut eye.aside, aside);
             // A narrow one may lie between two steps.
             let across = before.signum() != aside.signum() && (before - aside).abs() < PI;
@@ -290,6 +299,7 @@ impl Watched {
             fault: &self.fault,
             on_ball: self.on == Surface::Ball,
             aside,
+            ball: &ball,
         };
         let side = &model.balls[eye.ball].side;
         let found = self.pairs[eye.race].load_within(side, &ball, &ring, &sighted);
@@ -305,21 +315,22 @@ impl Watched {
 }
 
 impl Eye {
-    /// How far the direction of the contact is from the defect's \[rad\], and how fast that changes \[rad/s\].
-    fn look(&self, model: &Model, y: &[f64], fault: &Fault, on: Surface) -> (f64, f64) {
+    fn look(&self, model: &Model, y: &[f64], fault: &Fault, on: Surface) -> Look {
         let [ball, ring] = model.facing(y, self.ball, self.race);
         let seen = ball.seen_from(&ring);
-        let body = match on {
-            Surface::Ball => ball,
-            _ => ring,
+        let n = seen.centre / seen.centre.norm();
+        let (toward, omega) = match (on, self.race) {
+            (Surface::Ball, Race::Outer) => (Toward::ball(&ball, n, seen.direction()), ball.omega),
+            // The inner race is met on the ball's inner side.
+            (Surface::Ball, Race::Inner) => {
+                (Toward::ball(&ball, -n, seen.direction() + PI), ball.omega)
+            }
+            _ => (Toward::race(ring.angle_of(seen.direction())), ring.omega),
         };
-        // The inner race is met on the ball's inner side.
-        let opposite = if on == Surface::Ball && self.race == Race::Inner {
-            PI
-        } else {
-            0.0
-        };
-        let aside = wrapped(body.angle_of(seen.direction() + opposite) - fault.angle);
-        (aside, seen.orbit_speed() - body.omega)
+        Look {
+            aside: toward.aside(fault),
+            rate: seen.orbit_speed() - toward.turning(fault, omega),
+            half: toward.half(fault),
+        }
     }
 }

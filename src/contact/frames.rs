@@ -10,11 +10,11 @@
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
 
-use nalgebra::Vector3;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::{V2, cross};
 use crate::simd::Number;
-use crate::tilt::Rotation;
+use crate::tilt::{Frame, Rotation};
 
 /// Where a body is and how it moves: x, y, z and the angle about z.
 #[derive(Debug, Clone, Copy, Default)]
@@ -33,6 +33,11 @@ pub struct Motion {
     pub(crate) omega: f64,
     /// Angular velocity about x and y \[rad/s\]: of a ball that spins freely, or as a ring sees it that tilts.
     pub(crate) across: V2,
+    /// Euler parameters of a ball that spins freely and has a cap, of any length: how it has turned from its own frame into the
+    /// scene's.
+    pub(crate) attitude: Option<[f64; 4]>,
+    /// Tilt of the ring that sees it so, where that leans.
+    pub(crate) seen_by: Option<[f64; 2]>,
 }
 
 impl Motion {
@@ -49,6 +54,8 @@ impl Motion {
             vz: v[2],
             omega: v[3],
             across: V2::zeros(),
+            attitude: None,
+            seen_by: None,
         }
     }
 
@@ -59,6 +66,11 @@ impl Motion {
             across: V2::new(x, y),
             ..self
         }
+    }
+
+    /// Angular velocity \[rad/s\].
+    pub(crate) fn turning(&self) -> Vector3<f64> {
+        Vector3::new(self.across.x, self.across.y, self.omega)
     }
 
     /// This body as seen by who moves with a ring's centre, but does not turn with it.
@@ -95,6 +107,20 @@ impl Motion {
     #[inline]
     pub(crate) fn direction_of(&self, angle: f64) -> f64 {
         self.theta + angle
+    }
+
+    /// A direction that is fixed in this body, given in its own frame: it turns about z of the scene by θ, or as the attitude says.
+    pub(crate) fn carried(&self, own: &Vector3<f64>) -> Vector3<f64> {
+        let in_scene = if let Some([w, x, y, z]) = self.attitude {
+            UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)) * own
+        } else {
+            let (sin, cos) = self.theta.sin_cos();
+            Vector3::new(own.x * cos - own.y * sin, own.x * sin + own.y * cos, own.z)
+        };
+        match self.seen_by {
+            None => in_scene,
+            Some(tilt) => Frame::new(tilt).to_ring(&in_scene),
+        }
     }
 
     /// The direction from the axis to this body's centre \[rad\].
@@ -153,7 +179,7 @@ impl LeaningRing {
         let place = frame.to_ring(&self.arm(ball));
         let velocity = Vector3::new(ball.velocity.x, ball.velocity.y, ball.vz) - self.velocity;
         let velocity = frame.to_ring(&velocity) - self.turning.cross(&place);
-        let spin = Vector3::new(ball.across.x, ball.across.y, ball.omega);
+        let spin = ball.turning();
         let spin = if self.balls_turn {
             frame.to_ring(&spin)
         } else {
@@ -168,6 +194,8 @@ impl LeaningRing {
             vz: velocity.z,
             omega: turning.z,
             across: turning.xy(),
+            attitude: ball.attitude,
+            seen_by: Some(frame.tilt),
         };
         let own = Motion {
             theta: self.theta,
@@ -175,6 +203,12 @@ impl LeaningRing {
         };
         [seen, own]
     }
+}
+
+/// ½ ω e: how Euler parameters change with an angular velocity of the scene \[rad/s\].
+pub(crate) fn attitude_rates(turning: &Vector3<f64>, [w, x, y, z]: [f64; 4]) -> [f64; 4] {
+    let rates = Quaternion::from_imag(turning * 0.5) * Quaternion::new(w, x, y, z);
+    [rates.w, rates.i, rates.j, rates.k]
 }
 
 /// Centrifugal force on a mass \[kg\] that rests in the cage's frame, over its radius \[N/m\].

@@ -31,14 +31,14 @@ mod spatial;
 mod stage;
 mod stiffness;
 
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 
 pub(crate) use batch::{BatchForces, Constants, EightContacts, Places, Rubbing, Summing};
 pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz_stiffness};
 pub use fault::Fault;
-pub(crate) use fault::{Sight, Sighted};
+pub(crate) use fault::{Sight, Sighted, Toward};
 pub use frames::Motion;
-pub(crate) use frames::{LeaningRing, centrifugal};
+pub(crate) use frames::{LeaningRing, attitude_rates, centrifugal};
 pub use laws::elastic::{elliptic, hertz, iso16281};
 pub use laws::film;
 pub use laws::film::Oiled;
@@ -111,6 +111,8 @@ pub struct Touch {
     pub(crate) arm_ball: V2,
     /// Contact point from the ring's centre \[m\].
     pub(crate) arm_ring: V2,
+    /// What rotations of the ball turn it by along its slice: ẑ but at the edges of a cap (see `fault`).
+    pub(crate) swing: Vector3<f64>,
     /// Whether damping wanted to pull.
     pub pull: bool,
 }
@@ -125,6 +127,7 @@ impl Touch {
             axial: -normal * self.share.1 + self.friction_z * friction,
             arm_ball: self.arm_ball,
             arm_ring: self.arm_ring,
+            swing: self.swing,
         };
         aside.wrenches()
     }
@@ -144,6 +147,8 @@ pub struct Aside {
     pub(crate) arm_ball: V2,
     /// The point from the ring's centre \[m\].
     pub(crate) arm_ring: V2,
+    /// As of a [`Touch`].
+    pub(crate) swing: Vector3<f64>,
 }
 
 impl Aside {

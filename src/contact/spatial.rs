@@ -65,7 +65,7 @@ impl Touch {
         let arm = Vector3::new(self.arm_ball.x, self.arm_ball.y, self.zeta);
         let mut moment = arm.cross(&rubbing);
         // Nothing where the surface of the ball is whole.
-        moment.z += cross(self.arm_ball, pressing);
+        moment += self.swing * cross(self.arm_ball, pressing);
         Wrench {
             force: Vector3::new(pressing.x, pressing.y, -normal * self.share.1) + rubbing,
             moment,
@@ -78,7 +78,7 @@ impl Aside {
     pub(crate) fn on_ball(&self) -> Wrench {
         Wrench {
             force: Vector3::new(self.plane.x, self.plane.y, self.axial),
-            moment: Vector3::z() * cross(self.arm_ball, self.plane),
+            moment: self.swing * cross(self.arm_ball, self.plane),
         }
     }
 }

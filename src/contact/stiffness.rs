@@ -14,7 +14,7 @@ use super::closed_form;
 use super::dual::Dual;
 use super::kernel::{self, Element, Receiver, Whole};
 use super::profile::{SHALLOW, Section, Zone};
-use super::{Aside, BallSide, Motion, Pair, Rules, Sink, Slices, Touch, V2};
+use super::{Aside, BallSide, Motion, Pair, Rules, Sink, Slices, Touch, Toward, V2};
 
 /// Elastic force on the ball along x, y, z \[N\], and the stiffness −∂force/∂place of the ball against the ring
 /// \[N/m\]; a stiffness that only differences can tell is left out.
@@ -51,15 +51,10 @@ impl Pair {
             };
         }
         let sigma = self.race.sigma;
-        let whole = !self.faults.iter().any(|fault| fault.in_reach(angle))
-            && !ball.faults.iter().any(|fault| {
-                let towards = if sigma > 0.0 {
-                    angle
-                } else {
-                    angle + std::f64::consts::PI
-                };
-                fault.in_reach(towards)
-            });
+        let resting = Motion::default();
+        let toward = Toward::ball(&resting, n * sigma, self.outwards(angle));
+        let whole =
+            !self.is_near(angle) && !ball.faults.iter().any(|fault| fault.in_reach(&toward));
         match self.meridional(&section).filter(|_| whole) {
             Some(found) => {
                 self.in_space(&found, n, distance, (raise.slope, self.waves.bend(angle)))

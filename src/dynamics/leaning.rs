@@ -5,7 +5,7 @@
 use nalgebra::Vector3;
 
 use super::sums::Spatial;
-use crate::contact::LeaningRing;
+use crate::contact::{LeaningRing, attitude_rates};
 use crate::forces::{self, State, Table, drive};
 use crate::model::{BodyId, Degree, Dof, Model, Race};
 
@@ -85,7 +85,7 @@ impl Leaning {
     }
 
     /// Writes the accelerations of the rings' rotations, and of balls that spin freely: a sphere has no gyroscopic moment.
-    pub fn accelerate(&self, model: &Model, t: f64, accelerations: &mut [f64]) {
+    pub fn accelerate(&self, model: &Model, t: f64, state: &State, accelerations: &mut [f64]) {
         let layout = model.layout();
         for (j, moments) in self.across.iter().enumerate() {
             let ball = BodyId::ball(j);
@@ -93,6 +93,9 @@ impl Leaning {
                 let inertia = model.bodies[ball].mass[Dof::Theta];
                 accelerations[layout.at(ball, dof)] = moment / inertia;
             }
+        }
+        for ball in layout.tumbling().map(BodyId::ball) {
+            tumble(model, state, ball, accelerations);
         }
         for race in Race::BOTH {
             let ring = race.ring();
@@ -113,5 +116,21 @@ impl Leaning {
                 }
             }
         }
+    }
+}
+
+/// Writes how the rates of a ball's Euler parameters change, ë = ½ ω̇ e − ¼ ω² e, once its angular acceleration is there.
+fn tumble(model: &Model, state: &State, ball: BodyId, accelerations: &mut [f64]) {
+    let layout = model.layout();
+    let motion = state.motion(ball);
+    let Some(attitude) = motion.attitude else {
+        return;
+    };
+    let turning =
+        [Dof::TurnX, Dof::TurnY, Dof::Theta].map(|dof| accelerations[layout.at(ball, dof)]);
+    let found = attitude_rates(&Vector3::from(turning), attitude);
+    let square = 0.25 * motion.turning().norm_squared();
+    for ((dof, found), e) in Dof::ATTITUDE.into_iter().zip(found).zip(attitude) {
+        accelerations[layout.at(ball, dof)] = found - square * e;
     }
 }

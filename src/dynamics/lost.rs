@@ -63,17 +63,7 @@ fn in_one_loop(path: Path) -> Path {
 }
 
 fn spall() -> Defect {
-    Defect {
-        on: Surface::OuterRace,
-        row: 0,
-        ball: None,
-        angle: -FRAC_PI_2,
-        axial_offset: 0.0.into(),
-        length: 4e-3,
-        width: 1e-3.into(),
-        edge_radius: 0.1e-3,
-        floor: None,
-    }
+    Defect::new(Surface::OuterRace, -FRAC_PI_2, 4e-3, 1e-3, 0.1e-3).at_offset(0.0)
 }
 
 fn two_rows() -> Scene {

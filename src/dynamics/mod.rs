@@ -384,7 +384,7 @@ impl System for Dynamics<'_> {
                     *acceleration = self.acceleration(t, body);
                 }
                 if let Some(leaning) = &self.leaning {
-                    leaning.accelerate(self.model, t, accelerations);
+                    leaning.accelerate(self.model, t, &self.state, accelerations);
                 }
             }
             Order::Kept(kept) => {

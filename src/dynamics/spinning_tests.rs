@@ -3,12 +3,13 @@
 
 use super::leaning_tests::{free_rings, laws, momenta, stirred};
 use super::{Dynamics, rhs};
+use crate::contact::attitude_rates;
 use crate::equilibrium::compile;
 use crate::inspect;
 use crate::integrate::{Options, Tolerance, VERNER, integrate};
-use crate::model::{BodyId, Dof, Model};
-use crate::scene::{Friction, NormalLaw, Scene, Slices, Spin};
-use crate::start::{Start, start};
+use crate::model::{BodyId, Dof, Model, Race};
+use crate::scene::{Defect, Friction, NormalLaw, Scene, Slices, Spin};
+use crate::start::{Start, face, start};
 
 /// Two rows between free rings whose balls spin freely, with friction.
 fn free_balls(law: &NormalLaw) -> Scene {
@@ -22,6 +23,18 @@ fn free_balls(law: &NormalLaw) -> Scene {
     scene
 }
 
+/// The same with a cap where ball 0 touches the outer race, and one on ball 3.
+fn capped(law: &NormalLaw) -> Scene {
+    let mut scene = free_balls(law);
+    for (name, ball, angle) in [("first", 0, 0.05), ("other", 3, 1.0)] {
+        let cap = Defect::cap(angle, 1e-3, 0.3e-3)
+            .on_ball(ball)
+            .at_offset(1.6e-3);
+        scene.defects.insert(name.to_owned(), cap);
+    }
+    scene
+}
+
 /// A state in which everything moves, leans and spins.
 fn spun(model: &Model) -> Vec<f64> {
     let mut y = stirred(model);
@@ -31,6 +44,7 @@ fn spun(model: &Model) -> Vec<f64> {
         y[layout.speed_at(ball, Dof::TurnX)] += 30.0 * (j as f64).cos();
         y[layout.speed_at(ball, Dof::TurnY)] -= 50.0 * (1.3 * j as f64).sin();
     }
+    face(model, &mut y);
     y
 }
 
@@ -88,11 +102,71 @@ fn free_balls_keep_momenta_and_energy() {
     }
 }
 
+/// Momenta where caps tumble through contacts, and the length of Euler parameters.
+#[test]
+fn caps_that_tumble_keep_momenta() {
+    let model = compile(&capped(&NormalLaw::Hertz)).unwrap();
+    let y0 = spun(&model);
+    assert_eq!(model.dim(), 2 * (4 * 12 + 4 + 2 * 10 + 4 * 4));
+    let end = after(&model, &y0, 1e-4);
+    let [from, to] = [&y0, &end].map(|y| momenta(&model, y));
+    for (from, to) in from.into_iter().zip(to) {
+        println!("{from} {:e}", (from - to).norm());
+        assert!((from - to).norm() < 1e-12 * from.norm().max(0.1));
+    }
+    let layout = model.layout();
+    let motion = layout.motion(&end, BodyId::ball(0));
+    let attitude = motion.attitude.unwrap();
+    let length: f64 = attitude.iter().map(|e| e * e).sum();
+    println!("{length}");
+    assert!((length - 1.0).abs() < 1e-11);
+    // ė is still ½ ω e, and the ball has turned by some degrees.
+    let rates = Dof::ATTITUDE.map(|dof| end[layout.speed_at(BodyId::ball(0), dof)]);
+    for (rate, expected) in rates
+        .into_iter()
+        .zip(attitude_rates(&motion.turning(), attitude))
+    {
+        assert!((rate - expected).abs() < 1e-9 * motion.turning().norm());
+    }
+    assert!(attitude[0] < 0.9999, "{attitude:?}");
+}
+
+/// Limits: a cap that spins about the axis is the same whether its ball may spin freely or not.
+#[test]
+fn a_cap_on_the_axis_of_spin_is_carried_by_theta() {
+    let mut scene = capped(&NormalLaw::Hertz);
+    let free = compile(&scene).unwrap();
+    scene.spin = None;
+    let axial = compile(&scene).unwrap();
+    let mut y = stirred(&axial);
+    let turned = axial.layout().at(BodyId::ball(0), Dof::Theta);
+    y[turned] = 0.02;
+    let (half, bodies) = (axial.layout().half(), axial.layout().half());
+    let mut of_free = vec![0.0; free.dim()];
+    let free_half = free.layout().half();
+    of_free[..bodies].copy_from_slice(&y[..bodies]);
+    of_free[free_half..free_half + bodies].copy_from_slice(&y[half..]);
+    face(&free, &mut of_free);
+    for race in Race::BOTH {
+        let [a, b] = [(&axial, &y), (&free, &of_free)].map(|(model, y)| {
+            let found = inspect::contact(model, y, 0, race);
+            [found.load, found.angle]
+        });
+        assert!(a[0] > 0.0 || race == Race::Inner);
+        for (a, b) in a.into_iter().zip(b) {
+            assert!(
+                (a - b).abs() < 1e-9 * a.abs() || (a.is_nan() && b.is_nan()),
+                "{race:?}: {a} {b}"
+            );
+        }
+    }
+}
+
 /// Truth: the energy, differentiated along the motion. What is told to be lost is lost, and nothing else.
 #[test]
 fn powers_of_free_balls_balance() {
     for law in laws() {
-        let mut scene = free_balls(&law);
+        let mut scene = capped(&law);
         scene.contact.damping = 0.3;
         scene.contact.slices = Slices::Fitted(24);
         let model = compile(&scene).unwrap();

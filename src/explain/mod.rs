@@ -162,15 +162,16 @@ fn defects(scene: &Scene, placed: &BTreeMap<String, Placed>) -> Result<Vec<Touch
 fn met(mut told: Touched, defect: &Defect, meeting: &Meeting) -> Touched {
     let Meeting { model, y, contacts } = meeting;
     let (fault, origin) = compiled(model, defect);
-    let sighted = Sighted {
-        fault: &fault,
-        on_ball: defect.on == Surface::Ball,
-        aside: 0.0,
-    };
     let mut most = 0.0;
     for &(j, race) in contacts {
         let [ball, ring] = model.facing(y, j, race);
         let pair = &model.rows[defect.row].pairs[race];
+        let sighted = Sighted {
+            fault: &fault,
+            on_ball: defect.on == Surface::Ball,
+            aside: 0.0,
+            ball: &ball,
+        };
         let found = pair.load_within(&model.balls[j].side, &ball, &ring, &sighted);
         told.passes += 1;
         told.touched += usize::from(found.within > 0.0);

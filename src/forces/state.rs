@@ -128,6 +128,8 @@ pub(crate) struct State {
     tilts: [[[f64; 2]; 2]; 2],
     /// Angular velocities of balls that spin freely about x and y \[rad/s\]; none where they do not.
     across: Vec<[f64; 2]>,
+    /// Euler parameters of the balls that have them.
+    attitudes: Vec<[f64; 4]>,
 }
 
 impl State {
@@ -147,6 +149,7 @@ impl State {
             } else {
                 Vec::new()
             },
+            attitudes: vec![[0.0; 4]; model.layout().tumbling().len()],
         }
     }
 
@@ -167,6 +170,9 @@ impl State {
             for (j, across) in self.across.iter_mut().enumerate() {
                 *across = Dof::TURNS.map(|dof| v[layout.at(BodyId::ball(j), dof)]);
             }
+            for (j, attitude) in layout.tumbling().zip(&mut self.attitudes) {
+                *attitude = Dof::ATTITUDE.map(|dof| q[layout.at(BodyId::ball(j), dof)]);
+            }
         }
     }
 
@@ -175,6 +181,13 @@ impl State {
         let (q, v) = y.split_at_mut(y.len() / 2);
         self.q.write(q);
         self.v.write(v);
+    }
+
+    /// Euler parameters of a ball that has them.
+    fn attitude(&self, body: BodyId) -> Option<[f64; 4]> {
+        let tumbling = self.layout?.tumbling();
+        let ball = body.as_ball().filter(|ball| tumbling.contains(ball))?;
+        Some(self.attitudes[ball - tumbling.start])
     }
 
     #[inline]
@@ -189,6 +202,8 @@ impl State {
             vz,
             omega,
             across: across.map_or_else(V2::zeros, |across| V2::from(*across)),
+            attitude: self.attitude(body),
+            seen_by: None,
         }
     }
 

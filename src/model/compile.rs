@@ -72,7 +72,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     let unbalances = unbalances(scene, &bodies, &rings)?;
     let mut model = Model {
         scene: scene.clone(),
-        layout: Model::layout_of(balls.len(), &rings, scene.balls_turn()),
+        layout: Model::layout_of(&balls, &rings, scene.balls_turn()),
         rows,
         balls,
         loads: loads(scene, &rings),
@@ -290,6 +290,9 @@ pub(crate) fn race_fault(defect: &Defect, row: &Row, race: &Pair) -> Fault {
 
 /// A defect of a ball of this radius, compiled.
 pub(crate) fn ball_fault(defect: &Defect, radius: f64) -> Fault {
+    if defect.is_cap() {
+        return Fault::cap(defect, offset(defect), radius);
+    }
     let reach = offset(defect).abs() + defect.length / 2.0;
     let slice = (radius * radius - reach * reach).max(0.0).sqrt();
     Fault::new(defect, offset(defect), slice)

@@ -173,6 +173,14 @@ pub enum Dof {
     TurnX,
     /// Of a ball that spins freely, the same about y.
     TurnY,
+    /// Of a ball that spins freely and has a cap, the first of its four Euler parameters.
+    E0,
+    /// The second of these.
+    E1,
+    /// The third of these.
+    E2,
+    /// The last of these.
+    E3,
 }
 
 impl Dof {
@@ -186,6 +194,8 @@ impl Dof {
     pub const TILTS: [Self; 2] = [Self::TiltX, Self::TiltY];
     /// Those in which balls spin freely, beside that about the bearing's axis.
     pub const TURNS: [Self; 2] = [Self::TurnX, Self::TurnY];
+    /// Euler parameters of a ball.
+    pub const ATTITUDE: [Self; 4] = [Self::E0, Self::E1, Self::E2, Self::E3];
 
     /// Its number among those of a body.
     #[inline]
@@ -193,7 +203,7 @@ impl Dof {
         self as usize
     }
 
-    /// `x`, `y`, `z`, `theta`, `tilt_x`, `tilt_y`, `turn_x` or `turn_y`: as in the names of states.
+    /// `x`, `y`, `z`, `theta`, `tilt_x`, `tilt_y`, `turn_x`, `turn_y` or `e0` to `e3`: as in the names of states.
     pub const fn name(self) -> &'static str {
         match self {
             Self::X => "x",
@@ -204,6 +214,10 @@ impl Dof {
             Self::TiltY => "tilt_y",
             Self::TurnX => "turn_x",
             Self::TurnY => "turn_y",
+            Self::E0 => "e0",
+            Self::E1 => "e1",
+            Self::E2 => "e2",
+            Self::E3 => "e3",
         }
     }
 
@@ -222,6 +236,8 @@ pub struct Layout {
     tilts: u8,
     /// Whether balls spin freely.
     turns: bool,
+    /// The balls that have an attitude: from this one on, so many.
+    tumbling: [usize; 2],
 }
 
 impl Layout {
@@ -232,12 +248,23 @@ impl Layout {
             bodies: RINGS + balls,
             tilts: 0,
             turns: false,
+            tumbling: [0; 2],
         }
     }
 
-    /// The same where balls spin freely, or do not.
-    pub(crate) fn with_turns(self, turns: bool) -> Self {
-        Self { turns, ..self }
+    /// The same where balls spin freely, some of them with an attitude.
+    pub(crate) fn with_turns(self, tumbling: Range<usize>) -> Self {
+        Self {
+            turns: true,
+            tumbling: [tumbling.start, tumbling.len()],
+            ..self
+        }
+    }
+
+    /// The balls that have an attitude.
+    #[inline]
+    pub fn tumbling(self) -> Range<usize> {
+        self.tumbling[0]..self.tumbling[0] + self.tumbling[1]
     }
 
     /// The same where some tilts about x and y of the rings move.
@@ -253,6 +280,10 @@ impl Layout {
         match dof {
             Dof::TiltX | Dof::TiltY => body.0 < RINGS && self.tilts >> tilt_bit(body, dof) & 1 == 1,
             Dof::TurnX | Dof::TurnY => body.0 >= RINGS && self.turns,
+            Dof::E0 | Dof::E1 | Dof::E2 | Dof::E3 => {
+                let [first, count] = self.tumbling;
+                body.0 >= RINGS + first && body.0 < RINGS + first + count
+            }
             _ => true,
         }
     }
@@ -266,18 +297,24 @@ impl Layout {
     /// Number of places, and of speeds.
     #[inline]
     pub const fn half(self) -> usize {
-        let turns = if self.turns {
-            2 * (self.bodies - RINGS)
-        } else {
-            0
-        };
-        self.first_turn() + turns
+        self.first_attitude() + 4 * self.tumbling[1]
     }
 
     /// Where the turning of balls begins.
     #[inline]
     const fn first_turn(self) -> usize {
         DOFS * self.bodies + self.tilts.count_ones() as usize
+    }
+
+    /// Where their attitudes begin.
+    #[inline]
+    const fn first_attitude(self) -> usize {
+        let turns = if self.turns {
+            2 * (self.bodies - RINGS)
+        } else {
+            0
+        };
+        self.first_turn() + turns
     }
 
     /// Where a place stands in a state vector, or a speed among the speeds.
@@ -290,6 +327,10 @@ impl Layout {
             }
             Dof::TurnX => self.first_turn() + 2 * (body.0 - RINGS),
             Dof::TurnY => self.first_turn() + 2 * (body.0 - RINGS) + 1,
+            Dof::E0 | Dof::E1 | Dof::E2 | Dof::E3 => {
+                let ball = body.0 - RINGS - self.tumbling[0];
+                self.first_attitude() + 4 * ball + (dof.index() - Dof::E0.index())
+            }
             _ => DOFS * body.0 + dof.index(),
         }
     }
@@ -302,10 +343,14 @@ impl Layout {
 
     /// What stands at a place in either half of a state vector.
     #[inline]
-    pub const fn degree(self, at: usize) -> (BodyId, Dof) {
+    pub fn degree(self, at: usize) -> (BodyId, Dof) {
         let all = DOFS * self.bodies;
         if at < all {
             return (BodyId(at / DOFS), Dof::ALL[at % DOFS]);
+        }
+        if let Some(place) = at.checked_sub(self.first_attitude()) {
+            let ball = self.tumbling[0] + place / 4;
+            return (BodyId(RINGS + ball), Dof::ATTITUDE[place % 4]);
         }
         if let Some(turn) = at.checked_sub(self.first_turn()) {
             return (BodyId(RINGS + turn / 2), Dof::TURNS[turn % 2]);
@@ -367,8 +412,12 @@ impl Layout {
         let (q, v) = y.split_at(self.half());
         let motion = Motion::new(self.of(q, body), self.of(v, body));
         if self.has(body, Dof::TurnX) {
-            let [x, y] = Dof::TURNS.map(|dof| v[self.at(body, dof)]);
-            return motion.turning_across([x, y]);
+            let across = Dof::TURNS.map(|dof| v[self.at(body, dof)]);
+            let attitude = || Dof::ATTITUDE.map(|dof| q[self.at(body, dof)]);
+            return Motion {
+                attitude: self.has(body, Dof::E0).then(attitude),
+                ..motion.turning_across(across)
+            };
         }
         motion
     }

@@ -214,8 +214,13 @@ impl Model {
         let [places, speeds] = [0, 1].map(|derivative| {
             let beside = self.layout.degrees().skip(DOFS * self.bodies.len());
             let name = |(body, dof): (BodyId, Dof)| {
+                let body = &self.bodies[body].name;
+                if Dof::ATTITUDE.contains(&dof) {
+                    // Nobody probes it.
+                    return format!("{body}.{}{}", ["", "v"][derivative], dof.name());
+                }
                 let (label, _) = Component::of(dof.index(), derivative).label();
-                format!("{}.{label}", self.bodies[body].name)
+                format!("{body}.{label}")
             };
             beside.map(name).collect()
         });
@@ -267,6 +272,16 @@ impl Model {
                 let pitch = self.scene.rows.iter().map(|row| row.pitch_diameter);
                 pitch.sum::<f64>() / self.rows.len() as f64 / 2.0
             }
+        }
+    }
+
+    /// What makes a length of a change in a direction of a body \[m\]: 1 along an axis, its radius about one. Euler parameters
+    /// change by half an angle.
+    pub(crate) fn lever(&self, body: BodyId, dof: Dof) -> f64 {
+        match dof {
+            Dof::X | Dof::Y | Dof::Z => 1.0,
+            Dof::E0 | Dof::E1 | Dof::E2 | Dof::E3 => 2.0 * self.radius(body),
+            _ => self.radius(body),
         }
     }
 

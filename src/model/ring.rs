@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, Vector3};
 
-use super::{BodyId, Degree, Dof, Layout, Model, Race};
+use super::{Ball, BodyId, Degree, Dof, Layout, Model, Race};
 use crate::contact::{LeaningRing, Motion};
 use crate::scene::{self, CoupledSupport};
 use crate::tilt::{Inertia, Rotation};
@@ -79,12 +79,20 @@ impl Model {
         self.leans || self.balls_turn()
     }
 
-    /// The layout of all bodies, of the tilts that move, and of balls that spin freely.
-    pub(super) fn layout_of(balls: usize, rings: &[RingModel; 2], balls_turn: bool) -> Layout {
+    /// The layout of all bodies, of the tilts that move, and of balls that spin freely and tumble with a cap.
+    pub(super) fn layout_of(balls: &[Ball], rings: &[RingModel; 2], balls_turn: bool) -> Layout {
         let moves = |ring: &RingModel| ring.degrees.map(|degree| degree.is_free());
-        Layout::of_balls(balls)
-            .with_tilts(rings.each_ref().map(moves))
-            .with_turns(balls_turn)
+        let layout = Layout::of_balls(balls.len()).with_tilts(rings.each_ref().map(moves));
+        if !balls_turn {
+            return layout;
+        }
+        let capped = |ball: &Ball| !ball.side.faults.is_empty();
+        let first = balls.iter().position(capped).unwrap_or_default();
+        let after = balls
+            .iter()
+            .rposition(capped)
+            .map_or(first, |last| last + 1);
+        layout.with_turns(first..after)
     }
 
     /// Tilt of a ring \[rad\] and its rates \[rad/s\] in a state.

@@ -318,16 +318,8 @@ pub(crate) fn tolerance(dynamics: &Dynamics<'_>) -> Result<Tolerance> {
         kept[*body] += 1;
     }
     let half = |length: f64| {
-        degrees.iter().map(move |&(body, dof)| {
-            (
-                body,
-                if dof.is_rotation() {
-                    length / model.radius(body)
-                } else {
-                    length
-                },
-            )
-        })
+        let degrees = degrees.iter();
+        degrees.map(move |&(body, dof)| (body, length / model.lever(body, dof)))
     };
     let length = rtol * scales.approach;
     let atol = half(length)

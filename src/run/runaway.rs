@@ -38,19 +38,12 @@ impl Bounds {
         let pitch = scene.rows.iter().map(pitch).fold(0.0, f64::max);
         let fastest = FASTEST.max(driven * pitch);
         let place = |&(body, dof): &(BodyId, Dof)| match (body.kind(), dof) {
-            (_, Dof::Theta | Dof::TurnX | Dof::TurnY) => (0.0, f64::MAX),
             (_, Dof::TiltX | Dof::TiltY) => (0.0, FURTHEST),
+            (_, dof) if dof.is_rotation() => (0.0, f64::MAX),
             (BodyKind::Ball(_), Dof::X | Dof::Y) => (0.0, 1.5 * pitch),
             _ => (y0[model.layout().at(body, dof)], pitch),
         };
-        let speed = |&(body, dof): &(BodyId, Dof)| {
-            let lever = if dof.is_rotation() {
-                model.radius(body)
-            } else {
-                1.0
-            };
-            (0.0, fastest / lever)
-        };
+        let speed = |&(body, dof): &(BodyId, Dof)| (0.0, fastest / model.lever(body, dof));
         let places = degrees.iter().map(place);
         let (centre, reach) = places.chain(degrees.iter().map(speed)).unzip();
         Self {
@@ -86,7 +79,7 @@ impl Bounds {
         let i = (0..y.len()).find(|&i| !stays(i))?;
         let (body, dof) = self.degrees[i % half];
         let does = match (i < half, dof.is_rotation()) {
-            (true, true) if dof != Dof::Theta => {
+            (true, true) if Dof::TILTS.contains(&dof) => {
                 format!("leans by {} rad ({})", number(y[i]), dof.name())
             }
             (true, true) => format!("has turned by {} rad", number(y[i])),

@@ -22,7 +22,7 @@ use crate::pool::on;
 use crate::reduction::Reduction;
 use crate::scene::{Drive, RingName, Scene, Surface, TimeFunction};
 use crate::selftest;
-use crate::start::{Start, start};
+use crate::start::{Start, face, start};
 
 /// Decay times of the slowest ring to wait for. Measured on a 6205 under thrust: what the start leaves is 3000 times
 /// the later signal, e⁸, and contacts and the other ring damp too.
@@ -178,6 +178,7 @@ fn before(model: &Model, from: &Start, y0: Vec<f64>, seconds: f64) -> Result<Vec
     for (j, ball) in model.balls.iter().enumerate() {
         y[angle(BodyId::ball(j))] = -turned.balls[ball.row];
     }
+    face(model, &mut y);
     Ok(y)
 }
 

@@ -23,7 +23,11 @@ pub struct Defect {
     /// \[m\].
     #[serde(default)]
     pub axial_offset: AxialOffset,
-    /// Axial length L_f \[m\].
+    /// Outline; absent: a patch of `length` and `width`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shape: Option<DefectShape>,
+    /// Axial length L_f \[m\]; of a cap 0, or absent in a document: its width says all.
+    #[serde(default)]
     pub length: f64,
     /// Width w, arc length along the surface \[m\]; a number or a profile along z.
     pub width: Width,
@@ -57,10 +61,26 @@ impl Defect {
             ball: None,
             angle,
             axial_offset: AxialOffset::Contact,
+            shape: None,
             length,
             width: width.into(),
             edge_radius,
             floor: None,
+        }
+    }
+
+    /// A cap of ball 0 of row 0 where contacts run, without floor: its angle \[rad\], width \[m\] and edge radius \[m\].
+    ///
+    /// ```
+    /// use ballrace::scene::Defect;
+    /// let cap = Defect::cap(0.0, 1e-3, 0.3e-3).on_ball(4).at_offset(2e-3);
+    /// assert_eq!((cap.ball, cap.length), (Some(4), 0.0));
+    /// ```
+    pub fn cap(angle: f64, width: f64, edge_radius: f64) -> Self {
+        Self {
+            ball: Some(0),
+            shape: Some(DefectShape::Cap),
+            ..Self::new(Surface::Ball, angle, 0.0, width, edge_radius)
         }
     }
 
@@ -76,6 +96,20 @@ impl Defect {
         Self {
             ball: Some(ball),
             ..self
+        }
+    }
+
+    /// Whether it is a cap of a ball.
+    pub(crate) fn is_cap(&self) -> bool {
+        self.shape == Some(DefectShape::Cap)
+    }
+
+    /// How far it reaches along the axis \[m\]; of a cap its width, which is a little more.
+    pub(crate) fn extent(&self) -> f64 {
+        if self.is_cap() {
+            self.width.largest()
+        } else {
+            self.length
         }
     }
 
@@ -106,6 +140,17 @@ pub enum Surface {
     InnerRace,
     /// A ball.
     Ball,
+}
+
+/// Outline of a defect that is not a patch of its length and width.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum DefectShape {
+    /// Of a ball: a circle on its surface, as wide along the surface as `width` says in every direction. The middle is seen
+    /// from the ball's centre in a direction that is fixed in the ball, at `angle` about z and `axial_offset` along it where
+    /// it meets the surface.
+    Cap,
 }
 
 /// Axial place of a defect's middle: a number, or `"contact"`.

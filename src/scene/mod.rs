@@ -49,7 +49,7 @@ pub use bearing::{
     CoupledSupport, GothicArch, Mount, RaceProfile, Ring, RingName, Row, Support, Waviness,
 };
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
-pub use defect::{AxialOffset, Defect, Floor, Surface, Width, WidthProfile};
+pub use defect::{AxialOffset, Defect, DefectShape, Floor, Surface, Width, WidthProfile};
 pub(crate) use doubt::FilmJudged;
 pub use doubt::{Doubt, STATIC_PRESSURE};
 pub use fault_lines::kinematic_orders;

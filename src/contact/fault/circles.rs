@@ -2,7 +2,7 @@
 
 use super::Edge;
 use super::depth::Depth;
-use super::elements::{Lean, RingElement, Shape};
+use super::elements::{Lean, RingElement, Shape, WITH_RING_AXIS};
 use crate::contact::profile::Raise;
 use crate::contact::scalar::{Contact, Node};
 use crate::contact::{V2, turned};
@@ -46,6 +46,7 @@ impl Contact<'_> {
             drops: (D::new(0.0, 0.0, 0.0), D::NEVER),
             arm_ring: from_ring - n_e * edge.radius,
             lean: Lean::default(),
+            swing: WITH_RING_AXIS,
         }
     }
 
@@ -60,7 +61,7 @@ impl Contact<'_> {
         let u = rotated(feature.n_e, edge.angle);
         let lever = node.rho - edge.radius - depth;
         let arm = u * lever;
-        // ∂c/∂ζ of c = (ρ − R_f − depth) u(ψ), ψ = φ ± w/(2ρ), ρ' = −ζ/ρ.
+        // ∂c/∂ζ of c = (ρ − R_f − depth) u(ψ), ψ = φ ± w/(2ρ) or ψ_e ± h, ρ' = −ζ/ρ.
         let rho_slope = -node.zeta / node.rho;
         let turn = edge.turn(node.rho, rho_slope);
         let slope = u * rho_slope + turned(u) * (lever * turn);
@@ -70,6 +71,7 @@ impl Contact<'_> {
         };
         let tan = met.lean.force.dot(&slope) - met.n_e.dot(&slope);
         met.s = met.s.along_ball(-tan);
+        met.swing = edge.swing();
         (met, tan)
     }
 

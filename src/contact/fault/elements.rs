@@ -15,8 +15,10 @@
 //! (the narrow rule of model section 7). A ball defect splits each of these terms once more in the same way.
 //! What the gradients of these energies have beside forces along normals stands in `gradient`.
 
+use nalgebra::Vector3;
+
 use super::depth::Depth;
-use super::{Arc, Edge, absent, floors};
+use super::{Arc, Edge, Toward, absent, floors};
 use crate::contact::scalar::{Contact, Node};
 use crate::contact::{V2, turned};
 
@@ -50,7 +52,12 @@ pub(super) struct RingElement<D> {
     pub(super) drops: (D, D),
     pub(super) arm_ring: V2,
     pub(super) lean: Lean,
+    /// How rotations of the ball move it along its slice (see `cap`).
+    pub(super) swing: Vector3<f64>,
 }
+
+/// Only about the ring's axis.
+pub(super) const WITH_RING_AXIS: Vector3<f64> = Vector3::new(0.0, 0.0, 1.0);
 
 /// One feature of the ring against one of the ball.
 #[derive(Clone, Copy)]
@@ -119,7 +126,7 @@ impl Contact<'_> {
     pub(super) fn ring_arc(&self, node: &Node) -> Option<Arc> {
         let faults = &self.pair.faults;
         if self.ring_open {
-            absent(faults, &node.on_ring(), self.on_ring)
+            absent(faults, &node.on_ring(), &Toward::race(self.on_ring))
         } else {
             None
         }
@@ -129,8 +136,25 @@ impl Contact<'_> {
         if !self.ball_open {
             return None;
         }
-        let angle = self.b.angle_of(direction.y.atan2(direction.x));
-        absent(&self.ball.faults, &node.on_ball(), angle)
+        absent(
+            &self.ball.faults,
+            &node.on_ball(),
+            &self.from_ball(direction),
+        )
+    }
+
+    /// A direction in which the ball is met.
+    fn from_ball(&self, direction: V2) -> Toward<'_> {
+        Toward::ball(self.b, direction, direction.y.atan2(direction.x))
+    }
+
+    /// Places ζ between which caps of the ball have taken away what would meet the race.
+    pub(in crate::contact) fn crossings(&self) -> impl Iterator<Item = f64> + Clone {
+        let n = self.n * self.race.sigma;
+        let faults = self.ball.faults.iter().filter(|_| self.ball_open);
+        faults
+            .filter_map(move |fault| fault.crossings(self.b, n))
+            .flatten()
     }
 
     /// All pairs of features that stand against each other at a slice.
@@ -153,7 +177,8 @@ impl Contact<'_> {
         }
         let drops = (both, D::NEVER);
         self.feature(node, &RingElement { drops, ..race }, visit);
-        for (edge, depth) in floors(&self.pair.faults, node.on_ring(), self.on_ring, &arc) {
+        let toward = Toward::race(self.on_ring);
+        for (edge, depth) in floors(&self.pair.faults, node.on_ring(), toward, &arc) {
             let circle = self.ring_circle(node, &edge, depth);
             let drops = (race.s - circle.s, D::NEVER);
             self.feature(node, &RingElement { drops, ..circle }, visit);
@@ -174,6 +199,7 @@ impl Contact<'_> {
             drops: (D::new(0.0, 0.0, 0.0), D::NEVER),
             arm_ring: self.n * (node.torus_radius + self.raise.height),
             lean: self.lean(self.n, self.distance, self.raise.slope, V2::zeros()),
+            swing: WITH_RING_AXIS,
         }
     }
 
@@ -205,6 +231,9 @@ impl Contact<'_> {
             visit(&ElementPair::smooth(*feature, node));
             return;
         };
+        if arc.is_all() {
+            return;
+        }
         let meet = |edge: &Edge, depth: f64| {
             let (met, tan) = self.ball_circle(node, feature, edge, depth);
             (feature.s - met.s, met, tan)
@@ -227,8 +256,8 @@ impl Contact<'_> {
             ball_drops,
             ..ElementPair::smooth(*feature, node)
         });
-        let angle = self.b.angle_of(feature.n_e.y.atan2(feature.n_e.x));
-        for (edge, depth) in floors(&self.ball.faults, node.on_ball(), angle, &arc) {
+        let toward = self.from_ball(feature.n_e);
+        for (edge, depth) in floors(&self.ball.faults, node.on_ball(), toward, &arc) {
             let (drop, circle, tan) = meet(&edge, depth);
             visit(&ElementPair {
                 feature: circle,

@@ -32,7 +32,7 @@
 //! terms, with their error.
 
 use super::depth::Sloped;
-use super::elements::ElementPair;
+use super::elements::{ElementPair, WITH_RING_AXIS};
 use crate::contact::scalar::{Contact, Line, Node};
 use crate::contact::{Aside, Sink, V2, turned};
 
@@ -145,6 +145,7 @@ impl Contact<'_> {
             axial: -by_z,
             arm_ball: V2::zeros(),
             arm_ring: self.apart,
+            swing: WITH_RING_AXIS,
         }
     }
 }
@@ -267,17 +268,7 @@ mod tests {
     }
 
     fn defects() -> Vec<(&'static str, Defect)> {
-        let plain = Defect {
-            on: Surface::OuterRace,
-            row: 0,
-            ball: None,
-            angle: 0.0,
-            axial_offset: 0.0.into(),
-            length: 20e-3,
-            width: 0.7e-3.into(),
-            edge_radius: 0.3e-3,
-            floor: None,
-        };
+        let plain = Defect::new(Surface::OuterRace, 0.0, 20e-3, 0.7e-3, 0.3e-3).at_offset(0.0);
         let varying = WidthProfile {
             positions: vec![-6e-3, 6e-3],
             widths: vec![0.5e-3, 0.9e-3],

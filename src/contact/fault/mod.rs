@@ -1,18 +1,24 @@
 //! Arcs where a surface is absent, and the fault circles at their edges (model section 7).
 
+mod cap;
 mod circles;
 mod depth;
 mod elements;
 pub(super) mod gradient;
 mod pressing;
+mod toward;
 mod within;
 
+pub(crate) use toward::Toward;
 pub(crate) use within::Sighted;
 
 use std::f64::consts::PI;
 
-use super::wrapped;
+use nalgebra::Vector3;
+
+use super::{Motion, V2, wrapped};
 use crate::scene::{Defect, Width};
+use cap::{Cap, Lost, Rim};
 
 /// A defect of a surface, compiled: places in the frame of its body.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,9 +35,11 @@ pub struct Fault {
     pub coat: f64,
     /// Depth and number of the recessed circles.
     pub floor: Option<(f64, usize)>,
-    /// Twice the largest half-angle: a contact further away never sees the fault \[rad\].
+    /// Twice the largest half-angle: a contact further away never sees the fault \[rad\]. Of a cap while its ball is as at
+    /// the start.
     pub reach: f64,
     width: Width,
+    cap: Option<Cap>,
 }
 
 /// Directions in the frame of the scene: those whose component along the middle, over their length, is above a bound.
@@ -55,7 +63,25 @@ impl Fault {
                 .map(|floor| (floor.depth, floor.elements)),
             reach: defect.width.largest() / radius,
             width: defect.width.clone(),
+            cap: None,
         }
+    }
+
+    /// A cap whose middle lies at `middle` along the axis, of a ball of a radius \[m\].
+    pub fn cap(defect: &Defect, middle: f64, radius: f64) -> Self {
+        let cap = Cap::new(defect.width.largest(), radius);
+        Self {
+            length: 0.0,
+            reach: 2.0 * cap.widest(&cap.pole(defect.angle, middle)),
+            cap: Some(cap),
+            ..Self::new(defect, middle, radius)
+        }
+    }
+
+    /// Its cap with the direction e of that in the frame in which the ball is seen; none of a patch.
+    fn pole(&self, ball: &Motion) -> Option<(Cap, Vector3<f64>)> {
+        let cap = self.cap?;
+        Some((cap, ball.carried(&cap.pole(self.angle, self.middle))))
     }
 
     /// Whether another fault is this one's mirror image about the plane at half of `sum` along z, to a rounding
@@ -83,50 +109,95 @@ impl Fault {
         }
     }
 
-    /// Whether a contact in this direction of the body's frame may see the fault.
-    pub fn in_reach(&self, direction: f64) -> bool {
-        wrapped(self.angle - direction).abs() <= self.reach
+    /// Whether a contact in this direction may see the fault.
+    pub(crate) fn in_reach(&self, toward: &Toward) -> bool {
+        match toward.pole(self) {
+            None => wrapped(self.angle - toward.angle).abs() <= self.reach,
+            Some((cap, e)) => cap.in_reach(&e, toward.n),
+        }
     }
 
-    /// Its two axial ends, in the ring's frame or from the ball's centre \[m\].
-    pub(super) fn ends(&self) -> [f64; 2] {
-        [-0.5, 0.5].map(|share| self.middle + share * self.length)
+    /// Its two axial ends, in the ring's frame or from the ball's centre \[m\]; a cap has a rim all round.
+    pub(super) fn ends(&self) -> impl Iterator<Item = f64> + Clone + use<> {
+        let (middle, length) = (self.middle, self.length);
+        let sides = self.cap.is_none().then_some([-0.5, 0.5]);
+        let ends = sides.into_iter().flatten();
+        ends.map(move |share| middle + share * length)
+    }
+
+    /// Places ζ between which a cap of the ball has taken away what stands in a direction \[m\].
+    pub(super) fn crossings(&self, ball: &Motion, n: V2) -> Option<[f64; 2]> {
+        let (cap, e) = self.pole(ball)?;
+        cap.crossings(&e, n)
     }
 
     /// Whether the surface is absent at an axial place where it has this radius, in a direction this far from the
-    /// fault's own \[rad\].
-    pub(crate) fn covers(&self, z: f64, radius: f64, aside: f64) -> bool {
+    /// fault's own \[rad\]; `ball` tells how a ball stands that has it.
+    pub(crate) fn covers(&self, z: f64, radius: f64, aside: f64, ball: &Motion) -> bool {
         let at = Station {
             z,
             beside: 0.0,
             radius,
         };
-        self.arc(&at, self.angle + aside)
-            .is_some_and(|arc| arc.low.angle <= 0.0 && arc.high.angle >= 0.0)
+        let arc = match self.pole(ball) {
+            None => self.patch(&at, wrapped(self.angle - (self.angle + aside))),
+            Some((cap, e)) => self.cut(&cap, &e, &at, -aside),
+        };
+        arc.is_some_and(|arc| arc.low.angle <= 0.0 && arc.high.angle >= 0.0)
     }
 
     /// The arc at an axial place, seen from a direction.
-    fn arc(&self, at: &Station, direction: f64) -> Option<Arc> {
+    fn arc(&self, at: &Station, toward: &Toward) -> Option<Arc> {
+        match toward.pole(self) {
+            None => self.patch(at, wrapped(self.angle - toward.angle)),
+            Some((cap, e)) => self.cut(&cap, &e, at, toward.aside_of(&e)),
+        }
+    }
+
+    /// The arc of a patch, its middle at an angle from where it is seen \[rad\].
+    fn patch(&self, at: &Station, middle: f64) -> Option<Arc> {
         let from_middle = at.z - self.middle;
         if (from_middle + at.beside).abs() > self.length / 2.0 {
             return None;
         }
         let (width, slope) = self.width.at(from_middle);
         (width > 0.0).then(|| {
-            let half = width / (2.0 * at.radius);
-            let middle = wrapped(self.angle - direction);
-            let edge = |angle: f64, side: f64| Edge {
-                angle,
-                side,
-                radius: self.edge_radius + self.coat,
-                width,
-                slope,
-            };
-            Arc {
-                low: edge(middle - half, -1.0),
-                high: edge(middle + half, 1.0),
-            }
+            self.between(
+                middle,
+                width / (2.0 * at.radius),
+                Form::Patch { width, slope },
+            )
         })
+    }
+
+    /// The arc of a cap with its middle in the direction e, at an angle from where it is seen \[rad\].
+    fn cut(&self, cap: &Cap, e: &Vector3<f64>, at: &Station, middle: f64) -> Option<Arc> {
+        match cap.lost(e, at.z, at.radius) {
+            Lost::Nothing => None,
+            Lost::Arc(rim) => Some(self.between(middle, rim.half, Form::Cap(rim))),
+            Lost::All => Some(self.between(
+                middle,
+                f64::INFINITY,
+                Form::Patch {
+                    width: 0.0,
+                    slope: 0.0,
+                },
+            )),
+        }
+    }
+
+    /// So far to both sides of a middle \[rad\].
+    fn between(&self, middle: f64, half: f64, form: Form) -> Arc {
+        let edge = |side: f64| Edge {
+            angle: middle + side * half,
+            side,
+            radius: self.edge_radius + self.coat,
+            form,
+        };
+        Arc {
+            low: edge(-1.0),
+            high: edge(1.0),
+        }
     }
 }
 
@@ -150,16 +221,38 @@ pub struct Edge {
     pub side: f64,
     /// Radius of the fault circle \[m\].
     pub radius: f64,
-    /// Width of the defect it belongs to \[m\].
-    pub width: f64,
-    /// Slope of that width along z.
-    pub slope: f64,
+    /// How it moves along the axis, and with the ball.
+    form: Form,
+}
+
+/// The defect that an edge belongs to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Form {
+    /// Its width \[m\] and the slope of that along z.
+    Patch {
+        width: f64,
+        slope: f64,
+    },
+    Cap(Rim),
 }
 
 impl Edge {
     /// How its angle turns along the axis \[rad/m\], on a surface of some radius and slope of that radius.
     pub fn turn(&self, radius: f64, slope: f64) -> f64 {
-        self.side * (self.slope - self.width * slope / radius) / (2.0 * radius)
+        match &self.form {
+            Form::Patch { width, slope: of } => {
+                self.side * (of - width * slope / radius) / (2.0 * radius)
+            }
+            Form::Cap(rim) => self.side * rim.slope,
+        }
+    }
+
+    /// How its angle turns by rotations of the ball that has it.
+    pub fn swing(&self) -> Vector3<f64> {
+        match &self.form {
+            Form::Patch { .. } => Vector3::z(),
+            Form::Cap(rim) => rim.swing(self.side),
+        }
     }
 }
 
@@ -172,12 +265,19 @@ pub struct Arc {
     pub high: Edge,
 }
 
-/// The absent arc around a direction \[rad, frame of the body\] at an axial place; none where the surface is whole.
-pub fn absent(faults: &[Fault], at: &Station, direction: f64) -> Option<Arc> {
+impl Arc {
+    /// Whether nothing is left beside it, not even edges.
+    pub fn is_all(&self) -> bool {
+        self.high.angle == f64::INFINITY
+    }
+}
+
+/// The absent arc around a direction at an axial place; none where the surface is whole.
+pub fn absent(faults: &[Fault], at: &Station, toward: &Toward) -> Option<Arc> {
     let mut around: Option<Arc> = None;
     loop {
         let before = around;
-        for arc in faults.iter().filter_map(|fault| fault.arc(at, direction)) {
+        for arc in faults.iter().filter_map(|fault| fault.arc(at, toward)) {
             let (low, high) = around.map_or((0.0, 0.0), |a| (a.low.angle, a.high.angle));
             if arc.low.angle <= high && arc.high.angle >= low {
                 let whole = around.get_or_insert(arc);
@@ -199,13 +299,13 @@ pub fn absent(faults: &[Fault], at: &Station, direction: f64) -> Option<Arc> {
 pub fn floors<'a>(
     faults: &'a [Fault],
     at: Station,
-    direction: f64,
+    toward: Toward<'a>,
     whole: &Arc,
 ) -> impl Iterator<Item = (Edge, f64)> + use<'a> {
     let (low, high) = (whole.low.angle, whole.high.angle);
     faults.iter().flat_map(move |fault| {
         let arc = fault
-            .arc(&at, direction)
+            .arc(&at, &toward)
             .filter(|arc| arc.low.angle >= low && arc.high.angle <= high);
         let floor = fault.floor.zip(arc);
         floor.into_iter().flat_map(|((depth, count), arc)| {

@@ -4,7 +4,7 @@ use super::depth::{Depth, Sloped};
 use super::elements::{ElementPair, Lean, RingElement};
 use crate::contact::kernel::{self, State};
 use crate::contact::scalar::{Contact, Node};
-use crate::contact::{Aside, Sink, Touch, V2, turned};
+use crate::contact::{Aside, Sink, Touch, V2, cross, turned};
 
 impl Contact<'_> {
     /// One slice against whatever it meets.
@@ -86,6 +86,7 @@ impl Contact<'_> {
             friction_power: force.factor * force.damped.max(0.0) * squared,
             arm_ball: feature.arm_ring - self.apart,
             arm_ring: feature.arm_ring,
+            swing: feature.swing,
             pull: force.damped < 0.0,
         };
         sink.touch(&touch);
@@ -96,6 +97,7 @@ impl Contact<'_> {
                 axial: 0.0,
                 arm_ball: arm,
                 arm_ring: self.apart + arm,
+                swing: feature.swing,
             });
         }
         true
@@ -132,7 +134,9 @@ impl Contact<'_> {
         let mut velocity = [v_p.dot(&n_e), v_p.dot(&turned(n_e)), b.vz - r.vz];
         if b.across != V2::zeros() {
             let more = tumbling(b.across, (n_e, arm_ball, node.zeta), (share, slope));
-            velocity = std::array::from_fn(|i| velocity[i] + more[i]);
+            let rate = cross(arm_ball, n_e) * feature.swing.xy().dot(&b.across);
+            let nearer = approaching(rate, share, slope);
+            velocity = std::array::from_fn(|i| velocity[i] + more[i] + nearer[i]);
         }
         State {
             elastic,
@@ -162,4 +166,10 @@ fn tumbling(
     // Along (−sin α, cos α) so fast, and along the normal not at all.
     let size = meridional / (in_plane * cos + axial * sin);
     [-size * axial, -w_n * zeta, size * in_plane]
+}
+
+/// The velocity along n_e, t_e and z of an edge that is turned into the race at a rate \[m/s\], without slip.
+fn approaching(rate: f64, (in_plane, axial): (f64, f64), (sin, cos): (f64, f64)) -> [f64; 3] {
+    let size = rate * in_plane / (in_plane * cos + axial * sin);
+    [size * cos, 0.0, size * sin]
 }

@@ -11,6 +11,8 @@ pub(crate) struct Sighted<'a> {
     pub on_ball: bool,
     /// How far the contact's direction is from the defect's \[rad\].
     pub aside: f64,
+    /// How the ball stands.
+    pub ball: &'a Motion,
 }
 
 /// Normal force of a contact that stands over a defect \[N\].
@@ -44,8 +46,10 @@ impl Sink for Sum<'_> {
         };
         self.load += touch.normal;
         self.moment += touch.normal * place;
-        let Sighted { fault, aside, .. } = self.defect;
-        if fault.covers(place, radius, *aside) {
+        let Sighted {
+            fault, aside, ball, ..
+        } = self.defect;
+        if fault.covers(place, radius, *aside, ball) {
             self.within += touch.normal;
         }
     }

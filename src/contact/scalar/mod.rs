@@ -14,7 +14,7 @@ use super::profile::{Before, Meeting, Raise, Section, Surface};
 use super::slip::{Moves, Slip};
 use super::{
     Cut, Fault, FilmEffect, FilmNumbers, Law, Motion, OilTouch, Oiled, Sink, Slices, Torus, Touch,
-    V2, Waves, turned,
+    Toward, V2, Waves, turned,
 };
 
 /// What all contacts of a row's balls with one race share.
@@ -156,13 +156,9 @@ impl Pair {
             raise,
         } = *facing;
         let on_ring = r.angle_of(angle);
-        let on_ball = b.angle_of(if self.race.sigma > 0.0 {
-            angle
-        } else {
-            angle + std::f64::consts::PI
-        });
-        let ring_open = self.faults.iter().any(|fault| fault.in_reach(on_ring));
-        let ball_near = ball.faults.iter().any(|fault| fault.in_reach(on_ball));
+        let toward = Toward::ball(b, n * self.race.sigma, self.outwards(angle));
+        let ring_open = self.is_near(on_ring);
+        let ball_near = ball.faults.iter().any(|fault| fault.in_reach(&toward));
         Contact {
             pair: self,
             race: self.race,
@@ -185,6 +181,21 @@ impl Pair {
             section,
             rolling: self.moves([b, r], facing).rolling,
         }
+    }
+
+    /// The direction out of a ball to the race, of a ball in a direction from the axis \[rad\].
+    pub(super) fn outwards(&self, direction: f64) -> f64 {
+        if self.race.sigma > 0.0 {
+            direction
+        } else {
+            direction + std::f64::consts::PI
+        }
+    }
+
+    /// Whether a defect of the race may be met at an angle from the ring's mark \[rad\].
+    pub(super) fn is_near(&self, angle: f64) -> bool {
+        let toward = Toward::race(angle);
+        self.faults.iter().any(|fault| fault.in_reach(&toward))
     }
 
     /// How the ball moves against the ring.

@@ -13,7 +13,7 @@ use crate::contact::fault::Station;
 use crate::contact::fault::gradient::{HAIR, Owner};
 use crate::contact::profile::{Chord, Ends, Section, Zone};
 use crate::contact::quadrature::MOST;
-use crate::contact::{Fault, Rules, Sink, Slices};
+use crate::contact::{Fault, Rules, Sink, Slices, Toward};
 
 /// The line along which a contact is cut, over the zone low … high of u.
 pub(in crate::contact) struct Line {
@@ -233,13 +233,15 @@ impl Contact<'_> {
     fn fitted<S: Sink + ?Sized>(&self, line: &Line, rules: &Rules, sink: &mut S) {
         let race = &self.race;
         let dz = self.z;
+        let toward = Toward::race(self.on_ring);
         let shoulders = [race.centre + race.lowest, race.centre + race.highest];
         // Few, so the next one is found by looking at all.
         let cuts = shoulders
             .into_iter()
             .map(|z| z - dz)
-            .chain(self.ends_on_race(|fault| fault.in_reach(self.on_ring)))
+            .chain(self.ends_on_race(|fault| fault.in_reach(&toward)))
             .chain(self.ends_on_ball())
+            .chain(self.crossings())
             .filter_map(|zeta| line.u(zeta));
         let mut low = line.low;
         while low < line.high {

@@ -1,6 +1,7 @@
 //! Defects.
 
 use std::f64::consts::PI;
+use std::fmt::Display;
 
 use super::check::{below, finite, positive, within};
 use super::race::limits;
@@ -13,14 +14,28 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
     let row = scene.row_index(path, defect.row)?;
     let radius = row.ball_diameter / 2.0;
     within(&at("angle"), defect.angle, -1e3..=1e3)?;
-    positive(&at("length"), defect.length)?;
+    if defect.is_cap() {
+        only_what_a_cap_has(path, defect)?;
+    } else {
+        positive(&at("length"), defect.length)?;
+    }
     positive(&at("edge_radius"), defect.edge_radius)?;
     width(&at("width"), &defect.width)?;
     if let Some(offset) = defect.axial_offset.number() {
         finite(&at("axial_offset"), offset)?;
     }
     match (defect.on, defect.ball) {
-        (Surface::Ball, Some(ball)) if ball < row.ball_count => on_ball(path, row, defect)?,
+        (Surface::Ball, Some(ball)) if ball < row.ball_count => {
+            if defect.is_cap() {
+                cap(path, row, defect)?;
+            } else if scene.balls_turn() {
+                let allowed =
+                    r#""cap" for a ball that spins freely: a patch has its length along the axis"#;
+                return Err(Error::scene(at("shape"), "absent", allowed));
+            } else {
+                on_ball(path, row, defect)?;
+            }
+        }
         (Surface::Ball, ball) => {
             let given = ball.map_or_else(|| "absent".to_owned(), |b| b.to_string());
             return Err(Error::scene(
@@ -47,6 +62,55 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
                 "1 to 1000",
             ));
         }
+    }
+    Ok(())
+}
+
+/// A cap is a ball's, and one width says how large it is.
+fn only_what_a_cap_has(path: &str, defect: &Defect) -> Result<()> {
+    let refuse = |field: &str, value: &dyn Display, allowed: &str| {
+        Err(Error::scene(format!("{path}.{field}"), value, allowed))
+    };
+    if defect.on != Surface::Ball {
+        return refuse("shape", &"cap", "absent for a defect on a race");
+    }
+    if defect.length != 0.0 {
+        let allowed = "absent for a cap, which is as long as it is wide";
+        return refuse("length", &defect.length, allowed);
+    }
+    match &defect.width {
+        Width::Constant(_) => Ok(()),
+        Width::Profile(_) => refuse("width", &"a profile", "one number for a cap"),
+    }
+}
+
+fn cap(path: &str, row: &Row, defect: &Defect) -> Result<()> {
+    let at = |field: &str| format!("{path}.{field}");
+    let radius = row.ball_diameter / 2.0;
+    // Then its rim passes a pole at more than 60 degrees from where contacts run.
+    below(
+        &at("width"),
+        defect.width.largest(),
+        radius,
+        "the ball's radius",
+    )?;
+    // However the ball turns, the slices that contacts run in are larger.
+    below(
+        &at("edge_radius"),
+        defect.edge_radius,
+        radius / 2.0,
+        "half the ball's radius",
+    )?;
+    let offset = defect.axial_offset.number().unwrap_or(0.0);
+    if offset.abs() >= radius {
+        return Err(Error::scene(
+            at("axial_offset"),
+            offset,
+            format!(
+                "a place on the ball, nearer to its centre than {}",
+                told::length(radius)
+            ),
+        ));
     }
     Ok(())
 }

@@ -1,0 +1,74 @@
+//! The direction in which a body is met.
+
+use nalgebra::Vector3;
+
+use super::Fault;
+use super::cap::Cap;
+use crate::contact::{Motion, V2, cross, wrapped};
+
+/// A direction in which a ball or a race is met, as its defects are asked about it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Toward<'a> {
+    /// From the body's mark \[rad\].
+    pub(super) angle: f64,
+    /// In the ring's frame.
+    pub(super) n: V2,
+    /// The ball that it goes out from; none of a race.
+    ball: Option<&'a Motion>,
+}
+
+impl<'a> Toward<'a> {
+    /// Of a race, at an angle from the ring's mark \[rad\].
+    pub fn race(angle: f64) -> Self {
+        Self {
+            angle,
+            n: V2::zeros(),
+            ball: None,
+        }
+    }
+
+    /// Of a ball, in a direction of the ring's frame with its angle \[rad\].
+    pub fn ball(ball: &'a Motion, n: V2, direction: f64) -> Self {
+        Self {
+            angle: ball.angle_of(direction),
+            n,
+            ball: Some(ball),
+        }
+    }
+
+    /// A ball's defect that is a cap, and the direction e of that.
+    pub(super) fn pole(&self, fault: &Fault) -> Option<(Cap, Vector3<f64>)> {
+        fault.pole(self.ball?)
+    }
+
+    /// The angle from here to a direction e of the ball \[rad\].
+    pub(super) fn aside_of(&self, e: &Vector3<f64>) -> f64 {
+        cross(self.n, e.xy()).atan2(self.n.dot(&e.xy()))
+    }
+
+    /// How far it is from a defect's middle \[rad\].
+    pub fn aside(&self, fault: &Fault) -> f64 {
+        match self.pole(fault) {
+            None => wrapped(self.angle - fault.angle),
+            Some((_, e)) => -self.aside_of(&e),
+        }
+    }
+
+    /// Half of the angle over which a defect may be met \[rad\].
+    pub fn half(&self, fault: &Fault) -> f64 {
+        match self.pole(fault) {
+            None => fault.reach / 2.0,
+            Some((cap, e)) => cap.widest(&e),
+        }
+    }
+
+    /// How fast a defect turns about the ring's axis \[rad/s\], of a body with this angular speed about it.
+    pub fn turning(&self, fault: &Fault, omega: f64) -> f64 {
+        match (self.pole(fault), self.ball) {
+            (Some((_, e)), Some(ball)) => {
+                omega - ball.across.dot(&e.xy()) * e.z / e.xy().norm_squared()
+            }
+            _ => omega,
+        }
+    }
+}
