@@ -1,8 +1,11 @@
 //! What the forces of a contact add up to.
 
+use nalgebra::Vector3;
+
 use super::add;
 use crate::contact::{Aside, OilTouch, Sink, Touch, Wrench};
 use crate::model::DOFS;
+use crate::tilt::Frame;
 
 /// Force and moment on ball and ring.
 #[derive(Debug, Clone, Copy, Default)]
@@ -38,12 +41,28 @@ impl Sink for Sum {
     }
 }
 
-/// What a contact does to its ball in space.
+/// What a contact does to its ball in space, in the frame of a ring that may lean.
 #[derive(Debug, Default)]
 pub(super) struct Spatial {
-    pub wrench: Wrench,
-    pub pulls: u32,
-    pub truncated: bool,
+    wrench: Wrench,
+    pulls: u32,
+    truncated: bool,
+}
+
+impl Spatial {
+    /// The same on a ball at a place of the ring's frame, in the scene's frame, and on the ring, in its own; and the ring's moments
+    /// about x and y. Moments on balls that spin about z alone act about the ring's axis.
+    pub fn on_bodies(&self, place: &Vector3<f64>, frame: &Frame) -> (Sum, [f64; 2]) {
+        let (force, on_ring) = (&self.wrench.force, self.wrench.moment_on_ring(place));
+        let [x, y, z] = frame.to_scene(force).into();
+        let sum = Sum {
+            ball: [x, y, z, self.wrench.moment.z],
+            ring: [-force.x, -force.y, -force.z, on_ring.z],
+            pulls: self.pulls,
+            truncated: self.truncated,
+        };
+        (sum, [on_ring.x, on_ring.y])
+    }
 }
 
 impl Sink for Spatial {

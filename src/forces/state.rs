@@ -110,7 +110,9 @@ impl Table {
 
     /// Writes what [`Table::read`] reads.
     fn write(&self, half: &mut [f64]) {
-        for (body, numbers) in Layout::each_mut(half).iter_mut().enumerate() {
+        let bodies = self.stride - LANES;
+        let halves = Layout::each_mut(half)[..bodies].iter_mut();
+        for (body, numbers) in halves.enumerate() {
             *numbers = self.of(BodyId::new(body));
         }
     }

@@ -129,7 +129,7 @@ impl Reduction {
     }
 
     /// What a run from a state of all bodies leaves out; absent where it integrates all states in the order of
-    /// [`Model::names`], since implicit steps solve for a block a body, or since rings may tilt.
+    /// [`Model::names`], since implicit steps solve for a block a body, or since rings tilt.
     ///
     /// # Panics
     /// If the length of `start` is wrong.
@@ -138,10 +138,32 @@ impl Reduction {
         let solver = &model.scene.solver;
         match solver.method {
             Method::ImplicitFriction | Method::Auto => None,
-            // What they may leave out is not known yet.
-            _ if model.leans() => None,
-            _ => Some(Self::leaving_out(model, start, solver.reduce)),
+            _ if !model.leans() => Some(Self::leaving_out(model, start, solver.reduce)),
+            _ if solver.reduce => Self::without_tilts(model, start).ok(),
+            _ => None,
         }
+    }
+
+    /// Of rings that may tilt and do not, since the motion is its own mirror image: it is then left out with all that moves along z,
+    /// and rings are those that stay parallel. Else all states are integrated, and what stands against that is told.
+    ///
+    /// # Errors
+    /// What stands against it.
+    pub(crate) fn without_tilts(model: &Model, start: &[f64]) -> Result<Self, Vec<Obstacle>> {
+        let mut found = Self::leaving_out(model, start, true);
+        if !(found.plane || found.mirrored) {
+            return Err(found.obstacles);
+        }
+        symmetry::of_tilts(model, start).map_err(|reason| {
+            let what = "rings that do not tilt".to_owned();
+            vec![Obstacle { what, reason }]
+        })?;
+        found.omissions.push(Omission {
+            what: "tilts of rings".to_owned(),
+            degrees: model.layout().half() - DOFS * model.bodies.len(),
+            reason: "mirror symmetry".to_owned(),
+        });
+        Ok(found)
     }
 
     /// Leaves out what is given up by request and, if `exact` reductions are wanted, what does not change the motion

@@ -41,10 +41,9 @@ impl fmt::Display for Choice {
     }
 }
 
-/// Refuses methods that do not know all directions of rings that may tilt.
+/// Refuses methods that solve for all velocities but those of tilts.
 pub(crate) fn check(model: &Model) -> error::Result<()> {
     let name = match model.scene().solver.method {
-        Method::Adams => "adams",
         Method::ImplicitFriction => "implicit-friction",
         Method::Auto => "auto",
         _ => return Ok(()),
@@ -55,7 +54,7 @@ pub(crate) fn check(model: &Model) -> error::Result<()> {
     Err(Error::scene(
         "solver.method",
         name,
-        "an explicit one where a ring may tilt, such as dormand-prince: the matrix of friction knows parallel rings only",
+        "adams or an explicit one where a ring may tilt: implicit steps know parallel rings only",
     ))
 }
 
