@@ -1,5 +1,5 @@
-//! One benchmark a layer: the power, a contact, a right-hand side by nodes, slices, balls, threads and
-//! instruction set, the integrator alone, a run, the static solve. `cargo bench --bench layers`.
+//! One benchmark a layer: the power, a contact, a right-hand side by nodes, slices, balls, threads,
+//! instruction set and rings that lean, the integrator alone, a run, the static solve. `cargo bench --bench layers`.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -9,7 +9,9 @@ use ballrace::compile;
 use ballrace::dynamics::Dynamics;
 use ballrace::inspect;
 use ballrace::integrate::{DORMAND_PRINCE, Options, System, Tolerance, integrate};
-use ballrace::scene::{NormalLaw, Scene, Slices, TimeFunction, presets};
+use ballrace::scene::{
+    Friction, Lubricant, Mount, NormalLaw, Scene, Slices, TimeFunction, presets,
+};
 use ballrace::simd::InstructionSet;
 use ballrace::{Model, Race, Run, Start, equilibrium, load_distribution, simulate, start};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
@@ -87,6 +89,67 @@ fn right_hand_side(c: &mut Criterion) {
     add(BenchmarkId::new("law", "hertz"), &model, &y);
     let (model, y) = loaded(&presets::deep_groove_6205(500.0, 0.0, 1800.0));
     add(BenchmarkId::new("bearing", "6205"), &model, &y);
+    group.finish();
+}
+
+/// A parallel bearing's state turned as a whole by 1 mrad about x, for rings free to tilt: the same balls touch alike.
+fn turned(parallel: &Model, y: &[f64], leaning: &Model) -> Vec<f64> {
+    const TILT: f64 = 1e-3;
+    let (half, all) = (y.len() / 2, leaning.dim() / 2);
+    let cos = (1.0 - TILT * TILT).sqrt();
+    let mut found = vec![0.0; 2 * all];
+    for (from, to) in [(&y[..half], 0), (&y[half..], all)] {
+        found[to..to + half].copy_from_slice(from);
+        for body in found[to..to + half].chunks_exact_mut(4) {
+            let [y, z] = [body[1], body[2]];
+            (body[1], body[2]) = (y * cos - z * TILT, y * TILT + z * cos);
+        }
+    }
+    assert_eq!(leaning.names()[half], "outer.tilt_x");
+    assert_eq!((all - half, parallel.dim()), (4, 2 * half));
+    (found[half], found[half + 2]) = (TILT, TILT);
+    found
+}
+
+/// Parallel rings against the same ones free to tilt.
+fn leaning_rings(c: &mut Criterion) {
+    let mut group = c.benchmark_group("rhs of leaning rings");
+    let wheel = || presets::wheel_bearing(3000.0);
+    let mut oiled = wheel();
+    let mut oil = Lubricant::named("vg68", 328.15);
+    // Of rings that nothing keeps from tilting there is no equilibrium to take it from.
+    oil.reference_load = Some(1000.0);
+    oiled.lubricant = Some(oil);
+    let mut smooth = wheel();
+    smooth.friction = Friction::None;
+    for (name, mut scene) in [
+        ("wheel bearing", wheel()),
+        ("6205", presets::deep_groove_6205(500.0, 300.0, 1800.0)),
+        ("wheel bearing in oil", oiled),
+        ("wheel bearing without friction", smooth),
+        ("wheel bearing, Hertz", {
+            let mut scene = wheel();
+            scene.contact.law = NormalLaw::Hertz;
+            scene
+        }),
+    ] {
+        let (parallel, y) = loaded(&scene);
+        for ring in [&mut scene.outer_ring, &mut scene.inner_ring] {
+            (ring.support.tilt_x, ring.support.tilt_y) = (Some(Mount::Free), Some(Mount::Free));
+        }
+        let leaning = compile(&scene).unwrap();
+        let tilted = turned(&parallel, &y, &leaning);
+        for instructions in InstructionSet::available() {
+            for (kind, model, y) in [("parallel", &parallel, &y), ("leaning", &leaning, &tilted)] {
+                let model = model.clone().with_instructions(instructions);
+                let mut dynamics = Dynamics::new(&model);
+                let mut dy = vec![0.0; model.dim()];
+                group.bench_function(format!("{name}, {instructions}, {kind}"), |b| {
+                    b.iter(|| dynamics.rhs(0.0, black_box(y), &mut dy));
+                });
+            }
+        }
+    }
     group.finish();
 }
 
@@ -208,6 +271,7 @@ criterion_group!(
     layers,
     contact,
     right_hand_side,
+    leaning_rings,
     threads,
     integrator,
     run,

@@ -45,9 +45,7 @@ def wheel_bearing(
 def cornering_wheel(lateral: float = 0.3) -> Scene:
     """Return the wheel bearing in a curve, loaded where the road meets the tyre; its inner ring tilts.
 
-    The road acts 0.3 m from the axis with 7 kN and a side force along +z. Runs take an explicit method: the
-    scene asks
-    for ``dormand-prince``.
+    The road acts 0.3 m from the axis with 7 kN and a side force along +z.
 
     Parameters
     ----------

@@ -73,6 +73,11 @@ impl Motion {
         Vector3::new(self.across.x, self.across.y, self.omega)
     }
 
+    /// Its centre \[m\].
+    pub(crate) fn place(&self) -> Vector3<f64> {
+        Vector3::new(self.centre.x, self.centre.y, self.z)
+    }
+
     /// This body as seen by who moves with a ring's centre, but does not turn with it.
     #[inline]
     pub(crate) fn seen_from(&self, ring: &Self) -> Self {
@@ -167,41 +172,92 @@ impl LeaningRing {
         }
     }
 
-    /// From the centre of mass to a ball's centre, in the scene's frame \[m\].
-    pub fn arm(&self, ball: &Motion) -> Vector3<f64> {
-        Vector3::new(ball.centre.x, ball.centre.y, ball.z) - self.centre
+    /// Whether its balls spin freely.
+    pub fn balls_turn(&self) -> bool {
+        self.balls_turn
     }
 
-    /// A ball and this ring, both as who turns with the ring sees them in its frame: the ring stands still, its mark at θ. Where
-    /// balls do not spin freely, each contact takes a ball's spin to be about the axis of the ring it touches.
+    /// From the centre of mass to a ball's centre, in the scene's frame \[m\].
+    pub fn arm(&self, ball: &Motion) -> Vector3<f64> {
+        ball.place() - self.centre
+    }
+
+    /// A ball and this ring, both as [`Self::see`] tells them; the ring's mark stands at θ.
     pub fn facing(&self, ball: &Motion) -> [Motion; 2] {
-        let frame = &self.rotation.frame;
-        let place = frame.to_ring(&self.arm(ball));
-        let velocity = Vector3::new(ball.velocity.x, ball.velocity.y, ball.vz) - self.velocity;
-        let velocity = frame.to_ring(&velocity) - self.turning.cross(&place);
-        let spin = ball.turning();
+        let place = [ball.centre.x, ball.centre.y, ball.z];
+        let velocity = [ball.velocity.x, ball.velocity.y, ball.vz];
+        let spin = [ball.across.x, ball.across.y, ball.omega];
+        let [place, velocity, spin] = self.see::<_, false>(place, velocity, spin);
+        let seen = Motion {
+            centre: V2::new(place[0], place[1]),
+            z: place[2],
+            theta: ball.theta,
+            velocity: V2::new(velocity[0], velocity[1]),
+            vz: velocity[2],
+            omega: spin[2],
+            across: V2::new(spin[0], spin[1]),
+            attitude: ball.attitude,
+            seen_by: Some(self.rotation.frame.tilt),
+        };
+        [seen, self.standing()]
+    }
+
+    /// Itself in its own frame, where it stands still.
+    pub fn standing(&self) -> Motion {
+        Motion {
+            theta: self.theta,
+            ..Motion::default()
+        }
+    }
+
+    /// Place, velocity and angular velocity of a ball, or of balls side by side, as who turns with this ring sees them in its frame.
+    /// Where balls do not spin freely, each contact takes a ball's spin to be about the axis of the ring it touches.
+    #[inline(always)]
+    pub fn see<T: Number, const FMA: bool>(
+        &self,
+        place: [T; 3],
+        velocity: [T; 3],
+        spin: [T; 3],
+    ) -> [[T; 3]; 3] {
+        let (frame, turning) = (&self.rotation.frame, &self.turning);
+        let (c, v) = (&self.centre, &self.velocity);
+        let [x, y, z] =
+            frame.all_to_ring::<_, FMA>([place[0] + -c.x, place[1] + -c.y, place[2] + -c.z]);
+        let velocity = frame.all_to_ring::<_, FMA>([
+            velocity[0] + -v.x,
+            velocity[1] + -v.y,
+            velocity[2] + -v.z,
+        ]);
+        // Less turning × place.
+        let by = |a: f64, p: T, b: f64, q: T, from: T| {
+            p.mul_add::<FMA>(p.same(-a), q.mul_add::<FMA>(q.same(b), from))
+        };
+        let velocity = [
+            by(turning.y, z, turning.z, y, velocity[0]),
+            by(turning.z, x, turning.x, z, velocity[1]),
+            by(turning.x, y, turning.y, x, velocity[2]),
+        ];
         let spin = if self.balls_turn {
-            frame.to_ring(&spin)
+            frame.all_to_ring::<_, FMA>(spin)
         } else {
             spin
         };
-        let turning = spin - self.turning;
-        let seen = Motion {
-            centre: place.xy(),
-            z: place.z + self.offset,
-            theta: ball.theta,
-            velocity: velocity.xy(),
-            vz: velocity.z,
-            omega: turning.z,
-            across: turning.xy(),
-            attitude: ball.attitude,
-            seen_by: Some(frame.tilt),
-        };
-        let own = Motion {
-            theta: self.theta,
-            ..Motion::default()
-        };
-        [seen, own]
+        let spin = [
+            spin[0] + -turning.x,
+            spin[1] + -turning.y,
+            spin[2] + -turning.z,
+        ];
+        [[x, y, z + self.offset], velocity, spin]
+    }
+
+    /// A force on this ring and a moment about the origin of its frame, in the scene's frame and about the centre of mass.
+    pub fn about_centre(&self, force: &Vector3<f64>, moment: &Vector3<f64>) -> [Vector3<f64>; 2] {
+        let arm = Vector3::z() * -self.offset;
+        let frame = &self.rotation.frame;
+        [
+            frame.to_scene(force),
+            frame.to_scene(&(moment + arm.cross(force))),
+        ]
     }
 }
 

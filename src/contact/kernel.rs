@@ -294,6 +294,8 @@ pub(super) struct State<T> {
     pub slope: (T, T),
     /// Velocity of the ball's surface against the ring's along n_e, t_e and z \[m/s\].
     pub velocity: [T; 3],
+    /// What turning across the ring's axis adds to slip along the meridian, where any does \[m/s\].
+    pub turning: Option<T>,
     /// Elastic force per length \[N/m\] and penetration \[m\].
     pub load: T,
     pub depth: T,
@@ -360,6 +362,10 @@ pub(super) fn force<T: Number, const FMA: bool, const SYMMETRIC: bool, const BEN
         } else {
             v_z * cos - v_n * sin
         };
+        let u_m = match of.turning {
+            None => u_m,
+            Some(turning) => u_m + turning,
+        };
         slip = [v_t, u_m];
         let sliding = of.sliding(approach, v_t.mul_add::<FMA>(v_t, u_m * u_m));
         if BEND {
@@ -395,6 +401,19 @@ pub(super) fn force<T: Number, const FMA: bool, const SYMMETRIC: bool, const BEN
         factor,
         bend,
     }
+}
+
+/// What a ball that turns across its ring's axis, with w_n and w_t along n_e and t_e \[rad/s\], adds to slip along t_e and along the
+/// meridian (−sin α, cos α) at h n_e + ζ ẑ from its centre: −w_n ζ and −w_t (ζ sin α + h cos α). None of it is an approach: normal
+/// forces act through the ball's centre, about which it turns.
+#[inline(always)]
+pub(super) fn slip_of_turning<T: Number, const FMA: bool>(
+    [w_n, w_t]: [T; 2],
+    (h, zeta): (T, T),
+    (sin, cos): (T, T),
+) -> [T; 2] {
+    let lever = zeta.mul_add::<FMA>(sin, h * cos);
+    [-(w_n * zeta), -(w_t * lever)]
 }
 
 impl<T: Number> State<T> {

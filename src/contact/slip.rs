@@ -18,6 +18,8 @@ pub(super) struct Moves<T> {
     /// Slip along t_e is slide + spin · arm.
     pub slide: T,
     pub spin: T,
+    /// Angular velocity along n_e and t_e of a ball whose ring may lean \[rad/s\].
+    pub across: [T; 2],
     pub rolling: Rolling<T>,
     /// A contact's arm from the ball's centre, R(z) − d, is this and σ times the groove's height.
     pub arm: T,
@@ -28,7 +30,7 @@ pub(super) struct Moves<T> {
 impl Moves<f64> {
     /// Whether nothing moves, as in statics: there is no friction then.
     pub fn are_none(&self) -> bool {
-        [self.v_e, self.v_z, self.slide, self.spin] == [0.0; 4]
+        [self.v_e, self.v_z, self.slide, self.spin] == [0.0; 4] && self.across == [0.0; 2]
     }
 }
 
@@ -164,9 +166,9 @@ impl<T: Number> Slip<T> {
     /// Slip along the line that a zone is cut along, under a law and on a race of some σ; none without friction.
     ///
     /// Along the race it is linear in the groove's height, which is developed about the middle of the zone; across it the
-    /// ball's surface alone says which way.
+    /// ball's surface alone says which way. `LEAN` says that balls may turn across their ring's axis.
     #[inline(always)]
-    pub fn along<const FMA: bool>(
+    pub fn along<const FMA: bool, const LEAN: bool>(
         law: &Law,
         sigma: f64,
         section: &Section<T>,
@@ -205,7 +207,7 @@ impl<T: Number> Slip<T> {
         let turning = moves.spin * sigma;
         let across = moves.v_z * cos - moves.v_e * sin;
         let middle = (groove - section.e) * sigma;
-        Some(Self {
+        let mut slip = Self {
             along: [
                 moves.spin.mul_add::<FMA>(middle, moves.slide),
                 -(turning * tan * cos),
@@ -222,7 +224,33 @@ impl<T: Number> Slip<T> {
             bend,
             over: over * over,
             fade: [fade, 0.5 * fade * (1.0 - fade)],
-        })
+        };
+        if LEAN {
+            let flatter = (inverse - over) * 0.5;
+            slip.turn_across::<FMA>(moves.across, section, groove - section.e, (bent, flatter));
+        }
+        Some(slip)
+    }
+
+    /// Adds what a ball does that turns across its ring's axis: −w_n ζ along the race, and −w_t times the distance of the race from
+    /// the ball's centre across it, which grows by u² (1/R − 1/r)/2. `bent` is of ζ = R sin α' (1 + bent u²) + u cos α', and h the
+    /// groove's height over the ball's centre at the middle.
+    #[inline(always)]
+    fn turn_across<const FMA: bool>(
+        &mut self,
+        [w_n, w_t]: [T; 2],
+        section: &Section<T>,
+        h: T,
+        (bent, flatter): (T, T),
+    ) {
+        let (cos, sin) = section.normal;
+        let middle = section.radius * sin;
+        self.along[0] = self.along[0] - w_n * middle;
+        self.along[1] = self.along[1] - w_n * cos;
+        self.along[2] = self.along[2] - w_n * middle * bent;
+        let lever = middle.mul_add::<FMA>(sin, h * cos);
+        self.across[0] = self.across[0] - w_t * lever;
+        self.across[2] = self.across[2] - w_t * flatter;
     }
 }
 

@@ -76,12 +76,7 @@ impl Dynamics<'_> {
             format!("{half} of {count} {slices} (mirror symmetry), {law}")
         } else {
             let shape = pair.shape.name();
-            let apart = if self.leaning.is_some() {
-                " one by one"
-            } else {
-                ""
-            };
-            format!("{count} {slices}{shape}, {law}{apart}")
+            format!("{count} {slices}{shape}, {law}")
         }
     }
 }

@@ -1,82 +1,69 @@
-//! Contacts and moments of rings that may tilt and of balls that spin freely: every contact by itself, in the frame of its ring.
+//! Contacts and moments of rings that may tilt and of balls that spin freely: contacts are evaluated in the frames of their rings.
 //!
-//! Right before fast: balls that spin about the axis of parallel rings do not come here.
+//! All balls are first turned into each ring's frame; there the ring stands still, and the contacts are those of parallel rings but
+//! for what balls slip that turn across the ring's axis. Balls that spin about the axis of parallel rings do not come here.
 
 use nalgebra::Vector3;
+use rayon::ThreadPool;
 
-use super::sums::Spatial;
-use crate::contact::{LeaningRing, attitude_rates};
+use super::batch::{Batch, RingView};
+use crate::contact::attitude_rates;
 use crate::forces::{self, State, Table, drive};
 use crate::model::{BodyId, Degree, Dof, Model, Race};
 
 /// What an evaluation knows of what turns about x and y.
 #[derive(Debug)]
 pub(super) struct Leaning {
-    rings: [LeaningRing; 2],
+    rings: [RingView; 2],
     /// Moments about the rings' centres of mass, in the scene's frame \[N m\].
     moments: [Vector3<f64>; 2],
     /// Moments about x and y on balls that spin freely \[N m\]; none where they do not.
     across: Vec<[f64; 2]>,
-    pub pulls: usize,
-    pub truncated: usize,
-    /// The first ball that has left its groove.
-    pub lost: Option<usize>,
 }
 
 impl Leaning {
     /// None where nothing turns about x or y.
     pub fn new(model: &Model) -> Option<Box<Self>> {
-        let state = State::new(model);
-        model.is_spatial().then(|| {
+        RingView::both(model).map(|rings| {
+            let moments = [Vector3::zeros(); 2];
+            let turning = if model.balls_turn() {
+                model.balls.len()
+            } else {
+                0
+            };
             Box::new(Self {
-                rings: Race::BOTH.map(|race| state.leaning(model, race)),
-                moments: [Vector3::zeros(); 2],
-                across: if model.balls_turn() {
-                    vec![[0.0; 2]; model.balls.len()]
-                } else {
-                    Vec::new()
-                },
-                pulls: 0,
-                truncated: 0,
-                lost: None,
+                rings,
+                moments,
+                across: vec![[0.0; 2]; turning],
             })
         })
     }
 
     /// Adds the forces of all contacts at a state; returns the moments on both rings about their axes \[N m\].
-    pub fn add_contacts(&mut self, model: &Model, state: &State, forces: &mut Table) -> [f64; 2] {
-        self.rings = Race::BOTH.map(|race| state.leaning(model, race));
-        self.moments = [Vector3::zeros(); 2];
-        self.across.fill([0.0; 2]);
-        (self.pulls, self.truncated, self.lost) = (0, 0, None);
-        for (j, ball) in model.balls.iter().enumerate() {
-            let motion = state.motion(BodyId::ball(j));
-            for race in Race::BOTH {
-                let (pair, ring) = (&model.rows[ball.row].pairs[race], &self.rings[race]);
-                let [seen, own] = ring.facing(&motion);
-                if pair.has_lost(&ball.side, &seen) {
-                    self.lost = self.lost.or(Some(j));
-                }
-                let mut sum = Spatial::default();
-                pair.evaluate(&ball.side, &seen, &own, &mut sum);
-                self.pulls += sum.pulls as usize;
-                self.truncated += usize::from(sum.truncated);
-                let on_ball = sum.wrench.turned(|v| ring.rotation.frame.to_scene(v));
-                let [x, y, z] = on_ball.force.into();
-                let about = match self.across.get_mut(j) {
-                    None => sum.wrench.moment.z,
-                    Some(across) => {
-                        across[0] += on_ball.moment.x;
-                        across[1] += on_ball.moment.y;
-                        on_ball.moment.z
-                    }
-                };
-                forces.add(BodyId::ball(j), &[x, y, z, about]);
-                forces.add(race.ring(), &[-x, -y, -z, 0.0]);
-                self.moments[race] += on_ball.moment_on_ring(&ring.arm(&motion));
-            }
+    pub fn add_contacts(
+        &mut self,
+        model: &Model,
+        state: &State,
+        contacts: &mut Batch,
+        forces: &mut Table,
+        pool: Option<&ThreadPool>,
+    ) -> [f64; 2] {
+        let views = RingView::look(&mut self.rings, model, state);
+        let on_rings = contacts.add_leaning(forces, model, &views, pool);
+        contacts.moments_on_balls(&mut self.across);
+        for race in Race::BOTH {
+            let [force, moment] = &on_rings[race];
+            let [force, moment] = self.rings[race].ring.about_centre(force, moment);
+            forces.add(race.ring(), &[force.x, force.y, force.z, 0.0]);
+            self.moments[race] = moment;
         }
-        Race::BOTH.map(|race| self.moments[race].dot(&self.rings[race].rotation.frame.axis()))
+        on_rings.map(|[_, moment]| moment.z)
+    }
+
+    /// Moments about the rings' centres of mass in the last evaluation, in the scene's frame \[N m\].
+    #[cfg(test)]
+    pub fn moments(&self) -> [Vector3<f64>; 2] {
+        self.moments
     }
 
     /// Adds what else acts on the rings.
@@ -107,9 +94,8 @@ impl Leaning {
             let held = |dof| (!layout.has(ring, dof)).then_some(0.0);
             let prescribed = [held(Dof::TiltX), held(Dof::TiltY), spin];
             let (inertia, moment) = (&model.rings[race].inertia, &self.moments[race]);
-            let found = self.rings[race]
-                .rotation
-                .accelerations(inertia, moment, &prescribed);
+            let rotation = &self.rings[race].ring.rotation;
+            let found = rotation.accelerations(inertia, moment, &prescribed);
             for (dof, found) in [Dof::TiltX, Dof::TiltY, Dof::Theta].into_iter().zip(found) {
                 if layout.has(ring, dof) {
                     accelerations[layout.at(ring, dof)] = found;

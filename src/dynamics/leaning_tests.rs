@@ -1,7 +1,10 @@
 //! Analytic: rings that tilt keep what a conservative system keeps, lose what is told, and are the rings that do not where they
 //! stand parallel.
 
+use std::sync::Arc;
+
 use nalgebra::{Rotation3, Vector3};
+use rayon::ThreadPoolBuilder;
 
 use super::{Dynamics, rhs};
 use crate::equilibrium::compile;
@@ -9,9 +12,10 @@ use crate::inspect;
 use crate::integrate::{Options, System, Tolerance, VERNER, integrate};
 use crate::model::{BodyId, Dof, Model, Race};
 use crate::scene::{
-    CoupledSupport, Defect, Drive, Friction, Moment, Mount, NormalLaw, RingName, Row, Scene,
-    Slices, Support, Surface, Waviness,
+    CoupledSupport, Defect, Drive, Friction, Lubricant, Moment, Mount, NormalLaw, RingName, Row,
+    Scene, Slices, Support, Surface, Waviness,
 };
+use crate::simd::InstructionSet;
 use crate::start::{Start, start};
 
 const SPRING: Mount = Mount::Spring {
@@ -337,4 +341,55 @@ fn loads_tilt_by_their_arms() {
     assert!((more(Dof::TiltY) - 0.7 / inertia).abs() < 1e-6);
     assert!((more(Dof::Z) - 20.0 / 0.2).abs() < 1e-6);
     assert!(more(Dof::Theta).abs() < 1e-6);
+}
+
+/// Analytic: moments on rings from contacts by eights are those from contacts one by one, at every instruction set and shared by
+/// threads, whose number changes no bit.
+#[test]
+fn moments_by_eights_are_those_of_ones() {
+    let pool = Arc::new(ThreadPoolBuilder::new().num_threads(2).build().unwrap());
+    for law in laws() {
+        let mut oil = Lubricant::named("vg68", 328.15);
+        oil.reference_load = Some(200.0);
+        for oil in [None, Some(oil)] {
+            for slices in [Slices::Fitted(6), Slices::Fixed(60)] {
+                let mut scene = free_rings(&law);
+                scene.friction = Friction::Coulomb {
+                    coefficient: 0.1,
+                    slip_speed: 0.05,
+                };
+                scene.contact.damping = 0.3;
+                (scene.contact.slices, scene.lubricant) = (slices, oil.clone());
+                scene.rows[0].inner_waviness = vec![Waviness::new(7, 1e-6, 0.3)];
+                let spall = Defect::new(Surface::InnerRace, 0.05, 4e-3, 0.4e-3, 0.2e-3);
+                let spall = spall.at_offset(0.0);
+                scene.defects.insert("spall".to_owned(), spall);
+                let compiled = compile(&scene).unwrap();
+                let mut y = stirred(&compiled);
+                let tilt = compiled.layout().at(BodyId::INNER, Dof::TiltX);
+                y[tilt] = 2e-3;
+                for instructions in InstructionSet::available() {
+                    let model = compiled.clone().with_instructions(instructions);
+                    let expected = inspect::moments(&model, 0.0, &y);
+                    let moments = |mut dynamics: Dynamics<'_>| {
+                        dynamics.forces(0.0, &y);
+                        dynamics.leaning.unwrap().moments()
+                    };
+                    let found = moments(Dynamics::new(&model));
+                    let shared = moments(Dynamics::new(&model).shared(Arc::clone(&pool)));
+                    assert_eq!(found, shared);
+                    for race in Race::BOTH {
+                        let axis = model.leaning(&y, race).rotation.frame.axis();
+                        let across = found[race] - axis * found[race].dot(&axis);
+                        let size = across.norm();
+                        assert!(size > 0.1);
+                        for i in 0..2 {
+                            let off = (across[i] - expected[race][i]).abs();
+                            assert!(off < 1e-11 * size, "{off} {size}");
+                        }
+                    }
+                }
+            }
+        }
+    }
 }

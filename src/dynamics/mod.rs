@@ -25,7 +25,7 @@ use crate::integrate::System;
 use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Spring};
 use crate::reduction::Reduction;
 
-pub(crate) use batch::{Batch, Kind, SideConstants, Touching};
+pub(crate) use batch::{Batch, Kind, RingView, SideConstants, Touching, View};
 pub use contributions::{contribution_names, contributions};
 
 use films::Films;
@@ -94,6 +94,8 @@ impl<'m> Dynamics<'m> {
             planar: None,
         }));
         let mut dynamics = Self::with(model, order, kind);
+        // Where rings tilt nothing is left out.
+        dynamics.leaning = None;
         let kept = dynamics.degrees();
         dynamics
             .springs
@@ -183,22 +185,18 @@ impl<'m> Dynamics<'m> {
 
     /// Slices whose damping wanted to pull in the last evaluation.
     pub fn pulls(&self) -> usize {
-        let leaning = self.leaning.as_ref();
-        leaning.map_or_else(|| self.contacts.pulls(), |leaning| leaning.pulls)
+        self.contacts.pulls()
     }
 
     /// Contacts cut off by a shoulder in the last evaluation.
     pub fn truncated(&self) -> usize {
-        let leaning = self.leaning.as_ref();
-        leaning.map_or_else(|| self.contacts.truncated(), |leaning| leaning.truncated)
+        self.contacts.truncated()
     }
 
     /// The first body among the balls that had left its groove in the last evaluation, if any: pressed deeper than
     /// half its radius, beside the groove, or off the race ([`crate::contact::Torus::farthest`]).
     pub fn lost(&self) -> Option<BodyId> {
-        let leaning = self.leaning.as_ref();
-        let lost = leaning.map_or_else(|| self.contacts.lost(), |leaning| leaning.lost);
-        lost.map(BodyId::ball)
+        self.contacts.lost().map(BodyId::ball)
     }
 
     /// The forces on every body at a state of the run: x, y, z \[N\] and about z \[N m\]. For a direction that is fixed
@@ -315,13 +313,12 @@ impl<'m> Dynamics<'m> {
             None => self.model,
             Some(films) => films.follow(&self.state, &mut self.contacts),
         };
-        if let Some(leaning) = &mut self.leaning {
-            self.contact_torques = leaning.add_contacts(model, &self.state, &mut self.forces);
-            return;
-        }
-        self.contact_torques =
-            self.contacts
-                .add_to(&mut self.forces, model, &self.state, self.pool.as_deref());
+        let (state, forces) = (&self.state, &mut self.forces);
+        let (contacts, pool) = (&mut self.contacts, self.pool.as_deref());
+        self.contact_torques = match &mut self.leaning {
+            Some(leaning) => leaning.add_contacts(model, state, contacts, forces, pool),
+            None => contacts.add_to(forces, model, &View::parallel(state), pool),
+        };
     }
 
     /// Adds the forces of the cage, and of oil in the balls' way, at the state last read.

@@ -85,13 +85,13 @@ fn free_balls_keep_momenta_and_energy() {
             }
             let model = compile(&scene).unwrap();
             let y0 = spun(&model);
-            let end = after(&model, &y0, 1e-4);
+            let end = after(&model, &y0, 5e-5);
             let [before, after] = [&y0, &end].map(|y| inspect::energy(&model, y).total());
             let [from, to] = [&y0, &end].map(|y| momenta(&model, y));
             println!("{law:?} {rubs}: {:e}", after / before - 1.0);
             assert!((after / before - 1.0).abs() < 1e-9 || rubs, "{law:?}");
             assert!(
-                after < before * (1.0 - 1e-5) || !rubs,
+                after < before * (1.0 - 5e-6) || !rubs,
                 "friction takes {law:?}"
             );
             for (from, to) in from.into_iter().zip(to) {
@@ -108,7 +108,7 @@ fn caps_that_tumble_keep_momenta() {
     let model = compile(&capped(&NormalLaw::Hertz)).unwrap();
     let y0 = spun(&model);
     assert_eq!(model.dim(), 2 * (4 * 12 + 4 + 2 * 10 + 4 * 4));
-    let end = after(&model, &y0, 1e-4);
+    let end = after(&model, &y0, 5e-5);
     let [from, to] = [&y0, &end].map(|y| momenta(&model, y));
     for (from, to) in from.into_iter().zip(to) {
         println!("{from} {:e}", (from - to).norm());
@@ -128,7 +128,7 @@ fn caps_that_tumble_keep_momenta() {
     {
         assert!((rate - expected).abs() < 1e-9 * motion.turning().norm());
     }
-    assert!(attitude[0] < 0.9999, "{attitude:?}");
+    assert!(attitude[0] < 0.99999, "{attitude:?}");
 }
 
 /// Limits: a cap that spins about the axis is the same whether its ball may spin freely or not.

@@ -1,8 +1,11 @@
 //! What the forces of a contact add up to.
 
+use nalgebra::Vector3;
+
 use super::add;
 use crate::contact::{Aside, OilTouch, Sink, Touch, Wrench};
 use crate::model::DOFS;
+use crate::tilt::Frame;
 
 /// Force and moment on ball and ring.
 #[derive(Debug, Clone, Copy, Default)]
@@ -38,12 +41,37 @@ impl Sink for Sum {
     }
 }
 
-/// What a contact does to its ball in space.
+/// What a contact does to its ball in space, in the frame of a ring that may lean.
 #[derive(Debug, Default)]
 pub(super) struct Spatial {
-    pub wrench: Wrench,
-    pub pulls: u32,
-    pub truncated: bool,
+    wrench: Wrench,
+    pulls: u32,
+    truncated: bool,
+}
+
+impl Spatial {
+    /// The same on a ball at a place of the ring's frame, in the scene's frame, and on the ring, in its own; and moments about x and y
+    /// on both. Moments on balls that do not spin freely act about the ring's axis.
+    pub fn on_bodies(
+        &self,
+        place: &Vector3<f64>,
+        (frame, balls_turn): (&Frame, bool),
+    ) -> (Sum, [[f64; 2]; 2]) {
+        let (force, on_ring) = (&self.wrench.force, self.wrench.moment_on_ring(place));
+        let [x, y, z] = frame.to_scene(force).into();
+        let on_ball = if balls_turn {
+            frame.to_scene(&self.wrench.moment)
+        } else {
+            self.wrench.moment
+        };
+        let sum = Sum {
+            ball: [x, y, z, on_ball.z],
+            ring: [-force.x, -force.y, -force.z, on_ring.z],
+            pulls: self.pulls,
+            truncated: self.truncated,
+        };
+        (sum, [[on_ball.x, on_ball.y], [on_ring.x, on_ring.y]])
+    }
 }
 
 impl Sink for Spatial {

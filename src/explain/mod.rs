@@ -68,11 +68,12 @@ pub struct Explanation {
     pub notes: Vec<&'static str>,
 }
 
-/// What is told of a scene whose rings may tilt.
-const LEANS: &str = "a ring may tilt: contacts are evaluated one by one, in the frames of their rings, and nothing is left out";
+/// What is told of a scene whose rings tilt.
+const LEANS: &str =
+    "a ring may tilt: contacts are evaluated in the frames of their rings, and nothing is left out";
 
 /// What is told of a scene whose balls spin freely.
-const TURNS: &str = "balls spin about any axis, with two states more each: contacts are evaluated one by one, and nothing is left out";
+const TURNS: &str = "balls spin about any axis, with two states more each, and nothing is left out";
 
 /// How the contacts of a race are evaluated.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -103,6 +104,8 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
     let model = compile(&scene)?;
     let y0 = start(&model, &Start::Equilibrium)?;
     let reduction = Reduction::of(&model, &y0);
+    let leans = model.leans() && reduction.is_none();
+    let turns = model.balls_turn() && reduction.is_none();
     let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);
     let forces = dynamics.uses();
     let of = |wanted: crate::forces::Use| {
@@ -120,7 +123,11 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         states: model.dim(),
         kept: reduction.as_ref().map_or(model.dim(), Reduction::dim),
         omissions: listed(reduction.as_ref(), Reduction::omissions),
-        obstacles: listed(reduction.as_ref(), Reduction::obstacles),
+        obstacles: if leans || turns {
+            Reduction::in_space(&model, &y0).err().unwrap_or_default()
+        } else {
+            listed(reduction.as_ref(), Reduction::obstacles)
+        },
         contacts: contacts(&model, &dynamics),
         evaluated: of(crate::forces::Use::Evaluated),
         constant: of(crate::forces::Use::Constant),
@@ -133,8 +140,8 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         defects: defects(&scene, &placed)?,
         notes: run::note(&model)
             .into_iter()
-            .chain(model.leans().then_some(LEANS))
-            .chain(model.balls_turn().then_some(TURNS))
+            .chain(leans.then_some(LEANS))
+            .chain(turns.then_some(TURNS))
             .collect(),
     })
 }

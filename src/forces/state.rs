@@ -111,7 +111,8 @@ impl Table {
     /// Writes what [`Table::read`] reads.
     fn write(&self, half: &mut [f64]) {
         let bodies = self.stride - LANES;
-        for (body, numbers) in Layout::each_mut(half)[..bodies].iter_mut().enumerate() {
+        let halves = Layout::each_mut(half)[..bodies].iter_mut();
+        for (body, numbers) in halves.enumerate() {
             *numbers = self.of(BodyId::new(body));
         }
     }
@@ -126,8 +127,8 @@ pub(crate) struct State {
     layout: Option<Layout>,
     /// Tilt of each ring \[rad\] and its rates \[rad/s\].
     tilts: [[[f64; 2]; 2]; 2],
-    /// Angular velocities of balls that spin freely about x and y \[rad/s\]; none where they do not.
-    across: Vec<[f64; 2]>,
+    /// Angular velocities about x and y of all bodies, padded like a table, where balls spin freely \[rad/s\].
+    across: Option<[Vec<f64>; 2]>,
     /// Euler parameters of the balls that have them.
     attitudes: Vec<[f64; 4]>,
 }
@@ -144,11 +145,9 @@ impl State {
             v,
             layout: model.is_spatial().then(|| model.layout()),
             tilts: model.rings.each_ref().map(|ring| [ring.tilt, [0.0; 2]]),
-            across: if model.balls_turn() {
-                vec![[0.0; 2]; model.balls.len()]
-            } else {
-                Vec::new()
-            },
+            across: model
+                .balls_turn()
+                .then(|| [(); 2].map(|()| vec![0.0; bodies + LANES])),
             attitudes: vec![[0.0; 4]; model.layout().tumbling().len()],
         }
     }
@@ -167,8 +166,10 @@ impl State {
                     }
                 }
             }
-            for (j, across) in self.across.iter_mut().enumerate() {
-                *across = Dof::TURNS.map(|dof| v[layout.at(BodyId::ball(j), dof)]);
+            for (across, dof) in self.across.iter_mut().flatten().zip(Dof::TURNS) {
+                for ball in layout.bodies().filter(|body| layout.has(*body, dof)) {
+                    across[ball.index()] = v[layout.at(ball, dof)];
+                }
             }
             for (j, attitude) in layout.tumbling().zip(&mut self.attitudes) {
                 *attitude = Dof::ATTITUDE.map(|dof| q[layout.at(BodyId::ball(j), dof)]);
@@ -192,7 +193,6 @@ impl State {
 
     #[inline]
     pub fn motion(&self, body: BodyId) -> Motion {
-        let across = body.as_ball().and_then(|ball| self.across.get(ball));
         let ([x, y, z, theta], [vx, vy, vz, omega]) = (self.q.of(body), self.v.of(body));
         Motion {
             centre: V2::new(x, y),
@@ -201,10 +201,18 @@ impl State {
             velocity: V2::new(vx, vy),
             vz,
             omega,
-            across: across.map_or_else(V2::zeros, |across| V2::from(*across)),
+            across: self.across.as_ref().map_or_else(V2::zeros, |[x, y]| {
+                V2::new(x[body.index()], y[body.index()])
+            }),
             attitude: self.attitude(body),
             seen_by: None,
         }
+    }
+
+    /// Angular velocities about x and y of all bodies, where balls spin freely \[rad/s\].
+    #[inline(always)]
+    pub fn across(&self) -> Option<&[Vec<f64>; 2]> {
+        self.across.as_ref()
     }
 
     /// A ring that may lean.

@@ -1,7 +1,8 @@
 //! Velocities corrected by friction's matrix, once a step: what [`Adams`](crate::integrate::Adams) asks for.
 
 use super::stage::Stage;
-use crate::dynamics::Dynamics;
+use super::stage_batch::Velocities;
+use crate::dynamics::{Dynamics, RingView, View};
 use crate::forces::State;
 use crate::integrate::{LinearlyImplicit, System};
 use crate::model::{BodyId, DOFS, Dof, RowModel};
@@ -22,11 +23,13 @@ pub(crate) struct Damped<'d, 'm> {
 #[derive(Debug)]
 struct Matrix {
     stage: Stage,
-    /// What each velocity of the run belongs to.
+    /// What each velocity of the run belongs to, but for turning about x and y, which stands behind.
     degrees: Vec<(BodyId, Dof)>,
     /// The last state of all bodies, as a run's vector and as the contacts read it.
     full: Vec<f64>,
     state: State,
+    /// Where rings may tilt, all balls as these see them.
+    rings: Option<[RingView; 2]>,
     /// Steps that it has served.
     served: usize,
 }
@@ -37,13 +40,16 @@ impl<'d, 'm> Damped<'d, 'm> {
         let resists = model.rows.iter().any(RowModel::resists_motion);
         let matrix = (resists && dynamics.is_cartesian()).then(|| {
             let state = dynamics.state().clone();
+            let mut degrees = dynamics.degrees();
+            degrees.retain(|(_, dof)| Dof::ALL.contains(dof));
             let mut full = vec![0.0; model.dim()];
             state.write(&mut full);
             Box::new(Matrix {
                 stage: Stage::new(model, dynamics.rows_in_motion()),
-                degrees: dynamics.degrees(),
+                degrees,
                 full,
                 state,
+                rings: RingView::both(model),
                 served: 0,
             })
         });
@@ -76,12 +82,20 @@ impl LinearlyImplicit for Damped<'_, '_> {
 
 impl Matrix {
     /// Takes the slopes of the contacts at a state of the run.
+    ///
+    /// Of rings that lean contacts are held in the rings' frames, and their slopes taken for those in the scene's: that is wrong by
+    /// a share as small as the tilt. Tilts are not corrected: a ring's inertia lets friction turn it about its
+    /// axis and tilt it more slowly than balls by the ratio of their masses, which needs no help.
     fn renew(&mut self, dynamics: &Dynamics<'_>, t: f64, y: &[f64], gamma_h: f64) {
         dynamics.expand(t, y, &mut self.full);
         self.state.read(&self.full);
-        self.stage.find_elements(dynamics, &self.state);
+        let views = match &mut self.rings {
+            Some(rings) => RingView::look(rings, dynamics.model(), &self.state),
+            None => View::parallel(&self.state),
+        };
+        self.stage.find_elements(dynamics, &views);
         self.stage.secant = false;
-        self.stage.forces(dynamics, &self.full, true);
+        self.stage.forces(dynamics, &Velocities::Seen(&views), true);
         self.stage.factorise(dynamics.model(), gamma_h);
         self.served = 0;
     }

@@ -14,12 +14,13 @@ mod stage_batch;
 
 use nalgebra::{Matrix4, Vector4};
 
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, View};
 use crate::integrate::{ImplicitVelocity, Stuck, System};
 use crate::model::{BodyId, DOFS, Layout, Race};
 
 pub(crate) use linear::Damped;
 use stage::{Largest, Stage};
+use stage_batch::Velocities;
 
 /// Iterations before a stage is given up and the step tried again smaller.
 const MOST_ITERATIONS: usize = 20;
@@ -56,7 +57,7 @@ impl<'d, 'm> ImplicitDynamics<'d, 'm> {
     pub(crate) fn fastest_rate(&mut self, t: f64, y: &[f64]) -> f64 {
         self.find_elements(t, y);
         self.stage.secant = false;
-        self.stage.forces(self.dynamics, y, true);
+        self.stage.forces(self.dynamics, &Velocities::Of(y), true);
         let mobility = &self.dynamics.model().mobility;
         let mut fastest: f64 = 0.0;
         for batch in self.stage.batches() {
@@ -80,7 +81,7 @@ impl<'d, 'm> ImplicitDynamics<'d, 'm> {
     fn find_elements(&mut self, t: f64, y: &[f64]) {
         self.dynamics.read(t, y);
         self.stage
-            .find_elements(self.dynamics, self.dynamics.state());
+            .find_elements(self.dynamics, &View::parallel(self.dynamics.state()));
     }
 
     /// The residual base + γh a − v with the last reactions of the contacts.
@@ -113,7 +114,7 @@ impl<'d, 'm> ImplicitDynamics<'d, 'm> {
         let mut anew = !self.stage.is_kept(gamma_h);
         self.stage.secant = false;
         for iteration in 1..=MOST_ITERATIONS {
-            self.stage.forces(self.dynamics, y, anew);
+            self.stage.forces(self.dynamics, &Velocities::Of(y), anew);
             self.residual(t, y, base, gamma_h);
             if anew {
                 self.stage.factorise(model, gamma_h);
@@ -286,7 +287,7 @@ mod tests {
                 dynamics,
                 stage: mut work,
             } = implicit;
-            work.forces(dynamics, &y, true);
+            work.forces(dynamics, &Velocities::Of(&y), true);
             let residual: Vec<f64> = (0..half).map(|i| (1.0 + i as f64).sin()).collect();
             work.residual.copy_from_slice(Layout::each(&residual));
             let gamma_h = 1e-6;

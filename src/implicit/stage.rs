@@ -6,9 +6,9 @@ use nalgebra::SVector;
 use rayon::prelude::*;
 
 use super::arrow::Arrow;
-use super::stage_batch::{Meeting, StageBatch};
-use crate::dynamics::{Batch, Dynamics, Kind};
-use crate::forces::{State, Table};
+use super::stage_batch::{Meeting, StageBatch, Velocities};
+use crate::dynamics::{Batch, Dynamics, Kind, View};
+use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Race};
 use crate::simd::{LANES, Lanes, Task};
 
@@ -61,14 +61,13 @@ impl Stage {
         }
     }
 
-    /// Finds the nodes of all contacts at a state of all bodies.
-    pub fn find_elements(&mut self, dynamics: &Dynamics<'_>, state: &State) {
+    /// Finds the nodes of all contacts at a state of all bodies, as they are seen there.
+    pub fn find_elements(&mut self, dynamics: &Dynamics<'_>, views: &[View<'_>; 2]) {
         let model = dynamics.model();
-        let rings = state.rings();
-        self.search.find(None, model, state, &rings);
+        self.search.find(None, model, views);
         self.gather(model);
         let constants = &self.search.constants;
-        let find = |batch: &mut StageBatch| batch.find_elements(model, constants, state, &rings);
+        let find = |batch: &mut StageBatch| batch.find_elements(model, constants, views);
         let batches = &mut self.batches[..self.active];
         match dynamics.pool() {
             Some(pool) => pool.install(|| batches.par_iter_mut().for_each(find)),
@@ -116,14 +115,14 @@ impl Stage {
         }
     }
 
-    /// Finds what the contacts do at the velocities of `y`, with slopes or without.
-    pub fn forces(&mut self, dynamics: &Dynamics<'_>, y: &[f64], slopes: bool) {
+    /// Finds what the contacts do at some velocities, with slopes or without.
+    pub fn forces(&mut self, dynamics: &Dynamics<'_>, velocities: &Velocities<'_>, slopes: bool) {
         let (model, secant) = (dynamics.model(), self.secant);
         let find = |batch: &mut StageBatch| {
             if slopes {
-                batch.forces_and_slopes(model, y, secant);
+                batch.forces_and_slopes(model, velocities, secant);
             } else {
-                batch.forces(model, y);
+                batch.forces(model, velocities);
             }
         };
         let batches = &mut self.batches[..self.active];

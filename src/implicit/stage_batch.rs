@@ -3,13 +3,32 @@
 use std::array::from_fn;
 
 use crate::contact::{
-    Around, Motion, PlaneVector, Raise, SlicePack, SlicePacking, StageContacts, StageElements,
-    StageWrench, in_contact,
+    Around, PlaneVector, Raise, SlicePack, SlicePacking, StageContacts, StageElements, StageWrench,
+    in_contact,
 };
-use crate::dynamics::{SideConstants, Touching};
-use crate::forces::State;
+use crate::dynamics::{SideConstants, Touching, View};
 use crate::model::{BodyId, DOFS, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
+
+/// Velocities of all bodies.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Velocities<'a> {
+    /// Of a state vector, where rings stand parallel.
+    Of(&'a [f64]),
+    /// As each ring sees them.
+    Seen(&'a [View<'a>; 2]),
+}
+
+impl Velocities<'_> {
+    /// Those of a body, as contacts with a race meet it.
+    #[inline]
+    fn of(&self, model: &Model, race: Race, body: BodyId) -> [f64; DOFS] {
+        match self {
+            Self::Of(y) => *model.layout().of(&y[y.len() / 2..], body),
+            Self::Seen(views) => views[race].v.of(body),
+        }
+    }
+}
 
 /// What a ball may meet at one ring.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -78,8 +97,7 @@ impl StageBatch {
         &mut self,
         model: &Model,
         constants: &[SideConstants; 2],
-        state: &State,
-        rings: &[Motion; 2],
+        views: &[View<'_>; 2],
     ) {
         for race in Race::BOTH {
             let meetings = self.meetings[race];
@@ -107,35 +125,34 @@ impl StageBatch {
                 whole: Mask::from_fn(whole),
                 constants,
                 model,
-                state,
-                rings,
+                view: &views[race],
             });
             let [x, y] = side.held.aside;
             side.aside = [x, y, Lanes::ZERO, Lanes::ZERO];
             for (lane, ball) in self.balls[..self.count].iter().enumerate() {
                 if meetings[lane] != Meeting::Nothing && !side.held.regular.lane(lane) {
-                    side.single(lane, model, *ball, race, state, rings);
+                    side.single(lane, model, *ball, race, &views[race]);
                 }
             }
         }
     }
 
-    /// Finds what all contacts do at the velocities of a state.
-    pub fn forces(&mut self, model: &Model, y: &[f64]) {
+    /// Finds what all contacts do at some velocities.
+    pub fn forces(&mut self, model: &Model, velocities: &Velocities<'_>) {
         model.instructions.run(StageForces::<false> {
             batch: self,
             model,
-            y,
+            velocities,
             secant: false,
         });
     }
 
     /// The same with the slopes; see [`crate::contact::Pair::force`].
-    pub fn forces_and_slopes(&mut self, model: &Model, y: &[f64], secant: bool) {
+    pub fn forces_and_slopes(&mut self, model: &Model, velocities: &Velocities<'_>, secant: bool) {
         model.instructions.run(StageForces::<true> {
             batch: self,
             model,
-            y,
+            velocities,
             secant,
         });
     }
@@ -143,23 +160,15 @@ impl StageBatch {
 
 impl Side {
     /// The slices of a contact that is evaluated alone.
-    fn single(
-        &mut self,
-        lane: usize,
-        model: &Model,
-        ball: usize,
-        race: Race,
-        state: &State,
-        rings: &[Motion; 2],
-    ) {
+    fn single(&mut self, lane: usize, model: &Model, ball: usize, race: Race, view: &View<'_>) {
         let compiled = &model.balls[ball];
         let pair = &model.rows[compiled.row].pairs[race];
-        let at = state.motion(BodyId::ball(ball));
+        let at = view.ball(ball);
         let mut packing = SlicePacking {
             lane,
             packs: &mut self.packs,
             radius: compiled.side.radius,
-            outwards: at.seen_from(&rings[race]).centre.normalize(),
+            outwards: at.seen_from(&view.ring).centre.normalize(),
             flat: pair.law.cut().is_flat(),
             aside: [0.0; DOFS],
             count: 0,
@@ -167,7 +176,7 @@ impl Side {
             around: self.held.around.of(lane),
             is_new: true,
         };
-        pair.evaluate_into(&compiled.side, &at, &rings[race], &mut packing);
+        pair.evaluate_into(&compiled.side, &at, &view.ring, &mut packing);
         for (sum, part) in self.aside.iter_mut().zip(packing.aside) {
             sum[lane] += part;
         }
@@ -183,8 +192,7 @@ struct FindElements<'a> {
     whole: Mask,
     constants: &'a [SideConstants; 2],
     model: &'a Model,
-    state: &'a State,
-    rings: &'a [Motion; 2],
+    view: &'a View<'a>,
 }
 
 impl Task for FindElements<'_> {
@@ -194,9 +202,9 @@ impl Task for FindElements<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) -> StageContacts {
-        let eight = self.constants[self.race].eight(self.class, self.contacts, self.state);
+        let eight = self.constants[self.race].eight(self.class, self.contacts, self.view);
         let pair = &self.model.rows[self.class].pairs[self.race];
-        let ring = &self.rings[self.race];
+        let ring = &self.view.ring;
         let instructions = self.model.instructions;
         pair.stage_elements::<FMA>(&eight, ring, self.whole, instructions, self.nodes)
     }
@@ -206,7 +214,7 @@ impl Task for FindElements<'_> {
 struct StageForces<'a, const SLOPE: bool> {
     batch: &'a mut StageBatch,
     model: &'a Model,
-    y: &'a [f64],
+    velocities: &'a Velocities<'a>,
     secant: bool,
 }
 
@@ -220,17 +228,9 @@ impl<const SLOPE: bool> Task for StageForces<'_, SLOPE> {
         let Self {
             batch,
             model,
-            y,
+            velocities,
             secant,
         } = self;
-        let v = &y[y.len() / 2..];
-        let (layout, mut of_balls) = (model.layout(), [Lanes::ZERO; DOFS]);
-        for (lane, ball) in batch.balls.iter().enumerate() {
-            let v = layout.of(v, BodyId::ball(*ball));
-            for i in 0..DOFS {
-                of_balls[i][lane] = v[i];
-            }
-        }
         for race in Race::BOTH {
             let side = &mut batch.sides[race];
             if !side.touches {
@@ -238,7 +238,14 @@ impl<const SLOPE: bool> Task for StageForces<'_, SLOPE> {
             }
             let (n_e, apart) = (side.held.n_e, side.held.apart);
             let pair = &model.rows[batch.class].pairs[race];
-            let ring = layout.of(v, race.ring());
+            let ring = velocities.of(model, race, race.ring());
+            let mut of_balls = [Lanes::ZERO; DOFS];
+            for (lane, ball) in batch.balls.iter().enumerate() {
+                let v = velocities.of(model, race, BodyId::ball(*ball));
+                for i in 0..DOFS {
+                    of_balls[i][lane] = v[i];
+                }
+            }
             // w = v_b − v_r − θ̇_r ẑ × a.
             let twist = [
                 of_balls[0] - ring[0] + apart[1] * ring[3],

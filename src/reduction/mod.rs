@@ -129,7 +129,7 @@ impl Reduction {
     }
 
     /// What a run from a state of all bodies leaves out; absent where it integrates all states in the order of
-    /// [`Model::names`], since implicit steps solve for a block a body, or since rings may tilt or balls spin freely.
+    /// [`Model::names`], since implicit steps solve for a block a body, or since rings tilt or balls spin freely.
     ///
     /// # Panics
     /// If the length of `start` is wrong.
@@ -138,10 +138,40 @@ impl Reduction {
         let solver = &model.scene.solver;
         match solver.method {
             Method::ImplicitFriction | Method::Auto => None,
-            // What they may leave out is not known yet.
-            _ if model.is_spatial() => None,
-            _ => Some(Self::leaving_out(model, start, solver.reduce)),
+            _ if !model.is_spatial() => Some(Self::leaving_out(model, start, solver.reduce)),
+            _ if solver.reduce => Self::in_space(model, start).ok(),
+            _ => None,
         }
+    }
+
+    /// Of rings that may tilt and balls that may spin freely, and do not, since the motion is its own mirror image: that is then left
+    /// out with all that moves along z, rings are those that stay parallel and balls spin about the axis. Else all states are
+    /// integrated, and what stands against that is told.
+    ///
+    /// # Errors
+    /// What stands against it.
+    pub(crate) fn in_space(model: &Model, start: &[f64]) -> Result<Self, Vec<Obstacle>> {
+        let mut found = Self::leaving_out(model, start, true);
+        // Balls of two rows that are images of each other spin as each likes.
+        if !(found.plane || found.mirrored && !model.balls_turn()) {
+            return Err(found.obstacles);
+        }
+        let because = |what: &str| {
+            let what = what.to_owned();
+            move |reason| vec![Obstacle { what, reason }]
+        };
+        if model.leans() {
+            symmetry::of_tilts(model, start).map_err(because("rings that do not tilt"))?;
+        }
+        if model.balls_turn() {
+            symmetry::of_turns(model, start).map_err(because("balls that spin about the axis"))?;
+        }
+        found.omissions.push(Omission {
+            what: "turning about x and y".to_owned(),
+            degrees: model.layout().half() - DOFS * model.bodies.len(),
+            reason: "mirror symmetry".to_owned(),
+        });
+        Ok(found)
     }
 
     /// Leaves out what is given up by request and, if `exact` reductions are wanted, what does not change the motion

@@ -41,18 +41,17 @@ impl fmt::Display for Choice {
     }
 }
 
-/// Refuses methods that do not know all directions of rings that may tilt and of balls that spin freely.
+/// Refuses methods that solve for all velocities but those of tilts and of balls that spin freely.
 pub(crate) fn check(model: &Model) -> error::Result<()> {
     let name = match model.scene().solver.method {
-        Method::Adams => "adams",
         Method::ImplicitFriction => "implicit-friction",
         Method::Auto => "auto",
         _ => return Ok(()),
     };
     let allowed = if model.leans() {
-        "an explicit one where a ring may tilt, such as dormand-prince: the matrix of friction knows parallel rings only"
+        "adams or an explicit one where a ring may tilt: implicit steps know parallel rings only"
     } else if model.balls_turn() {
-        "an explicit one where balls spin freely, such as dormand-prince: the matrix of friction knows spin about the axis only"
+        "an explicit one where balls spin freely: implicit steps know spin about the axis only"
     } else {
         return Ok(());
     };

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::{
-    Cage, Contact, Defect, Drive, Friction, Load, Method, Mount, NormalLaw, Probe, Ring, RingName,
-    Row, Scene, Support, Surface,
+    Cage, Contact, Defect, Drive, Friction, Load, Mount, NormalLaw, Probe, Ring, RingName, Row,
+    Scene, Support, Surface,
 };
 
 /// The paper's faulted double-row wheel bearing under 7 kN radial and the given axial load \[N\].
@@ -96,8 +96,6 @@ pub fn cornering_wheel(lateral: f64) -> Scene {
     });
     let support = &mut scene.inner_ring.support;
     (support.tilt_x, support.tilt_y) = (tilts, tilts);
-    // The default method knows parallel rings only.
-    scene.solver.method = Method::DormandPrince;
     scene
 }
 

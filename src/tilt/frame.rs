@@ -6,7 +6,12 @@
 //!     [ −τ_y           τ_x            w ]
 //! ```
 
+// Into loops that are compiled for the instructions at hand.
+#![allow(clippy::inline_always)]
+
 use nalgebra::{Matrix3, Vector3};
+
+use crate::simd::Number;
 
 /// Orientation of a ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,19 +54,48 @@ impl Frame {
     }
 
     /// A vector of the ring's frame, in the scene's.
-    pub fn to_scene(self, v: &Vector3<f64>) -> Vector3<f64> {
+    pub fn to_scene(&self, v: &Vector3<f64>) -> Vector3<f64> {
         self.matrix * v
     }
 
     /// A vector of the scene's frame, in the ring's.
-    pub fn to_ring(self, v: &Vector3<f64>) -> Vector3<f64> {
+    pub fn to_ring(&self, v: &Vector3<f64>) -> Vector3<f64> {
         self.matrix.tr_mul(v)
     }
 
+    /// As [`Self::to_scene`], of vectors side by side.
+    #[inline(always)]
+    pub fn all_to_scene<T: Number, const FMA: bool>(&self, v: [T; 3]) -> [T; 3] {
+        let m = &self.matrix;
+        [
+            product::<T, FMA>([m.m11, m.m12, m.m13], v),
+            product::<T, FMA>([m.m21, m.m22, m.m23], v),
+            product::<T, FMA>([m.m31, m.m32, m.m33], v),
+        ]
+    }
+
+    /// As [`Self::to_ring`], of vectors side by side.
+    #[inline(always)]
+    pub fn all_to_ring<T: Number, const FMA: bool>(&self, v: [T; 3]) -> [T; 3] {
+        let m = &self.matrix;
+        [
+            product::<T, FMA>([m.m11, m.m21, m.m31], v),
+            product::<T, FMA>([m.m12, m.m22, m.m32], v),
+            product::<T, FMA>([m.m13, m.m23, m.m33], v),
+        ]
+    }
+
     /// A matrix that acts on vectors of the ring's frame, for those of the scene's.
-    pub fn matrix_to_scene(self, of: &Matrix3<f64>) -> Matrix3<f64> {
+    pub fn matrix_to_scene(&self, of: &Matrix3<f64>) -> Matrix3<f64> {
         self.matrix * of * self.matrix.transpose()
     }
+}
+
+/// Scalar product with vectors side by side.
+#[inline(always)]
+fn product<T: Number, const FMA: bool>(with: [f64; 3], [x, y, z]: [T; 3]) -> T {
+    let in_plane = y.mul_add::<FMA>(y.same(with[1]), x * with[0]);
+    z.mul_add::<FMA>(z.same(with[2]), in_plane)
 }
 
 #[cfg(test)]
@@ -79,6 +113,11 @@ mod tests {
         assert!((frame.to_scene(&lies) - lies).norm() < 1e-15);
         assert!((frame.axis() - Vector3::new(-0.4, -0.3, 0.75_f64.sqrt())).norm() < 1e-15);
         assert!((frame.to_ring(&frame.axis()) - Vector3::z()).norm() < 1e-15);
+        let v = Vector3::new(0.7, -0.2, 1.1);
+        let there: [f64; 3] = frame.all_to_ring::<_, false>(v.into());
+        assert!((Vector3::from(there) - frame.to_ring(&v)).norm() < 1e-15);
+        let back: [f64; 3] = frame.all_to_scene::<_, false>(there);
+        assert!((Vector3::from(back) - v).norm() < 1e-15);
     }
 
     /// Limits: without a tilt nothing is turned, bit by bit.

@@ -27,6 +27,8 @@ use crate::simd::{Counters, InstructionSet, Lanes, Mask};
 pub(crate) struct BatchForces {
     pub ball: [Lanes; 4],
     pub ring: [Lanes; 4],
+    /// Moments about x and y on balls and ring, whose arm leads from the origin \[N m\], where the ring may lean.
+    pub across: [[Lanes; 2]; 2],
     /// Slices whose damping wanted to pull.
     pub pulls: u32,
     /// Contacts left out here.
@@ -53,8 +55,9 @@ pub(super) struct Place {
     pub regular: Mask,
 }
 
-/// Sums over the elements: forces on the balls along n_e, t_e and z, and the moment of those along t_e about the balls.
-struct Sums<'a> {
+/// Sums over the elements: forces on the balls along n_e, t_e and z, and the moment of those along t_e about the balls. `LEAN` says
+/// that balls may turn across the ring's axis: then the moments of friction along n_e and t_e are summed, too.
+struct Sums<'a, const LEAN: bool> {
     law: &'a Law,
     sigma: f64,
     moves: &'a Moves<Lanes>,
@@ -63,6 +66,7 @@ struct Sums<'a> {
     tangential: Lanes,
     axial: Lanes,
     moment: Lanes,
+    across: [Lanes; 2],
     /// The elastic part of that along n_e, of which waves turn some aside. Summed without waves too: that costs less than a
     /// second program for those with.
     elastic: Lanes,
@@ -73,19 +77,23 @@ struct Sums<'a> {
 
 impl Pair {
     /// Forces of eight contacts of this or another row: what their constants do not say (the kind of law, where
-    /// the ball is cut, damping, friction) is the same for all rows. Contacts in `skip` are left out, and told.
+    /// the ball is cut, damping, friction) is the same for all rows. Contacts in `skip` are left out, and told. `LEAN` says that the
+    /// ring may lean: all is told in its frame, where it stands still.
     #[inline(always)]
-    pub(crate) fn forces<const FMA: bool, const SYMMETRIC: bool>(
+    pub(crate) fn forces<const FMA: bool, const SYMMETRIC: bool, const LEAN: bool>(
         &self,
         eight: &EightContacts,
         ring: &Motion,
         skip: Mask,
         summing: Summing<'_>,
     ) -> BatchForces {
-        let (whole, moves, place) = self.place::<FMA, SYMMETRIC>(eight, ring, skip);
-        let mut sums = Sums::new(self, &whole, &moves);
-        self.elements::<FMA, SYMMETRIC>(&whole, &moves, summing, &mut sums);
-        sums.on_bodies(&place)
+        let (whole, mut moves, place) = self.place::<FMA, SYMMETRIC>(eight, ring, skip);
+        if LEAN {
+            moves.across = place.across(eight.across, self.race.sigma);
+        }
+        let mut sums = Sums::<LEAN>::new(self, &whole, &moves);
+        self.elements::<FMA, SYMMETRIC, LEAN>(&whole, &moves, summing, &mut sums);
+        sums.on_bodies(eight, &place)
     }
 
     /// Where eight contacts are; those in `skip` are not regular.
@@ -141,6 +149,7 @@ impl Pair {
             v_z,
             slide: (across - d * ring.omega) * sigma,
             spin: (eight.v[3] - ring.omega) * sigma,
+            across: [zero; 2],
             rolling: self.rolling(eight, ring, d, across),
             arm: raised - d,
             oil: FilmEffect::of(eight.film.as_ref(), whole.half),
@@ -176,7 +185,7 @@ impl Pair {
 
     /// All elements, or one for all.
     #[inline(always)]
-    fn elements<const FMA: bool, const SYMMETRIC: bool>(
+    fn elements<const FMA: bool, const SYMMETRIC: bool, const LEAN: bool>(
         &self,
         whole: &Whole<Lanes>,
         moves: &Moves<Lanes>,
@@ -189,14 +198,23 @@ impl Pair {
                 to.element::<FMA, false>(&element, self.slices.count());
             }
             Summing::Elements(instructions, rubbing) => {
-                let rubbing = rubbing.at_nodes::<FMA>(instructions, self, whole, moves, None);
+                let rubbing = rubbing.at_nodes::<FMA, LEAN>(instructions, self, whole, moves, None);
                 kernel::elements::<_, FMA, SYMMETRIC>(&self.law, &self.slices, rubbing, whole, to);
             }
         }
     }
 }
 
-impl<'a> Sums<'a> {
+impl Place {
+    /// Components along n_e and t_e of vectors across the axis, given along x and y.
+    #[inline(always)]
+    fn across(&self, [x, y]: [Lanes; 2], sigma: f64) -> [Lanes; 2] {
+        let n = self.n;
+        [(x * n.0 + y * n.1) * sigma, (y * n.0 - x * n.1) * sigma]
+    }
+}
+
+impl<'a, const LEAN: bool> Sums<'a, LEAN> {
     #[inline(always)]
     fn new(pair: &'a Pair, whole: &Whole<Lanes>, moves: &'a Moves<Lanes>) -> Self {
         let zero = Lanes::ZERO;
@@ -209,6 +227,7 @@ impl<'a> Sums<'a> {
             tangential: zero,
             axial: zero,
             moment: zero,
+            across: [zero; 2],
             elastic: zero,
             pulls: Counters::default(),
             lever: whole.section.radius * whole.section.normal.0,
@@ -217,7 +236,7 @@ impl<'a> Sums<'a> {
 
     /// What they put on balls and ring.
     #[inline(always)]
-    fn on_bodies(&self, place: &Place) -> BatchForces {
+    fn on_bodies(&self, eight: &EightContacts, place: &Place) -> BatchForces {
         let (sigma, n) = (self.sigma, place.n);
         let mut tangential = self.tangential;
         if let Some(lean) = place.lean {
@@ -238,6 +257,11 @@ impl<'a> Sums<'a> {
         }
         let plane = (n.0 * along - n.1 * across, n.1 * along + n.0 * across);
         BatchForces {
+            across: if LEAN {
+                self.about_across(eight, place, plane)
+            } else {
+                [[Lanes::ZERO; 2]; 2]
+            },
             ball: [plane.0, plane.1, self.axial, moment],
             // About the ring's centre the arm is longer by d.
             ring: [-plane.0, -plane.1, -self.axial, -moment - place.d * across],
@@ -245,9 +269,40 @@ impl<'a> Sums<'a> {
             left_out: place.regular.not(),
         }
     }
+
+    /// Moments about x and y on the balls, and on a ring that stands still about the origin, where forces in the plane are these.
+    #[inline(always)]
+    fn about_across(
+        &self,
+        eight: &EightContacts,
+        place: &Place,
+        plane: (Lanes, Lanes),
+    ) -> [[Lanes; 2]; 2] {
+        let (n, [about_n, about_t]) = (place.n, self.across);
+        let ball = [
+            (n.0 * about_n - n.1 * about_t) * self.sigma,
+            (n.1 * about_n + n.0 * about_t) * self.sigma,
+        ];
+        let [x, y, z] = eight.q;
+        let ring = [
+            z * plane.1 - y * self.axial - ball[0],
+            x * self.axial - z * plane.0 - ball[1],
+        ];
+        [ball, ring]
+    }
+
+    /// Adds the moments of an element's friction at h n_e + ζ ẑ from the ball's centre, along n_e and t_e.
+    #[inline(always)]
+    fn add_across<const FMA: bool>(&mut self, friction: &[Lanes; 3], (h, zeta): (Lanes, Lanes)) {
+        let [about_n, about_t] = self.across;
+        self.across = [
+            about_n - zeta * friction[1],
+            about_t + (zeta * friction[0] - h * friction[2]),
+        ];
+    }
 }
 
-impl Receiver<Lanes> for Sums<'_> {
+impl<const LEAN: bool> Receiver<Lanes> for Sums<'_, LEAN> {
     #[inline(always)]
     fn element<const FMA: bool, const SYMMETRIC: bool>(
         &mut self,
@@ -259,16 +314,22 @@ impl Receiver<Lanes> for Sums<'_> {
         let arm = element.groove.mul_add::<FMA>(sigma, moves.arm);
         let elastic = element.load * element.length;
         self.elastic += elastic * element.share.0;
+        let mut tangential = moves.spin.mul_add::<FMA>(arm, moves.slide);
+        let mut turning = None;
+        let place = (arm * sigma, element.sin * self.radii[0]);
+        if LEAN && self.law.traction.is_some() {
+            let slope = (element.sin, element.cos);
+            let [along, across] = kernel::slip_of_turning::<_, FMA>(moves.across, place, slope);
+            tangential += along;
+            turning = Some(across);
+        }
         let state = State {
             elastic,
             share: element.share,
             rubbing: element.rubbing,
             slope: (element.sin, element.cos),
-            velocity: [
-                moves.v_e,
-                moves.spin.mul_add::<FMA>(arm, moves.slide),
-                moves.v_z,
-            ],
+            velocity: [moves.v_e, tangential, moves.v_z],
+            turning,
             load: element.load,
             depth: element.depth,
             arm,
@@ -283,6 +344,9 @@ impl Receiver<Lanes> for Sums<'_> {
         if self.law.traction.is_some() {
             self.tangential = self.tangential - tangential;
             self.moment = self.moment - tangential * arm;
+            if LEAN {
+                self.add_across::<FMA>(&force.friction, place);
+            }
         }
         if !SYMMETRIC {
             self.axial = self.axial - axial;

@@ -41,7 +41,7 @@ struct Meetings {
 impl Pair {
     /// As [`Pair::forces`], of eight contacts with this race, which is a hollow curve.
     #[inline(always)]
-    pub(crate) fn forces_on_curve<const FMA: bool>(
+    pub(crate) fn forces_on_curve<const FMA: bool, const LEAN: bool>(
         &self,
         eight: &EightContacts,
         ring: &Motion,
@@ -63,11 +63,12 @@ impl Pair {
         let v = [eight.v[0] - ring.velocity.x, eight.v[1] - ring.velocity.y];
         let across = v[1] * n.0 - v[0] * n.1;
         let whole = found.whole(eight);
-        let moves = Moves {
+        let mut moves = Moves {
             v_e: (v[0] * n.0 + v[1] * n.1) * sigma,
             v_z: eight.v[2] - ring.vz,
             slide: (across - d * ring.omega) * sigma,
             spin: (eight.v[3] - ring.omega) * sigma,
+            across: [Lanes::ZERO; 2],
             rolling: self.rolling(eight, ring, d, across),
             // Heights of the race are those over the ring's axis.
             arm: eight.raise.height - d,
@@ -79,11 +80,15 @@ impl Pair {
             lean: eight.wavy.then(|| eight.raise.slope * over),
             regular: found.regular.or(found.touching.not()),
         };
+        if LEAN {
+            moves.across = place.across(eight.across, sigma);
+        }
         let middle = (found.ends.0 + found.ends.1) * 0.5;
-        let rubbing = rubbing.at_nodes::<FMA>(instructions, self, &whole, &moves, Some(middle));
-        let mut sums = Sums::new(self, &whole, &moves);
+        let rubbing =
+            rubbing.at_nodes::<FMA, LEAN>(instructions, self, &whole, &moves, Some(middle));
+        let mut sums = Sums::<LEAN>::new(self, &whole, &moves);
         self.elements_on_curve::<FMA>(&curve, &found, (&whole, middle), rubbing, &mut sums);
-        sums.on_bodies(&place)
+        sums.on_bodies(eight, &place)
     }
 
     /// The elements of eight contacts.

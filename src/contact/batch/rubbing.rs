@@ -17,7 +17,7 @@ impl Rubbing {
     /// What it weighs over the normal force at the nodes of whole zones, which have their middle at u = 0 if not elsewhere \[m\];
     /// none where both weigh the same.
     #[inline(always)]
-    pub(in crate::contact) fn at_nodes<const FMA: bool>(
+    pub(in crate::contact) fn at_nodes<const FMA: bool, const LEAN: bool>(
         &mut self,
         instructions: InstructionSet,
         pair: &Pair,
@@ -29,7 +29,8 @@ impl Rubbing {
             return None;
         };
         let halves = rules.halves()?;
-        let mut slip = Slip::along::<FMA>(&pair.law, pair.race.sigma, &whole.section, moves)?;
+        let sigma = pair.race.sigma;
+        let mut slip = Slip::along::<FMA, LEAN>(&pair.law, sigma, &whole.section, moves)?;
         if let Some(middle) = middle {
             slip = slip.from::<FMA>(middle);
         }

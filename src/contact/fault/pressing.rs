@@ -132,18 +132,24 @@ impl Contact<'_> {
         };
         let share = self.common().unwrap_or((1.0, tan));
         let mut velocity = [v_p.dot(&n_e), v_p.dot(&turned(n_e)), b.vz - r.vz];
-        if b.across != V2::zeros() {
-            let more = tumbling(b.across, (n_e, arm_ball, node.zeta), (share, slope));
+        let turning = (b.across != V2::zeros()).then(|| {
+            let w = [b.across.dot(&n_e), b.across.dot(&turned(n_e))];
+            let place = (arm_ball.dot(&n_e), node.zeta);
+            let [tangential, meridional] = kernel::slip_of_turning::<f64, false>(w, place, slope);
+            velocity[1] += tangential;
             let rate = cross(arm_ball, n_e) * feature.swing.xy().dot(&b.across);
-            let nearer = approaching(rate, share, slope);
-            velocity = std::array::from_fn(|i| velocity[i] + more[i] + nearer[i]);
-        }
+            let [nearer, _, along] = approaching(rate, share, slope);
+            velocity[0] += nearer;
+            velocity[2] += along;
+            meridional
+        });
         State {
             elastic,
             share,
             rubbing: node.rubbing,
             slope,
             velocity,
+            turning,
             load,
             depth,
             arm,
@@ -152,20 +158,6 @@ impl Contact<'_> {
             oil: self.oil,
         }
     }
-}
-
-/// What turning across the ring's axis adds to the slip at a point of the ball, along n_e, t_e and z: (w_n n_e + w_t t_e) × r. None of it
-/// is an approach: normal forces act through the ball's centre, about which the ball turns.
-fn tumbling(
-    across: V2,
-    (n_e, arm, zeta): (V2, V2, f64),
-    ((in_plane, axial), (sin, cos)): ((f64, f64), (f64, f64)),
-) -> [f64; 3] {
-    let (w_n, w_t) = (across.dot(&n_e), across.dot(&turned(n_e)));
-    let meridional = -w_t * (zeta * sin + arm.dot(&n_e) * cos);
-    // Along (−sin α, cos α) so fast, and along the normal not at all.
-    let size = meridional / (in_plane * cos + axial * sin);
-    [-size * axial, -w_n * zeta, size * in_plane]
 }
 
 /// The velocity along n_e, t_e and z of an edge that is turned into the race at a rate \[m/s\], without slip.

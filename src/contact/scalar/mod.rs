@@ -208,6 +208,7 @@ impl Pair {
             v_z: b.vz - r.vz,
             slide: (across - distance * r.omega) * sigma,
             spin: (b.omega - r.omega) * sigma,
+            across: [b.across.dot(&n) * sigma, b.across.dot(&turned(n)) * sigma],
             rolling: if self.reads_rolling() {
                 Rolling::new(distance, across, [b.omega, r.omega])
             } else {
@@ -229,7 +230,8 @@ impl Pair {
             return None;
         }
         // Beside the groove there is no slip to tell, nor a node to weigh.
-        Slip::along::<false>(&self.law, self.race.sigma, section, moves).filter(Slip::is_finite)
+        Slip::along::<false, true>(&self.law, self.race.sigma, section, moves)
+            .filter(Slip::is_finite)
     }
 }
 

@@ -21,9 +21,9 @@
 
 use std::sync::Arc;
 
-use super::{BallSide, Pair};
+use super::Pair;
+use crate::contact::Torus;
 use crate::contact::profile::{Before, Contour};
-use crate::contact::{Motion, Torus};
 use crate::simd::{Lanes, Mask};
 
 /// The shape of a race. By default it is the torus that its [`Pair`] names.
@@ -273,21 +273,6 @@ impl Pair {
         let touches = |lane| self.flanks().any(|flank| !section(flank, lane).is_clear());
         let within = |lane| section(self, lane).l < self.race.farthest(radius[lane]);
         [Mask::from_fn(touches), Mask::from_fn(within).not()]
-    }
-
-    /// Whether a ball is where no contact with the race means anything, as a ring sees it that stands still.
-    pub(crate) fn has_lost(&self, ball: &BallSide, seen: &Motion) -> bool {
-        let (radius, distance) = (ball.radius, seen.centre.norm());
-        if let Kind::Points { contour, .. } = &self.shape.0 {
-            let [radius, distance, z] = [radius, distance, seen.z].map(Lanes::all);
-            return contour.loses(radius, distance, z).any();
-        }
-        let section = self.race.section(radius, distance, seen.z, 0.0);
-        // What is not a number is lost.
-        !matches!(
-            section.l.partial_cmp(&self.race.farthest(radius)),
-            Some(std::cmp::Ordering::Less)
-        )
     }
 
     /// Whether contacts with it are evaluated by eights.

@@ -147,7 +147,7 @@ impl Pair {
             rolling,
             rubbing,
         } = nodes;
-        let rubbing = rubbing.at_nodes::<FMA>(instructions, self, &contact, &moves, None);
+        let rubbing = rubbing.at_nodes::<FMA, false>(instructions, self, &contact, &moves, None);
         let mut holding = Holding {
             elements,
             rolling,
@@ -204,6 +204,7 @@ impl Pair {
             rubbing: element.rubbing,
             slope: element.slope,
             velocity,
+            turning: None,
             load,
             depth,
             arm,

@@ -13,6 +13,7 @@ fn state<T: crate::simd::Number>(of: impl Fn(f64) -> T, velocity: [T; 3]) -> Sta
         rubbing: of(0.9),
         slope: (of(0.55), of(f64::sqrt(1.0 - 0.55 * 0.55))),
         velocity,
+        turning: None,
         load: of(1e5),
         depth: of(1e-5),
         arm: of(6e-3),

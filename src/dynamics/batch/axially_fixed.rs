@@ -1,8 +1,8 @@
 //! Rows whose balls keep their axial places and touch both races in closed form: one loop along the balls.
 
-use super::{Kind, Single};
-use crate::contact::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, Motion, Pair, Sight};
-use crate::forces::{State, Table};
+use super::{Kind, Single, View};
+use crate::contact::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, Pair, Sight};
+use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Simd, Vector, Wide};
 
@@ -80,11 +80,11 @@ impl AxiallyFixedRow {
     /// Notes where waves raise the races and where defects may be seen.
     // Inlined into the evaluation it would slow down rows without waves and defects.
     #[inline(never)]
-    pub fn look(&mut self, model: &Model, state: &State, rings: &[Motion; 2]) {
+    pub fn look(&mut self, model: &Model, views: &[View<'_>; 2]) {
         let row = &model.rows[self.row];
-        for ((side, pair), ring) in self.races.iter_mut().zip(&row.pairs).zip(rings) {
-            let balls = row.balls();
-            let seen = |j: usize| state.motion(BodyId::ball(j)).seen_from(ring);
+        for ((side, pair), view) in self.races.iter_mut().zip(&row.pairs).zip(views) {
+            let (balls, ring) = (row.balls(), &view.ring);
+            let seen = |j: usize| view.ball(j).seen_from(ring);
             for (j, whole) in balls.clone().zip(&mut side.whole) {
                 *whole = f64::from(model.balls[j].side.faults.is_empty());
             }
@@ -124,8 +124,7 @@ pub(super) struct AxiallyFixedSums<'a> {
 pub(super) struct EvaluateAxiallyFixed<'a> {
     pub row: &'a AxiallyFixedRow,
     pub pairs: &'a [Pair; 2],
-    pub state: &'a State,
-    pub rings: &'a [Motion; 2],
+    pub views: &'a [View<'a>; 2],
     pub forces: &'a mut Table,
     pub sums: AxiallyFixedSums<'a>,
 }
@@ -156,21 +155,20 @@ impl EvaluateAxiallyFixed<'_> {
         let Self {
             row,
             pairs,
-            state,
-            rings,
+            views,
             forces,
             sums,
         } = self;
         let (zero, one) = (Vector::all(simd, 0.0), Vector::all(simd, 1.0));
         let [outer, inner] = &row.races;
         let races = [
-            AxiallyFixedRace::new(simd, &pairs[0], &outer.form, &rings[0]),
-            AxiallyFixedRace::new(simd, &pairs[1], &inner.form, &rings[1]),
+            AxiallyFixedRace::new(simd, &pairs[0], &outer.form, &views[0].ring),
+            AxiallyFixedRace::new(simd, &pairs[1], &inner.form, &views[1].ring),
         ];
         let mut on_rings = [[zero; 3]; 2];
         let mut pulls = [zero; 2];
-        let [x, y, ..] = state.q.directions();
-        let [vx, vy, ..] = state.v.directions();
+        let [x, y, ..] = views[0].q.directions();
+        let [vx, vy, ..] = views[0].v.directions();
         let [fx, fy, ..] = forces.directions_mut();
         for at in (0..row.count).step_by(Vector::<S>::LANES) {
             let body = BodyId::ball(row.first + at).index();

@@ -1,11 +1,9 @@
 //! Eight contacts gathered from anywhere, and evaluated together.
 
-use super::Single;
+use super::{RingView, Single, View};
 use crate::contact::{
-    BatchForces, Constants, Contour, EightContacts, FilmNumbers, Motion, Pair, Raise, Rubbing,
-    Summing,
+    BatchForces, Constants, Contour, EightContacts, FilmNumbers, Pair, Raise, Rubbing, Summing,
 };
-use crate::forces::State;
 use crate::model::{Ball, BodyId, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
 
@@ -84,7 +82,7 @@ impl SideConstants {
         }
     }
 
-    /// Eight contacts at a state.
+    /// Eight contacts as they are seen.
     // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
@@ -92,7 +90,7 @@ impl SideConstants {
         &self,
         class: usize,
         contacts: &[Touching; LANES],
-        state: &State,
+        view: &View<'_>,
     ) -> EightContacts {
         let ClassConstants {
             first,
@@ -101,8 +99,7 @@ impl SideConstants {
             film,
             one_film,
         } = &self.classes[class];
-        let State { q, v, .. } = state;
-        let ([x, y, z, _], v) = (q.directions(), v.directions());
+        let ([x, y, z, _], v) = (view.q.directions(), view.v.directions());
         let q = [x, y, z];
         let mut eight = EightContacts {
             constants: *first,
@@ -191,9 +188,9 @@ pub(super) fn leave(groups: &[Group], singles: &mut Vec<Single>) {
 }
 
 /// Evaluates a group on a race that is a hollow curve.
-pub(super) struct EightOnCurve<'a>(pub Eight<'a>, pub &'a Contour);
+pub(super) struct EightOnCurve<'a, const LEAN: bool>(pub Eight<'a, LEAN>, pub &'a Contour);
 
-impl Task for EightOnCurve<'_> {
+impl<const LEAN: bool> Task for EightOnCurve<'_, LEAN> {
     type Output = ();
 
     // Compiled for the instruction set that runs it.
@@ -203,26 +200,48 @@ impl Task for EightOnCurve<'_> {
         let Self(of, contour) = self;
         let eight = of.contacts();
         let Eight { group, model, .. } = of;
-        let (pair, ring) = (
+        let (pair, view) = (
             &model.rows[group.class].pairs[group.race],
-            &of.rings[group.race],
+            &of.views[group.race],
         );
         let rubbing = (model.instructions, &mut group.rubbing);
-        group.forces = pair.forces_on_curve::<FMA>(&eight, ring, contour, rubbing);
+        group.forces = pair.forces_on_curve::<FMA, LEAN>(&eight, &view.ring, contour, rubbing);
+        if LEAN {
+            group.turn::<FMA>(view);
+        }
     }
 }
 
-/// Evaluates a group.
-pub(super) struct Eight<'a> {
+/// Evaluates a group, as `LEAN` says before a ring that may lean.
+pub(super) struct Eight<'a, const LEAN: bool> {
     pub group: &'a mut Group,
     pub constants: &'a [SideConstants; 2],
     pub symmetric: bool,
     pub model: &'a Model,
-    pub state: &'a State,
-    pub rings: &'a [Motion; 2],
+    pub views: &'a [View<'a>; 2],
 }
 
-impl Eight<'_> {
+impl Group {
+    /// Turns forces on balls into the scene's frame, and moments on those that spin freely; on others they act about the ring's
+    /// axis.
+    // Compiled for the instruction set that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn turn<const FMA: bool>(&mut self, view: &View<'_>) {
+        let Some(leaning) = view.leaning else { return };
+        let [x, y, z, _] = self.forces.ball;
+        let force = leaning.frame().all_to_scene::<_, FMA>([x, y, z]);
+        self.forces.ball[..3].copy_from_slice(&force);
+        if leaning.balls_turn() {
+            let [across, _] = &mut self.forces.across;
+            let moment = [across[0], across[1], self.forces.ball[3]];
+            let [x, y, z] = leaning.frame().all_to_scene::<_, FMA>(moment);
+            (*across, self.forces.ball[3]) = ([x, y], z);
+        }
+    }
+}
+
+impl<const LEAN: bool> Eight<'_, LEAN> {
     /// What is gathered of the contacts.
     // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
@@ -230,7 +249,15 @@ impl Eight<'_> {
     fn contacts(&self) -> EightContacts {
         let group = &self.group;
         let constants = &self.constants[group.race];
-        let mut eight = constants.eight(group.class, &group.contacts, self.state);
+        let view = &self.views[group.race];
+        let mut eight = constants.eight(group.class, &group.contacts, view);
+        if LEAN && let Some(of) = view.leaning.map(RingView::across) {
+            for (lane, contact) in group.contacts.iter().enumerate() {
+                let body = BodyId::ball(contact.ball).index();
+                eight.across[0][lane] = of[0][body];
+                eight.across[1][lane] = of[1][body];
+            }
+        }
         // Lanes left over must not count as pulling.
         for lane in group.count..LANES {
             eight.constants.radius[lane] *= 0.5;
@@ -239,7 +266,7 @@ impl Eight<'_> {
     }
 }
 
-impl Task for Eight<'_> {
+impl<const LEAN: bool> Task for Eight<'_, LEAN> {
     type Output = ();
 
     // Compiled for the instruction set that runs it.
@@ -250,12 +277,15 @@ impl Task for Eight<'_> {
         let group = self.group;
         let race = group.race;
         let pair = &self.model.rows[group.class].pairs[race];
-        let (ring, skip) = (&self.rings[race], Mask::default());
+        let (view, skip) = (&self.views[race], Mask::default());
         let summing = Summing::Elements(self.model.instructions, &mut group.rubbing);
-        group.forces = if self.symmetric {
-            pair.forces::<FMA, true>(&eight, ring, skip, summing)
+        if LEAN {
+            group.forces = pair.forces::<FMA, false, true>(&eight, &view.ring, skip, summing);
+            group.turn::<FMA>(view);
+        } else if self.symmetric {
+            group.forces = pair.forces::<FMA, true, false>(&eight, &view.ring, skip, summing);
         } else {
-            pair.forces::<FMA, false>(&eight, ring, skip, summing)
-        };
+            group.forces = pair.forces::<FMA, false, false>(&eight, &view.ring, skip, summing);
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! The search: which balls touch which race, eight at a time.
 
-use super::{Batch, SideConstants, Single, Touching};
-use crate::contact::{Constants, EightContacts, Motion, Places, Raise, Summing};
-use crate::forces::{State, Table};
+use super::{Batch, SideConstants, Single, Touching, View};
+use crate::contact::{Constants, EightContacts, Places, Raise, Summing};
+use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
 
@@ -64,8 +64,7 @@ pub(super) struct Find<'a> {
     pub batch: &'a mut Batch,
     pub forces: Option<&'a mut Table>,
     pub model: &'a Model,
-    pub state: &'a State,
-    pub rings: &'a [Motion; 2],
+    pub views: &'a [View<'a>; 2],
 }
 
 impl Task for Find<'_> {
@@ -79,24 +78,24 @@ impl Task for Find<'_> {
             batch,
             mut forces,
             model,
-            state,
-            rings,
+            views,
         } = self;
         let mut on_rings = [[Lanes::ZERO; DOFS]; 2];
         for stretch in &batch.stretches {
-            let q = [
-                stretch.lanes(&state.q, Dof::X),
-                stretch.lanes(&state.q, Dof::Y),
-                stretch.lanes(&state.q, Dof::Z),
-            ];
-            let places = Places {
-                radius: stretch.radius,
-                q,
-            };
             let mut lost = Mask::default();
             let class = model.rows[stretch.row].class;
             for race in Race::BOTH {
-                let (pair, ring) = (&model.rows[stretch.row].pairs[race], &rings[race]);
+                let pair = &model.rows[stretch.row].pairs[race];
+                let View { q, v, ring, .. } = &views[race];
+                let q = [
+                    stretch.lanes(q, Dof::X),
+                    stretch.lanes(q, Dof::Y),
+                    stretch.lanes(q, Dof::Z),
+                ];
+                let places = Places {
+                    radius: stretch.radius,
+                    q,
+                };
                 let near = pair.near::<FMA>(&places, ring);
                 lost = lost.or(near.lost);
                 let touching = near.touching.and(stretch.filled);
@@ -113,16 +112,17 @@ impl Task for Find<'_> {
                         wavy: !pair.waves.is_round(),
                         q,
                         v: [
-                            stretch.lanes(&state.v, Dof::X),
-                            stretch.lanes(&state.v, Dof::Y),
-                            stretch.lanes(&state.v, Dof::Z),
+                            stretch.lanes(v, Dof::X),
+                            stretch.lanes(v, Dof::Y),
+                            stretch.lanes(v, Dof::Z),
                             Lanes::ZERO,
                         ],
+                        across: [Lanes::ZERO; 2],
                         // Closed forms have none.
                         film: None,
                     };
                     let summing = Summing::AsOne(stiffness);
-                    let found = pair.forces::<FMA, false>(&eight, ring, skip, summing);
+                    let found = pair.forces::<FMA, false, false>(&eight, ring, skip, summing);
                     for (i, force) in found.ball.into_iter().take(3).enumerate() {
                         let dof = Dof::TRANSLATIONS[i];
                         forces.add_eight(BodyId::ball(stretch.first), dof, force);

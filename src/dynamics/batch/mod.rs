@@ -9,16 +9,18 @@
 mod axially_fixed;
 mod eight;
 mod find;
+mod view;
 
 use std::array::from_fn;
 use std::ops::Range;
 
+use nalgebra::Vector3;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use super::sums::Sum;
-use crate::contact::{self, BatchForces, InPlane, Motion};
-use crate::forces::{State, Table};
+use super::sums::{Spatial, Sum};
+use crate::contact::{self, BatchForces, InPlane};
+use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Degree, Dof, Model, Race};
 use crate::reduction::AxialPlaces;
 use crate::simd::{LANES, Lanes};
@@ -27,6 +29,7 @@ use axially_fixed::{AxiallyFixedRow, AxiallyFixedSums, EvaluateAxiallyFixed};
 use eight::{Eight, EightOnCurve, Group, leave};
 pub(crate) use eight::{SideConstants, Touching};
 use find::{Find, Stretch};
+pub(crate) use view::{RingView, View};
 
 /// What a reduction guarantees, so that a batch may use it.
 #[derive(Debug, Clone)]
@@ -99,6 +102,9 @@ struct Single {
     race: Race,
     ball: usize,
     sum: Sum,
+    /// Moments about x and y on a ball that spins freely, in the scene's frame, and on a ring that may lean, in its own about its
+    /// origin.
+    across: [[f64; 2]; 2],
 }
 
 impl Batch {
@@ -158,69 +164,83 @@ impl Batch {
         }
     }
 
-    /// Evaluates all contacts at a state, by the threads of a pool if there is one, and adds their sums to the forces
-    /// on all bodies; returns the moments about z on the two rings.
+    /// Evaluates all contacts as they are seen by rings that stand parallel, by the threads of a pool if there is one, and adds
+    /// their sums to the forces on all bodies; returns the moments about z on the two rings.
     pub fn add_to(
         &mut self,
         forces: &mut Table,
         model: &Model,
-        state: &State,
+        views: &[View<'_>; 2],
         pool: Option<&ThreadPool>,
     ) -> [f64; 2] {
-        self.fill(forces, model, state, pool);
-        self.sum(forces)
+        self.fill::<false>(forces, model, views, pool);
+        let mut rings = self.add_balls(forces);
+        for race in Race::BOTH {
+            let sum = &mut rings[race];
+            if self.kind.mirrored {
+                // The mirror image adds the same in the plane, and the opposite along z.
+                *sum = sum.map(|part| 2.0 * part);
+                sum[Dof::Z] = 0.0;
+            }
+            forces.add(race.ring(), sum);
+        }
+        rings.map(|sum| sum[Dof::Theta])
     }
 
-    fn fill(
+    /// The same for rings that may lean, on which forces are returned and moments about the origins of their frames, both in these.
+    pub fn add_leaning(
         &mut self,
         forces: &mut Table,
         model: &Model,
-        state: &State,
+        views: &[View<'_>; 2],
+        pool: Option<&ThreadPool>,
+    ) -> [[Vector3<f64>; 2]; 2] {
+        self.fill::<true>(forces, model, views, pool);
+        let (rings, across) = (self.add_balls(forces), self.moments_across());
+        Race::BOTH.map(|race| {
+            let ([x, y, z, about], [about_x, about_y]) = (rings[race], across[race]);
+            [Vector3::new(x, y, z), Vector3::new(about_x, about_y, about)]
+        })
+    }
+
+    fn fill<const LEAN: bool>(
+        &mut self,
+        forces: &mut Table,
+        model: &Model,
+        views: &[View<'_>; 2],
         pool: Option<&ThreadPool>,
     ) {
-        let rings = state.rings();
-        self.find(Some(forces), model, state, &rings);
-        self.axially_fixed(forces, model, state, &rings);
+        self.find(Some(forces), model, views);
+        self.axially_fixed(forces, model, views);
         self.gather();
         if self.active > 0 || !self.singles.is_empty() {
-            self.evaluate(model, state, &rings, pool);
+            self.evaluate::<LEAN>(model, views, pool);
         }
     }
 
     /// Evaluates what was found, by eights and one by one.
-    fn evaluate(
+    fn evaluate<const LEAN: bool>(
         &mut self,
         model: &Model,
-        state: &State,
-        rings: &[Motion; 2],
+        views: &[View<'_>; 2],
         pool: Option<&ThreadPool>,
     ) {
         let (constants, symmetric) = (&self.constants, self.kind.symmetric);
         let eight = |group: &mut Group| {
             let curve = model.rows[group.class].pairs[group.race].hollow_curve();
-            let eight = Eight {
+            let eight = Eight::<LEAN> {
                 group,
                 constants,
                 symmetric,
                 model,
-                state,
-                rings,
+                views,
             };
             match curve {
                 None => model.instructions.run(eight),
                 Some(contour) => model.instructions.run(EightOnCurve(eight, contour)),
             }
         };
-        let one = |single: &mut Single| {
-            let ball = &model.balls[single.ball];
-            let motion = state.motion(BodyId::ball(single.ball));
-            model.rows[ball.row].pairs[single.race].evaluate_into(
-                &ball.side,
-                &motion,
-                &rings[single.race],
-                &mut single.sum,
-            );
-        };
+        let one = |single: &mut Single| single.evaluate(model, &views[single.race]);
         let (groups, singles) = (&mut self.groups[..self.active], &mut self.singles);
         if let Some(pool) = pool {
             // A run already lives inside the pool, where this costs no more than a call.
@@ -237,22 +257,15 @@ impl Batch {
     }
 
     /// Evaluates the rows whose balls keep their axial places.
-    fn axially_fixed(
-        &mut self,
-        forces: &mut Table,
-        model: &Model,
-        state: &State,
-        rings: &[Motion; 2],
-    ) {
+    fn axially_fixed(&mut self, forces: &mut Table, model: &Model, views: &[View<'_>; 2]) {
         for row in &mut self.fixed_rows {
             if row.must_look() {
-                row.look(model, state, rings);
+                row.look(model, views);
             }
             model.instructions.run_wide(EvaluateAxiallyFixed {
                 pairs: &model.rows[row.row()].pairs,
                 row,
-                state,
-                rings,
+                views,
                 forces,
                 sums: AxiallyFixedSums {
                     rings: &mut self.rings,
@@ -265,13 +278,7 @@ impl Batch {
     }
 
     /// Finds the contacts that touch. Those with a closed form are evaluated at once, where `forces` is given.
-    pub fn find(
-        &mut self,
-        forces: Option<&mut Table>,
-        model: &Model,
-        state: &State,
-        rings: &[Motion; 2],
-    ) {
+    pub fn find(&mut self, forces: Option<&mut Table>, model: &Model, views: &[View<'_>; 2]) {
         let touching = self.touching.as_flattened_mut().iter_mut();
         touching.for_each(Vec::clear);
         self.singles.clear();
@@ -284,8 +291,7 @@ impl Batch {
             batch: self,
             forces,
             model,
-            state,
-            rings,
+            views,
         });
     }
 
@@ -315,7 +321,8 @@ impl Batch {
         }
     }
 
-    fn sum(&self, forces: &mut Table) -> [f64; 2] {
+    /// Adds the sums on balls; returns those on the rings.
+    fn add_balls(&self, forces: &mut Table) -> [[f64; DOFS]; 2] {
         let mut rings = self.rings;
         for group in &self.groups[..self.active] {
             for (lane, contact) in group.contacts.iter().enumerate().take(group.count) {
@@ -330,16 +337,47 @@ impl Batch {
             forces.add(BodyId::ball(single.ball), &single.sum.ball);
             super::add(&mut rings[single.race], &single.sum.ring);
         }
-        for race in Race::BOTH {
-            let mut sum = rings[race];
-            if self.kind.mirrored {
-                // The mirror image adds the same in the plane, and the opposite along z.
-                sum = sum.map(|part| 2.0 * part);
-                sum[Dof::Z] = 0.0;
-            }
-            forces.add(race.ring(), &sum);
+        rings
+    }
+
+    /// Moments about x and y of the scene on balls that spin freely, where there are places for them.
+    pub fn moments_on_balls(&self, to: &mut [[f64; 2]]) {
+        if to.is_empty() {
+            return;
         }
-        rings.map(|sum| sum[Dof::Theta] * self.times())
+        to.fill([0.0; 2]);
+        for group in &self.groups[..self.active] {
+            let [[x, y], _] = &group.forces.across;
+            for (lane, contact) in group.contacts.iter().enumerate().take(group.count) {
+                to[contact.ball][0] += x[lane];
+                to[contact.ball][1] += y[lane];
+            }
+        }
+        for single in &self.singles {
+            let [[x, y], _] = single.across;
+            to[single.ball][0] += x;
+            to[single.ball][1] += y;
+        }
+    }
+
+    /// Moments across the axes of rings that may lean, about the origins of their frames.
+    fn moments_across(&self) -> [[f64; 2]; 2] {
+        let mut rings = [[0.0; 2]; 2];
+        for group in &self.groups[..self.active] {
+            let [_, [x, y]] = &group.forces.across;
+            let ring = &mut rings[group.race];
+            for lane in 0..group.count {
+                ring[0] += x[lane];
+                ring[1] += y[lane];
+            }
+        }
+        for single in &self.singles {
+            let ring = &mut rings[single.race];
+            let [_, [x, y]] = single.across;
+            ring[0] += x;
+            ring[1] += y;
+        }
+        rings
     }
 
     /// The closed forms of all rows, where every contact has one and there are no waves and defects to look for.
@@ -380,11 +418,6 @@ impl Batch {
         self.kind.symmetric
     }
 
-    /// How many contacts each evaluated one stands for: two, where the second row is an image of the first.
-    fn times(&self) -> f64 {
-        if self.kind.mirrored { 2.0 } else { 1.0 }
-    }
-
     /// Slices whose damping wanted to pull.
     pub fn pulls(&self) -> usize {
         let grouped: u32 = self.groups[..self.active]
@@ -413,6 +446,21 @@ impl Single {
             race,
             ball,
             sum: Sum::default(),
+            across: [[0.0; 2]; 2],
         }
+    }
+
+    fn evaluate(&mut self, model: &Model, view: &View<'_>) {
+        let ball = &model.balls[self.ball];
+        let pair = &model.rows[ball.row].pairs[self.race];
+        let motion = view.ball(self.ball);
+        let Some(leaning) = view.leaning else {
+            pair.evaluate_into(&ball.side, &motion, &view.ring, &mut self.sum);
+            return;
+        };
+        let mut spatial = Spatial::default();
+        pair.evaluate_into(&ball.side, &motion, &view.ring, &mut spatial);
+        let ring = (leaning.frame(), model.balls_turn());
+        (self.sum, self.across) = spatial.on_bodies(&motion.place(), ring);
     }
 }

@@ -1,0 +1,142 @@
+//! Where balls are and how they move, as their contacts with one ring see them.
+
+use crate::contact::{LeaningRing, Motion};
+use crate::forces::{State, Table};
+use crate::model::{BodyId, DOFS, Model, Race};
+use crate::simd::{LANES, Lanes, Task};
+use crate::tilt::Frame;
+
+/// All balls before one ring: in the scene's frame, or in that of a ring that may lean, where it stands still.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct View<'a> {
+    pub q: &'a Table,
+    pub v: &'a Table,
+    /// What it is of.
+    state: &'a State,
+    pub ring: Motion,
+    /// None where rings stand parallel.
+    pub leaning: Option<&'a RingView>,
+}
+
+impl<'a> View<'a> {
+    /// Both rings of a state in which they stand parallel.
+    pub fn parallel(state: &'a State) -> [Self; 2] {
+        state.rings().map(|ring| Self {
+            q: &state.q,
+            v: &state.v,
+            state,
+            ring,
+            leaning: None,
+        })
+    }
+
+    /// A ball.
+    pub fn ball(&self, ball: usize) -> Motion {
+        let motion = self.state.motion(BodyId::ball(ball));
+        match self.leaning {
+            None => motion,
+            Some(leaning) => leaning.ring.facing(&motion)[0],
+        }
+    }
+}
+
+/// All balls in the frame of a ring that may lean.
+#[derive(Debug)]
+pub(crate) struct RingView {
+    pub ring: LeaningRing,
+    q: Table,
+    /// The rings' own are 0.
+    v: Table,
+    /// Angular velocities of all bodies across the axis, along x and y \[rad/s\].
+    across: [Vec<f64>; 2],
+}
+
+impl RingView {
+    /// Of both rings; none where nothing turns about x or y.
+    pub fn both(model: &Model) -> Option<[Self; 2]> {
+        let (bodies, state) = (model.bodies.len(), State::new(model));
+        let of = |race| Self {
+            ring: state.leaning(model, race),
+            q: Table::zeros(bodies),
+            v: Table::zeros(bodies),
+            across: [(); 2].map(|()| vec![0.0; bodies + LANES]),
+        };
+        model.is_spatial().then(|| Race::BOTH.map(of))
+    }
+
+    /// Turns all balls of a state into the frames of both rings.
+    pub fn look<'a>(both: &'a mut [Self; 2], model: &Model, state: &'a State) -> [View<'a>; 2] {
+        for race in Race::BOTH {
+            let view = &mut both[race];
+            view.ring = state.leaning(model, race);
+            model.instructions.run(Look { view, state });
+        }
+        both.each_ref().map(|ring| ring.view(state))
+    }
+
+    /// What contacts see.
+    fn view<'a>(&'a self, state: &'a State) -> View<'a> {
+        View {
+            q: &self.q,
+            v: &self.v,
+            state,
+            ring: self.ring.standing(),
+            leaning: Some(self),
+        }
+    }
+
+    /// Angular velocities of all bodies across the ring's axis, along x and y of its frame \[rad/s\].
+    pub fn across(&self) -> &[Vec<f64>; 2] {
+        &self.across
+    }
+
+    /// Whether its balls spin freely.
+    pub fn balls_turn(&self) -> bool {
+        self.ring.balls_turn()
+    }
+
+    /// The ring's frame.
+    pub fn frame(&self) -> &Frame {
+        &self.ring.rotation.frame
+    }
+}
+
+/// Turns all balls into the ring's frame, eight at a time.
+struct Look<'a> {
+    view: &'a mut RingView,
+    state: &'a State,
+}
+
+impl Task for Look<'_> {
+    type Output = ();
+
+    // Compiled for the instruction set that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        let (state, view) = (self.state, self.view);
+        let State { q, v, .. } = state;
+        let ([x, y, z, theta], [vx, vy, vz, omega]) = (q.directions(), v.directions());
+        let bodies = x.len() - LANES;
+        let (to_q, to_v) = (view.q.directions_mut(), view.v.directions_mut());
+        let [across_x, across_y] = &mut view.across;
+        for first in (BodyId::ball(0).index()..bodies).step_by(LANES) {
+            let of = |from: &[f64]| Lanes::from_slice(&from[first..]);
+            let places = [of(x), of(y), of(z)];
+            let velocities = [of(vx), of(vy), of(vz)];
+            let [x, y] = state.across().map_or([Lanes::ZERO; 2], |across| {
+                across.each_ref().map(|along| of(along))
+            });
+            let spins = [x, y, of(omega)];
+            let [places, velocities, spins] = view.ring.see::<_, FMA>(places, velocities, spins);
+            for k in 0..3 {
+                places[k].to_slice(&mut to_q[k][first..]);
+                velocities[k].to_slice(&mut to_v[k][first..]);
+            }
+            of(theta).to_slice(&mut to_q[DOFS - 1][first..]);
+            spins[2].to_slice(&mut to_v[DOFS - 1][first..]);
+            spins[0].to_slice(&mut across_x[first..]);
+            spins[1].to_slice(&mut across_y[first..]);
+        }
+    }
+}
