@@ -39,7 +39,7 @@
 //! * [`inspect`] — questions about a state: what its contacts carry, its energies, its films, its stiffest elements.
 //! * `reduction` ([`Reduction`]) — what a run leaves out, and why.
 //! * [`dynamics`] — the right-hand side: touching contacts by eights of one class of rows, or whole rows where each is one
-//!   formula, summed in one order; smooth plane rows in one loop, without tables between; forces by origin.
+//!   formula, summed in one order; in the frames of rings that lean; smooth plane rows in one loop, without tables between; forces by origin.
 //! * [`implicit`] — how contacts answer to velocities: the contacts held at their places, their slopes, an arrow of a matrix. By
 //!   it the default method corrects velocities once a step; implicit steps solve for them by Newton's method.
 //! * [`integrate`] — the default method, a predictor–corrector of one evaluation a step; Runge–Kutta pairs as data, step

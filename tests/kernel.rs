@@ -35,6 +35,11 @@ fn difference_leaning(scene: &Scene, instructions: InstructionSet) -> f64 {
     for ring in [&mut scene.outer_ring, &mut scene.inner_ring] {
         (ring.support.tilt_x, ring.support.tilt_y) = (Some(Mount::Free), Some(Mount::Free));
     }
+    // Of rings that nothing keeps from tilting there is no equilibrium to take it from.
+    let of_rows = scene.rows.iter_mut().flat_map(|row| &mut row.lubricant);
+    for oil in of_rows.chain(&mut scene.lubricant) {
+        oil.reference_load = Some(1000.0);
+    }
     let leaning = compile(&scene).unwrap().with_instructions(instructions);
     let (places, speeds) = calm.split_at(calm.len() / 2);
     difference_around(&leaning, &[places, &[0.0; 4], speeds, &[0.0; 4]].concat())

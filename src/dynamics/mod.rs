@@ -231,6 +231,11 @@ impl<'m> Dynamics<'m> {
         }
     }
 
+    /// Whether contacts are evaluated in the frames of rings that may tilt.
+    pub(crate) fn leans(&self) -> bool {
+        self.leaning.is_some()
+    }
+
     /// What each state belongs to: those of the first half of a state vector, in their order.
     pub(crate) fn degrees(&self) -> Vec<(BodyId, Dof)> {
         match &self.order {

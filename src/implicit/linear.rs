@@ -49,7 +49,7 @@ impl<'d, 'm> Damped<'d, 'm> {
                 degrees,
                 full,
                 state,
-                rings: RingView::both(model),
+                rings: RingView::both(model).filter(|_| dynamics.leans()),
                 served: 0,
             })
         });
@@ -84,8 +84,8 @@ impl Matrix {
     /// Takes the slopes of the contacts at a state of the run.
     ///
     /// Of rings that lean contacts are held in the rings' frames, and their slopes taken for those in the scene's: that is wrong by
-    /// a share as small as the tilt. Tilts are not corrected: a ring's inertia lets friction turn it about its
-    /// axis and tilt it more slowly than balls by the ratio of their masses, which needs no help.
+    /// a share as small as the tilt. Tilts are not corrected. What is stiff is friction on balls, which are light; a ring's tilt dies
+    /// away slower, as balls weigh less than the ring, and within what a step bears anyway.
     fn renew(&mut self, dynamics: &Dynamics<'_>, t: f64, y: &[f64], gamma_h: f64) {
         dynamics.expand(t, y, &mut self.full);
         self.state.read(&self.full);

@@ -14,7 +14,7 @@ use std::ops::Range;
 use crate::model::{BodyId, BodyKind, DOFS, Dof, Layout, Model};
 use crate::scene::Method;
 
-use course::{Orbit, Prescribed};
+use course::{Course, Orbit, Prescribed};
 use grounds::{Grounds, Reason, is_felt};
 
 /// The degrees of freedom that a run integrates, and what becomes of the others.
@@ -152,6 +152,7 @@ impl Reduction {
     /// What stands against it.
     pub(crate) fn in_space(model: &Model, start: &[f64]) -> Result<Self, Vec<Obstacle>> {
         let mut found = Self::leaving_out(model, start, true);
+<<<<<<< ours
         // Balls of two rows that are images of each other spin as each likes.
         if !(found.plane || found.mirrored && !model.balls_turn()) {
             return Err(found.obstacles);
@@ -169,6 +170,25 @@ impl Reduction {
         found.omissions.push(Omission {
             what: "turning about x and y".to_owned(),
             degrees: model.layout().half() - DOFS * model.bodies.len(),
+=======
+        let tilts = symmetry::of_tilts(model, start, found.mirrored);
+        if !(found.plane || found.mirrored) || tilts.is_err() {
+            let what = "rings that do not tilt".to_owned();
+            let leaning = tilts.err().map(|reason| Obstacle { what, reason });
+            return Err(leaning.into_iter().chain(found.obstacles).collect());
+        }
+        let mut degrees = 0;
+        for (body, dof) in model.layout().degrees() {
+            if Dof::TILTS.contains(&dof) {
+                let course = Course::steady(0.0, 0.0);
+                found.prescribed.push(Prescribed { body, dof, course });
+                degrees += 1;
+            }
+        }
+        found.omissions.push(Omission {
+            what: "tilts of rings".to_owned(),
+            degrees,
+>>>>>>> theirs
             reason: "mirror symmetry".to_owned(),
         });
         Ok(found)
@@ -249,7 +269,8 @@ impl Reduction {
                 });
             }
         }
-        for (body, dof) in layout.degrees() {
+        let of_all_bodies = |(_, dof): &(BodyId, Dof)| !Dof::TILTS.contains(dof);
+        for (body, dof) in layout.degrees().filter(of_all_bodies) {
             let Some(reason) = reasons[body][dof] else {
                 continue;
             };

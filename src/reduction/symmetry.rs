@@ -125,7 +125,7 @@ fn images(model: &Model, first: &RowModel, second: &RowModel, start: &[f64]) -> 
 /// Whether rings that may tilt stay parallel in a motion that is its own mirror image: they start so, have their centres of mass in
 /// the mirror's plane, and nothing acts on them off it. Moments of loads about z and unbalances are not known to the code for parallel
 /// rings where a scene has tilts.
-pub(super) fn of_tilts(model: &Model, start: &[f64]) -> Symmetry {
+pub(super) fn of_tilts(model: &Model, start: &[f64], mirrored: bool) -> Symmetry {
     let rows = &model.scene.rows;
     let (low, high) = rows
         .iter()
@@ -133,6 +133,9 @@ pub(super) fn of_tilts(model: &Model, start: &[f64]) -> Symmetry {
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| {
             (z.min(low), z.max(high))
         });
+    require(mirrored || high - low <= ROUNDING, || {
+        "rows that are no images of each other lie beside each other".to_owned()
+    })?;
     let (layout, middle) = (model.layout(), f64::midpoint(low, high));
     for race in Race::BOTH {
         let (ring, of) = (&model.rings[race], race.name());

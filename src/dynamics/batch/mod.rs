@@ -3,6 +3,9 @@
 //! Where a contact has a closed form all neighbours are evaluated as they stand: to gather would cost more. Rows whose
 //! balls keep their axial places as well are not even searched.
 //!
+//! Each ring has its own [`View`] of the balls: the scene's state where rings stand parallel, else all balls turned into its frame, where
+//! a program of its own adds what balls slip that turn across its axis.
+//!
 //! Eights may be evaluated by several threads; since their members depend on the state alone and they are added
 //! up in one order afterwards, the bits do not depend on the number of threads.
 
