@@ -162,7 +162,8 @@ fn tumbling(
     ((in_plane, axial), (sin, cos)): ((f64, f64), (f64, f64)),
 ) -> [f64; 3] {
     let (w_n, w_t) = (across.dot(&n_e), across.dot(&turned(n_e)));
-    let meridional = -w_t * (zeta * sin + arm.dot(&n_e) * cos);
+    let around = w_n * arm.dot(&turned(n_e)) - w_t * arm.dot(&n_e);
+    let meridional = around * cos - w_t * zeta * sin;
     // Along (−sin α, cos α) so fast, and along the normal not at all.
     let size = meridional / (in_plane * cos + axial * sin);
     [-size * axial, -w_n * zeta, size * in_plane]
