@@ -325,7 +325,7 @@ fn a_cap_is_told_as_any_defect() {
             scene,
             &Run {
                 rtol: Some(1e-8),
-                ..short(4e-3)
+                ..short(12e-3)
             },
         )
     });
@@ -333,7 +333,9 @@ fn a_cap_is_told_as_any_defect() {
     println!("{of:?}");
     assert!(of.passes >= 2 && of.largest_load > 50.0);
     assert!((of.share().unwrap() - 0.5).abs() <= 0.51 / of.passes as f64);
-    assert!((of.contact_offset.unwrap() - number(&signals[0].scene)).abs() < 0.2e-3);
+    // On either race, at opposite places.
+    let place = of.contact_offset.unwrap().abs();
+    assert!((place - number(&signals[0].scene).abs()).abs() < 0.2e-3);
     let beside = told(&signals[2]);
     assert!(beside.passes >= 2 && beside.touched == 0, "{beside:?}");
     let loud = signals.each_ref().map(loudness);

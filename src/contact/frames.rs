@@ -148,6 +148,12 @@ impl LeaningRing {
         Vector3::new(ball.centre.x, ball.centre.y, ball.z) - self.centre
     }
 
+    /// What a moment across the ring's axis, in its frame, does about z of the scene: there a ball's caps turn with it.
+    pub fn across(&self, moment: &V2) -> f64 {
+        let [x, y] = self.rotation.frame.tilt;
+        x * moment.y - y * moment.x
+    }
+
     /// A ball, whose spin each of its contacts takes to be about the axis of the ring it touches, and this ring, both as who
     /// turns with the ring sees them in its frame: the ring stands still, its mark at θ.
     pub fn facing(&self, ball: &Motion) -> [Motion; 2] {

@@ -55,7 +55,8 @@ impl Leaning {
                 self.truncated += usize::from(sum.truncated);
                 let on_ball = sum.wrench.turned(|v| ring.rotation.frame.to_scene(v));
                 let [x, y, z] = on_ball.force.into();
-                forces.add(BodyId::ball(j), &[x, y, z, sum.wrench.moment.z]);
+                let turning = sum.wrench.moment.z + ring.across(&sum.on_caps);
+                forces.add(BodyId::ball(j), &[x, y, z, turning]);
                 forces.add(race.ring(), &[-x, -y, -z, 0.0]);
                 self.moments[race] += on_ball.moment_on_ring(&ring.arm(&motion));
             }

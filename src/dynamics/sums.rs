@@ -1,7 +1,7 @@
 //! What the forces of a contact add up to.
 
 use super::add;
-use crate::contact::{Aside, OilTouch, Sink, Touch, Wrench};
+use crate::contact::{Aside, OilTouch, Sink, Touch, V2, Wrench};
 use crate::model::DOFS;
 
 /// Force and moment on ball and ring.
@@ -42,6 +42,8 @@ impl Sink for Sum {
 #[derive(Debug, Default)]
 pub(super) struct Spatial {
     pub wrench: Wrench,
+    /// Of the moment what turns caps of the ball across the ring's axis.
+    pub on_caps: V2,
     pub pulls: u32,
     pub truncated: bool,
 }
@@ -49,11 +51,13 @@ pub(super) struct Spatial {
 impl Sink for Spatial {
     fn touch(&mut self, touch: &Touch) {
         self.wrench.add(&touch.on_ball(touch.normal, 1.0));
+        self.on_caps += touch.on_cap(touch.normal);
         self.pulls += u32::from(touch.pull);
     }
 
     fn aside(&mut self, force: &Aside) {
         self.wrench.add(&force.on_ball());
+        self.on_caps += force.on_cap();
     }
 
     fn oil(&mut self, touch: &OilTouch) {

@@ -112,6 +112,9 @@ def every_field() -> s.Scene:
             "outer": defect,
             "inner": dataclasses.replace(defect, on="inner_race", width=1e-3),
             "ball": dataclasses.replace(defect, on="ball", ball=3, width=1e-3, length=5e-4),
+            "cap": s.Defect(
+                on="ball", ball=2, angle=0.3, shape="cap", width=1e-3, edge_radius=3e-4
+            ),
         },
         probes={
             "motion": s.MotionProbe(body="inner", components=typing.get_args(s.Component)),
