@@ -122,6 +122,12 @@ fn scenes(law: &NormalLaw) -> Vec<(&'static str, Scene)> {
         ("inner race", with_defect(law, Surface::InnerRace, plain)),
         ("ball", with_defect(law, Surface::Ball, plain)),
         (
+            "cap",
+            with_defect(law, Surface::Ball, |d| {
+                *d = Defect::cap(d.angle, 1e-3, 0.2e-3).at_offset(0.3e-3);
+            }),
+        ),
+        (
             "floor",
             with_defect(law, Surface::OuterRace, |d| {
                 d.width = 1e-3.into();

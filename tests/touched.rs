@@ -307,6 +307,43 @@ fn passes_are_those_of_the_kinematics() {
     }
 }
 
+/// A cap of a ball is told as any defect, by runs and explanations. One that turns beside both contacts is passed, not touched, and
+/// changes nothing that is heard.
+#[test]
+fn a_cap_is_told_as_any_defect() {
+    let pit = Defect::cap(-FRAC_PI_2 - 0.2, 1e-3, 0.3e-3);
+    let met = with(angular_7208(), pit.clone());
+    let told_of = explain(&met).unwrap();
+    assert_eq!(
+        (told_of.defects[0].passes, told_of.defects[0].touched),
+        (30, 15)
+    );
+    let healthy = with(angular_7208(), at(0.0, Defect::cap(0.0, 0.0, 0.3e-3)));
+    let missed = with(angular_7208(), at(0.0, pit));
+    let signals = [&met, &healthy, &missed].map(|scene| {
+        run(
+            scene,
+            &Run {
+                rtol: Some(1e-8),
+                ..short(12e-3)
+            },
+        )
+    });
+    let of = told(&signals[0]);
+    println!("{of:?}");
+    assert!(of.passes >= 2 && of.largest_load > 50.0);
+    assert!((of.share().unwrap() - 0.5).abs() <= 0.51 / of.passes as f64);
+    // On either race, at opposite places.
+    let place = of.contact_offset.unwrap().abs();
+    assert!((place - number(&signals[0].scene).abs()).abs() < 0.2e-3);
+    let beside = told(&signals[2]);
+    assert!(beside.passes >= 2 && beside.touched == 0, "{beside:?}");
+    let loud = signals.each_ref().map(loudness);
+    println!("{loud:?}");
+    assert!((loud[2] / loud[1] - 1.0).abs() < 1e-2, "{loud:?}");
+    assert!(loud[0] > 2.0 * loud[1], "{loud:?}");
+}
+
 /// A run too short for a pass is told apart from one whose balls miss.
 #[test]
 fn what_no_ball_passed_is_told_apart() {

@@ -1,4 +1,4 @@
-"""Defects as they are spoken of: a spall, a dent, a line, with sizes in millimetres.
+"""Defects as they are spoken of: a spall, a dent, a line, a cap of a ball, with sizes in millimetres.
 
 Each is a :class:`ballrace.scene.Defect`, placed where the contact runs unless ``axial_offset`` says otherwise; put
 them into a scene by name: ``br.bearing("6205", defects={"spall": spall(on="inner_race", width_mm=1.0)})``.
@@ -8,6 +8,8 @@ them into a scene by name: ``br.bearing("6205", defects={"spall": spall(on="inne
 0.001
 >>> dent(on="ball", diameter_mm=0.2, ball=3).width.widths[0]
 0.0
+>>> cap(width_mm=1.0, ball=3).shape
+'cap'
 """
 
 from __future__ import annotations
@@ -21,7 +23,7 @@ from .scene import Defect, Floor, WidthProfile
 if TYPE_CHECKING:
     from .scene import AxialOffset, Surface, Width
 
-__all__ = ["dent", "line", "spall"]
+__all__ = ["cap", "dent", "line", "spall"]
 
 _DOWN = -math.pi / 2.0
 """Where a load along -y presses the balls into the outer race."""
@@ -154,6 +156,42 @@ def line(
         axial_offset=axial_offset,
         row=row,
         ball=ball,
+    )
+
+
+def cap(
+    *,
+    width_mm: float,
+    edge_radius_mm: float = 0.3,
+    angle: float = _DOWN,
+    axial_offset: AxialOffset = "contact",
+    row: int = 0,
+    ball: int = 0,
+) -> Defect:
+    """Return a cap of a ball: a circle on its surface, within which that is gone however the ball turns.
+
+    Parameters
+    ----------
+    width_mm : float
+        Width along the ball's surface, the same in every direction [mm].
+    edge_radius_mm, angle, axial_offset, row, ball
+        As for :func:`spall`; angle and axial place are those of its middle.
+
+    Raises
+    ------
+    SceneError
+        A number is not usable.
+    """
+    _positive(width_mm=width_mm, edge_radius_mm=edge_radius_mm)
+    return Defect(
+        on="ball",
+        row=row,
+        ball=ball,
+        angle=angle,
+        axial_offset=axial_offset,
+        shape="cap",
+        width=1e-3 * width_mm,
+        edge_radius=1e-3 * edge_radius_mm,
     )
 
 

@@ -182,6 +182,12 @@ impl LeaningRing {
         ball.place() - self.centre
     }
 
+    /// What a moment across the ring's axis, in its frame, does about z of the scene: there a ball's caps turn with it.
+    pub fn across(&self, moment: &V2) -> f64 {
+        let [x, y] = self.rotation.frame.tilt;
+        x * moment.y - y * moment.x
+    }
+
     /// A ball and this ring, both as [`Self::see`] tells them; the ring's mark stands at θ.
     pub fn facing(&self, ball: &Motion) -> [Motion; 2] {
         let place = [ball.centre.x, ball.centre.y, ball.z];

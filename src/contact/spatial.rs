@@ -2,11 +2,12 @@
 //!
 //! Normal forces act through the ball's centre: at their own point, which lies in the race, that of a slice would turn the
 //! ball about the direction of rolling, and no potential knows of such a work. Friction acts where it rubs. What is left
-//! beside, of waves and of the ends of defects, turns the ball about the ring's axis alone, as defects of a ball do.
+//! beside, of waves and of the ends of defects, turns the ball about the ring's axis alone, as patches of a ball do; caps of a
+//! ball turn it about all axes.
 
 use nalgebra::Vector3;
 
-use super::{Aside, OilTouch, Tangent, Touch, cross};
+use super::{Aside, OilTouch, Tangent, Touch, V2, cross};
 use crate::tilt::Frame;
 
 /// Force on a ball \[N\] and moment about its centre \[N m\], in the frame of its ring.
@@ -71,9 +72,19 @@ impl Touch {
             moment,
         }
     }
+
+    /// The part of the moment across the ring's axis with which a share of the normal force turns a cap.
+    pub(crate) fn on_cap(&self, normal: f64) -> V2 {
+        self.swing.xy() * cross(self.arm_ball, self.n_e * (-normal * self.share.0))
+    }
 }
 
 impl Aside {
+    /// The part of the moment across the ring's axis with which it turns a cap.
+    pub(crate) fn on_cap(&self) -> V2 {
+        self.swing.xy() * cross(self.arm_ball, self.plane)
+    }
+
     /// What it does to the ball.
     pub(crate) fn on_ball(&self) -> Wrench {
         Wrench {

@@ -3,9 +3,8 @@
 use nalgebra::Vector3;
 
 use super::add;
-use crate::contact::{Aside, OilTouch, Sink, Touch, Wrench};
+use crate::contact::{Aside, LeaningRing, OilTouch, Sink, Touch, V2, Wrench};
 use crate::model::DOFS;
-use crate::tilt::Frame;
 
 /// Force and moment on ball and ring.
 #[derive(Debug, Clone, Copy, Default)]
@@ -45,24 +44,27 @@ impl Sink for Sum {
 #[derive(Debug, Default)]
 pub(super) struct Spatial {
     wrench: Wrench,
+    /// Of the moment what turns caps of the ball across the ring's axis.
+    on_caps: V2,
     pulls: u32,
     truncated: bool,
 }
 
 impl Spatial {
     /// The same on a ball at a place of the ring's frame, in the scene's frame, and on the ring, in its own; and moments about x and y
-    /// on both. Moments on balls that do not spin freely act about the ring's axis.
+    /// on both. Moments on balls that do not spin freely act about the ring's axis, but for those on caps.
     pub fn on_bodies(
         &self,
         place: &Vector3<f64>,
-        (frame, balls_turn): (&Frame, bool),
+        (ring, balls_turn): (&LeaningRing, bool),
     ) -> (Sum, [[f64; 2]; 2]) {
         let (force, on_ring) = (&self.wrench.force, self.wrench.moment_on_ring(place));
+        let frame = &ring.rotation.frame;
         let [x, y, z] = frame.to_scene(force).into();
         let on_ball = if balls_turn {
             frame.to_scene(&self.wrench.moment)
         } else {
-            self.wrench.moment
+            self.wrench.moment + Vector3::z() * ring.across(&self.on_caps)
         };
         let sum = Sum {
             ball: [x, y, z, on_ball.z],
@@ -77,11 +79,13 @@ impl Spatial {
 impl Sink for Spatial {
     fn touch(&mut self, touch: &Touch) {
         self.wrench.add(&touch.on_ball(touch.normal, 1.0));
+        self.on_caps += touch.on_cap(touch.normal);
         self.pulls += u32::from(touch.pull);
     }
 
     fn aside(&mut self, force: &Aside) {
         self.wrench.add(&force.on_ball());
+        self.on_caps += force.on_cap();
     }
 
     fn oil(&mut self, touch: &OilTouch) {

@@ -152,43 +152,35 @@ impl Reduction {
     /// What stands against it.
     pub(crate) fn in_space(model: &Model, start: &[f64]) -> Result<Self, Vec<Obstacle>> {
         let mut found = Self::leaving_out(model, start, true);
-<<<<<<< ours
         // Balls of two rows that are images of each other spin as each likes.
-        if !(found.plane || found.mirrored && !model.balls_turn()) {
-            return Err(found.obstacles);
-        }
-        let because = |what: &str| {
-            let what = what.to_owned();
-            move |reason| vec![Obstacle { what, reason }]
-        };
-        if model.leans() {
-            symmetry::of_tilts(model, start).map_err(because("rings that do not tilt"))?;
-        }
-        if model.balls_turn() {
-            symmetry::of_turns(model, start).map_err(because("balls that spin about the axis"))?;
-        }
-        found.omissions.push(Omission {
-            what: "turning about x and y".to_owned(),
-            degrees: model.layout().half() - DOFS * model.bodies.len(),
-=======
-        let tilts = symmetry::of_tilts(model, start, found.mirrored);
-        if !(found.plane || found.mirrored) || tilts.is_err() {
-            let what = "rings that do not tilt".to_owned();
-            let leaning = tilts.err().map(|reason| Obstacle { what, reason });
-            return Err(leaning.into_iter().chain(found.obstacles).collect());
+        let is_flat = found.plane || found.mirrored && !model.balls_turn();
+        let tilts = symmetry::of_tilts(model, start, found.mirrored)
+            .map_err(|reason| ("rings that do not tilt", reason));
+        let turns = symmetry::of_turns(model, start)
+            .map_err(|reason| ("balls that spin about the axis", reason));
+        let apart = [(model.leans(), tilts), (model.balls_turn(), turns)];
+        let against: Vec<Obstacle> = apart
+            .into_iter()
+            .filter_map(|(asked, found)| found.err().filter(|_| asked))
+            .map(|(what, reason)| Obstacle {
+                what: what.to_owned(),
+                reason,
+            })
+            .collect();
+        if !is_flat || !against.is_empty() {
+            return Err(against.into_iter().chain(found.obstacles).collect());
         }
         let mut degrees = 0;
         for (body, dof) in model.layout().degrees() {
-            if Dof::TILTS.contains(&dof) {
+            if !Dof::ALL.contains(&dof) {
                 let course = Course::steady(0.0, 0.0);
                 found.prescribed.push(Prescribed { body, dof, course });
                 degrees += 1;
             }
         }
         found.omissions.push(Omission {
-            what: "tilts of rings".to_owned(),
+            what: "turning about x and y".to_owned(),
             degrees,
->>>>>>> theirs
             reason: "mirror symmetry".to_owned(),
         });
         Ok(found)

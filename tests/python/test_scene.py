@@ -112,6 +112,9 @@ def every_field() -> s.Scene:
             "outer": defect,
             "inner": dataclasses.replace(defect, on="inner_race", width=1e-3),
             "ball": dataclasses.replace(defect, on="ball", ball=3, width=1e-3, length=5e-4),
+            "cap": s.Defect(
+                on="ball", ball=2, angle=0.3, shape="cap", width=1e-3, edge_radius=3e-4
+            ),
         },
         probes={
             "motion": s.MotionProbe(body="inner", components=typing.get_args(s.Component)),
@@ -461,6 +464,38 @@ def test_errors_name_the_field(wheel: s.Scene, path: str, value: object, named: 
     with pytest.raises(br.SceneError) as caught:
         wheel.replace({path: value})
     assert caught.value.path.startswith(named)
+
+
+@pytest.mark.parametrize(
+    ("changes", "named", "allowed"),
+    [
+        ({"on": "outer_race", "ball": None}, "shape", "absent for a defect on a race"),
+        ({"length": 1e-3}, "length", "as long as it is wide"),
+        ({"width": s.WidthProfile(positions=(0.0,), widths=(1e-3,))}, "width", "one number"),
+        ({"width": 6e-3}, "width", "below the ball's radius"),
+        ({"edge_radius": 3e-3}, "edge_radius", "below half the ball's radius"),
+        ({"axial_offset": 7e-3}, "axial_offset", "a place on the ball"),
+        ({"shape": "cup"}, "shape", "cap"),
+        ({"shape": None}, "length", "above 0"),
+    ],
+)
+def test_a_cap_is_refused_by_the_field(
+    wheel: s.Scene, changes: dict[str, Any], named: str, allowed: str
+) -> None:
+    cap = br.defects.cap(width_mm=1.0, ball=2)
+    whole = dataclasses.replace(wheel, defects={"pit": cap})
+    assert s.Scene.from_json(whole.to_json()) == whole
+    assert s.Scene.from_toml(whole.to_toml()) == whole
+    document = whole.to_dict()["defects"]["pit"]
+    assert (document["shape"], document["length"]) == ("cap", 0.0)
+    with pytest.raises(br.SceneError, match=allowed) as caught:
+        dataclasses.replace(wheel, defects={"pit": dataclasses.replace(cap, **changes)}).validate()
+    assert caught.value.path == f"defects.pit.{named}"
+
+
+def test_documents_of_patches_do_not_speak_of_shapes(wheel: s.Scene) -> None:
+    assert "shape" not in wheel.to_dict()["defects"]["spall"]
+    assert "shape" not in wheel.to_json()
 
 
 def test_parts_cannot_be_changed(wheel: s.Scene) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ..operating import operating_angle
+from ..scene.defect import extent
 from .outlines import circle, on_groove, outlines
 from .races import placed
 from .style import COLOURS, finished
@@ -156,7 +157,7 @@ def _defect(fig: go.Figure, row: Row, defect: Defect, name: str, shapes: Outline
     degrees = math.degrees(math.atan2(math.sin(defect.angle), math.cos(defect.angle)))
     half = 1.0 if math.sin(defect.angle) >= 0.0 else -1.0
     race: Literal["outer", "inner"] = "inner" if defect.on == "inner_race" else "outer"
-    along = np.linspace(-0.5, 0.5, 21) * defect.length + placed(row, defect)
+    along = np.linspace(-0.5, 0.5, 21) * extent(defect) + placed(row, defect)
     if defect.on == "ball":
         half, points = 1.0, _on_ball(row, along)
     else:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..scene import Ramp, Sine, SpeedDrive, Table, WidthProfile
+from ..scene import Ramp, Sine, SpeedDrive, Table
+from ..scene.defect import extent, widest
 from .windows import Origin
 
 if TYPE_CHECKING:
@@ -45,10 +46,10 @@ def origin_of(scene: Scene, version: str | None) -> Origin:
             for row in scene.rows
         ],
         defect=[
-            {"name": n, "width": _width(d.width)}
-            | {key: getattr(d, key) for key in ("on", "row", "ball", "angle", "length")}
+            {"name": n, "width": widest(d), "length": extent(d)}
+            | {key: getattr(d, key) for key in ("on", "row", "ball", "angle")}
             for n, d in scene.defects.items()
-            if _width(d.width) > 0.0
+            if widest(d) > 0.0
         ],
         version=version,
     )
@@ -74,8 +75,3 @@ def _at(value: TimeFunction, t: float) -> float:
             return float(np.interp(t, times, values))
         case _:
             return float(value)
-
-
-def _width(width: Any) -> float:
-    """Return the largest width of a defect [m]."""
-    return max(width.widths) if isinstance(width, WidthProfile) else float(width)

@@ -13,6 +13,7 @@ from ..scene import (
     SpeedDrive,
     TorqueDrive,
 )
+from ..scene.defect import widest
 
 if TYPE_CHECKING:
     from ..scene import Defect, Lubricant, Scene
@@ -68,13 +69,15 @@ def _defect(name: str, defect: Defect) -> str:
     surface = {"outer_race": "outer race", "inner_race": "inner race"}.get(
         defect.on, f"ball {defect.ball}"
     )
-    width = defect.width if isinstance(defect.width, float) else max(defect.width.widths)
+    width = widest(defect)
     place = "where the contact runs"
     if not isinstance(defect.axial_offset, str):
         place = f"{1e3 * defect.axial_offset:.3f} mm from the row's plane"
+    size = f"{1e3 * width:.3g} mm along the race, {1e3 * defect.length:.3g} mm across"
+    if defect.shape == "cap":
+        size = f"a cap of {1e3 * width:.3g} mm"
     text = (
-        f"{name}: on the {surface} of row {defect.row}, at {degrees(defect.angle)}, {place}; "
-        f"{1e3 * width:.3g} mm along the race, {1e3 * defect.length:.3g} mm across"
+        f"{name}: on the {surface} of row {defect.row}, at {degrees(defect.angle)}, {place}; {size}"
     )
     return text.replace("-", "−")
 

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
-from .._document import Part
+from .._document import LEFT_OUT, Part
 
-__all__ = ["AxialOffset", "Defect", "Floor", "Surface", "Width", "WidthProfile"]
+__all__ = ["AxialOffset", "Defect", "DefectShape", "Floor", "Surface", "Width", "WidthProfile"]
 
 
 Surface = Literal["outer_race", "inner_race", "ball"]
 """The surface that carries a defect."""
+
+
+DefectShape = Literal["cap"]
+"""Outline of a defect that is not a patch of its length and width (see :class:`Defect`)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,10 +78,15 @@ class Defect(Part):
         defect on the outer race that is a ball's at the defect's own angle; of one on a ball, its contact with
         the race that loads it more. Without equilibrium or load it is the place of the nominal contact angle.
         A run records the number in ``out.scene`` and tells in ``out.defects`` where it comes from.
+    shape : "cap" or None
+        Outline; None: a patch of ``length`` and ``width``. A cap of a ball is a circle on its surface, as wide in
+        every direction as ``width`` says, less than the ball's radius. Its middle is seen from the ball's centre
+        in a direction that is fixed in the ball: at ``angle`` about z, and where it meets the surface at
+        ``axial_offset``.
     length : float
-        Axial length [m].
+        Axial length [m]; of a cap 0, or left out.
     width : Width
-        Arc length along the surface [m].
+        Arc length along the surface [m]; of a cap a plain number.
     edge_radius : float
         Radius of the fault circles at the edges [m].
     floor : Floor or None
@@ -89,7 +98,19 @@ class Defect(Part):
     ball: int | None = None
     angle: float
     axial_offset: AxialOffset = "contact"
-    length: float
+    shape: DefectShape | None = field(default=None, metadata=LEFT_OUT)
+    length: float = 0.0
     width: Width
     edge_radius: float
     floor: Floor | None = None
+
+
+def widest(defect: Defect) -> float:
+    """Return the largest width of a defect [m]."""
+    width = defect.width
+    return max(width.widths) if isinstance(width, WidthProfile) else float(width)
+
+
+def extent(defect: Defect) -> float:
+    """Return how far a defect reaches along the axis [m]; a cap is as long as it is wide."""
+    return widest(defect) if defect.shape == "cap" else defect.length

@@ -152,7 +152,7 @@ impl Contact<'_> {
 
 /// The truth is the energy, differentiated numerically.
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use std::f64::consts::PI;
 
     use super::*;
@@ -163,7 +163,7 @@ mod tests {
     };
     use crate::scene::{Defect, Floor, Material, Surface, Waviness, Width, WidthProfile};
 
-    const RADIUS: f64 = 6e-3;
+    pub(in crate::contact::fault) const RADIUS: f64 = 6e-3;
 
     /// Energy, and what ball and ring get.
     #[derive(Default)]
@@ -197,7 +197,13 @@ mod tests {
         }
     }
 
-    fn pair(sigma: f64, is_hertz: bool, defect: Option<&Defect>, waves: u32) -> Pair {
+    /// A race whose groove is centred at 0.1 mm, without damping and friction, and a defect of it.
+    pub(in crate::contact::fault) fn pair(
+        sigma: f64,
+        is_hertz: bool,
+        defect: Option<&Defect>,
+        waves: u32,
+    ) -> Pair {
         let steel = Material::default();
         let elastic = if is_hertz {
             let law = Hertz::new(sigma, 2.0 * RADIUS, 60e-3, 0.52, 0.3, &steel, &steel);

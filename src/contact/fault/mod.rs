@@ -1,6 +1,8 @@
 //! Arcs where a surface is absent, and the fault circles at their edges (model section 7).
 
 mod cap;
+#[cfg(test)]
+mod cap_tests;
 mod circles;
 mod depth;
 mod elements;

@@ -137,6 +137,8 @@ impl Contact<'_> {
             let place = (arm_ball.dot(&n_e), node.zeta);
             let [tangential, meridional] = kernel::slip_of_turning::<f64, false>(w, place, slope);
             velocity[1] += tangential;
+            // The edge of a ball's defect stands off the line of centres, too.
+            let meridional = meridional + w[0] * arm_ball.dot(&turned(n_e)) * slope.1;
             let rate = cross(arm_ball, n_e) * feature.swing.xy().dot(&b.across);
             let [nearer, _, along] = approaching(rate, share, slope);
             velocity[0] += nearer;

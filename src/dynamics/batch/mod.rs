@@ -463,7 +463,7 @@ impl Single {
         };
         let mut spatial = Spatial::default();
         pair.evaluate_into(&ball.side, &motion, &view.ring, &mut spatial);
-        let ring = (leaning.frame(), model.balls_turn());
+        let ring = (&leaning.ring, model.balls_turn());
         (self.sum, self.across) = spatial.on_bodies(&motion.place(), ring);
     }
 }
