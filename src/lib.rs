@@ -28,13 +28,13 @@
 //!
 //! * [`simd`] — eight numbers at once, or a register full, compiled for three instruction sets.
 //! * [`scene`] — what a user says: names, numbers, defaults; a serde document that is only validated.
-//! * [`contact`] — one ball on one race: its shape, elastic, damping and traction laws, quadrature, fault circles, and the
+//! * [`contact`] — one ball on one race: its shape, elastic, damping and traction laws, oil films, quadrature, fault circles, and the
 //!   kernel, the one coding of an element's force, with its drivers; `contact/frames.rs` leads from the scene's frame to a
 //!   ring's, which may lean, and the cage's. Numbers in, numbers out; no indices, no state.
 //! * `tilt` — a ring that leans: its frame, which does not spin, and the equations of a symmetric rigid body.
 //! * `model` ([`Model`]) — the scene compiled: bodies, races and directions ([`BodyId`], [`Race`], [`Dof`]) with the one
 //!   place that turns them into offsets ([`Layout`]), arrays, scales. Never changed by a run.
-//! * `forces` — cage, supports, gravity, loads, unbalance, drive: one file each, with force, energy or power, rate for step
+//! * `forces` — cage, supports, gravity, loads, unbalance, drive, drag of oil: one file each, with force, energy or power, rate for step
 //!   control, and what becomes of it in a run.
 //! * [`inspect`] — questions about a state: what its contacts carry, its energies, its films, its stiffest elements.
 //! * `reduction` ([`Reduction`]) — what a run leaves out, and why.

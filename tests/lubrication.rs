@@ -5,7 +5,9 @@ mod common;
 use std::f64::consts::PI;
 
 use ballrace::dynamics::contributions;
-use ballrace::scene::{Drive, Lubricant, Probe, Profile, RingName, Scene, TimeFunction, presets};
+use ballrace::scene::{
+    Drive, Lubricant, Probe, Profile, RaceProfile, RingName, Scene, TimeFunction, presets,
+};
 use ballrace::{
     Error, FeatureOptions, Model, Run, Signals, Start, compile, equilibrium, explain, features,
     inspect, start,
@@ -323,6 +325,47 @@ fn explain_tells_the_oil() {
     );
 }
 
+/// An error names the oil that it is of: the scene's or a row's own.
+#[test]
+fn errors_name_the_oil_that_they_are_of() {
+    let refused = |of_row: bool, change: fn(&mut Scene)| {
+        let mut scene = oiled(55.0);
+        if of_row {
+            scene.rows[0].lubricant = scene.lubricant.take();
+        }
+        change(&mut scene);
+        compile(&scene).unwrap_err().to_string()
+    };
+    let overloaded = |scene: &mut Scene| scene.loads.get_mut("radial").unwrap().force = 1e9.into();
+    let curved = |scene: &mut Scene| {
+        let z: Vec<f64> = (-20..=20).map(|k| 1e-4 * f64::from(k)).collect();
+        let groove = 0.525 * scene.rows[0].ball_diameter;
+        let r = z
+            .iter()
+            .map(|z| 23.49e-3 - groove + (groove * groove - z * z).sqrt());
+        scene.rows[0].outer_profile = Some(RaceProfile::new(z.clone(), r.collect()));
+    };
+    for (of_row, path) in [(false, "lubricant"), (true, "rows[0].lubricant")] {
+        let text = refused(of_row, overloaded);
+        assert!(text.contains(&format!("{path}.reference_load")), "{text}");
+        let text = refused(of_row, curved);
+        assert!(text.contains(&format!("{path}.film")), "{text}");
+    }
+}
+
+/// A slow bearing in oil, whose friction holds the default method's steps short, is offered the method for that; a fast one is not.
+#[test]
+fn stiff_films_are_offered_the_implicit_method() {
+    let offered = |rpm: f64| {
+        let mut scene = presets::deep_groove_6205(500.0, 0.0, rpm);
+        scene.lubricant = Some(Lubricant::named("vg68", 328.15));
+        let told = explain(&scene).unwrap().variants;
+        told.iter()
+            .any(|of| of.change.contains("implicit-friction"))
+    };
+    assert!(offered(200.0) && !offered(SPEED_RPM));
+}
+
 /// Ordinary bearings in ordinary oil are not doubted.
 #[test]
 fn ordinary_films_are_not_doubted() {
@@ -354,6 +397,12 @@ fn films_beyond_their_formulas_are_doubted() {
         doubted(&fast),
         ["row 0, outer film, Moes' L", "row 0, inner film, Moes' L"]
     );
+    let undamped = changed(|scene| {
+        let oil = scene.lubricant.insert(Lubricant::named("vg220", 293.15));
+        oil.damping = false;
+        scene.drive = Drive::Speed(1200.0.into());
+    });
+    assert_eq!(doubted(&undamped), [""; 0]);
     let rough = changed(|scene| scene.lubricant.as_mut().unwrap().roughness = 1.9e-6);
     assert_eq!(
         doubted(&rough),

@@ -25,6 +25,8 @@ LITERATURE = [
     "literature_dynamics",
     "literature_spall",
     "statics",
+    "moments",
+    "tilt_statics",
 ]
 # Python tests that print rows of the same form.
 MEASURED = ["test_defects_speak.py", "test_cwru.py", "test_exudyn.py"]

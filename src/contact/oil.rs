@@ -3,7 +3,7 @@
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
 
-use super::laws::film::{FilmEffect, FilmNumbers, Oiled};
+use super::laws::film::{FilmEffect, Oiled};
 use super::slip::Moves;
 use super::{V2, turned};
 use crate::simd::Number;
@@ -64,12 +64,11 @@ impl OilTouch {
         moves: &Moves<f64>,
         (sigma, apart, lever): (f64, V2, f64),
     ) -> Self {
-        let oil = FilmEffect::at(&FilmNumbers::new(oiled), r);
         let d = apart.norm();
-        let resistance = RollingResistance::new(oil.rolling, moves, sigma, d, lever);
+        let resistance = RollingResistance::new(moves.oil.rolling, moves, sigma, d, lever);
         let squared = 2.0 * resistance.entrainment * resistance.entrainment;
         Self {
-            oil,
+            oil: moves.oil,
             load_measure: r,
             film: oiled.now.thickness(),
             lambda: oiled.now.lambda(),

@@ -22,10 +22,13 @@ pub(super) fn lubricated(mut model: Model) -> Result<Model> {
             .and_then(|of: &Lubricant| of.reference_load)
     };
     let given: Vec<Option<f64>> = rows.iter().map(given).collect();
-    let solved = if given.iter().all(Option::is_some) {
-        None
-    } else {
-        Some(positions(&model).map_err(needs_load)?)
+    let absent = given.iter().position(Option::is_none);
+    let solved = match absent {
+        None => None,
+        Some(row) => {
+            let path = model.scene.lubricant_path(row);
+            Some(positions(&model).map_err(|error| needs_load(&path, error))?)
+        }
     };
     let loads: Vec<[f64; 2]> = given
         .iter()
@@ -66,12 +69,12 @@ fn weighted_load(model: &Model, y: &[f64], row: usize, race: Race) -> f64 {
     if sum > 0.0 { squares / sum } else { 0.0 }
 }
 
-/// Where there is no equilibrium.
-fn needs_load(error: Error) -> Error {
+/// Where there is no equilibrium, and the lubricant of a path needs one.
+fn needs_load(path: &str, error: Error) -> Error {
     match error {
         Error::Interrupted { .. } => error,
         other => Error::scene(
-            "lubricant.reference_load",
+            format!("{path}.reference_load"),
             "absent",
             format!(
                 "given [N], since the film cannot be computed for the loads of the equilibrium: {other}"

@@ -6,7 +6,8 @@ use super::cost::{self, Cost};
 use crate::equilibrium::compile;
 use crate::model::Model;
 use crate::reduction::Reduction;
-use crate::scene::{Load, Scene, Slices, Surface};
+use crate::run::step_limit;
+use crate::scene::{Load, Method, Scene, Slices, Surface};
 use crate::start::{Start, start};
 
 /// The same scene with one change.
@@ -31,11 +32,16 @@ const WITHOUT_ROLLING: &str = "without rolling resistance";
 const WITHOUT_FILM_DAMPING: &str = "without the film's damping";
 const OF_OIL: [&str; 3] = [WITHOUT_OIL, WITHOUT_ROLLING, WITHOUT_FILM_DAMPING];
 
+/// What takes longer steps where friction holds the scene's own short.
+const IMPLICIT: &str = "with solver.method = \"implicit-friction\"";
+/// Steps over the longest that contacts allow, from which on friction holds them short.
+const SHORT: f64 = 0.25;
+
 /// A change that may make a scene cheaper; nothing where it does not apply.
 type Change = fn(&Scene) -> Option<Scene>;
 
 /// Changes by name, and what they do to the answer.
-const CHANGES: [(&str, &str, Change); 14] = [
+const CHANGES: [(&str, &str, Change); 15] = [
     (
         "with approximations.rolling",
         "of faulted races: rms to 20 %, rate of impacts to 0.7 %",
@@ -61,6 +67,15 @@ const CHANGES: [(&str, &str, Change); 14] = [
             let mut changed = scene.clone();
             changed.approximations.one_row = true;
             (changed != *scene).then_some(changed)
+        },
+    ),
+    (
+        IMPLICIT,
+        "the same answer: stiff friction is solved for at every step",
+        |scene| {
+            let mut changed = scene.clone();
+            changed.solver.method = Method::ImplicitFriction;
+            (scene.solver.method == Method::Adams).then_some(changed)
         },
     ),
     ("without friction", "another answer", |scene| {
@@ -150,14 +165,17 @@ const CHANGES: [(&str, &str, Change); 14] = [
 ];
 
 /// All that help or are of the oil, the cheapest first. They are timed at the scene's own start, and take its steps; but
-/// oil decides how long steps may be, so that without it they are its own.
+/// oil and stiff friction decide how long steps may be, so that without the one or by another method they are its own.
 pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Vec<Variant> {
     let own = Reduction::of(model, y0).map_or(model.dim(), |r| r.dim());
+    let longest = step_limit::largest(model.scene().solver.method, model);
+    let is_short = SHORT * longest * cost.evaluations > 1.0;
     let mut variants: Vec<Variant> = offers(model, y0)
         .into_iter()
+        .filter(|(change, ..)| *change != IMPLICIT || is_short)
         .filter_map(|(change, note, changed)| {
             let kept = Reduction::of(&changed, y0).map_or(changed.dim(), |r| r.dim());
-            let seconds = if change == WITHOUT_OIL {
+            let seconds = if [WITHOUT_OIL, IMPLICIT].contains(&change) {
                 seconds_by_own_steps(&changed)?
             } else {
                 // The integrator's share goes with the states.

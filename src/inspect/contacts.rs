@@ -114,13 +114,13 @@ pub(crate) fn largest_pressure(model: &Model, y: &[f64]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Largest slip speed \[m/s\], load-weighted in each contact, of contacts under films that bear a tenth of the largest load or more:
+/// Largest slip speed \[m/s\], load-weighted in each contact, of contacts that rub by their film and bear a tenth of the largest load or more:
 /// lighter ones heat nothing. 0 without films.
 pub(crate) fn film_slip(model: &Model, y: &[f64]) -> f64 {
     let row = |j: usize| &model.rows[model.balls[j].row];
     let oiled: Vec<ContactSummary> = (0..model.balls.len())
         .flat_map(|j| Race::BOTH.map(|race| (j, race)))
-        .filter(|(j, race)| row(*j).pairs[*race].law.film.is_some())
+        .filter(|(j, race)| row(*j).pairs[*race].law.rubs_by_film())
         .map(|(j, race)| contact(model, y, j, race))
         .collect();
     let heaviest = oiled.iter().map(|one| one.load).fold(0.0, f64::max);

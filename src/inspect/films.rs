@@ -30,6 +30,9 @@ pub struct RaceFilm {
     pub ellipticity: f64,
     /// Moes' L.
     pub moes: f64,
+    /// Whether it damps.
+    #[serde(skip)]
+    damps: bool,
     /// Largest Hertz pressure under the reference load \[Pa\].
     pub pressure: f64,
 }
@@ -39,7 +42,7 @@ impl RaceFilm {
         let race = Race::from(self.race).name();
         let judged = FilmJudged {
             ellipticity: self.ellipticity,
-            moes: self.moes,
+            moes: self.damps.then_some(self.moes),
             lambda: self.lambda_ratio,
             pressure: (!is_crushed).then_some(self.pressure),
         };
@@ -69,6 +72,7 @@ fn film(model: &Model, (row, race): (usize, Race)) -> Option<RaceFilm> {
         reference_speed: reference.speed,
         ellipticity: limits.ellipticity,
         moes: limits.moes,
+        damps: film.effects().damping,
         pressure: limits.pressure,
     })
 }

@@ -29,7 +29,7 @@ impl Model {
             let (lubricant, oil) = (lubricant.clone(), Oil::new(lubricant)?);
             self.rows[row].drag = drag(geometry.ball_diameter, oil.density, lubricant.fill);
             for race in Race::BOTH {
-                self.check_profile(row, race, &lubricant)?;
+                self.check_profile((row, race), &lubricant)?;
                 let films = self.films((row, race), &lubricant, (&oil, loads[race]));
                 let pair = &mut self.rows[row].pairs[race];
                 let mut films = films.into_iter();
@@ -60,13 +60,13 @@ impl Model {
     }
 
     /// The coat of a race through points is not built.
-    fn check_profile(&self, row: usize, race: Race, lubricant: &Lubricant) -> Result<()> {
+    fn check_profile(&self, (row, race): (usize, Race), lubricant: &Lubricant) -> Result<()> {
         let pair = &self.rows[row].pairs[race];
         if !lubricant.film || !pair.is_through_points() {
             return Ok(());
         }
         Err(Error::scene(
-            "lubricant.film",
+            format!("{}.film", self.scene.lubricant_path(row)),
             true,
             format!(
                 "false, since the {} race of rows[{row}] is a curve through points, on which the film cannot lie as a coat",
@@ -82,10 +82,7 @@ impl Model {
         lubricant: &Lubricant,
         (oil, load): (&Oil, f64),
     ) -> Vec<Oiled> {
-        let drive = &self.scene.drive;
-        let speed = lubricant
-            .reference_speed
-            .unwrap_or_else(|| drive.peak_speed());
+        let speed = self.scene.reference_speed_of(lubricant);
         let effects = Effects {
             film: lubricant.film,
             damping: lubricant.damping,
@@ -103,7 +100,7 @@ impl Model {
                 approach,
             };
             let film = Film::new(oil, &geometry, reference, effects);
-            Oiled::new(film, pair.race.r, drive.initial_speed())
+            Oiled::new(film, pair.race.r, self.scene.drive.initial_speed())
         };
         self.rows[row].pairs[race].flanks().map(of).collect()
     }

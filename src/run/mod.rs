@@ -21,7 +21,7 @@ mod runaway;
 mod settle;
 mod simulate;
 mod step_collapse;
-mod step_limit;
+pub(crate) mod step_limit;
 
 pub(crate) use follow::{options, tolerance};
 pub use options::Run;

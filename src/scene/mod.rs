@@ -196,6 +196,14 @@ impl Scene {
         row.lubricant.as_ref().or(self.lubricant.as_ref())
     }
 
+    /// Where the oil of a row stands in the document.
+    pub(crate) fn lubricant_path(&self, row: usize) -> String {
+        match self.rows[row].lubricant {
+            Some(_) => format!("rows[{row}].lubricant"),
+            None => "lubricant".to_owned(),
+        }
+    }
+
     /// Speed of the rings against each other that a lubricant's films are computed for, Ω_ref \[rad/s\]: its own, or the
     /// largest of the drive.
     pub fn reference_speed_of(&self, lubricant: &Lubricant) -> f64 {

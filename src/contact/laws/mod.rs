@@ -60,6 +60,11 @@ impl Law {
         self.traction.is_some() || self.film.is_some_and(|oiled| oiled.film.effects().rolling)
     }
 
+    /// Whether friction is that of a film.
+    pub(crate) fn rubs_by_film(&self) -> bool {
+        self.traction.is_some_and(|law| law.is_film())
+    }
+
     /// Whether the approach is damped, by the steel or by a film.
     pub(crate) fn damps(&self) -> bool {
         let by_film = self.film.is_some_and(|oiled| oiled.film.effects().damping);

@@ -58,7 +58,11 @@ impl SideConstants {
     pub fn new(model: &Model, race: Race) -> Self {
         let of = |ball: &Ball| model.rows[ball.row].pairs[race].constants(ball.side.radius);
         let balls: Vec<_> = model.balls.iter().map(of).collect();
-        let films = films(model, race);
+        let films: Vec<_> = model
+            .rows
+            .iter()
+            .map(|row| numbers_of(&row.pairs[race]))
+            .collect();
         let class = |class: usize| ClassConstants::new(model, race, (&balls, &films), class);
         Self {
             classes: (0..model.rows.len()).map(class).collect(),
@@ -76,7 +80,9 @@ impl SideConstants {
         for (class, of) in self.classes.iter_mut().enumerate() {
             of.first.r = Lanes::all(model.rows[class].pairs[race].race.r);
         }
-        self.films = films(model, race);
+        for (of, row) in self.films.iter_mut().zip(&model.rows) {
+            *of = numbers_of(&row.pairs[race]);
+        }
         for (class, of) in self.classes.iter_mut().enumerate() {
             of.film = in_all_lanes(self.films[class].as_ref());
         }
@@ -161,10 +167,9 @@ impl ClassConstants {
     }
 }
 
-/// Numbers of the films of all rows on a race.
-fn films(model: &Model, race: Race) -> Vec<Option<FilmNumbers<f64>>> {
-    let of = |pair: &Pair| pair.law.film.as_ref().map(FilmNumbers::new);
-    model.rows.iter().map(|row| of(&row.pairs[race])).collect()
+/// Numbers of the film on a race, if it has one.
+fn numbers_of(pair: &Pair) -> Option<FilmNumbers<f64>> {
+    pair.law.film.as_ref().map(FilmNumbers::new)
 }
 
 fn in_all_lanes(film: Option<&FilmNumbers<f64>>) -> Option<FilmNumbers<Lanes>> {

@@ -29,8 +29,8 @@ const SLIP: f64 = 0.5;
 pub(crate) struct FilmJudged {
     /// Length of the ellipse over its width.
     pub ellipticity: f64,
-    /// Moes' L.
-    pub moes: f64,
+    /// Moes' L of a film that damps.
+    pub moes: Option<f64>,
     /// λ at the reference speed.
     pub lambda: f64,
     /// Largest pressure under the reference load \[Pa\]; absent where it is doubted already.
@@ -49,9 +49,9 @@ impl Doubt {
             let usual = "formulas of films reach from contacts 1 to 12 times as long as wide";
             tell("length over width", number(judged.ellipticity), usual);
         }
-        if outside(judged.moes, MOES) {
+        if let Some(moes) = judged.moes.filter(|moes| outside(*moes, MOES)) {
             let usual = "the film's damping was fitted to L from 2 to 20";
-            tell("Moes' L", number(judged.moes), usual);
+            tell("Moes' L", number(moes), usual);
         }
         if judged.lambda < LAMBDA {
             let usual = "below 0.2 asperities bear the load, and a film's formulas do not hold; colder or thicker oil, a \
@@ -64,9 +64,7 @@ impl Doubt {
         }
         found
     }
-}
 
-impl Doubt {
     /// Of the slip of contacts under films \[m/s\], if they rub too fast.
     pub(crate) fn film_slip(slip: f64) -> Option<Self> {
         let usual = "above 0.5 m/s oil heats in the contact and rubs less than is computed; more load, thicker oil or a lower speed \
