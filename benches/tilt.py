@@ -52,6 +52,7 @@ from ballrace.scene import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
@@ -63,6 +64,12 @@ RACES: tuple[Race, ...] = ("outer", "inner")
 SPINS: tuple[Spin, ...] = ("axial", "free")
 COLOURS = {"free": "#0b6e99", "axial": "#d1495b", "third": "#edae49", "grey": "#9aa5b1"}
 EXPLICIT = Solver(method="dormand-prince")
+
+
+def tick(axes: Axes, values: pl.Series) -> None:
+    """Mark the values themselves on a logarithmic axis."""
+    axes.set_xticks(values, [f"{value:g}" for value in values])
+    axes.minorticks_off()
 
 
 # A ball between two races
@@ -300,6 +307,7 @@ def draw_torque(table: pl.DataFrame, figure: Figure) -> None:
         if own["skf"].null_count() == 0:
             axes.plot(own[column], own["skf"], "k-.", label="SKF, sliding")
         axes.set(xscale="log", yscale="log", xlabel=label)
+        tick(axes, own[column])
     figure.axes[0].set_ylabel("friction torque, N mm")
     figure.axes[1].legend(frameon=False, fontsize=8)
 
@@ -346,6 +354,7 @@ def draw_pivoting(table: pl.DataFrame, figure: Figure) -> None:
         axes.set(ylim=(-0.05, 1.05), ylabel="the inner race's share of pivoting")
         axes.legend(frameon=False)
     left.set(xscale="log", xlabel="thrust, N")
+    tick(left, own["thrust"])
     right.set(xlabel="the inner race's share of Q a ℰ")
 
 
