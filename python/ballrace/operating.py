@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from . import frequencies
+from ._numbers import real
 from .bearings import Bearing, catalogue
 from .errors import SceneError
 from .scene import MotionProbe, Scene, SpeedDrive
@@ -167,7 +168,7 @@ def _slipping(rolling: FaultFrequencies, cage: float, balls: int) -> FaultFreque
 
 
 def _shaft(speed_rpm: float) -> float:
-    if isinstance(speed_rpm, bool) or not math.isfinite(speed_rpm) or speed_rpm == 0.0:
+    if not math.isfinite(real(speed_rpm)) or speed_rpm == 0.0:
         raise SceneError("speed_rpm", repr(speed_rpm), "a speed of the inner ring [rev/min], not 0")
     return speed_rpm / 60.0
 

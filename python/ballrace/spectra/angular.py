@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._interrupt import answers_ctrl_c
+from .._numbers import real, real_row
 from ..errors import SceneError
 from .checks import checked_signal
 from .lines import spectrum
@@ -119,11 +120,15 @@ def order_spectrum(
     (3.0, 2.0)
     """
     turn, value = by_order(x, angle, per_turn)
+    if turn.size < 8:
+        raise SceneError(
+            "angle", f"{turn.size} samples at equal steps", "turns enough for at least 8"
+        )
     return spectrum(value, 1.0 / float(turn[1]))
 
 
 def _checked_turns(angle: ArrayLike, samples: int) -> NDArray[np.float64]:
-    turns = np.asarray(angle, dtype=np.float64) / (2.0 * math.pi)
+    turns = real_row("angle", angle) / (2.0 * math.pi)
     if turns.shape != (samples,):
         raise SceneError(
             "angle", f"an array of shape {turns.shape}", f"one angle a sample, ({samples},)"
@@ -137,7 +142,7 @@ def _checked_turns(angle: ArrayLike, samples: int) -> NDArray[np.float64]:
 def _rates(turns: NDArray[np.float64], per_turn: int | None) -> tuple[int, int]:
     """Return the samples a turn, and how many times as many are taken before the filter."""
     needed = math.ceil(1.0 / np.diff(turns).min())
-    if per_turn is not None and (isinstance(per_turn, bool) or per_turn < 2 or per_turn % 1):
+    if per_turn is not None and not (real(per_turn) >= 2 and real(per_turn).is_integer()):
         raise SceneError("per_turn", repr(per_turn), "a whole number of samples a turn, at least 2")
     rate = needed if per_turn is None else int(per_turn)
     filtered = max(math.ceil(needed / rate), 1)

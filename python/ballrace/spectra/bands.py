@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from .._numbers import real
 from ..errors import SceneError
 
 if TYPE_CHECKING:
@@ -162,10 +163,10 @@ def _check(shaft: float, harmonics: int, sidebands: int, slip: float) -> None:
     for name, number, least in (("harmonics", harmonics, 1), ("sidebands", sidebands, 0)):
         if isinstance(number, bool) or not isinstance(number, int) or number < least:
             raise SceneError(name, repr(number), f"a whole number, at least {least}")
-    if not 0.0 < shaft < float("inf"):
-        raise SceneError("shaft", str(shaft), "above 0")
-    if not 0.0 <= slip < 0.5:
-        raise SceneError("slip", str(slip), "from 0 to below 0.5")
+    if not 0.0 < real(shaft) < math.inf:
+        raise SceneError("shaft", repr(shaft), "above 0")
+    if not 0.0 <= real(slip) < 0.5:
+        raise SceneError("slip", repr(slip), "from 0 to below 0.5")
 
 
 def _band(fault: Fault, harmonic: int, sideband: int, centre: float, half: float) -> FaultBand:
