@@ -20,7 +20,8 @@ ORDERS = br.frequencies.orders(9, 7.94e-3, 39.04e-3)
 SCENE = br.presets.deep_groove_6205()
 
 CALLS: list[tuple[str, Callable[[Any], object], tuple[Any, ...]]] = [
-    ("x", lambda x: spectra.spectrum(x, FS), (None, "x", 1j * X, X.astype(str), 1e70 * X, np.ma.masked_less(X, 0))),
+    ("x", lambda x: spectra.spectrum(x, FS),
+     (None, "x", 1j * X, X.astype(str), 1e70 * X, np.ma.masked_less(X, 0))),
     ("x", lambda x: br.features(x, FS), (None, X.tolist()[:3], 1j * X, [10**400] * 9)),
     ("x", lambda x: br.measure(x, fs=FS), (None, "x", 1j * X, X * 1e70)),
     ("fs", lambda fs: spectra.psd(X, fs), (None, "x", True, 0.0, math.nan, 1e-300, 1e300)),

@@ -28,6 +28,9 @@ _FINER = 4
 _FILTER = {"window": ("kaiser", 8.0), "padtype": "antireflect"}
 """Filter of the resampling: ripple and leakage below 1e-4, and a record that goes on as its ends point."""
 
+_FEWEST = 8
+"""Samples over the angle, at least."""
+
 _MOST = 64
 """Samples over the angle for each over time, at most."""
 
@@ -120,10 +123,6 @@ def order_spectrum(
     (3.0, 2.0)
     """
     turn, value = by_order(x, angle, per_turn)
-    if turn.size < 8:
-        raise SceneError(
-            "angle", f"{turn.size} samples at equal steps", "turns enough for at least 8"
-        )
     return spectrum(value, 1.0 / float(turn[1]))
 
 
@@ -145,6 +144,9 @@ def _rates(turns: NDArray[np.float64], per_turn: int | None) -> tuple[int, int]:
     if per_turn is not None and not (real(per_turn) >= 2 and real(per_turn).is_integer()):
         raise SceneError("per_turn", repr(per_turn), "a whole number of samples a turn, at least 2")
     rate = needed if per_turn is None else int(per_turn)
+    if rate * turns[-1] < _FEWEST:
+        text = f"more; at {rate} samples a turn it gives fewer than {_FEWEST}"
+        raise SceneError("angle", f"{turns[-1]:.3g} turns", text)
     filtered = max(math.ceil(needed / rate), 1)
     if rate * filtered * turns[-1] > _MOST * turns.size:
         text = f"{needed} samples a turn where it is slowest"
