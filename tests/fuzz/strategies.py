@@ -9,7 +9,6 @@ import json
 import types
 import typing
 from collections.abc import Mapping
-from functools import partial
 from typing import Any, Literal
 
 import hypothesis.strategies as st
@@ -131,8 +130,13 @@ def typed(hint: Any, name: str = "") -> SearchStrategy[Any]:
     return plain[hint]
 
 
+def _later(hint: Any, name: str) -> SearchStrategy[Any]:
+    """Strategies of a type, made where they are first drawn from."""
+    return st.deferred(lambda: typed(hint, name))
+
+
 def _part(kind: type[Part], name: str) -> SearchStrategy[Any]:
-    fields = {key: st.deferred(partial(typed, hint, key)) for key, hint in hints(kind).items()}
+    fields = {key: _later(hint, key) for key, hint in hints(kind).items()}
     if not issubclass(kind, Variant):
         return st.fixed_dictionaries({}, optional=fields)
     if kind.wraps:
