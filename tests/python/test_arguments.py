@@ -85,6 +85,13 @@ def test_numbers_of_any_kind_are_taken() -> None:
     assert br.sobol({"a": np.array([0.0, 1.0]).tolist()}, 2, seed=1).height == 2
 
 
+def test_a_grid_holds_cells_of_any_kind() -> None:
+    """A number beside a list, or beside a part of a scene, stays what it is."""
+    ramp = br.scene.Ramp(from_=1.0, to=2.0, start=0.0, end=1.0)
+    for column in ([np.float32(1.0), [1.0]], [1.0, ramp], ["a", 1.0], [b"a", "a"], [1.0, {"a": 1}]):
+        assert br.grid({"a": column})["a"].to_list() == column
+
+
 def test_the_kurtosis_of_a_faint_signal_is_that_of_a_loud_one() -> None:
     """Analytic: the kurtosis has no unit; the powers of a signal of 1e-160 vanish."""
     faint, loud = (spectra.kurtogram(scale * X, FS).kurtosis for scale in (1e-160, 1.0))

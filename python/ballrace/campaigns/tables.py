@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._document import counted
+from .._document import Part, counted
 from .._numbers import real
 from ..errors import SceneError
 
@@ -45,7 +45,7 @@ def grid(values: Mapping[str, Iterable[object]]) -> pl.DataFrame:
     each, columns = count, []
     for name, column in lists.items():
         each //= len(column)
-        # A number beside a word would become a word.
+        # A number beside a word would become a word, and beside a list there is no type for both.
         kind = pl.Object if _is_mixed(column) else None
         place = np.arange(count) // each % len(column)
         columns.append(pl.Series(name, column, dtype=kind, strict=False)[place])
@@ -72,8 +72,9 @@ def _listed(name: str, column: object) -> list[object]:
 
 
 def _is_mixed(column: list[object]) -> bool:
+    kinds = (str, bytes, Mapping, Sequence, np.ndarray, Part)
     present = [value for value in column if value is not None]
-    return len({isinstance(value, str) for value in present}) > 1
+    return len({next((k for k in kinds if isinstance(v, k)), None) for v in present}) > 1
 
 
 def latin_hypercube(
