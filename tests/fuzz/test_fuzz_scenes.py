@@ -12,11 +12,11 @@ from typing import Any, get_args
 import hypothesis.strategies as st
 import numpy as np
 import pytest
-from budget import decided, fuzzed, of_a_scene
-from strategies import BASES, EDGES, WRONG, damaged, scenes
 
 import ballrace as br
 from ballrace.scene import Method, Scene
+from budget import decided, fuzzed, of_a_scene
+from strategies import BASES, EDGES, WRONG, damaged, scenes
 
 CORPUS = Path(__file__).parent / "corpus" / "scenes"
 

@@ -8,10 +8,10 @@ from typing import Any
 
 import hypothesis.strategies as st
 import numpy as np
-from budget import decided, fuzzed
 from hypothesis.strategies import DrawFn
 
 import ballrace as br
+from budget import decided, fuzzed
 
 spectra, measuring = br.spectra, br.measuring
 

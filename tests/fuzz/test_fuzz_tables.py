@@ -10,12 +10,12 @@ import hypothesis.strategies as st
 import numpy as np
 import polars as pl
 import pytest
-from budget import decided, fuzzed
 from hypothesis.strategies import DrawFn
-from strategies import EDGES, damaged
 
 import ballrace as br
 from ballrace.campaigns import cli
+from budget import decided, fuzzed
+from strategies import EDGES, damaged
 
 CORPUS = Path(__file__).parent / "corpus" / "sweeps"
 SCENE = br.bearing(
@@ -107,46 +107,7 @@ def test_any_table_runs_or_is_refused(table: Any, keep: Any) -> str:
         return " and ".join(sorted(set(manifest["status"])))
 
 
-SWEEPS = (
-    """scene = "deep_groove_6205"
-duration = 2e-4
-fs = 50000.0
-start = "rolling"
-settle = 0.0
-columns = ["outer.ay"]
-band = [100.0, 9000.0]
-[grid]
-"loads.axial.force" = { from = -300.0, to = 300.0, count = 2 }
-"rows[0].clearance" = [0.0, 1e-5]
-""",
-    """table = "cases.csv"
-skip = 1e-4
-keep = "features"
-duration = 2e-4
-start = "rolling"
-settle = 0.0
-[scenes]
-a = "wheel-bearing"
-b = "deep-groove-6205"
-[latin_hypercube]
-n = 2
-seed = 1
-"gravity[1]" = [-10.0, 0.0]
-""",
-    """scene = "wheel-bearing"
-duration = 2e-4
-settle = 0.0
-start = "rolling"
-[scatter]
-n = 2
-seed = 1
-clearance = 1e-6
-[sobol]
-n = 2
-seed = 3
-"loads.axial.force" = [0.0, 100.0]
-""",
-)
+SWEEPS = tuple(path.read_text(encoding="utf-8") for path in sorted(CORPUS.glob("*.toml")))
 CSV = "loads.radial.force,scene\n100.0,b\n200.0,b\n"
 
 
