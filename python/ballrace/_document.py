@@ -117,6 +117,14 @@ def whole_number(path: str, value: object) -> int:
     return int(value)
 
 
+def counted(path: str, value: object, least: int) -> int:
+    """Return a whole number that is not below another."""
+    number = whole_number(path, value)
+    if number < least:
+        raise SceneError(path, repr(value), f"a whole number, at least {least}")
+    return number
+
+
 def _encode_fields(part: Part, path: str) -> dict[str, Any]:
     document = {}
     for name, key, left_out in _names(type(part)):

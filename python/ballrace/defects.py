@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from ._numbers import real
 from .errors import SceneError
 from .scene import Defect, Floor, WidthProfile
 
@@ -209,5 +210,5 @@ def _ball(on: Surface, ball: int | None) -> int | None:
 
 def _positive(**sizes: float) -> None:
     for name, size in sizes.items():
-        if not 0.0 < size < math.inf:
+        if not 0.0 < real(size) < math.inf:
             raise SceneError(name, repr(size), "above 0 [mm]")

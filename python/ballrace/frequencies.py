@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from . import _core
+from ._numbers import real
 from .errors import SceneError
 
 if TYPE_CHECKING:
@@ -77,16 +78,16 @@ def orders(
     >>> round(found.bpfo, 4), round(found.bpfi, 4), round(found.ftf, 4), round(2 * found.bsf, 4)
     (3.5848, 5.4152, 0.3983, 4.7135)
     """
-    if ball_count < 1:
-        raise SceneError("ball_count", str(ball_count), "at least 1")
-    if not 0.0 < ball_diameter < pitch_diameter < math.inf:
+    if not 1 <= real(ball_count) < math.inf:
+        raise SceneError("ball_count", repr(ball_count), "at least 1")
+    if not 1e-6 * real(pitch_diameter) < real(ball_diameter) < real(pitch_diameter) < math.inf:
         raise SceneError(
             "ball_diameter",
-            str(ball_diameter),
-            f"above 0 and below the pitch diameter, {pitch_diameter}",
+            repr(ball_diameter),
+            f"above a millionth of the pitch diameter, {pitch_diameter}, and below it",
         )
-    if not abs(contact_angle) < math.pi / 2:
-        raise SceneError("contact_angle", str(contact_angle), "between -π/2 and π/2")
+    if not abs(real(contact_angle)) < math.pi / 2:
+        raise SceneError("contact_angle", repr(contact_angle), "between -π/2 and π/2")
     ftf, bpfo, bpfi, bsf = _core.orders(ball_count, ball_diameter, pitch_diameter, contact_angle)
     return Orders(ftf=ftf, bpfo=bpfo, bpfi=bpfi, bsf=bsf)
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from . import frequencies
+from ._numbers import real
 from .bearings import Bearing, catalogue
 from .errors import SceneError
 from .scene import MotionProbe, Scene, SpeedDrive
@@ -37,7 +38,8 @@ class FaultFrequencies:
         Frequency of the inner ring f_r [Hz].
     ftf, bpfo, bpfi, bsf : float
         Cage, ball passes on the outer and the inner race, spin of a ball in the cage [Hz]. A defect on a ball
-        meets the races at twice ``bsf``.
+        meets the races at twice ``bsf``; in a run, whose balls spin about the axis only, at BSF/cos α or
+        twice that (:func:`ballrace.operating.spin_of`).
     contact_angle : float
         The angle they are of [rad].
     slip : float or None
@@ -150,6 +152,50 @@ def cage_frequency(out: Signals, row: int = 0) -> float | None:
     return float(np.mean(rates)) if rates else None
 
 
+def spin_of(scene: Scene, rates: FaultFrequencies, row: int = 0) -> tuple[float, int] | None:
+    """Return how fast the balls of a run turn, and how often a turn the defect of one meets a race.
+
+    A ball of the model spins about the axis only: against the cage at BSF/cos α. At the contact angle it touches
+    the outer race R sin α to one side of its middle and the inner race as far to the other, so that a defect
+    meets both only where it reaches from track to track; a real ball tumbles, and shows its defect to both.
+
+    Parameters
+    ----------
+    scene : Scene
+        Scene of a run, ``out.scene``, whose defects stand where they are.
+    rates : FaultFrequencies
+        Those of the row, :func:`fault_frequencies`.
+    row : int
+        Row of balls, from 0.
+
+    Returns
+    -------
+    tuple of float and int, or None
+        Order of the turns against the cage, BSF/cos α over the shaft's rate, and 1 or 2; None where no ball of
+        the row has a defect.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> scene = br.bearing("6205", radial_load=300.0, axial_load=300.0)
+    >>> spalled = scene.replace({"defects.d": br.defects.spall(on="ball", width_mm=0.5)})
+    >>> rates = br.fault_frequencies(spalled)
+    >>> order, hits = spin_of(spalled, rates)
+    >>> bool(order > rates.orders.bsf), hits
+    (True, 1)
+    """
+    own = [d for d in scene.defects.values() if d.on == "ball" and d.row == row]
+    if not own:
+        return None
+    order = rates.orders.bsf / math.cos(rates.contact_angle)
+    track = scene.rows[row].ball_diameter / 2.0 * math.sin(abs(rates.contact_angle))
+    # Where the place is not told, it is that of one contact.
+    reach = [
+        d.length / 2.0 - abs(track if d.axial_offset == "contact" else d.axial_offset) for d in own
+    ]
+    return order, 2 if any(each >= track for each in reach) else 1
+
+
 def _rolling(of: Bearing | Row, angle: float, shaft: float) -> FaultFrequencies:
     hertz = frequencies.orders(of.ball_count, of.ball_diameter, of.pitch_diameter, angle).at(shaft)
     return FaultFrequencies(shaft=shaft, contact_angle=angle, **vars(hertz))
@@ -167,7 +213,7 @@ def _slipping(rolling: FaultFrequencies, cage: float, balls: int) -> FaultFreque
 
 
 def _shaft(speed_rpm: float) -> float:
-    if isinstance(speed_rpm, bool) or not math.isfinite(speed_rpm) or speed_rpm == 0.0:
+    if not math.isfinite(real(speed_rpm)) or speed_rpm == 0.0:
         raise SceneError("speed_rpm", repr(speed_rpm), "a speed of the inner ring [rev/min], not 0")
     return speed_rpm / 60.0
 

@@ -5,9 +5,12 @@ The reason for every number stands in the Rust module ``scene::presets``.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from . import _core
+from ._numbers import real
+from .errors import SceneError
 from .scene import Lubricant, Scene
 from .scene.lubricant import chosen
 
@@ -39,7 +42,7 @@ def wheel_bearing(
         An argument is not usable, or a named oil has no temperature.
     """
     oil = chosen(lubricant, temperature_c)
-    return _lubricated(_core.preset_wheel_bearing(axial_load), oil)
+    return _lubricated(_core.preset_wheel_bearing(_finite("axial_load", axial_load, "N")), oil)
 
 
 def cornering_wheel(lateral: float = 0.3) -> Scene:
@@ -57,7 +60,7 @@ def cornering_wheel(lateral: float = 0.3) -> Scene:
     SceneError
         An argument is not usable.
     """
-    return Scene.from_json(_core.preset_cornering_wheel(lateral))
+    return Scene.from_json(_core.preset_cornering_wheel(_finite("lateral", lateral, "1")))
 
 
 def deep_groove_6205(
@@ -87,12 +90,20 @@ def deep_groove_6205(
         An argument is not usable, or a named oil has no temperature.
     """
     oil = chosen(lubricant, temperature_c)
-    return _lubricated(_core.preset_deep_groove_6205(radial_load, axial_load, speed_rpm), oil)
+    radial, axial = _finite("radial_load", radial_load, "N"), _finite("axial_load", axial_load, "N")
+    speed = _finite("speed_rpm", speed_rpm, "rev/min")
+    return _lubricated(_core.preset_deep_groove_6205(radial, axial, speed), oil)
 
 
 def names() -> tuple[str, ...]:
     """Return the names of the presets."""
     return ("wheel_bearing", "cornering_wheel", "deep_groove_6205")
+
+
+def _finite(name: str, value: float, unit: str) -> float:
+    if not math.isfinite(real(value)):
+        raise SceneError(name, repr(value), f"a finite number [{unit}]")
+    return real(value)
 
 
 def _lubricated(document: str, lubricant: Lubricant | None) -> Scene:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import subprocess
 import sys
@@ -145,12 +146,35 @@ def test_fault_lines_stand_at_the_operating_angle() -> None:
     rates = br.fault_frequencies(out)
     fig = plot.envelope_spectrum(out, harmonics=2)
     lines = np.asarray(fig.data[1].x[::3], dtype=float)
-    wanted = [2 * k * rates.bsf + side * rates.ftf for k in (1, 2) for side in (-1, 0, 1)]
+    spin = rates.bsf / math.cos(rates.contact_angle)
+    wanted = [k * spin + side * rates.ftf for k in (1, 2) for side in (-1, 0, 1)]
     np.testing.assert_allclose(lines, wanted)
     nominal = br.fault_frequencies(out, operating=False)
     assert abs(rates.bsf / nominal.bsf - 1.0) > 1e-3
     assert fig.data[1].line.dash == "dot"
-    assert fig.layout.annotations[1].text == "2·BSF"
+    assert [a.text for a in fig.layout.annotations][1::3] == ["BSF/cos α", "2·BSF/cos α"]
+
+
+@pytest.mark.parametrize(("length_mm", "hits"), [(1.0, 1), (5.0, 2)])
+def test_the_lines_of_a_ball_are_those_the_model_has(length_mm: float, hits: int) -> None:
+    """Truth: the rate at which a ball of the run turned, once or twice of which its defect speaks."""
+    scene = br.bearing("6205", radial_load=300.0, axial_load=300.0)
+    offset: br.scene.AxialOffset = 0.0 if hits == 2 else "contact"
+    defect = br.defects.spall(on="ball", width_mm=0.5, length_mm=length_mm, axial_offset=offset)
+    ball = br.scene.MotionProbe(body="row0.ball0", components=("x", "y", "theta"))
+    out = br.simulate(scene.replace({"defects.d": defect, "probes.ball": ball}), duration=0.2)
+    late = out.t > 0.1
+    orbit = np.unwrap(np.arctan2(out["ball.y"], out["ball.x"]))[late]
+    turned = abs(np.polyfit(out.t[late], out["ball.theta"][late] - orbit, 1)[0]) / (2.0 * np.pi)
+    fig = plot.envelope_spectrum(out, "outer.ay", harmonics=1, sidebands=0)
+    assert fig.data[1].x[0] == pytest.approx(hits * turned, rel=0.01)
+    # A measured bearing's balls tumble.
+    rates = br.fault_frequencies(out)
+    record = plot.envelope_spectrum(
+        out["outer.ay"], fs=out.fs, rates=rates, faults=["ball"], harmonics=1, sidebands=0
+    )
+    assert record.data[1].x[0] == pytest.approx(2.0 * rates.bsf)
+    assert record.layout.annotations[0].text == "2·BSF"
 
 
 def test_no_two_faults_look_alike_without_colour(faulty: br.Signals) -> None:

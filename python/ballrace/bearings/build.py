@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from .._numbers import real
 from ..errors import SceneError
 from ..scene import (
     Cage,
@@ -94,7 +95,7 @@ def bearing(
     made = name if isinstance(name, Bearing) else catalogue[name]
     radial = 0.1 * made.static_rating if radial_load is None else _load("radial_load", radial_load)
     axial = _thrust(made, radial, axial_load)
-    if not math.isfinite(speed_rpm):
+    if not math.isfinite(real(speed_rpm)):
         raise SceneError("speed_rpm", str(speed_rpm), "a speed [rev/min]")
     named = {"defect": defects} if isinstance(defects, Defect) else dict(defects or {})
     oil = chosen(lubricant, temperature_c)
@@ -162,10 +163,6 @@ def _thrust(made: Bearing, radial: float, axial: float | None) -> float:
 
 
 def _load(name: str, value: float) -> float:
-    if (
-        isinstance(value, bool)
-        or not math.isfinite(value)
-        or (name == "radial_load" and value < 0.0)
-    ):
+    if not math.isfinite(real(value)) or (name == "radial_load" and value < 0.0):
         raise SceneError(name, repr(value), "a load [N], the radial one along -y and from 0")
     return float(value)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from .._numbers import real
 from ..errors import SceneError
 
 __all__ = ["CLASSES", "radial_clearance"]
@@ -45,7 +46,7 @@ def radial_clearance(bore: float, clearance: str | float) -> float:
     12.5
     """
     if not isinstance(clearance, str):
-        if isinstance(clearance, bool) or not math.isfinite(clearance):
+        if not math.isfinite(real(clearance)):
             raise SceneError(
                 "clearance", repr(clearance), "a number [m], or one of " + ", ".join(CLASSES)
             )

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._document import counted
+from .._numbers import real
 from ..errors import SceneError
 
 if TYPE_CHECKING:
@@ -72,14 +74,13 @@ def scatter(
     """
     from .._polars import pl
 
-    if n < 1:
-        raise SceneError("n", str(n), "at least 1")
+    n, seed = counted("n", n, 1), counted("seed", seed, 0)
     deviations = {
         "ball_diameter": ball_diameter, "clearance": clearance, "groove_radius": groove_radius,
     }  # fmt: skip
     for name, value in deviations.items():
-        if not 0.0 <= value < math.inf:
-            raise SceneError(name, str(value), "a standard deviation, from 0 [m]")
+        if not 0.0 <= real(value) < 1.0:
+            raise SceneError(name, repr(value), "a standard deviation, from 0 to below 1 m")
     rng = np.random.default_rng(seed)
     columns: dict[str, object] = {"bearing_id": range(n)}
     for i, row in enumerate(scene.rows):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._features import features
+from .._numbers import real
 from ..errors import SceneError
 from ..measuring import Measurement, measure
 from ..measuring.tables import Chains, named_chains
@@ -65,8 +66,8 @@ def measured(
         There is no chain, or no such number of them.
     """
     named = named_chains(chains)
-    if per_case is not None and not 1 <= per_case <= len(named):
-        raise SceneError("per_case", str(per_case), f"None, or 1 to {len(named)}, the chains")
+    if per_case is not None and not 1 <= real(per_case) <= len(named):
+        raise SceneError("per_case", repr(per_case), f"None, or 1 to {len(named)}, the chains")
     for case_id, out in runs:
         for name in _drawn(list(named), per_case, f"{seed}/{case_id}"):
             own = _number(f"{seed}/{case_id}/{name}")
@@ -100,8 +101,8 @@ def windows_table(lines: Iterator[Measured], length: int, hop: int | None) -> pl
 
     hop = length if hop is None else hop
     for name, value in (("length", length), ("hop", hop)):
-        if isinstance(value, bool) or value < 1:
-            raise SceneError(name, repr(value), "a number of samples, from 1")
+        if not (real(value) >= 1 and real(value).is_integer()):
+            raise SceneError(name, repr(value), "a whole number of samples, from 1")
     frames = []
     for line in lines:
         x = line.measurement.x

@@ -111,6 +111,7 @@ def run_spread(
             if not pending:
                 return
             ended, pending = wait(pending, timeout=0.1, return_when=FIRST_COMPLETED)
+            _check_scheduler(executor)
             for future in ended:
                 result = _result(future)
                 counts = counts.plus(Counts(*result["counts"]))
@@ -126,6 +127,20 @@ def run_spread(
             # What a worker has taken cannot be cancelled; it looks for this file, which the next call sweeps.
             with suppress(OSError):
                 _stopped(store, stop).touch()
+
+
+def _check_scheduler(executor: Any) -> None:
+    """Refuse to wait for a scheduler of Dask that is gone: its client drops what it was asked for.
+
+    Raises
+    ------
+    CampaignError
+        The client has lost its scheduler.
+    """
+    # The executor of a Dask client knows it; other executors tell in their futures.
+    status = getattr(getattr(executor, "_client", None), "status", "running")
+    if status in ("connecting", "closing", "closed"):
+        raise CampaignError(f"Dask's scheduler was lost (its client is {status}); start it again")
 
 
 def _stopped(store: Store, stop: str) -> Path:

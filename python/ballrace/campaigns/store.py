@@ -69,10 +69,11 @@ class Store:
         self.root = root.resolve()
         path = self.root / "campaign.json"
         try:
-            text = path.read_text(encoding="utf-8")
+            data = path.read_bytes()
         except FileNotFoundError:
             raise CampaignError(f"{root}: holds no campaign; campaign.json is missing") from None
         try:
+            text = data.decode()
             self.identity: dict[str, Any] = json.loads(text)
             form = self.identity["format"]
         except (ValueError, TypeError, KeyError):

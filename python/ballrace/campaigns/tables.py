@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._document import Part, counted
+from .._numbers import real
 from ..errors import SceneError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
     import polars as pl
 
 __all__ = ["grid", "latin_hypercube", "sobol"]
@@ -39,26 +40,41 @@ def grid(values: Mapping[str, Iterable[object]]) -> pl.DataFrame:
     """
     from .._polars import pl
 
-    lists = {name: list(column) for name, column in values.items()}
-    for name, column in lists.items():
-        if not column:
-            raise SceneError(name, "[]", "at least one value")
-    if not lists:
-        raise SceneError("values", "{}", "at least one column")
+    lists = {name: _listed(name, column) for name, column in _named("values", values).items()}
     count = math.prod(len(column) for column in lists.values())
     each, columns = count, []
     for name, column in lists.items():
         each //= len(column)
-        # A number beside a word would become a word.
+        # A number beside a word would become a word, and beside a list there is no type for both.
         kind = pl.Object if _is_mixed(column) else None
         place = np.arange(count) // each % len(column)
         columns.append(pl.Series(name, column, dtype=kind, strict=False)[place])
     return pl.DataFrame(columns)
 
 
+def _named(argument: str, columns: object) -> Mapping[str, Any]:
+    """Return columns by their names, of which there must be one."""
+    if not isinstance(columns, Mapping) or not columns:
+        raise SceneError(argument, repr(columns), "at least one column, by its name")
+    for name in columns:
+        if not isinstance(name, str) or not name:
+            raise SceneError(argument, f"a column {name!r}", "columns with names")
+    return columns
+
+
+def _listed(name: str, column: object) -> list[object]:
+    found = (
+        list(column) if isinstance(column, Iterable) and not isinstance(column, str | bytes) else []
+    )
+    if not found:
+        raise SceneError(name, repr(column), "at least one value, in a list")
+    return found
+
+
 def _is_mixed(column: list[object]) -> bool:
+    kinds = (str, bytes, Mapping, Sequence, np.ndarray, Part)
     present = [value for value in column if value is not None]
-    return len({isinstance(value, str) for value in present}) > 1
+    return len({next((k for k in kinds if isinstance(v, k)), None) for v in present}) > 1
 
 
 def latin_hypercube(
@@ -89,8 +105,8 @@ def latin_hypercube(
     """
     from scipy.stats import qmc
 
-    _check(ranges, n)
-    return _scaled(qmc.LatinHypercube(len(ranges), rng=seed).random(n), ranges)
+    count, seed = _checked(ranges, n, seed)
+    return _scaled(qmc.LatinHypercube(len(ranges), rng=seed).random(count), ranges)
 
 
 def sobol(ranges: Mapping[str, tuple[float, float]], n: int, *, seed: int) -> pl.DataFrame:
@@ -116,24 +132,25 @@ def sobol(ranges: Mapping[str, tuple[float, float]], n: int, *, seed: int) -> pl
     """
     from scipy.stats import qmc
 
-    _check(ranges, n)
-    if n & (n - 1):
+    count, seed = _checked(ranges, n, seed)
+    if count & (count - 1):
         raise SceneError("n", str(n), "a power of two")
-    return _scaled(qmc.Sobol(len(ranges), rng=seed).random(n), ranges)
+    return _scaled(qmc.Sobol(len(ranges), rng=seed).random(count), ranges)
 
 
-def _check(ranges: Mapping[str, tuple[float, float]], n: int) -> None:
-    if not ranges:
-        raise SceneError("ranges", "{}", "at least one column")
-    for name, (low, high) in ranges.items():
-        if not (math.isfinite(low) and math.isfinite(high) and low < high):
-            raise SceneError(name, f"({low}, {high})", "two finite numbers, the second above")
-    if n < 1:
-        raise SceneError("n", str(n), "at least 1")
+def _checked(ranges: Mapping[str, tuple[float, float]], n: int, seed: int) -> tuple[int, int]:
+    for name, pair in _named("ranges", ranges).items():
+        is_pair = isinstance(pair, tuple | list) and len(pair) == 2
+        low, high = map(real, pair) if is_pair else (math.nan, math.nan)
+        if not (low < high and math.isfinite(high - low)):
+            raise SceneError(name, repr(pair), "two finite numbers, the second above")
+    return counted("n", n, 1), counted("seed", seed, 0)
 
 
 def _scaled(unit: Any, ranges: Mapping[str, tuple[float, float]]) -> pl.DataFrame:
     from .._polars import pl
 
     columns = zip(ranges.items(), unit.T, strict=True)
-    return pl.DataFrame({name: low + (high - low) * u for (name, (low, high)), u in columns})
+    return pl.DataFrame(
+        {name: real(low) + (real(high) - real(low)) * u for (name, (low, high)), u in columns}
+    )

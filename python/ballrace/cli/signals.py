@@ -15,7 +15,7 @@ from .._files import check_writable, whole
 from .._text import printable
 from ..campaigns import Campaign
 from ..errors import SceneError
-from ..operating import fault_frequencies
+from ..operating import fault_frequencies, spin_of
 from ..recordings import read
 from ..signals import Signals
 from .arguments import Commands, added
@@ -140,7 +140,8 @@ def _spectrum(options: argparse.Namespace) -> None:
         found = spectra.spectrum(x, fs) if options.plain else spectra.envelope_spectrum(x, fs, band)
     lines = zip(found[0].tolist(), found[1].tolist(), strict=True)
     if options.output is None:
-        _print_strongest(list(lines), rates)
+        spin = spin_of(out.scene, rates) if isinstance(out, Signals) and rates is not None else None
+        _print_strongest(list(lines), rates, spin)
     elif str(options.output) == "-":
         csv.writer(sys.stdout, lineterminator="\n").writerows([("frequency", "value"), *lines])
     else:
@@ -188,14 +189,18 @@ def _write_page(
     print(f"{printable(str(options.output))}: {options.output.stat().st_size / 1e6:.1f} MB")
 
 
-def _print_strongest(lines: list[tuple[float, float]], rates: FaultFrequencies | None) -> None:
+def _print_strongest(
+    lines: list[tuple[float, float]], rates: FaultFrequencies | None, spin: tuple[float, int] | None
+) -> None:
     """Print the highest summits, with the nearest fault line within a line's width of each."""
     inner = range(1, len(lines) - 1)
     summits = [k for k in inner if lines[k - 1][1] < lines[k][1] >= lines[k + 1][1]]
     summits.sort(key=lambda k: -lines[k][1])
     width = 2.0 * (lines[1][0] - lines[0][0])
     bands = (
-        () if rates is None else spectra.fault_bands(rates.orders, abs(rates.shaft), harmonics=5)
+        ()
+        if rates is None
+        else spectra.fault_bands(rates.orders, abs(rates.shaft), harmonics=5, spin=spin)
     )
     rows = []
     for k in summits[:_STRONGEST]:

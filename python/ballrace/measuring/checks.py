@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._numbers import real, real_row
 from ..errors import SceneError
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ def positive(name: str, value: float, *, zero: bool = False, below: float = math
     SceneError
         Names the field.
     """
-    if isinstance(value, bool) or not (0.0 < value < below or (zero and value == 0.0)):
+    if not (0.0 < real(value) < below or (zero and real(value) == 0.0)):
         bound = "" if math.isinf(below) else f", below {below:g}"
         raise SceneError(name, repr(value), f"{'from' if zero else 'above'} 0{bound}")
 
@@ -38,10 +39,7 @@ def finite_row(name: str, values: ArrayLike) -> NDArray[np.float64]:
     SceneError
         They are none, or not all finite.
     """
-    try:
-        row = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise SceneError(name, type(values).__name__, "numbers") from None
+    row = real_row(name, values)
     if row.ndim != 1 or row.size == 0 or not np.isfinite(row).all():
         raise SceneError(name, f"an array of shape {row.shape}", "finite numbers, shape (n,)")
     return row

@@ -7,12 +7,17 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from ..errors import SceneError
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
 __all__ = ["Transfer", "passed"]
+
+_LONGEST = 2**26
+"""Samples of ringing that are taken up behind a record, at most."""
 
 
 class Transfer(Protocol):
@@ -31,10 +36,19 @@ def passed(x: NDArray[np.float64], fs: float, stages: Sequence[Transfer]) -> NDA
     """Return what linear stages make of a signal; they are at rest as it begins.
 
     Zeros behind the record take up the ringing, which would else come round to its beginning.
+
+    Raises
+    ------
+    SceneError
+        They ring too long for that.
     """
     if not stages:
         return x
-    tail = math.ceil(fs * sum(stage.ringing(fs) for stage in stages))
+    ringing = sum(stage.ringing(fs) for stage in stages)
+    if fs * ringing > _LONGEST:
+        allowed = f"a rate at which {ringing:.3g} s of ringing are at most {_LONGEST} samples"
+        raise SceneError("fs", f"{fs:g}", allowed)
+    tail = math.ceil(fs * ringing)
     length = 1 << (x.size + tail - 1).bit_length()
     f = np.arange(length // 2 + 1, dtype=np.float64) * (fs / length)
     spectrum = np.fft.rfft(x, length)

@@ -21,6 +21,9 @@ __all__ = ["Logger"]
 _STOP = 80.0
 """Attenuation of the anti-aliasing filter [dB]."""
 
+_FASTER = 100
+"""A logger's rate over that of the signal, at most: above it there is nothing new, only memory spent."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Logger:
@@ -78,6 +81,10 @@ class Logger:
         rate = self.fs or fs
         if self.bandwidth is None and rate == fs:
             return x, fs
+        if rate > _FASTER * fs:
+            raise SceneError(
+                "logger.fs", f"{rate:g}", f"at most {_FASTER} times {fs:g}, the signal's rate"
+            )
         ratio = Fraction(rate / fs).limit_denominator(2000)
         if abs(float(ratio) * fs / rate - 1.0) > 1e-9:
             raise SceneError("logger.fs", f"{rate:g}", f"a ratio of small whole numbers to {fs:g}")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from .._numbers import LARGEST, real, real_row
 from ..errors import SceneError
 from ..scene import MotionProbe, SpeedDrive
 
@@ -58,9 +59,9 @@ def of_array(
     SceneError
         It is no signal, or there is no sampling rate.
     """
-    if fs is None or isinstance(fs, bool) or not 0.0 < fs < math.inf:
+    if fs is None or not 0.0 < real(fs) < math.inf:
         raise SceneError("fs", repr(fs), "the sampling rate of the array [Hz]")
-    signal = np.asarray(x, dtype=np.float64)
+    signal = real_row("x", x)
     if signal.ndim == 2 and signal.shape[1] == 3:
         signal = signal @ np.asarray(unit(direction or (0.0, 1.0, 0.0)))
     elif direction is not None:
@@ -71,6 +72,8 @@ def of_array(
         raise SceneError(
             "x", f"an array of shape {signal.shape}", "finite numbers, shape (n,) or (n, 3)"
         )
+    if np.abs(signal).max() > LARGEST:
+        raise SceneError("x", f"up to {np.abs(signal).max():g}", f"magnitudes up to {LARGEST:g}")
     t = np.arange(signal.size) / fs
     return Source(x=signal.copy(), t=t, fs=float(fs), angle=_angle(shaft, t))
 
@@ -143,7 +146,7 @@ def _shaft_angle(out: Signals) -> NDArray[np.float64] | None:
 def _angle(shaft: ArrayLike | None, t: NDArray[np.float64]) -> NDArray[np.float64] | None:
     if shaft is None:
         return None
-    given = np.asarray(shaft, dtype=np.float64)
+    given = real_row("shaft", shaft)
     if given.ndim == 0 and np.isfinite(given):
         return 2.0 * np.pi * float(given) * t
     if given.shape != t.shape or not np.isfinite(given).all():

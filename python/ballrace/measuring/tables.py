@@ -26,9 +26,10 @@ def named_chains(chains: Chains) -> dict[str, Chain]:
     SceneError
         There is none, or something else.
     """
-    if isinstance(chains, Chain):
-        chains = [chains]
-    pairs = chains.items() if isinstance(chains, Mapping) else enumerate(chains)
+    given = [chains] if isinstance(chains, Chain) else chains
+    if not isinstance(given, Mapping | Sequence):
+        raise SceneError("chains", repr(chains), "at least one Chain of ballrace.measuring")
+    pairs = given.items() if isinstance(given, Mapping) else enumerate(given)
     named = {str(name): chain for name, chain in pairs}
     if not named or not all(isinstance(chain, Chain) for chain in named.values()):
         raise SceneError("chains", repr(chains), "at least one Chain of ballrace.measuring")

@@ -26,10 +26,11 @@ def bands_of(
     limit: float,
     *,
     orders: bool = False,
+    spin: tuple[float, int] | None = None,
 ) -> list[FaultBand]:
     """Return the lines of some faults below a limit, in hertz or in orders."""
     shaft = 1.0 if orders else abs(rates.shaft)
-    found = fault_bands(rates.orders, shaft, harmonics=harmonics, sidebands=sidebands)
+    found = fault_bands(rates.orders, shaft, harmonics=harmonics, sidebands=sidebands, spin=spin)
     return [band for band in found if band.fault in faults and band.centre <= limit]
 
 

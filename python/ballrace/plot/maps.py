@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import spectra
 from ..errors import SceneError
-from .sources import faults_of, row_of, scene_of, source
+from .sources import faults_of, row_of, scene_of, source, spin_of
 from .style import SYMBOLS, finished
 
 if TYPE_CHECKING:
@@ -174,16 +174,18 @@ def _fault_orders(
     highest: float,
 ) -> None:
     """Draw a line for each harmonic of each fault; orders do not change as the speed does."""
-    from ..frequencies import of_row
+    from ..operating import fault_frequencies
     from ..spectra import fault_bands
 
     scene = scene_of(of)
     row = row_of(of) if row is None else row
     if rates is None and scene is None:
         return
-    orders = rates.orders if rates is not None else of_row(scene.rows[row])  # type: ignore[union-attr]
+    if rates is None:
+        assert scene is not None
+        rates = fault_frequencies(scene, 60.0, row=row, operating=False)
     chosen = faults_of(of, faults, row)
-    for band in fault_bands(orders, sidebands=0):
+    for band in fault_bands(rates.orders, sidebands=0, spin=spin_of(of, rates, row)):
         if band.fault in chosen and band.centre <= highest:
             _, colour, dash, _ = SYMBOLS[band.fault]
             fig.add_hline(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import operating
 from ..errors import EquilibriumError, SceneError
 from ..operating import FaultFrequencies, fault_frequencies
 from ..recordings.columns import Columns
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
     from ..signals import Signals
     from ..spectra.bands import Fault
 
-__all__ = ["Source", "faults_of", "rates_of", "scene_of", "source"]
+__all__ = ["Source", "faults_of", "rates_of", "scene_of", "source", "spin_of"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,6 +95,12 @@ def rates_of(of: object, rates: FaultFrequencies | None, row: int) -> FaultFrequ
 
 
 _ALL: tuple[Literal["outer_race", "inner_race", "ball"], ...] = ("outer_race", "inner_race", "ball")
+
+
+def spin_of(of: object, rates: FaultFrequencies | None, row: int) -> tuple[float, int] | None:
+    """Return order and hits a turn of the balls of a run; None of what was measured, where balls tumble."""
+    scene = scene_of(of)
+    return None if scene is None or rates is None else operating.spin_of(scene, rates, row)
 
 
 def faults_of(of: object, faults: Iterable[Fault] | None, row: int) -> tuple[Fault, ...]:

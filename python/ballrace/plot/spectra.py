@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from .. import spectra
 from ..errors import SceneError
 from .lines import add_lines, bands_of
-from .sources import faults_of, rates_of, row_of, source
+from .sources import faults_of, rates_of, row_of, source, spin_of
 from .style import COLOURS, DASHES, finished, title
 from .times import fault_rate
 
@@ -43,6 +43,9 @@ def envelope_spectrum(
     **layout: Any,
 ) -> go.Figure:
     """Draw the spectrum of an envelope with the lines that defects may have: k·BPFO, k·BPFI ± f_r, 2k·BSF ± FTF.
+
+    A ball of a run spins about the axis only, so that the lines of its defect are k·BSF/cos α, or twice that where
+    it reaches both tracks (:func:`ballrace.operating.spin_of`).
 
     Parameters
     ----------
@@ -94,7 +97,8 @@ def envelope_spectrum(
     found = rates_of(of, rates, row)
     chosen = faults_of(of, faults, row) if found is not None else ()
     f, value = spectra.envelope_spectrum(signal.x, signal.fs, band, squared)
-    end = _limit(limit, f, found, chosen, harmonics)
+    spin = spin_of(of, found, row)
+    end = _limit(limit, f, found, chosen, harmonics, spin=spin)
     shown = (f > 0.0) & (f <= end)
     fig = fig if fig is not None else Figure()
     what = "squared envelope" if squared else "envelope"
@@ -103,7 +107,7 @@ def envelope_spectrum(
     fig.add_trace(Scatter(x=f[shown], y=value[shown], name=name or what, mode="lines", line=style))
     if found is not None:
         top = 1.05 * float(value[shown].max(initial=0.0)) or 1.0
-        add_lines(fig, bands_of(found, chosen, harmonics, sidebands, end), top)
+        add_lines(fig, bands_of(found, chosen, harmonics, sidebands, end, spin=spin), top)
     square = {True: f"({signal.unit})²", False: signal.unit}[squared] if signal.unit else ""
     fig.update_xaxes(title_text="frequency / Hz", range=[0.0, end])
     fig.update_yaxes(title_text=title(f"line of the {what}", square), rangemode="tozero")
@@ -118,6 +122,8 @@ def _limit(
     rates: FaultFrequencies | None,
     faults: tuple[Fault, ...],
     harmonics: int,
+    *,
+    spin: tuple[float, int] | None,
 ) -> float:
     if limit is not None:
         if not limit > 0.0:
@@ -125,7 +131,7 @@ def _limit(
         return min(limit, float(f[-1]))
     if rates is None or not faults:
         return float(f[-1])
-    highest = max(fault_rate(rates, fault) for fault in faults)
+    highest = max(fault_rate(rates, fault, spin) for fault in faults)
     return min((harmonics + 0.5) * highest, float(f[-1]))
 
 

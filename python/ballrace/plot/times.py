@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import SceneError
 from ..spectra import squared_envelope
 from .decimation import min_max
-from .sources import faults_of, rates_of, row_of, source
+from .sources import faults_of, rates_of, row_of, source, spin_of
 from .style import COLOURS, DASHES, SYMBOLS, finished, title, unit, words
 
 if TYPE_CHECKING:
@@ -161,7 +161,7 @@ def impacts(
     top = 1.12 * float(np.abs(signal.x).max(initial=0.0)) or 1.0
     for fault in faults_of(of, faults, row) if found is not None else ():
         name, colour, _, marker = SYMBOLS[fault]
-        rate = fault_rate(found, fault)  # type: ignore[arg-type]
+        rate = fault_rate(found, fault, spin_of(of, found, row))  # type: ignore[arg-type]
         at = signal.start + _hits(signal.x, signal.fs, rate, band)
         mark = {"symbol": marker, "size": 9, "color": colour}
         trace = Scatter(
@@ -174,12 +174,15 @@ def impacts(
     return finished(fig, layout, height=380, showlegend=True)
 
 
-def fault_rate(rates: FaultFrequencies, fault: Fault) -> float:
-    """Return the frequency at which a defect is hit [Hz]: a ball's twice a turn of its spin."""
+def fault_rate(
+    rates: FaultFrequencies, fault: Fault, spin: tuple[float, int] | None = None
+) -> float:
+    """Return the frequency at which a defect is hit [Hz]: a ball's twice a turn of its spin, or as a run's are."""
+    order, hits = (rates.orders.bsf, 2) if spin is None else spin
     of = {
         "outer_race": rates.bpfo,
         "inner_race": rates.bpfi,
-        "ball": 2.0 * rates.bsf,
+        "ball": hits * order * rates.shaft,
         "cage": rates.ftf,
     }
     return abs(of[fault])

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .._numbers import real, real_row
 from ..errors import SceneError
 from .columns import Columns, no_column
 from .samples import Samples
@@ -68,10 +69,10 @@ class Recording(Columns):
         if len({x.size for x in columns.values()}) != 1:
             sizes = ", ".join(f"{name}: {x.size}" for name, x in columns.items())
             raise SceneError("columns", sizes or "none", "at least one, all of one length")
-        if not 0.0 < self.fs < math.inf:
-            raise SceneError("fs", str(self.fs), "above 0")
-        if self.shaft is not None and not 0.0 <= self.shaft < math.inf:
-            raise SceneError("shaft", str(self.shaft), "a rate, or None")
+        if not 0.0 < real(self.fs) < math.inf:
+            raise SceneError("fs", repr(self.fs), "above 0")
+        if self.shaft is not None and not 0.0 <= real(self.shaft) < math.inf:
+            raise SceneError("shaft", repr(self.shaft), "a rate, or None")
         units = {name: str(self.units.get(name, "")) for name in columns}
         object.__setattr__(self, "columns", MappingProxyType(columns))
         object.__setattr__(self, "units", MappingProxyType(units))
@@ -130,10 +131,7 @@ def _remade(fields: dict[str, Any]) -> Recording:
 
 
 def _checked(name: str, x: Any) -> NDArray[np.float64]:
-    try:
-        values = np.asarray(x, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise SceneError(f"columns[{name!r}]", type(x).__name__, "an array of numbers") from None
+    values = real_row(f"columns[{name!r}]", x)
     if values.ndim != 1 or values.size == 0:
         raise SceneError(f"columns[{name!r}]", f"an array of shape {values.shape}", "of shape (n,)")
     return values

@@ -72,6 +72,7 @@ def windows(
     hop = length if hop is None else hop
     _check("length", length, count)
     _check("hop", hop, None)
+    _check_labels(label, bearing_id)
     assert samples.fs is not None
     starts = np.arange(0, count - length + 1, hop)
     middles = ((starts + length / 2) / samples.fs).tolist()
@@ -102,6 +103,13 @@ def _check(name: str, number: object, most: int | None) -> None:
         raise SceneError(name, repr(number), "a whole number of samples, at least 1")
     if most is not None and number > most:
         raise SceneError(name, str(number), f"no more samples than there are, {most}")
+
+
+def _check_labels(label: object, bearing_id: object) -> None:
+    if not isinstance(label, str | None):
+        raise SceneError("label", repr(label), "text, or None")
+    if isinstance(bearing_id, bool) or not isinstance(bearing_id, str | int | np.integer | None):
+        raise SceneError("bearing_id", repr(bearing_id), "text, a whole number, or None")
 
 
 def _pieces(x: NDArray[np.float64], length: int, hop: int) -> pl.Series:

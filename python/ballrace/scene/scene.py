@@ -246,7 +246,9 @@ class Scene(Part):
         SceneError
             A path leads nowhere, or the new scene is not usable.
         """
-        pairs = [(path, encode(value, path)) for path, value in changes.items()]
+        if not isinstance(changes, Mapping):
+            raise SceneError("changes", repr(changes), "new values by their paths")
+        pairs = [(checked_path(path), encode(value, path)) for path, value in changes.items()]
         return self._read(_core.scene_replace(self._document(), json.dumps(pairs)))
 
     @classmethod
@@ -262,6 +264,15 @@ class Scene(Part):
             text = json.dumps(encode(self, ""))
             object.__setattr__(self, "_text", text)
         return text
+
+
+def checked_path(path: object) -> str:
+    """Return a path that names something; whether it leads anywhere, the core tells."""
+    if not isinstance(path, str) or not path:
+        raise SceneError(
+            "changes", repr(path), "paths such as loads.radial.force or rows[0].clearance"
+        )
+    return path
 
 
 def _newer(error: SceneError, parse: Callable[[str], Any], text: str) -> SceneError:

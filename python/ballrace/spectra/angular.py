@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._interrupt import answers_ctrl_c
+from .._numbers import real, real_row
 from ..errors import SceneError
 from .checks import checked_signal
 from .lines import spectrum
@@ -26,6 +27,9 @@ _FINER = 4
 
 _FILTER = {"window": ("kaiser", 8.0), "padtype": "antireflect"}
 """Filter of the resampling: ripple and leakage below 1e-4, and a record that goes on as its ends point."""
+
+_FEWEST = 8
+"""Samples over the angle, at least."""
 
 _MOST = 64
 """Samples over the angle for each over time, at most."""
@@ -123,7 +127,7 @@ def order_spectrum(
 
 
 def _checked_turns(angle: ArrayLike, samples: int) -> NDArray[np.float64]:
-    turns = np.asarray(angle, dtype=np.float64) / (2.0 * math.pi)
+    turns = real_row("angle", angle) / (2.0 * math.pi)
     if turns.shape != (samples,):
         raise SceneError(
             "angle", f"an array of shape {turns.shape}", f"one angle a sample, ({samples},)"
@@ -137,9 +141,12 @@ def _checked_turns(angle: ArrayLike, samples: int) -> NDArray[np.float64]:
 def _rates(turns: NDArray[np.float64], per_turn: int | None) -> tuple[int, int]:
     """Return the samples a turn, and how many times as many are taken before the filter."""
     needed = math.ceil(1.0 / np.diff(turns).min())
-    if per_turn is not None and (isinstance(per_turn, bool) or per_turn < 2 or per_turn % 1):
+    if per_turn is not None and not (real(per_turn) >= 2 and real(per_turn).is_integer()):
         raise SceneError("per_turn", repr(per_turn), "a whole number of samples a turn, at least 2")
     rate = needed if per_turn is None else int(per_turn)
+    if rate * turns[-1] < _FEWEST:
+        text = f"more; at {rate} samples a turn it gives fewer than {_FEWEST}"
+        raise SceneError("angle", f"{turns[-1]:.3g} turns", text)
     filtered = max(math.ceil(needed / rate), 1)
     if rate * filtered * turns[-1] > _MOST * turns.size:
         text = f"{needed} samples a turn where it is slowest"

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from .._numbers import real
 from ..errors import SceneError
 
 if TYPE_CHECKING:
@@ -48,6 +49,9 @@ class FaultBand:
         How many rates of the shaft (inner race) or of the cage (ball) beside it.
     centre, low, high : float
         Kinematic place of the line and edges of the band, in orders or [Hz].
+    spinning : int
+        Of a ball that spins about the axis only: how often a turn its defect meets a race, so that ``harmonic``
+        counts multiples of BSF/cos α, or of twice that. 0 of a real ball, and of all others.
     """
 
     fault: Fault
@@ -56,13 +60,18 @@ class FaultBand:
     centre: float
     low: float
     high: float
+    spinning: int = 0
 
     @property
     def label(self) -> str:
         """Name of the line as on a spectrum: ``2·BPFI − f_r``."""
         name = {"outer_race": "BPFO", "inner_race": "BPFI", "ball": "2·BSF", "cage": "FTF"}
         times = "" if self.harmonic == 1 else f"{self.harmonic}·"
-        line = times + name[self.fault] if self.fault != "ball" else f"{2 * self.harmonic}·BSF"
+        if self.fault == "ball":
+            hits = self.harmonic * (self.spinning or 2)
+            line = f"{'' if hits == 1 else f'{hits}·'}BSF{'/cos α' if self.spinning else ''}"
+        else:
+            line = times + name[self.fault]
         if self.sideband == 0:
             return line
         beside = "FTF" if self.fault == "ball" else "f_r"
@@ -111,6 +120,7 @@ def fault_bands(
     harmonics: int = 3,
     sidebands: int = 1,
     slip: float = 0.01,
+    spin: tuple[float, int] | None = None,
 ) -> tuple[FaultBand, ...]:
     """Return the bands in which the lines of defects are to be sought.
 
@@ -127,6 +137,10 @@ def fault_bands(
     slip : float
         Share by which a fault frequency may lie off its kinematic value, by slip and by the contact angle: half
         the width of the first harmonic's bands; the others are wider as they are higher.
+    spin : tuple of float and int, optional
+        Of balls that spin about the axis only, as those of a run do: order of their turns against the cage,
+        BSF/cos α, and how often a turn a defect meets a race, 1 or 2 (:func:`ballrace.operating.spin_of`). The
+        lines of a ball stand at their product. By default at 2·BSF, as of real balls, which tumble.
 
     Raises
     ------
@@ -143,36 +157,37 @@ def fault_bands(
     ['4·BSF', '4·BSF + FTF']
     """
     _check(shaft, harmonics, sidebands, slip)
+    ball, hits = (orders.bsf, 2) if spin is None else spin
     rates: tuple[tuple[Fault, float, float], ...] = (
         ("outer_race", orders.bpfo, 0.0),
         ("inner_race", orders.bpfi, 1.0),
-        ("ball", 2.0 * orders.bsf, orders.ftf),
+        ("ball", hits * ball, orders.ftf),
         ("cage", orders.ftf, 0.0),
     )
-    return tuple(
-        _band(fault, k, side, (k * rate + side * beside) * shaft, k * rate * slip * shaft)
+    lines = (
+        (fault, k, side, (k * rate + side * beside) * shaft, k * rate * slip * shaft)
         for fault, rate, beside in rates
         for k in range(1, harmonics + 1)
         for side in (range(-sidebands, sidebands + 1) if beside else (0,))
         if k * rate * (1.0 - slip) + side * beside > 0.0
     )
+    return tuple(
+        FaultBand(
+            fault=fault, harmonic=k, sideband=side, centre=at, low=at - half, high=at + half,
+            spinning=hits if spin is not None and fault == "ball" else 0,
+        )
+        for fault, k, side, at, half in lines
+    )  # fmt: skip
 
 
 def _check(shaft: float, harmonics: int, sidebands: int, slip: float) -> None:
     for name, number, least in (("harmonics", harmonics, 1), ("sidebands", sidebands, 0)):
         if isinstance(number, bool) or not isinstance(number, int) or number < least:
             raise SceneError(name, repr(number), f"a whole number, at least {least}")
-    if not 0.0 < shaft < float("inf"):
-        raise SceneError("shaft", str(shaft), "above 0")
-    if not 0.0 <= slip < 0.5:
-        raise SceneError("slip", str(slip), "from 0 to below 0.5")
-
-
-def _band(fault: Fault, harmonic: int, sideband: int, centre: float, half: float) -> FaultBand:
-    return FaultBand(
-        fault=fault, harmonic=harmonic, sideband=sideband,
-        centre=centre, low=centre - half, high=centre + half,
-    )  # fmt: skip
+    if not 0.0 < real(shaft) < math.inf:
+        raise SceneError("shaft", repr(shaft), "above 0")
+    if not 0.0 <= real(slip) < 0.5:
+        raise SceneError("slip", repr(slip), "from 0 to below 0.5")
 
 
 def fault_band_metrics(

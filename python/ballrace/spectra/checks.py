@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._numbers import LARGEST, real, real_row
 from ..errors import SceneError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 __all__ = ["checked_band", "checked_length", "checked_signal"]
+
+RATES = 1e-9, 1e15
+"""Sampling rates that are taken [Hz]."""
 
 
 def checked_signal(x: ArrayLike, fs: float) -> NDArray[np.float64]:
@@ -23,18 +28,17 @@ def checked_signal(x: ArrayLike, fs: float) -> NDArray[np.float64]:
     SceneError
         It is no row of finite numbers, or too short, or its sampling rate is not usable.
     """
-    try:
-        signal = np.asarray(x, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise SceneError("x", type(x).__name__, "an array of numbers") from None
+    signal = real_row("x", x)
     if signal.ndim != 1 or signal.size < 8:
         raise SceneError(
             "x", f"an array of shape {signal.shape}", "an array of shape (n,), n at least 8"
         )
     if not np.isfinite(signal).all():
         raise SceneError("x", "not a number, or infinite, at places", "finite everywhere")
-    if not 0.0 < fs < math.inf:
-        raise SceneError("fs", str(fs), "above 0")
+    if np.abs(signal).max() > LARGEST:
+        raise SceneError("x", f"up to {np.abs(signal).max():g}", f"magnitudes up to {LARGEST:g}")
+    if not RATES[0] <= real(fs) <= RATES[1]:
+        raise SceneError("fs", repr(fs), f"a rate [Hz], {RATES[0]:g} to {RATES[1]:g}")
     return signal
 
 
@@ -46,9 +50,9 @@ def checked_band(band: tuple[float, float], fs: float) -> tuple[float, float]:
     SceneError
         It is no such band.
     """
-    low, high = band
+    low, high = map(real, band) if isinstance(band, Sequence) and len(band) == 2 else [math.nan] * 2
     if not 0.0 <= low < high <= fs / 2.0:
-        raise SceneError("band", str(band), f"two rising frequencies from 0 to fs/2, {fs / 2.0:g}")
+        raise SceneError("band", repr(band), f"two rising frequencies from 0 to fs/2, {fs / 2.0:g}")
     return low, high
 
 

@@ -119,5 +119,8 @@ def spectrogram(
         hann(samples, sym=False), step, fs, fft_mode="onesided2X", scale_to="psd"
     )
     span = transform.lower_border_end[1], transform.upper_border_begin(signal.size)[1]
-    value = transform.spectrogram(signal, p0=span[0], p1=max(span[1], span[0] + 1), detr="constant")
+    if not span[0] < span[1]:
+        text = f"less: no window of {samples} samples lies within the record's {signal.size}"
+        raise SceneError("hop", str(step), text)
+    value = transform.spectrogram(signal, p0=span[0], p1=span[1], detr="constant")
     return transform.f, transform.t(signal.size, *span), value

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._interrupt import answers_ctrl_c
+from .._numbers import real
 from ..errors import SceneError
 from .checks import checked_signal
 
@@ -112,8 +113,8 @@ def kurtogram(x: ArrayLike, fs: float, narrowest: float | None = None) -> Kurtog
     signal = checked_signal(x, fs)
     if signal.size < 4 * _FEWEST:
         raise SceneError("x", f"{signal.size} samples", f"at least {4 * _FEWEST}")
-    if narrowest is not None and not 0.0 < narrowest <= fs / 2.0:
-        raise SceneError("narrowest", str(narrowest), f"above 0 and up to fs/2, {fs / 2.0:g}")
+    if narrowest is not None and not 0.0 < real(narrowest) <= fs / 2.0:
+        raise SceneError("narrowest", repr(narrowest), f"above 0 and up to fs/2, {fs / 2.0:g}")
     parts = min(signal.size / 2 / _FEWEST, math.inf if narrowest is None else fs / 2 / narrowest)
     # The middle of 0 to fs/2 is moved to zero, and every other sample then holds all.
     middle = np.exp(-0.5j * math.pi * np.arange(signal.size))
@@ -159,7 +160,10 @@ def _collected(rows: list[tuple[int, list[Complex]]], fs: float) -> Kurtogram:
 
 
 def _kurtosis(z: Complex) -> float:
-    power = z.real**2 + z.imag**2
-    mean = float(np.mean(power))
+    largest = float(np.abs(z).max(initial=0.0))
     # Silence has none: not above that of noise.
-    return float(np.mean(power**2)) / mean**2 - 2.0 if mean > 0.0 else 0.0
+    if largest == 0.0:
+        return 0.0
+    # Of the largest, so that powers of faint signals do not vanish.
+    power = (z.real / largest) ** 2 + (z.imag / largest) ** 2
+    return float(np.mean(power**2)) / float(np.mean(power)) ** 2 - 2.0

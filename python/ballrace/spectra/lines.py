@@ -14,6 +14,7 @@ import numpy as np
 
 from .. import _core
 from .._interrupt import answers_ctrl_c
+from .._numbers import real
 from ..errors import SceneError
 from .checks import checked_signal
 
@@ -146,6 +147,7 @@ def comb(
     multiples = sorted(set(orders))
     if not multiples or multiples[0] < 1:
         raise SceneError("orders", str(orders), "at least one, from 1")
+    near, width = _checked("near", near), _checked("width", width)
     low, high = near - width, near + width
     if not (width > 0.0 and multiples[0] * low + offset > 0.0):
         raise SceneError("width", str(width), "above 0, and lines at positive frequencies")
@@ -205,10 +207,17 @@ def floor(
     >>> floor(f, np.array([1.0, 1.0, 9.0, 1.0, 1.0]), at=2.0, width=2.0)
     (2.0, 1.0)
     """
+    at, width = _checked("at", at), _checked("width", width)
     near = (f >= at - width) & (f <= at + width)
     if not near.any():
         raise SceneError("at", str(at), "within the spectrum, and width above its resolution")
     return at, float(np.median(value[near]))
+
+
+def _checked(name: str, frequency: float) -> float:
+    if not math.isfinite(real(frequency)):
+        raise SceneError(name, repr(frequency), "a frequency [Hz]")
+    return real(frequency)
 
 
 def _summit(function: Callable[[float], float], middle: float, span: float) -> float:

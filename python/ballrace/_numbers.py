@@ -1,0 +1,53 @@
+"""Arguments that ought to be numbers."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .errors import SceneError
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["LARGEST", "real", "real_row"]
+
+LARGEST = 1e60
+"""Magnitude of a signal: sums of its fourth powers, which a kurtosis takes, are still numbers."""
+
+
+def real(value: object) -> float:
+    """Return a number as a float, and NaN for what is none: no range holds it, so that one check refuses both.
+
+    >>> real(np.int64(3)), real("3"), real(None), real(True)
+    (3.0, nan, nan, nan)
+    """
+    if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
+        return math.nan
+    try:
+        return float(value)
+    except OverflowError:
+        return math.copysign(math.inf, value)
+
+
+def real_row(name: str, x: ArrayLike) -> NDArray[np.float64]:
+    """Return real numbers as an array, of any shape.
+
+    Raises
+    ------
+    SceneError
+        They are something else, or some of them are masked; ``name`` is the argument's.
+    """
+    try:
+        given = np.asanyarray(x)
+        # Objects may be numbers; text that reads as one is none, nor has a complex number only a real part.
+        row = np.asarray(given, dtype=np.float64) if given.dtype.kind in "biufO" else None
+    except (TypeError, ValueError, OverflowError):
+        row = None
+    if row is None:
+        raise SceneError(name, type(x).__name__, "an array of real numbers")
+    if np.ma.is_masked(given):
+        raise SceneError(name, "an array with masked places", "an array without; fill them")
+    return row
