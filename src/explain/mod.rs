@@ -3,6 +3,7 @@
 mod cost;
 mod law;
 mod oil;
+mod space;
 mod variants;
 
 use std::collections::BTreeMap;
@@ -65,15 +66,8 @@ pub struct Explanation {
     /// the inner race or the ball past all balls; of one on the outer race with a ball at its angle.
     pub defects: Vec<Touched>,
     /// What to know of the scene before believing a long run.
-    pub notes: Vec<&'static str>,
+    pub notes: Vec<String>,
 }
-
-/// What is told of a scene whose rings tilt.
-const LEANS: &str =
-    "a ring may tilt: contacts are evaluated in the frames of their rings, and nothing is left out";
-
-/// What is told of a scene whose balls spin freely.
-const TURNS: &str = "balls spin about any axis, with two states more each, and nothing is left out";
 
 /// How the contacts of a race are evaluated.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -104,8 +98,6 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
     let model = compile(&scene)?;
     let y0 = start(&model, &Start::Equilibrium)?;
     let reduction = Reduction::of(&model, &y0);
-    let leans = model.leans() && reduction.is_none();
-    let turns = model.balls_turn() && reduction.is_none();
     let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);
     let forces = dynamics.uses();
     let of = |wanted: crate::forces::Use| {
@@ -123,7 +115,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         states: model.dim(),
         kept: reduction.as_ref().map_or(model.dim(), Reduction::dim),
         omissions: listed(reduction.as_ref(), Reduction::omissions),
-        obstacles: if leans || turns {
+        obstacles: if model.is_spatial() && reduction.is_none() {
             Reduction::in_space(&model, &y0).err().unwrap_or_default()
         } else {
             listed(reduction.as_ref(), Reduction::obstacles)
@@ -139,9 +131,9 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         doubts: at_start.doubts,
         defects: defects(&scene, &placed)?,
         notes: run::note(&model)
+            .map(str::to_owned)
             .into_iter()
-            .chain(leans.then_some(LEANS))
-            .chain(turns.then_some(TURNS))
+            .chain(space::notes(&model, &y0, reduction.is_some()))
             .collect(),
     })
 }

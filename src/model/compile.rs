@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::body::{Body, Degree, ball_mass, conformity, groove_radius, ring_mass};
 use super::race::{RaceGeometry, geometry};
+use super::ring::layout_of;
 use super::{
     Ball, BodyId, DOFS, Dof, LoadModel, Model, MomentModel, Race, RingModel, RowModel, Scales,
     Spring, UnbalanceModel, demand, nodes,
@@ -72,7 +73,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     let unbalances = unbalances(scene, &bodies, &rings)?;
     let mut model = Model {
         scene: scene.clone(),
-        layout: Model::layout_of(&balls, &rings, scene.balls_turn()),
+        layout: layout_of(scene),
         rows,
         balls,
         loads: loads(scene, &rings),

@@ -28,7 +28,7 @@ pub use body::{Body, Degree};
 pub(crate) use compile::{ball_fault, compile_placed, race_fault};
 pub use layout::{BodyId, BodyKind, DOFS, Dof, Layout, Race};
 pub(crate) use layout::{RING_DOFS, RINGS};
-pub(crate) use ring::{CoupledModel, RingModel};
+pub(crate) use ring::{CoupledModel, RingModel, layout_of};
 pub(crate) use rolling::{Between, Rolling};
 pub use scales::Scales;
 

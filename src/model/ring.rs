@@ -2,9 +2,9 @@
 
 use nalgebra::{Matrix6, Vector3};
 
-use super::{Ball, BodyId, Degree, Dof, Layout, Model, Race};
+use super::{BodyId, Degree, Dof, Layout, Model, Race};
 use crate::contact::{LeaningRing, Motion};
-use crate::scene::{self, CoupledSupport};
+use crate::scene::{self, CoupledSupport, Mount, Scene, Surface};
 use crate::tilt::{Inertia, Rotation};
 
 /// A ring compiled.
@@ -51,6 +51,23 @@ impl RingModel {
     }
 }
 
+/// The layout of all bodies of a scene, of the tilts that move, and of balls that spin freely and tumble with a cap.
+pub(crate) fn layout_of(scene: &Scene) -> Layout {
+    let counts = scene.rows.iter().map(|row| row.ball_count);
+    let moves = |ring: &scene::Ring| ring.support.tilt_mounts().map(|of| of != Mount::Fixed);
+    let layout = Layout::of_balls(counts.clone().sum())
+        .with_tilts([&scene.outer_ring, &scene.inner_ring].map(moves));
+    if !scene.balls_turn() {
+        return layout;
+    }
+    let capped = scene.defects.values().filter_map(|defect| {
+        let before: usize = counts.clone().take(defect.row).sum();
+        (defect.on == Surface::Ball).then(|| before + defect.ball.unwrap_or(0))
+    });
+    let first = capped.clone().min().unwrap_or(0);
+    layout.with_turns(first..capped.max().map_or(first, |last| last + 1))
+}
+
 impl Model {
     /// Whether a ring may tilt, or leans from the start.
     #[inline]
@@ -77,22 +94,6 @@ impl Model {
     #[inline]
     pub(crate) fn is_spatial(&self) -> bool {
         self.leans || self.balls_turn()
-    }
-
-    /// The layout of all bodies, of the tilts that move, and of balls that spin freely and tumble with a cap.
-    pub(super) fn layout_of(balls: &[Ball], rings: &[RingModel; 2], balls_turn: bool) -> Layout {
-        let moves = |ring: &RingModel| ring.degrees.map(|degree| degree.is_free());
-        let layout = Layout::of_balls(balls.len()).with_tilts(rings.each_ref().map(moves));
-        if !balls_turn {
-            return layout;
-        }
-        let capped = |ball: &Ball| !ball.side.faults.is_empty();
-        let first = balls.iter().position(capped).unwrap_or_default();
-        let after = balls
-            .iter()
-            .rposition(capped)
-            .map_or(first, |last| last + 1);
-        layout.with_turns(first..after)
     }
 
     /// Tilt of a ring \[rad\] and its rates \[rad/s\] in a state.

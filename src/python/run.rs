@@ -13,7 +13,7 @@ use super::answer::{Callbacks, answering, handing_over};
 use super::errors::{OrRaise, to_json};
 use crate::dynamics;
 use crate::equilibrium::compile;
-use crate::model::{DOFS, Layout};
+use crate::model::{DOFS, layout_of};
 use crate::scene::RingName;
 use crate::start::check_length;
 use crate::{Error, Run, Scene, Signals, SliceRow, Start};
@@ -162,8 +162,7 @@ pub(super) fn run_from_json(py: Python<'_>, text: &str) -> PyResult<String> {
 
 /// A copy of a state to begin from, if it has the length for it.
 fn state_of(scene: &Scene, y: &PyReadonlyArray1<'_, f64>) -> crate::Result<Vec<f64>> {
-    let balls: usize = scene.rows.iter().map(|row| row.ball_count).sum();
-    check_length(y.as_array().len(), Layout::of_balls(balls).dim())?;
+    check_length(y.as_array().len(), layout_of(scene).dim())?;
     Ok(y.as_array().iter().copied().collect())
 }
 

@@ -154,19 +154,19 @@ impl Reduction {
         let mut found = Self::leaving_out(model, start, true);
         // Balls of two rows that are images of each other spin as each likes.
         let is_flat = found.plane || found.mirrored && !model.balls_turn();
-        let tilts = symmetry::of_tilts(model, start, found.mirrored)
-            .map_err(|reason| ("rings that do not tilt", reason));
-        let turns = symmetry::of_turns(model, start)
-            .map_err(|reason| ("balls that spin about the axis", reason));
-        let apart = [(model.leans(), tilts), (model.balls_turn(), turns)];
-        let against: Vec<Obstacle> = apart
-            .into_iter()
-            .filter_map(|(asked, found)| found.err().filter(|_| asked))
-            .map(|(what, reason)| Obstacle {
-                what: what.to_owned(),
-                reason,
-            })
-            .collect();
+        let mut against = Vec::new();
+        let mut look = |what: &str, found: Result<(), String>| {
+            let what = what.to_owned();
+            against.extend(found.err().map(|reason| Obstacle { what, reason }));
+        };
+        if model.leans() {
+            let found = symmetry::of_tilts(model, start, found.mirrored);
+            look("rings that do not tilt", found);
+        }
+        if model.balls_turn() {
+            let found = symmetry::of_turns(model, start);
+            look("balls that spin about the axis", found);
+        }
         if !is_flat || !against.is_empty() {
             return Err(against.into_iter().chain(found.obstacles).collect());
         }

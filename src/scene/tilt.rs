@@ -47,12 +47,28 @@ impl Scene {
 
     /// What reductions by request do not know yet is refused.
     pub(super) fn check_leaning(&self) -> Result<()> {
+        let Approximations {
+            rolling,
+            plane,
+            one_row,
+        } = self.approximations;
+        let asked = [("rolling", rolling), ("plane", plane), ("one_row", one_row)];
+        let Some((name, _)) = asked.into_iter().find(|(_, asked)| *asked) else {
+            return Ok(());
+        };
         let allowed = match (self.leans(), self.balls_turn()) {
-            _ if self.approximations == Approximations::NONE => return Ok(()),
-            (true, _) => "none where a ring may tilt: they are of rings that stay parallel",
-            (_, true) => "none where balls spin freely: they are of balls that spin about the axis",
+            (true, _) => {
+                "false where a ring may tilt: approximations are of rings that stay parallel"
+            }
+            (_, true) => {
+                "false where balls spin freely: approximations are of balls that spin about the axis"
+            }
             _ => return Ok(()),
         };
-        Err(Error::scene("approximations", "asked for", allowed))
+        Err(Error::scene(
+            format!("approximations.{name}"),
+            true,
+            allowed,
+        ))
     }
 }

@@ -29,6 +29,16 @@ MINIMAL = s.Row(
 )
 
 
+OF_BALLS: tuple[s.Component, ...] = (
+    "turn_x",
+    "turn_y",
+    "omega_x",
+    "omega_y",
+    "alpha_x",
+    "alpha_y",
+)
+
+
 def every_field() -> s.Scene:
     """A usable scene in which no field keeps its default (where a single scene can)."""
     support = s.Support(
@@ -117,7 +127,10 @@ def every_field() -> s.Scene:
             ),
         },
         probes={
-            "motion": s.MotionProbe(body="inner", components=typing.get_args(s.Component)),
+            "motion": s.MotionProbe(
+                body="inner",
+                components=tuple(c for c in typing.get_args(s.Component) if c not in OF_BALLS),
+            ),
             "contacts": s.ContactsProbe(
                 row=1, balls=(1, 2), races=races, quantities=typing.get_args(s.ContactQuantity)
             ),
@@ -139,10 +152,23 @@ def every_field() -> s.Scene:
     )
 
 
+def spun() -> s.Scene:
+    """Return the same with balls that spin freely, and a probe of one."""
+    full = every_field()
+    motion = s.MotionProbe(body="row1.ball2", components=OF_BALLS)
+    return dataclasses.replace(
+        full,
+        spin="free",
+        defects={"cap": full.defects["cap"]},
+        probes={"motion": motion},
+    )
+
+
 def scenes() -> list[s.Scene]:
     """Scenes that together use every variant."""
     full = every_field()
     return [
+        spun(),
         br.presets.wheel_bearing(),
         br.presets.deep_groove_6205(),
         full,

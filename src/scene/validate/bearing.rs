@@ -136,6 +136,7 @@ pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
     ] {
         if let Some(value) = value {
             positive(&at(field), value)?;
+            within(&at(field), value, 0.0..=1e9)?;
         }
     }
     if let Some(diameter) = ring.diameter {

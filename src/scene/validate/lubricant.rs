@@ -36,7 +36,8 @@ pub(super) fn lubricants(scene: &Scene) -> Result<()> {
     let of_scene = scene.lubricant.iter().map(|own| ("lubricant".into(), own));
     for (path, lubricant) in of_scene.chain(of_rows) {
         alone(&path, lubricant)?;
-        if scene.reference_speed_of(lubricant) == 0.0 {
+        // A speed of denormal numbers is none, either.
+        if !scene.reference_speed_of(lubricant).is_normal() {
             return Err(Error::scene(
                 format!("{path}.reference_speed"),
                 "absent",
