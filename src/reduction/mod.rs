@@ -261,7 +261,7 @@ impl Reduction {
                 });
             }
         }
-        let of_all_bodies = |(_, dof): &(BodyId, Dof)| !Dof::TILTS.contains(dof);
+        let of_all_bodies = |(_, dof): &(BodyId, Dof)| Dof::ALL.contains(dof);
         for (body, dof) in layout.degrees().filter(of_all_bodies) {
             let Some(reason) = reasons[body][dof] else {
                 continue;
