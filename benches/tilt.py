@@ -397,10 +397,10 @@ def wheel() -> pl.DataFrame:
 def draw_wheel(table: pl.DataFrame, figure: Figure) -> None:
     """Draw bars, a panel a number."""
     labels = {
-        "moment": "moment that holds it, N m",
-        "tilt": "tilt of the inner ring, mrad",
+        "moment": "moment of the hold, N m",
+        "tilt": "tilt, mrad",
         "over_spall": "ball load at the spall, N",
-        "line": "line of the envelope, m/s²",
+        "line": "envelope line, m/s²",
     }
     colours = {"at the centre": COLOURS["grey"], "at the tyre": COLOURS["free"]}
     for axes, (column, label) in zip(figure.subplots(1, 4), labels.items(), strict=True):
