@@ -33,7 +33,7 @@ TYPICAL = {
 }  # fmt: skip
 """What a field may be about, by its name; others about 1."""
 
-EDGES = (0.0, -0.0, 1.0, -1.0, 5e-324, 1e-300, 1e-12, 1e12, 1e300, 1.7976931348623157e308, -1e300)
+EDGES = (0.0, -0.0, 1.0, -1.0, 2.3e-308, 1e-300, 1e-12, 1e12, 1e300, 1.7976931348623157e308, -1e300)
 WRONG: tuple[Any, ...] = (
     None,
     True,
