@@ -294,8 +294,6 @@ pub(super) struct State<T> {
     pub slope: (T, T),
     /// Velocity of the ball's surface against the ring's along n_e, t_e and z \[m/s\].
     pub velocity: [T; 3],
-    /// What turning across the ring's axis adds to slip along the meridian, where any does \[m/s\].
-    pub turning: Option<T>,
     /// Elastic force per length \[N/m\] and penetration \[m\].
     pub load: T,
     pub depth: T,
@@ -329,11 +327,19 @@ pub(super) struct Force<T> {
 }
 
 /// Elastic force, damping and friction of an element, and how friction bends if asked. Where it is `SYMMETRIC` nothing moves along
-/// z and all presses in the plane.
+/// z and all presses in the plane. Where it is `TURNING` the ball turns across its ring's axis, which adds so much to slip along
+/// the meridian \[m/s\].
 #[inline(always)]
-pub(super) fn force<T: Number, const FMA: bool, const SYMMETRIC: bool, const BEND: bool>(
+pub(super) fn force<
+    T: Number,
+    const FMA: bool,
+    const SYMMETRIC: bool,
+    const BEND: bool,
+    const TURNING: bool,
+>(
     law: &Law,
     of: &State<T>,
+    turning: T,
 ) -> Force<T> {
     let (in_plane, axial) = of.share;
     let [v_n, v_t, v_z] = of.velocity;
@@ -362,10 +368,7 @@ pub(super) fn force<T: Number, const FMA: bool, const SYMMETRIC: bool, const BEN
         } else {
             v_z * cos - v_n * sin
         };
-        let u_m = match of.turning {
-            None => u_m,
-            Some(turning) => u_m + turning,
-        };
+        let u_m = if TURNING { u_m + turning } else { u_m };
         slip = [v_t, u_m];
         let sliding = of.sliding(approach, v_t.mul_add::<FMA>(v_t, u_m * u_m));
         if BEND {

@@ -33,7 +33,7 @@ mod stiffness;
 
 use nalgebra::{Vector2, Vector3};
 
-pub(crate) use batch::{BatchForces, Constants, EightContacts, Places, Rubbing, Summing};
+pub(crate) use batch::{Across, BatchForces, Constants, EightContacts, Places, Rubbing, Summing};
 pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz_stiffness};
 pub use fault::Fault;
 pub(crate) use fault::{Sight, Sighted, Toward};

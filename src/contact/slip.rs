@@ -18,8 +18,6 @@ pub(super) struct Moves<T> {
     /// Slip along t_e is slide + spin · arm.
     pub slide: T,
     pub spin: T,
-    /// Angular velocity along n_e and t_e of a ball whose ring may lean \[rad/s\].
-    pub across: [T; 2],
     pub rolling: Rolling<T>,
     /// A contact's arm from the ball's centre, R(z) − d, is this and σ times the groove's height.
     pub arm: T,
@@ -30,7 +28,7 @@ pub(super) struct Moves<T> {
 impl Moves<f64> {
     /// Whether nothing moves, as in statics: there is no friction then.
     pub fn are_none(&self) -> bool {
-        [self.v_e, self.v_z, self.slide, self.spin] == [0.0; 4] && self.across == [0.0; 2]
+        [self.v_e, self.v_z, self.slide, self.spin] == [0.0; 4]
     }
 }
 
@@ -166,9 +164,9 @@ impl<T: Number> Slip<T> {
     /// Slip along the line that a zone is cut along, under a law and on a race of some σ; none without friction.
     ///
     /// Along the race it is linear in the groove's height, which is developed about the middle of the zone; across it the
-    /// ball's surface alone says which way. `LEAN` says that balls may turn across their ring's axis.
+    /// ball's surface alone says which way.
     #[inline(always)]
-    pub fn along<const FMA: bool, const LEAN: bool>(
+    pub fn along<const FMA: bool>(
         law: &Law,
         sigma: f64,
         section: &Section<T>,
@@ -207,7 +205,7 @@ impl<T: Number> Slip<T> {
         let turning = moves.spin * sigma;
         let across = moves.v_z * cos - moves.v_e * sin;
         let middle = (groove - section.e) * sigma;
-        let mut slip = Self {
+        Some(Self {
             along: [
                 moves.spin.mul_add::<FMA>(middle, moves.slide),
                 -(turning * tan * cos),
@@ -224,33 +222,32 @@ impl<T: Number> Slip<T> {
             bend,
             over: over * over,
             fade: [fade, 0.5 * fade * (1.0 - fade)],
-        };
-        if LEAN {
-            let flatter = (inverse - over) * 0.5;
-            slip.turn_across::<FMA>(moves.across, section, groove - section.e, (bent, flatter));
-        }
-        Some(slip)
+        })
     }
 
-    /// Adds what a ball does that turns across its ring's axis: −w_n ζ along the race, and −w_t times the distance of the race from
-    /// the ball's centre across it, which grows by u² (1/R − 1/r)/2. `bent` is of ζ = R sin α' (1 + bent u²) + u cos α', and h the
-    /// groove's height over the ball's centre at the middle.
+    /// The same of a ball that turns across its ring's axis, with w_n and w_t along n_e and t_e \[rad/s\]: less w_n ζ along the race, and
+    /// less w_t times the distance of the race from the ball's centre across it, which grows by u² (1/R − 1/r)/2.
     #[inline(always)]
-    fn turn_across<const FMA: bool>(
-        &mut self,
-        [w_n, w_t]: [T; 2],
+    pub fn turning_across<const FMA: bool>(
+        mut self,
+        law: &Law,
         section: &Section<T>,
-        h: T,
-        (bent, flatter): (T, T),
-    ) {
+        [w_n, w_t]: [T; 2],
+    ) -> Self {
         let (cos, sin) = section.normal;
         let middle = section.radius * sin;
+        let (inverse, over) = (sin.same(1.0) / section.radius, sin.same(1.0) / section.r);
         self.along[0] = self.along[0] - w_n * middle;
         self.along[1] = self.along[1] - w_n * cos;
-        self.along[2] = self.along[2] - w_n * middle * bent;
+        if !law.cut().is_flat() {
+            // The ball's surface bends away from the line.
+            self.along[2] = self.along[2] + w_n * middle * inverse * inverse * 0.5;
+        }
+        let h = section.groove::<FMA>(sin) - section.e;
         let lever = middle.mul_add::<FMA>(sin, h * cos);
         self.across[0] = self.across[0] - w_t * lever;
-        self.across[2] = self.across[2] - w_t * flatter;
+        self.across[2] = self.across[2] - w_t * (inverse - over) * 0.5;
+        self
     }
 }
 

@@ -93,6 +93,12 @@ impl Rotation {
         }
         // Accelerations are linear in the forces of the holds.
         let at_rest = self.free(inertia, &Vector3::zeros());
+        if let [None, None, Some(spin)] = *prescribed {
+            // Most rings that tilt are held or driven about their axis: one division, and no matrix.
+            let by_hold = self.free(inertia, &self.moment_of([0.0, 0.0, 1.0])) - at_rest;
+            let [x, y, _] = (free + by_hold * ((spin - free.z) / by_hold.z)).into();
+            return [x, y, spin];
+        }
         let mut against = Matrix3::identity();
         let mut wanted = Vector3::zeros();
         let mut response = Matrix3::zeros();

@@ -39,8 +39,6 @@ pub(crate) struct EightContacts {
     pub q: [Lanes; 3],
     /// Velocity \[m/s\] and angular speed \[rad/s\] of the ball.
     pub v: [Lanes; 4],
-    /// Angular velocity of the ball across the axis of a ring that may lean, along x and y \[rad/s\].
-    pub across: [Lanes; 2],
     /// Of their films, if they have any.
     pub film: Option<FilmNumbers<Lanes>>,
 }

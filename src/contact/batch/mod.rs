@@ -8,13 +8,15 @@
 #![allow(clippy::inline_always)]
 
 mod gather;
+mod leaning;
 mod points;
 mod rubbing;
 
 pub(crate) use gather::{Constants, EightContacts, Places};
+pub(crate) use leaning::Across;
 pub(crate) use rubbing::Rubbing;
 
-use super::kernel::{self, Element, Receiver, State, Whole};
+use super::kernel::{self, Element, Force, Receiver, State, Whole};
 use super::laws::traction::Rolling;
 use super::oil::RollingResistance;
 use super::profile::{SHALLOW, Section, Zone};
@@ -27,8 +29,6 @@ use crate::simd::{Counters, InstructionSet, Lanes, Mask};
 pub(crate) struct BatchForces {
     pub ball: [Lanes; 4],
     pub ring: [Lanes; 4],
-    /// Moments about x and y on balls and ring, whose arm leads from the origin \[N m\], where the ring may lean.
-    pub across: [[Lanes; 2]; 2],
     /// Slices whose damping wanted to pull.
     pub pulls: u32,
     /// Contacts left out here.
@@ -55,9 +55,8 @@ pub(super) struct Place {
     pub regular: Mask,
 }
 
-/// Sums over the elements: forces on the balls along n_e, t_e and z, and the moment of those along t_e about the balls. `LEAN` says
-/// that balls may turn across the ring's axis: then the moments of friction along n_e and t_e are summed, too.
-struct Sums<'a, const LEAN: bool> {
+/// Sums over the elements: forces on the balls along n_e, t_e and z, and the moment of those along t_e about the balls.
+struct Sums<'a> {
     law: &'a Law,
     sigma: f64,
     moves: &'a Moves<Lanes>,
@@ -66,7 +65,6 @@ struct Sums<'a, const LEAN: bool> {
     tangential: Lanes,
     axial: Lanes,
     moment: Lanes,
-    across: [Lanes; 2],
     /// The elastic part of that along n_e, of which waves turn some aside. Summed without waves too: that costs less than a
     /// second program for those with.
     elastic: Lanes,
@@ -77,23 +75,19 @@ struct Sums<'a, const LEAN: bool> {
 
 impl Pair {
     /// Forces of eight contacts of this or another row: what their constants do not say (the kind of law, where
-    /// the ball is cut, damping, friction) is the same for all rows. Contacts in `skip` are left out, and told. `LEAN` says that the
-    /// ring may lean: all is told in its frame, where it stands still.
+    /// the ball is cut, damping, friction) is the same for all rows. Contacts in `skip` are left out, and told.
     #[inline(always)]
-    pub(crate) fn forces<const FMA: bool, const SYMMETRIC: bool, const LEAN: bool>(
+    pub(crate) fn forces<const FMA: bool, const SYMMETRIC: bool>(
         &self,
         eight: &EightContacts,
         ring: &Motion,
         skip: Mask,
         summing: Summing<'_>,
     ) -> BatchForces {
-        let (whole, mut moves, place) = self.place::<FMA, SYMMETRIC>(eight, ring, skip);
-        if LEAN {
-            moves.across = place.across(eight.across, self.race.sigma);
-        }
-        let mut sums = Sums::<LEAN>::new(self, &whole, &moves);
-        self.elements::<FMA, SYMMETRIC, LEAN>(&whole, &moves, summing, &mut sums);
-        sums.on_bodies(eight, &place)
+        let (whole, moves, place) = self.place::<FMA, SYMMETRIC>(eight, ring, skip);
+        let mut sums = Sums::new(self, &whole, &moves);
+        self.elements::<FMA, SYMMETRIC>(&whole, &moves, summing, &mut sums);
+        sums.on_bodies(&place)
     }
 
     /// Where eight contacts are; those in `skip` are not regular.
@@ -149,7 +143,6 @@ impl Pair {
             v_z,
             slide: (across - d * ring.omega) * sigma,
             spin: (eight.v[3] - ring.omega) * sigma,
-            across: [zero; 2],
             rolling: self.rolling(eight, ring, d, across),
             arm: raised - d,
             oil: FilmEffect::of(eight.film.as_ref(), whole.half),
@@ -185,7 +178,7 @@ impl Pair {
 
     /// All elements, or one for all.
     #[inline(always)]
-    fn elements<const FMA: bool, const SYMMETRIC: bool, const LEAN: bool>(
+    fn elements<const FMA: bool, const SYMMETRIC: bool>(
         &self,
         whole: &Whole<Lanes>,
         moves: &Moves<Lanes>,
@@ -198,23 +191,14 @@ impl Pair {
                 to.element::<FMA, false>(&element, self.slices.count());
             }
             Summing::Elements(instructions, rubbing) => {
-                let rubbing = rubbing.at_nodes::<FMA, LEAN>(instructions, self, whole, moves, None);
+                let rubbing = rubbing.at_nodes::<FMA>(instructions, self, whole, moves, None);
                 kernel::elements::<_, FMA, SYMMETRIC>(&self.law, &self.slices, rubbing, whole, to);
             }
         }
     }
 }
 
-impl Place {
-    /// Components along n_e and t_e of vectors across the axis, given along x and y.
-    #[inline(always)]
-    fn across(&self, [x, y]: [Lanes; 2], sigma: f64) -> [Lanes; 2] {
-        let n = self.n;
-        [(x * n.0 + y * n.1) * sigma, (y * n.0 - x * n.1) * sigma]
-    }
-}
-
-impl<'a, const LEAN: bool> Sums<'a, LEAN> {
+impl<'a> Sums<'a> {
     #[inline(always)]
     fn new(pair: &'a Pair, whole: &Whole<Lanes>, moves: &'a Moves<Lanes>) -> Self {
         let zero = Lanes::ZERO;
@@ -227,7 +211,6 @@ impl<'a, const LEAN: bool> Sums<'a, LEAN> {
             tangential: zero,
             axial: zero,
             moment: zero,
-            across: [zero; 2],
             elastic: zero,
             pulls: Counters::default(),
             lever: whole.section.radius * whole.section.normal.0,
@@ -236,7 +219,7 @@ impl<'a, const LEAN: bool> Sums<'a, LEAN> {
 
     /// What they put on balls and ring.
     #[inline(always)]
-    fn on_bodies(&self, eight: &EightContacts, place: &Place) -> BatchForces {
+    fn on_bodies(&self, place: &Place) -> BatchForces {
         let (sigma, n) = (self.sigma, place.n);
         let mut tangential = self.tangential;
         if let Some(lean) = place.lean {
@@ -257,11 +240,6 @@ impl<'a, const LEAN: bool> Sums<'a, LEAN> {
         }
         let plane = (n.0 * along - n.1 * across, n.1 * along + n.0 * across);
         BatchForces {
-            across: if LEAN {
-                self.about_across(eight, place, plane)
-            } else {
-                [[Lanes::ZERO; 2]; 2]
-            },
             ball: [plane.0, plane.1, self.axial, moment],
             // About the ring's centre the arm is longer by d.
             ring: [-plane.0, -plane.1, -self.axial, -moment - place.d * across],
@@ -269,88 +247,62 @@ impl<'a, const LEAN: bool> Sums<'a, LEAN> {
             left_out: place.regular.not(),
         }
     }
-
-    /// Moments about x and y on the balls, and on a ring that stands still about the origin, where forces in the plane are these.
-    #[inline(always)]
-    fn about_across(
-        &self,
-        eight: &EightContacts,
-        place: &Place,
-        plane: (Lanes, Lanes),
-    ) -> [[Lanes; 2]; 2] {
-        let (n, [about_n, about_t]) = (place.n, self.across);
-        let ball = [
-            (n.0 * about_n - n.1 * about_t) * self.sigma,
-            (n.1 * about_n + n.0 * about_t) * self.sigma,
-        ];
-        let [x, y, z] = eight.q;
-        let ring = [
-            z * plane.1 - y * self.axial - ball[0],
-            x * self.axial - z * plane.0 - ball[1],
-        ];
-        [ball, ring]
-    }
-
-    /// Adds the moments of an element's friction at h n_e + ζ ẑ from the ball's centre, along n_e and t_e.
-    #[inline(always)]
-    fn add_across<const FMA: bool>(&mut self, friction: &[Lanes; 3], (h, zeta): (Lanes, Lanes)) {
-        let [about_n, about_t] = self.across;
-        self.across = [
-            about_n - zeta * friction[1],
-            about_t + (zeta * friction[0] - h * friction[2]),
-        ];
-    }
 }
 
-impl<const LEAN: bool> Receiver<Lanes> for Sums<'_, LEAN> {
+impl Sums<'_> {
+    /// What the force of an element depends on, whose elastic force is counted.
     #[inline(always)]
-    fn element<const FMA: bool, const SYMMETRIC: bool>(
-        &mut self,
-        element: &Element<Lanes>,
-        times: u32,
-    ) {
+    fn state<const FMA: bool>(&mut self, element: &Element<Lanes>) -> State<Lanes> {
         let moves = self.moves;
         let sigma = Lanes::all(self.sigma);
         let arm = element.groove.mul_add::<FMA>(sigma, moves.arm);
         let elastic = element.load * element.length;
         self.elastic += elastic * element.share.0;
-        let mut tangential = moves.spin.mul_add::<FMA>(arm, moves.slide);
-        let mut turning = None;
-        let place = (arm * sigma, element.sin * self.radii[0]);
-        if LEAN && self.law.traction.is_some() {
-            let slope = (element.sin, element.cos);
-            let [along, across] = kernel::slip_of_turning::<_, FMA>(moves.across, place, slope);
-            tangential += along;
-            turning = Some(across);
-        }
-        let state = State {
+        State {
             elastic,
             share: element.share,
             rubbing: element.rubbing,
             slope: (element.sin, element.cos),
-            velocity: [moves.v_e, tangential, moves.v_z],
-            turning,
+            velocity: [
+                moves.v_e,
+                moves.spin.mul_add::<FMA>(arm, moves.slide),
+                moves.v_z,
+            ],
             load: element.load,
             depth: element.depth,
             arm,
             rolling: moves.rolling,
             radii: self.radii,
             oil: moves.oil,
-        };
-        let force = kernel::force::<Lanes, FMA, SYMMETRIC, false>(self.law, &state);
+        }
+    }
+
+    /// Adds the force of so many elements at an arm.
+    #[inline(always)]
+    fn add<const SYMMETRIC: bool>(&mut self, force: &Force<Lanes>, arm: Lanes, times: u32) {
         self.pulls.add(Lanes::ZERO.above(force.damped), times);
         let [normal, tangential, axial] = force.on_ring;
         self.normal = self.normal - normal;
         if self.law.traction.is_some() {
             self.tangential = self.tangential - tangential;
             self.moment = self.moment - tangential * arm;
-            if LEAN {
-                self.add_across::<FMA>(&force.friction, place);
-            }
         }
         if !SYMMETRIC {
             self.axial = self.axial - axial;
         }
+    }
+}
+
+impl Receiver<Lanes> for Sums<'_> {
+    #[inline(always)]
+    fn element<const FMA: bool, const SYMMETRIC: bool>(
+        &mut self,
+        element: &Element<Lanes>,
+        times: u32,
+    ) {
+        let state = self.state::<FMA>(element);
+        let force = kernel::force::<_, FMA, SYMMETRIC, false, false>(self.law, &state, Lanes::ZERO);
+        self.add::<SYMMETRIC>(&force, state.arm, times);
     }
 }
 

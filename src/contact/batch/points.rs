@@ -6,7 +6,8 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::{BatchForces, EightContacts, Moves, Place, Rubbing, Sums};
+use super::leaning::Leaning;
+use super::{Across, BatchForces, EightContacts, Moves, Place, Rubbing, Sums};
 use crate::contact::kernel::{Element, Receiver, Whole};
 use crate::contact::laws::elastic::{ForLaw, Load};
 use crate::contact::profile::{Contour, FLAT, REACH, SHALLOW, SNUG, Section, SurfacePoint, Zone};
@@ -41,13 +42,53 @@ struct Meetings {
 impl Pair {
     /// As [`Pair::forces`], of eight contacts with this race, which is a hollow curve.
     #[inline(always)]
-    pub(crate) fn forces_on_curve<const FMA: bool, const LEAN: bool>(
+    pub(crate) fn forces_on_curve<const FMA: bool>(
         &self,
         eight: &EightContacts,
         ring: &Motion,
         contour: &Contour,
         (instructions, rubbing): (InstructionSet, &mut Rubbing),
     ) -> BatchForces {
+        let (curve, found, whole, moves, place) = self.place_on_curve::<FMA>(eight, ring, contour);
+        let middle = (found.ends.0 + found.ends.1) * 0.5;
+        let rubbing = rubbing.at_nodes::<FMA>(instructions, self, &whole, &moves, Some(middle));
+        let mut sums = Sums::new(self, &whole, &moves);
+        self.elements_on_curve::<FMA>(&curve, &found, (&whole, middle), rubbing, &mut sums);
+        sums.on_bodies(&place)
+    }
+
+    /// The same in the frame of a ring that may lean; see [`Pair::forces_leaning`].
+    #[inline(always)]
+    pub(crate) fn forces_on_curve_leaning<const FMA: bool>(
+        &self,
+        (eight, turning): (&EightContacts, Across),
+        ring: &Motion,
+        contour: &Contour,
+        (instructions, rubbing): (InstructionSet, &mut Rubbing),
+    ) -> (BatchForces, [Across; 2]) {
+        let (curve, found, whole, moves, place) = self.place_on_curve::<FMA>(eight, ring, contour);
+        let middle = (found.ends.0 + found.ends.1) * 0.5;
+        let turning = place.along_contact(turning, self.race.sigma);
+        let turns = (&moves, turning);
+        let rubbing =
+            rubbing.at_nodes_turning::<FMA, true>(instructions, self, &whole, turns, Some(middle));
+        let mut sums = Leaning {
+            sums: Sums::new(self, &whole, &moves),
+            turning,
+            moments: [Lanes::ZERO; 2],
+        };
+        self.elements_on_curve::<FMA>(&curve, &found, (&whole, middle), rubbing, &mut sums);
+        sums.on_bodies(eight, &place)
+    }
+
+    /// Where eight contacts are.
+    #[inline(always)]
+    fn place_on_curve<'a, const FMA: bool>(
+        &self,
+        eight: &EightContacts,
+        ring: &Motion,
+        contour: &'a Contour,
+    ) -> (OnCurve<'a>, Meetings, Whole<Lanes>, Moves<Lanes>, Place) {
         let sigma = self.race.sigma;
         let (dx, dy) = (eight.q[0] - ring.centre.x, eight.q[1] - ring.centre.y);
         let d = dx.mul_add::<FMA>(dx, dy * dy).sqrt();
@@ -63,12 +104,11 @@ impl Pair {
         let v = [eight.v[0] - ring.velocity.x, eight.v[1] - ring.velocity.y];
         let across = v[1] * n.0 - v[0] * n.1;
         let whole = found.whole(eight);
-        let mut moves = Moves {
+        let moves = Moves {
             v_e: (v[0] * n.0 + v[1] * n.1) * sigma,
             v_z: eight.v[2] - ring.vz,
             slide: (across - d * ring.omega) * sigma,
             spin: (eight.v[3] - ring.omega) * sigma,
-            across: [Lanes::ZERO; 2],
             rolling: self.rolling(eight, ring, d, across),
             // Heights of the race are those over the ring's axis.
             arm: eight.raise.height - d,
@@ -80,15 +120,7 @@ impl Pair {
             lean: eight.wavy.then(|| eight.raise.slope * over),
             regular: found.regular.or(found.touching.not()),
         };
-        if LEAN {
-            moves.across = place.across(eight.across, sigma);
-        }
-        let middle = (found.ends.0 + found.ends.1) * 0.5;
-        let rubbing =
-            rubbing.at_nodes::<FMA, LEAN>(instructions, self, &whole, &moves, Some(middle));
-        let mut sums = Sums::<LEAN>::new(self, &whole, &moves);
-        self.elements_on_curve::<FMA>(&curve, &found, (&whole, middle), rubbing, &mut sums);
-        sums.on_bodies(eight, &place)
+        (curve, found, whole, moves, place)
     }
 
     /// The elements of eight contacts.

@@ -3,6 +3,7 @@
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
 
+use super::Across;
 use crate::contact::kernel::Whole;
 use crate::contact::quadrature::Halves;
 use crate::contact::slip::{Moves, Slip};
@@ -17,7 +18,7 @@ impl Rubbing {
     /// What it weighs over the normal force at the nodes of whole zones, which have their middle at u = 0 if not elsewhere \[m\];
     /// none where both weigh the same.
     #[inline(always)]
-    pub(in crate::contact) fn at_nodes<const FMA: bool, const LEAN: bool>(
+    pub(in crate::contact) fn at_nodes<const FMA: bool>(
         &mut self,
         instructions: InstructionSet,
         pair: &Pair,
@@ -25,12 +26,29 @@ impl Rubbing {
         moves: &Moves<Lanes>,
         middle: Option<Lanes>,
     ) -> Option<&[Lanes]> {
+        let turning = [Lanes::ZERO; 2];
+        self.at_nodes_turning::<FMA, false>(instructions, pair, whole, (moves, turning), middle)
+    }
+
+    /// The same, with angular velocities along n_e and t_e where balls before a ring that may lean have some \[rad/s\].
+    #[inline(always)]
+    pub(super) fn at_nodes_turning<const FMA: bool, const LEAN: bool>(
+        &mut self,
+        instructions: InstructionSet,
+        pair: &Pair,
+        whole: &Whole<Lanes>,
+        (moves, turning): (&Moves<Lanes>, Across),
+        middle: Option<Lanes>,
+    ) -> Option<&[Lanes]> {
         let Slices::Fitted(rules) = &pair.slices else {
             return None;
         };
         let halves = rules.halves()?;
         let sigma = pair.race.sigma;
-        let mut slip = Slip::along::<FMA, LEAN>(&pair.law, sigma, &whole.section, moves)?;
+        let mut slip = Slip::along::<FMA>(&pair.law, sigma, &whole.section, moves)?;
+        if LEAN {
+            slip = slip.turning_across::<FMA>(&pair.law, &whole.section, turning);
+        }
         if let Some(middle) = middle {
             slip = slip.from::<FMA>(middle);
         }

@@ -58,6 +58,21 @@ pub(super) struct Rim {
 }
 
 impl Rim {
+    /// From C, e, ζ/ρ and ρ.
+    fn new(c: f64, e: &Vector3<f64>, over: f64, rho: f64) -> Self {
+        let across = e.xy().norm();
+        let by_c = -1.0 / (1.0 - c * c).sqrt();
+        let (rise, towards) = (e.z / across, e.xy() / across);
+        Self {
+            half: c.acos(),
+            slope: by_c * (c * over - rise) / rho,
+            swing: [
+                towards * -rise,
+                turned(towards) * (by_c * (over - c * rise)),
+            ],
+        }
+    }
+
     /// Swing of the upper end (side 1), of the lower (−1), or of what lies between at a share of h.
     pub fn swing(&self, side: f64) -> Vector3<f64> {
         let across = self.swing[0] + self.swing[1] * side;
@@ -107,16 +122,7 @@ impl Cap {
         if c.partial_cmp(&-1.0) != Some(std::cmp::Ordering::Greater) {
             return Lost::All;
         }
-        let by_h = -1.0 / (1.0 - c * c).sqrt();
-        let towards = e.xy() / across;
-        Lost::Arc(Rim {
-            half: c.acos(),
-            slope: by_h * (c * zeta / (rho * rho) - e.z / (rho * across)),
-            swing: [
-                towards * (-e.z / across),
-                turned(towards) * (by_h * (zeta / rho - c * e.z / across)),
-            ],
-        })
+        Lost::Arc(Rim::new(c, e, zeta / rho, rho))
     }
 
     /// Places ζ where the meridian in a direction crosses the rim: between them its slices have lost their surface there.

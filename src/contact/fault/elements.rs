@@ -139,12 +139,12 @@ impl Contact<'_> {
         absent(
             &self.ball.faults,
             &node.on_ball(),
-            &self.from_ball(direction),
+            &self.out_of_ball(direction),
         )
     }
 
     /// A direction in which the ball is met.
-    fn from_ball(&self, direction: V2) -> Toward<'_> {
+    fn out_of_ball(&self, direction: V2) -> Toward<'_> {
         Toward::ball(self.b, direction, direction.y.atan2(direction.x))
     }
 
@@ -256,7 +256,7 @@ impl Contact<'_> {
             ball_drops,
             ..ElementPair::smooth(*feature, node)
         });
-        let toward = self.from_ball(feature.n_e);
+        let toward = self.out_of_ball(feature.n_e);
         for (edge, depth) in floors(&self.ball.faults, node.on_ball(), toward, &arc) {
             let (drop, circle, tan) = meet(&edge, depth);
             visit(&ElementPair {

@@ -250,7 +250,7 @@ impl Edge {
     }
 
     /// How its angle turns by rotations of the ball that has it.
-    pub fn swing(&self) -> Vector3<f64> {
+    pub(super) fn swing(&self) -> Vector3<f64> {
         match &self.form {
             Form::Patch { .. } => Vector3::z(),
             Form::Cap(rim) => rim.swing(self.side),

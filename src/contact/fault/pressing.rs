@@ -59,8 +59,13 @@ impl Contact<'_> {
         }
         let depth = node.depth - share * (feature.drops.0.value() + met.ball_drops.0.value());
         let n_e = feature.n_e;
-        let state = self.state(node, feature, tan, (elastic, depth));
-        let force = kernel::force::<f64, false, false, false>(&pair.law, &state);
+        let mut state = self.state(node, feature, tan, (elastic, depth));
+        let force = if self.b.across == V2::zeros() {
+            kernel::force::<_, false, false, false, false>(&pair.law, &state, 0.0)
+        } else {
+            let across = self.turning_across(node, feature, &mut state);
+            kernel::force::<_, false, false, false, true>(&pair.law, &state, across)
+        };
         let [radial, tangential, axial] = force.friction;
         let [v_t, u_m] = force.slip;
         let squared = v_t * v_t + u_m * u_m;
@@ -131,27 +136,13 @@ impl Contact<'_> {
             (0.0, 0.0)
         };
         let share = self.common().unwrap_or((1.0, tan));
-        let mut velocity = [v_p.dot(&n_e), v_p.dot(&turned(n_e)), b.vz - r.vz];
-        let turning = (b.across != V2::zeros()).then(|| {
-            let w = [b.across.dot(&n_e), b.across.dot(&turned(n_e))];
-            let place = (arm_ball.dot(&n_e), node.zeta);
-            let [tangential, meridional] = kernel::slip_of_turning::<f64, false>(w, place, slope);
-            velocity[1] += tangential;
-            // The edge of a ball's defect stands off the line of centres, too.
-            let meridional = meridional + w[0] * arm_ball.dot(&turned(n_e)) * slope.1;
-            let rate = cross(arm_ball, n_e) * feature.swing.xy().dot(&b.across);
-            let [nearer, _, along] = approaching(rate, share, slope);
-            velocity[0] += nearer;
-            velocity[2] += along;
-            meridional
-        });
+        let velocity = [v_p.dot(&n_e), v_p.dot(&turned(n_e)), b.vz - r.vz];
         State {
             elastic,
             share,
             rubbing: node.rubbing,
             slope,
             velocity,
-            turning,
             load,
             depth,
             arm,
@@ -159,6 +150,30 @@ impl Contact<'_> {
             radii: [radius, self.race.r],
             oil: self.oil,
         }
+    }
+}
+
+impl Contact<'_> {
+    /// Adds what the ball does that turns across the ring's axis to the velocities of an element, but for the slip along the meridian,
+    /// which is returned \[m/s\].
+    fn turning_across<D: Depth>(
+        &self,
+        node: &Node,
+        feature: &RingElement<D>,
+        state: &mut State<f64>,
+    ) -> f64 {
+        let (n_e, across) = (feature.n_e, self.b.across);
+        let arm = feature.arm_ring - self.apart;
+        let w = [across.dot(&n_e), across.dot(&turned(n_e))];
+        let place = (arm.dot(&n_e), node.zeta);
+        let [along, meridional] = kernel::slip_of_turning::<_, false>(w, place, state.slope);
+        // An edge of the ball's own comes nearer as it turns, and stands off the line of centres.
+        let rate = cross(arm, n_e) * feature.swing.xy().dot(&across);
+        let [nearer, _, axial] = approaching(rate, state.share, state.slope);
+        state.velocity[0] += nearer;
+        state.velocity[1] += along;
+        state.velocity[2] += axial;
+        meridional + w[0] * arm.dot(&turned(n_e)) * state.slope.1
     }
 }
 

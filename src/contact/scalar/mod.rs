@@ -208,7 +208,6 @@ impl Pair {
             v_z: b.vz - r.vz,
             slide: (across - distance * r.omega) * sigma,
             spin: (b.omega - r.omega) * sigma,
-            across: [b.across.dot(&n) * sigma, b.across.dot(&turned(n)) * sigma],
             rolling: if self.reads_rolling() {
                 Rolling::new(distance, across, [b.omega, r.omega])
             } else {
@@ -219,19 +218,25 @@ impl Pair {
         }
     }
 
-    /// The slip along a line, where it is a zone's and there is friction.
+    /// The slip along a line, where it is a zone's and there is friction, of a ball that turns across the ring's axis with w_n and w_t
+    /// along n_e and t_e.
     fn slip_along(
         &self,
         line: &Line,
         section: &Section<f64>,
         moves: &Moves<f64>,
+        across: [f64; 2],
     ) -> Option<Slip<f64>> {
-        if !line.is_common(section) || moves.are_none() {
+        let turns = across != [0.0; 2];
+        if !line.is_common(section) || moves.are_none() && !turns {
             return None;
         }
+        let mut slip = Slip::along::<false>(&self.law, self.race.sigma, section, moves)?;
+        if turns {
+            slip = slip.turning_across::<false>(&self.law, section, across);
+        }
         // Beside the groove there is no slip to tell, nor a node to weigh.
-        Slip::along::<false, true>(&self.law, self.race.sigma, section, moves)
-            .filter(Slip::is_finite)
+        Some(slip).filter(Slip::is_finite)
     }
 }
 
@@ -301,7 +306,9 @@ impl Contact<'_> {
             self.oil = FilmEffect::at(&FilmNumbers::new(oiled), r);
             moves.oil = self.oil;
         }
-        self.slip = self.pair.slip_along(line, &self.section, &moves);
+        let n_e = self.n * self.race.sigma;
+        let across = [self.b.across.dot(&n_e), self.b.across.dot(&turned(n_e))];
+        self.slip = self.pair.slip_along(line, &self.section, &moves, across);
         if self.middle != 0.0 {
             self.slip = self.slip.map(|slip| slip.from::<false>(self.middle));
         }

@@ -70,7 +70,6 @@ impl Pair {
             v_z: twist[2],
             slide: twist[1],
             spin: twist[3] * self.race.sigma,
-            across: [Lanes::ZERO; 2],
             rolling: held.around.rolling,
             arm: held.arm,
             oil: held.around.oil,
@@ -78,7 +77,7 @@ impl Pair {
         let StageElements {
             elements, rubbing, ..
         } = nodes;
-        let weights = rubbing.at_nodes::<FMA, false>(instructions, self, &held.whole, &moves, None);
+        let weights = rubbing.at_nodes::<FMA>(instructions, self, &held.whole, &moves, None);
         for (element, weight) in elements.iter_mut().zip(weights.into_iter().flatten()) {
             element.rubbing = *weight;
         }

@@ -147,7 +147,7 @@ impl Pair {
             rolling,
             rubbing,
         } = nodes;
-        let rubbing = rubbing.at_nodes::<FMA, false>(instructions, self, &contact, &moves, None);
+        let rubbing = rubbing.at_nodes::<FMA>(instructions, self, &contact, &moves, None);
         let mut holding = Holding {
             elements,
             rolling,
@@ -204,7 +204,6 @@ impl Pair {
             rubbing: element.rubbing,
             slope: element.slope,
             velocity,
-            turning: None,
             load,
             depth,
             arm,
@@ -212,7 +211,7 @@ impl Pair {
             radii: around.radii,
             oil: around.oil,
         };
-        let force = kernel::force::<_, FMA, false, SLOPE>(&self.law, &state);
+        let force = kernel::force::<_, FMA, false, SLOPE, false>(&self.law, &state, Lanes::ZERO);
         to.subtract_force::<FMA>(&force.on_ring, levers);
         if SLOPE {
             let slope = self.slope::<FMA>(&state, &force, secant);

@@ -13,7 +13,6 @@ fn state<T: crate::simd::Number>(of: impl Fn(f64) -> T, velocity: [T; 3]) -> Sta
         rubbing: of(0.9),
         slope: (of(0.55), of(f64::sqrt(1.0 - 0.55 * 0.55))),
         velocity,
-        turning: None,
         load: of(1e5),
         depth: of(1e-5),
         arm: of(6e-3),
@@ -62,12 +61,14 @@ fn the_slope_is_the_kernels() {
                 faults: Vec::new(),
             };
             let lanes = state(Lanes::all, velocity.map(Lanes::all));
-            let force = kernel::force::<_, false, false, true>(&law, &lanes);
+            let force = kernel::force::<_, false, false, true, false>(&law, &lanes, Lanes::ZERO);
             let written = pair.slope::<false>(&lanes, &force, false);
             let of = Dual::<f64, 3>::constant;
             let variables = [0, 1, 2].map(|i| Dual::variable(velocity[i], i));
             let dual = state(of, variables);
-            let told = kernel::force::<_, false, false, false>(&law, &dual).on_ring;
+            let told =
+                kernel::force::<_, false, false, false, false>(&law, &dual, dual.elastic * 0.0)
+                    .on_ring;
             for i in 0..3 {
                 assert!((force.on_ring[i][3] - told[i].value).abs() < 1e-12 * 120.0);
                 for j in 0..3 {

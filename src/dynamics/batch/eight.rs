@@ -2,7 +2,8 @@
 
 use super::{RingView, Single, View};
 use crate::contact::{
-    BatchForces, Constants, Contour, EightContacts, FilmNumbers, Pair, Raise, Rubbing, Summing,
+    Across, BatchForces, Constants, Contour, EightContacts, FilmNumbers, Pair, Raise, Rubbing,
+    Summing,
 };
 use crate::model::{Ball, BodyId, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
@@ -51,6 +52,8 @@ pub(super) struct Group {
     pub contacts: [Touching; LANES],
     pub count: usize,
     pub forces: BatchForces,
+    /// Moments across the axis of a ring that may lean, on balls in its frame, and on the ring about the frame's origin.
+    pub across: [Across; 2],
     rubbing: Rubbing,
 }
 
@@ -204,15 +207,20 @@ impl<const LEAN: bool> Task for EightOnCurve<'_, LEAN> {
     fn run<const FMA: bool>(self) {
         let Self(of, contour) = self;
         let eight = of.contacts();
+        let turning = of.turning();
         let Eight { group, model, .. } = of;
         let (pair, view) = (
             &model.rows[group.class].pairs[group.race],
             &of.views[group.race],
         );
         let rubbing = (model.instructions, &mut group.rubbing);
-        group.forces = pair.forces_on_curve::<FMA, LEAN>(&eight, &view.ring, contour, rubbing);
         if LEAN {
+            let held = (&eight, turning);
+            (group.forces, group.across) =
+                pair.forces_on_curve_leaning::<FMA>(held, &view.ring, contour, rubbing);
             group.turn::<FMA>(view);
+        } else {
+            group.forces = pair.forces_on_curve::<FMA>(&eight, &view.ring, contour, rubbing);
         }
     }
 }
@@ -238,7 +246,7 @@ impl Group {
         let force = leaning.frame().all_to_scene::<_, FMA>([x, y, z]);
         self.forces.ball[..3].copy_from_slice(&force);
         if leaning.balls_turn() {
-            let [across, _] = &mut self.forces.across;
+            let [across, _] = &mut self.across;
             let moment = [across[0], across[1], self.forces.ball[3]];
             let [x, y, z] = leaning.frame().all_to_scene::<_, FMA>(moment);
             (*across, self.forces.ball[3]) = ([x, y], z);
@@ -256,18 +264,30 @@ impl<const LEAN: bool> Eight<'_, LEAN> {
         let constants = &self.constants[group.race];
         let view = &self.views[group.race];
         let mut eight = constants.eight(group.class, &group.contacts, view);
-        if LEAN && let Some(of) = view.leaning.map(RingView::across) {
-            for (lane, contact) in group.contacts.iter().enumerate() {
-                let body = BodyId::ball(contact.ball).index();
-                eight.across[0][lane] = of[0][body];
-                eight.across[1][lane] = of[1][body];
-            }
-        }
         // Lanes left over must not count as pulling.
         for lane in group.count..LANES {
             eight.constants.radius[lane] *= 0.5;
         }
         eight
+    }
+}
+
+impl<const LEAN: bool> Eight<'_, LEAN> {
+    /// Angular velocities of the balls across the axis of a ring that may lean.
+    // Compiled for the instruction set that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn turning(&self) -> Across {
+        let mut turning = [Lanes::ZERO; 2];
+        let view = &self.views[self.group.race];
+        if LEAN && let Some(of) = view.leaning.map(RingView::across) {
+            for (lane, contact) in self.group.contacts.iter().enumerate() {
+                let body = BodyId::ball(contact.ball).index();
+                turning[0][lane] = of[0][body];
+                turning[1][lane] = of[1][body];
+            }
+        }
+        turning
     }
 }
 
@@ -279,18 +299,23 @@ impl<const LEAN: bool> Task for Eight<'_, LEAN> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let eight = self.contacts();
+        let turning = self.turning();
         let group = self.group;
         let race = group.race;
         let pair = &self.model.rows[group.class].pairs[race];
         let (view, skip) = (&self.views[race], Mask::default());
-        let summing = Summing::Elements(self.model.instructions, &mut group.rubbing);
         if LEAN {
-            group.forces = pair.forces::<FMA, false, true>(&eight, &view.ring, skip, summing);
+            let rubbing = (self.model.instructions, &mut group.rubbing);
+            (group.forces, group.across) =
+                pair.forces_leaning::<FMA>((&eight, turning), &view.ring, rubbing);
             group.turn::<FMA>(view);
-        } else if self.symmetric {
-            group.forces = pair.forces::<FMA, true, false>(&eight, &view.ring, skip, summing);
-        } else {
-            group.forces = pair.forces::<FMA, false, false>(&eight, &view.ring, skip, summing);
+            return;
         }
+        let summing = Summing::Elements(self.model.instructions, &mut group.rubbing);
+        group.forces = if self.symmetric {
+            pair.forces::<FMA, true>(&eight, &view.ring, skip, summing)
+        } else {
+            pair.forces::<FMA, false>(&eight, &view.ring, skip, summing)
+        };
     }
 }

@@ -117,12 +117,11 @@ impl Task for Find<'_> {
                             stretch.lanes(v, Dof::Z),
                             Lanes::ZERO,
                         ],
-                        across: [Lanes::ZERO; 2],
                         // Closed forms have none.
                         film: None,
                     };
                     let summing = Summing::AsOne(stiffness);
-                    let found = pair.forces::<FMA, false, false>(&eight, ring, skip, summing);
+                    let found = pair.forces::<FMA, false>(&eight, ring, skip, summing);
                     for (i, force) in found.ball.into_iter().take(3).enumerate() {
                         let dof = Dof::TRANSLATIONS[i];
                         forces.add_eight(BodyId::ball(stretch.first), dof, force);

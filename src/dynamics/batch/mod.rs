@@ -350,7 +350,7 @@ impl Batch {
         }
         to.fill([0.0; 2]);
         for group in &self.groups[..self.active] {
-            let [[x, y], _] = &group.forces.across;
+            let [[x, y], _] = &group.across;
             for (lane, contact) in group.contacts.iter().enumerate().take(group.count) {
                 to[contact.ball][0] += x[lane];
                 to[contact.ball][1] += y[lane];
@@ -367,7 +367,7 @@ impl Batch {
     fn moments_across(&self) -> [[f64; 2]; 2] {
         let mut rings = [[0.0; 2]; 2];
         for group in &self.groups[..self.active] {
-            let [_, [x, y]] = &group.forces.across;
+            let [_, [x, y]] = &group.across;
             let ring = &mut rings[group.race];
             for lane in 0..group.count {
                 ring[0] += x[lane];

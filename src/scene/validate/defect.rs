@@ -86,33 +86,24 @@ fn only_what_a_cap_has(path: &str, defect: &Defect) -> Result<()> {
 
 fn cap(path: &str, row: &Row, defect: &Defect) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
-    let radius = row.ball_diameter / 2.0;
+    let (radius, width) = (row.ball_diameter / 2.0, defect.width.largest());
     // Then its rim passes a pole at more than 60 degrees from where contacts run.
-    below(
-        &at("width"),
-        defect.width.largest(),
-        radius,
-        "the ball's radius",
-    )?;
+    below(&at("width"), width, radius, "the ball's radius")?;
     // However the ball turns, the slices that contacts run in are larger.
-    below(
-        &at("edge_radius"),
-        defect.edge_radius,
-        radius / 2.0,
-        "half the ball's radius",
-    )?;
+    let (edge, half) = (defect.edge_radius, radius / 2.0);
+    below(&at("edge_radius"), edge, half, "half the ball's radius")?;
     let offset = defect.axial_offset.number().unwrap_or(0.0);
-    if offset.abs() >= radius {
-        return Err(Error::scene(
+    let allowed = "a place on the ball, in size below its radius";
+    if offset.abs() < radius {
+        Ok(())
+    } else {
+        let limit = told::length(radius);
+        Err(Error::scene(
             at("axial_offset"),
             offset,
-            format!(
-                "a place on the ball, nearer to its centre than {}",
-                told::length(radius)
-            ),
-        ));
+            format!("{allowed}, {limit}"),
+        ))
     }
-    Ok(())
 }
 
 fn width(path: &str, width: &Width) -> Result<()> {

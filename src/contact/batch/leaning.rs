@@ -1,0 +1,106 @@
+//! Forces of eight contacts at once with a ring that may lean, in whose frame balls turn across its axis.
+//!
+//! To what contacts of parallel rings sum up ([`Sums`]) this adds the slip of that turning, and the moments of friction across the axis
+//! (model section 13.3). A program of its own: in that of parallel rings the compiler would no longer fill whole registers.
+
+// Everything here must be compiled for the instructions of its caller.
+#![allow(clippy::inline_always)]
+
+use super::{BatchForces, EightContacts, Place, Rubbing, Sums};
+use crate::contact::kernel::{self, Element, Receiver};
+use crate::contact::{Motion, Pair};
+use crate::simd::{InstructionSet, Lanes, Mask};
+
+/// Numbers of eight contacts along x and y, across the ring's axis; or along n_e and t_e.
+pub(crate) type Across = [Lanes; 2];
+
+/// Sums over the elements of contacts whose balls turn across the ring's axis.
+pub(super) struct Leaning<'a> {
+    pub sums: Sums<'a>,
+    /// Angular velocities along n_e and t_e \[rad/s\].
+    pub turning: Across,
+    /// Moments of friction about the balls along n_e and t_e \[N m\].
+    pub moments: Across,
+}
+
+impl Pair {
+    /// As [`Pair::forces`], of eight contacts in the frame of a ring that may lean, where it stands still and balls turn across its axis
+    /// so fast \[rad/s\]. Moments across the axis are told as well, on balls and on the ring about the origin \[N m\].
+    #[inline(always)]
+    pub(crate) fn forces_leaning<const FMA: bool>(
+        &self,
+        (eight, turning): (&EightContacts, Across),
+        ring: &Motion,
+        (instructions, rubbing): (InstructionSet, &mut Rubbing),
+    ) -> (BatchForces, [Across; 2]) {
+        let (whole, moves, place) = self.place::<FMA, false>(eight, ring, Mask::default());
+        let turning = place.along_contact(turning, self.race.sigma);
+        let mut sums = Leaning {
+            sums: Sums::new(self, &whole, &moves),
+            turning,
+            moments: [Lanes::ZERO; 2],
+        };
+        let turns = (&moves, turning);
+        let rubbing =
+            rubbing.at_nodes_turning::<FMA, true>(instructions, self, &whole, turns, None);
+        let slices = &self.slices;
+        kernel::elements::<_, FMA, false>(&self.law, slices, rubbing, &whole, &mut sums);
+        sums.on_bodies(eight, &place)
+    }
+}
+
+impl Place {
+    /// Components along n_e and t_e of vectors across the axis, given along x and y.
+    #[inline(always)]
+    pub fn along_contact(&self, [x, y]: Across, sigma: f64) -> Across {
+        let n = self.n;
+        [(x * n.0 + y * n.1) * sigma, (y * n.0 - x * n.1) * sigma]
+    }
+}
+
+impl Leaning<'_> {
+    /// What they put on balls and ring, with the moments about x and y.
+    #[inline(always)]
+    pub fn on_bodies(&self, eight: &EightContacts, place: &Place) -> (BatchForces, [Across; 2]) {
+        let forces = self.sums.on_bodies(place);
+        let (n, [about_n, about_t], sigma) = (place.n, self.moments, self.sums.sigma);
+        let ball = [
+            (n.0 * about_n - n.1 * about_t) * sigma,
+            (n.1 * about_n + n.0 * about_t) * sigma,
+        ];
+        let ([x, y, z], [force_x, force_y, force_z, _]) = (eight.q, forces.ball);
+        let ring = [
+            z * force_y - y * force_z - ball[0],
+            x * force_z - z * force_x - ball[1],
+        ];
+        (forces, [ball, ring])
+    }
+}
+
+impl Receiver<Lanes> for Leaning<'_> {
+    #[inline(always)]
+    fn element<const FMA: bool, const SYMMETRIC: bool>(
+        &mut self,
+        element: &Element<Lanes>,
+        times: u32,
+    ) {
+        let mut state = self.sums.state::<FMA>(element);
+        let (h, zeta) = (
+            state.arm * self.sums.sigma,
+            element.sin * self.sums.radii[0],
+        );
+        let [along, across] =
+            kernel::slip_of_turning::<_, FMA>(self.turning, (h, zeta), state.slope);
+        state.velocity[1] += along;
+        let law = self.sums.law;
+        let force = kernel::force::<_, FMA, SYMMETRIC, false, true>(law, &state, across);
+        self.sums.add::<SYMMETRIC>(&force, state.arm, times);
+        if law.traction.is_some() {
+            let ([about_n, about_t], rubbing) = (self.moments, force.friction);
+            self.moments = [
+                about_n - zeta * rubbing[1],
+                about_t + (zeta * rubbing[0] - h * rubbing[2]),
+            ];
+        }
+    }
+}
