@@ -8,7 +8,8 @@
   Palmgren's and SKF's load torque, and over the slip speed of friction;
 - pivoting: how the races share it, over load, and with the conformities exchanged;
 - wheel: the wheel bearing's load at the bearing's centre and at the tyre, and what a spall on its outer race says;
-- whirl: of a rotor on a tilt spring, and precession of a free one, over speed.
+- whirl: of a rotor on a tilt spring, and precession of a free one, over speed;
+- tumble: a small cap on a ball whose axis is held, and on one that spins freely.
 """
 
 from __future__ import annotations
@@ -33,6 +34,7 @@ from ballrace.paper.simulations import FS as FS_OF_PAPER
 from ballrace.paper.simulations import dynamic
 from ballrace.scene import (
     Coulomb,
+    Defect,
     Moment,
     MotionProbe,
     Ramp,
@@ -367,12 +369,51 @@ def draw_whirl(table: pl.DataFrame, figure: Figure) -> None:
     right.legend(frameon=False)
 
 
+TUMBLING = 0.2  # s: six turns of the shaft, three of the cage
+
+
+def capped(spin: Spin, place: float) -> Scene:
+    """Return a loaded 7205B with a cap on ball 0, at an axial place over the ball's radius."""
+    bearing = br.bearing("7205B", radial_load=900.0, axial_load=900.0, speed_rpm=1800.0)
+    radius = 0.5 * bearing.rows[0].ball_diameter
+    cap = Defect(
+        on="ball", ball=0, angle=0.0, shape="cap", width=1.2e-3, edge_radius=0.3e-3,
+        axial_offset=place * radius,
+    )  # fmt: skip
+    return bearing.replace({
+        "spin": spin, "defects": {"cap": cap}, "friction.coulomb.slip_speed": SLIP_SPEED, "solver": EXPLICIT,
+        "probes": {"outer": MotionProbe(body="outer", components=("ay",))},
+    })  # fmt: skip
+
+
+def tumble() -> pl.DataFrame:
+    """Return the outer ring's acceleration over time: a cap that lies where contacts run, at the start."""
+    # A ball about the bearing's axis meets the outer race at a latitude of 40 degrees; a ball that rolls, at its equator.
+    places: dict[Spin, float] = {"axial": math.sin(math.radians(40.0)), "free": 0.0}
+    return pl.concat(
+        pl.DataFrame({"time": out.t, "spin": spin, "acceleration": out["outer.ay"]})
+        for spin, place in places.items()
+        for out in [br.simulate(capped(spin, place), duration=TUMBLING, fs=12_800.0)]
+    )
+
+
+def draw_tumble(table: pl.DataFrame, figure: Figure) -> None:
+    """Draw both records."""
+    upper, lower = figure.subplots(2, 1, sharex=True)
+    for axes, spin, name in ((upper, "axial", "axis held"), (lower, "free", "spins freely")):
+        own = table.filter(pl.col("spin") == spin)
+        axes.plot(own["time"], own["acceleration"], lw=0.5, color=COLOURS[spin])
+        axes.set(ylabel="outer ring, m/s²", title=name)
+    lower.set(xlabel="time, s")
+
+
 STUDIES: dict[str, tuple[Callable[[], pl.DataFrame], Callable[[pl.DataFrame, Figure], None]]] = {
     "orbit": (orbit, draw_orbit),
     "torque": (torque, draw_torque),
     "pivoting": (pivoting, draw_pivoting),
     "wheel": (wheel, draw_wheel),
     "whirl": (whirl, draw_whirl),
+    "tumble": (tumble, draw_tumble),
 }
 
 

@@ -192,38 +192,41 @@ fn settle_speeds(model: &Model, y: &mut [f64]) {
 /// The same of balls that spin freely: each as its contacts ask that resist pivoting like Q a², all of a row with one orbit speed.
 fn settle_free(model: &Model, y: &mut [f64]) {
     let layout = model.layout();
-    let speed = model.scene.drive.initial_speed();
     for row in &model.rows {
-        let mut rolling = Vec::new();
-        let (mut weighted, mut weight) = (0.0, 0.0);
-        for j in row.balls() {
-            let contacts = Race::BOTH.map(|race| inspect::contact(model, y, j, race));
-            if contacts.iter().any(|contact| contact.load == 0.0) {
-                continue;
-            }
-            let [x, y_, _] = layout.centre(y, BodyId::ball(j));
-            let between = Between {
-                radius: model.balls[j].side.radius,
-                distance: x.hypot(y_),
-                angles: contacts.map(|contact| contact.angle * row.side),
-                speed,
-            };
-            let found = between.resisted(contacts.map(|contact| resistance(&contact)));
-            let load = contacts[0].load.min(contacts[1].load);
-            weighted += load * found.orbit;
-            weight += load;
-            rolling.push((j, found));
-        }
+        let balls = row.balls().map(|j| (j, between_races(model, y, j)));
+        let found: Vec<_> = balls.filter_map(|(j, found)| Some((j, found?))).collect();
+        let weight: f64 = found.iter().map(|(_, (load, _))| load).sum();
         if weight == 0.0 {
             continue;
         }
+        let weighted = found.iter().map(|(_, (load, of))| load * of.orbit);
+        let orbit = weighted.sum::<f64>() / weight;
         for j in row.balls() {
-            set_orbit(layout, y, BodyId::ball(j), weighted / weight);
+            set_orbit(layout, y, BodyId::ball(j), orbit);
         }
-        for (j, found) in rolling {
-            set_spin(layout, y, BodyId::ball(j), &found);
+        for (j, (_, rolling)) in found {
+            set_spin(layout, y, BodyId::ball(j), &rolling);
         }
     }
+}
+
+/// How a ball that spins freely rolls, and the smaller of its loads \[N\]; none where it is loose.
+fn between_races(model: &Model, y: &[f64], j: usize) -> Option<(f64, Rolling)> {
+    let contacts = Race::BOTH.map(|race| inspect::contact(model, y, j, race));
+    let load = contacts[0].load.min(contacts[1].load);
+    if load == 0.0 {
+        return None;
+    }
+    let [x, y_, _] = model.layout().centre(y, BodyId::ball(j));
+    let side = model.rows[model.balls[j].row].side;
+    let between = Between {
+        radius: model.balls[j].side.radius,
+        distance: x.hypot(y_),
+        angles: contacts.map(|contact| contact.angle * side),
+        speed: model.scene.drive.initial_speed(),
+    };
+    let resistances = contacts.map(|contact| resistance(&contact));
+    Some((load, between.resisted(resistances)))
 }
 
 /// How a contact resists pivoting, but for a factor: load times the square of the half-length of its zone \[N m²\].

@@ -298,7 +298,7 @@ fn tilts_that_never_move_are_left_out() {
     let tilts = |told: &Explanation| {
         let mut omissions = told.omissions.iter();
         omissions
-            .find(|of| of.what == "tilts of rings")
+            .find(|of| of.what == "turning about x and y")
             .map(|of| of.degrees)
     };
     assert_eq!((tilts(&told), tilts(&plain)), (Some(2), None));

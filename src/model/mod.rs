@@ -6,6 +6,7 @@
 mod body;
 mod compile;
 mod demand;
+mod dof;
 mod layout;
 mod nodes;
 mod oil;
@@ -26,9 +27,12 @@ use crate::simd::{InstructionSet, LANES};
 
 pub use body::{Body, Degree};
 pub(crate) use compile::{ball_fault, compile_placed, race_fault};
-pub use layout::{BodyId, BodyKind, DOFS, Dof, Layout, Race};
+pub use dof::{DOFS, Dof};
+pub use layout::{BodyId, BodyKind, Layout, Race};
 pub(crate) use layout::{RING_DOFS, RINGS};
-pub(crate) use ring::{CoupledModel, RingModel, layout_of};
+#[cfg(feature = "python")]
+pub(crate) use ring::layout_of;
+pub(crate) use ring::{CoupledModel, RingModel};
 pub(crate) use rolling::{Between, Rolling};
 pub use scales::Scales;
 

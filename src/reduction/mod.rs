@@ -7,6 +7,7 @@
 mod course;
 mod grounds;
 mod request;
+mod space;
 mod symmetry;
 
 use std::ops::Range;
@@ -14,7 +15,7 @@ use std::ops::Range;
 use crate::model::{BodyId, BodyKind, DOFS, Dof, Layout, Model};
 use crate::scene::Method;
 
-use course::{Course, Orbit, Prescribed};
+use course::{Orbit, Prescribed};
 use grounds::{Grounds, Reason, is_felt};
 
 /// The degrees of freedom that a run integrates, and what becomes of the others.
@@ -142,48 +143,6 @@ impl Reduction {
             _ if solver.reduce => Self::in_space(model, start).ok(),
             _ => None,
         }
-    }
-
-    /// Of rings that may tilt and balls that may spin freely, and do not, since the motion is its own mirror image: that is then left
-    /// out with all that moves along z, rings are those that stay parallel and balls spin about the axis. Else all states are
-    /// integrated, and what stands against that is told.
-    ///
-    /// # Errors
-    /// What stands against it.
-    pub(crate) fn in_space(model: &Model, start: &[f64]) -> Result<Self, Vec<Obstacle>> {
-        let mut found = Self::leaving_out(model, start, true);
-        // Balls of two rows that are images of each other spin as each likes.
-        let is_flat = found.plane || found.mirrored && !model.balls_turn();
-        let mut against = Vec::new();
-        let mut look = |what: &str, found: Result<(), String>| {
-            let what = what.to_owned();
-            against.extend(found.err().map(|reason| Obstacle { what, reason }));
-        };
-        if model.leans() {
-            let found = symmetry::of_tilts(model, start, found.mirrored);
-            look("rings that do not tilt", found);
-        }
-        if model.balls_turn() {
-            let found = symmetry::of_turns(model, start);
-            look("balls that spin about the axis", found);
-        }
-        if !is_flat || !against.is_empty() {
-            return Err(against.into_iter().chain(found.obstacles).collect());
-        }
-        let mut degrees = 0;
-        for (body, dof) in model.layout().degrees() {
-            if !Dof::ALL.contains(&dof) {
-                let course = Course::steady(0.0, 0.0);
-                found.prescribed.push(Prescribed { body, dof, course });
-                degrees += 1;
-            }
-        }
-        found.omissions.push(Omission {
-            what: "turning about x and y".to_owned(),
-            degrees,
-            reason: "mirror symmetry".to_owned(),
-        });
-        Ok(found)
     }
 
     /// Leaves out what is given up by request and, if `exact` reductions are wanted, what does not change the motion

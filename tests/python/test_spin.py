@@ -278,7 +278,6 @@ RING = s.MotionProbe(body="inner", components=("omega_x",))
         ({"spin": "axial", "probes": {"ball": BALL}}, r'omega_x: with spin = "free": row0\.ball0'),
         ({"approximations.rolling": True}, r"approximations.*balls spin freely"),
         ({"approximations.plane": True}, r"approximations.*balls spin freely"),
-        ({"solver.method": "adams"}, r"solver\.method = adams: an explicit one"),
         ({"solver.method": "implicit-friction"}, r"solver\.method = implicit-friction: an expl"),
         ({"solver.method": "auto"}, r"solver\.method = auto: an explicit one"),
     ],

@@ -43,6 +43,9 @@ pub(crate) struct EightContacts {
     pub film: Option<FilmNumbers<Lanes>>,
 }
 
+/// Numbers of eight contacts along x and y, across the ring's axis; or along n_e and t_e.
+pub(crate) type Across = [Lanes; 2];
+
 /// Constants of a contact, or of eight.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Constants<T> {

@@ -6,13 +6,10 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::{BatchForces, EightContacts, Place, Rubbing, Sums};
+use super::{Across, BatchForces, EightContacts, Place, Rubbing, Sums};
 use crate::contact::kernel::{self, Element, Receiver};
 use crate::contact::{Motion, Pair};
 use crate::simd::{InstructionSet, Lanes, Mask};
-
-/// Numbers of eight contacts along x and y, across the ring's axis; or along n_e and t_e.
-pub(crate) type Across = [Lanes; 2];
 
 /// Sums over the elements of contacts whose balls turn across the ring's axis.
 pub(super) struct Leaning<'a> {

@@ -12,8 +12,7 @@ mod leaning;
 mod points;
 mod rubbing;
 
-pub(crate) use gather::{Constants, EightContacts, Places};
-pub(crate) use leaning::Across;
+pub(crate) use gather::{Across, Constants, EightContacts, Places};
 pub(crate) use rubbing::Rubbing;
 
 use super::kernel::{self, Element, Force, Receiver, State, Whole};

@@ -12,6 +12,7 @@
 mod axially_fixed;
 mod eight;
 mod find;
+mod single;
 mod view;
 
 use std::array::from_fn;
@@ -21,7 +22,6 @@ use nalgebra::Vector3;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use super::sums::{Spatial, Sum};
 use crate::contact::{self, BatchForces, InPlane};
 use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Degree, Dof, Model, Race};
@@ -32,6 +32,7 @@ use axially_fixed::{AxiallyFixedRow, AxiallyFixedSums, EvaluateAxiallyFixed};
 use eight::{Eight, EightOnCurve, Group, leave};
 pub(crate) use eight::{SideConstants, Touching};
 use find::{Find, Stretch};
+use single::Single;
 pub(crate) use view::{RingView, View};
 
 /// What a reduction guarantees, so that a batch may use it.
@@ -98,16 +99,6 @@ pub(crate) struct Batch {
     /// Forces on the two rings by closed forms, and slices there whose damping wanted to pull.
     rings: [[f64; DOFS]; 2],
     pulls: u32,
-}
-
-#[derive(Debug, Clone, Copy)]
-struct Single {
-    race: Race,
-    ball: usize,
-    sum: Sum,
-    /// Moments about x and y on a ball that spins freely, in the scene's frame, and on a ring that may lean, in its own about its
-    /// origin.
-    across: [[f64; 2]; 2],
 }
 
 impl Batch {
@@ -349,38 +340,33 @@ impl Batch {
             return;
         }
         to.fill([0.0; 2]);
-        for group in &self.groups[..self.active] {
-            let [[x, y], _] = &group.across;
-            for (lane, contact) in group.contacts.iter().enumerate().take(group.count) {
-                to[contact.ball][0] += x[lane];
-                to[contact.ball][1] += y[lane];
-            }
-        }
-        for single in &self.singles {
-            let [[x, y], _] = single.across;
-            to[single.ball][0] += x;
-            to[single.ball][1] += y;
+        for (_, ball, [[x, y], _]) in self.across() {
+            to[ball][0] += x;
+            to[ball][1] += y;
         }
     }
 
     /// Moments across the axes of rings that may lean, about the origins of their frames.
     fn moments_across(&self) -> [[f64; 2]; 2] {
         let mut rings = [[0.0; 2]; 2];
-        for group in &self.groups[..self.active] {
-            let [_, [x, y]] = &group.across;
-            let ring = &mut rings[group.race];
-            for lane in 0..group.count {
-                ring[0] += x[lane];
-                ring[1] += y[lane];
-            }
-        }
-        for single in &self.singles {
-            let ring = &mut rings[single.race];
-            let [_, [x, y]] = single.across;
-            ring[0] += x;
-            ring[1] += y;
+        for (race, _, [_, [x, y]]) in self.across() {
+            rings[race][0] += x;
+            rings[race][1] += y;
         }
         rings
+    }
+
+    /// Race, ball and moments about x and y on ball and ring of all contacts.
+    fn across(&self) -> impl Iterator<Item = (Race, usize, [[f64; 2]; 2])> {
+        let grouped = self.groups[..self.active].iter().flat_map(|group| {
+            let contacts = group.contacts.iter().enumerate().take(group.count);
+            contacts.map(|(lane, contact)| {
+                let of = |[x, y]: [Lanes; 2]| [x[lane], y[lane]];
+                (group.race, contact.ball, group.across.map(of))
+            })
+        });
+        let singles = self.singles.iter();
+        grouped.chain(singles.map(|single| (single.race, single.ball, single.across)))
     }
 
     /// The closed forms of all rows, where every contact has one and there are no waves and defects to look for.
@@ -440,30 +426,5 @@ impl Batch {
     /// The first ball that is lost ([`contact::Torus::farthest`]).
     pub fn lost(&self) -> Option<usize> {
         self.lost
-    }
-}
-
-impl Single {
-    fn new(race: Race, ball: usize) -> Self {
-        Self {
-            race,
-            ball,
-            sum: Sum::default(),
-            across: [[0.0; 2]; 2],
-        }
-    }
-
-    fn evaluate(&mut self, model: &Model, view: &View<'_>) {
-        let ball = &model.balls[self.ball];
-        let pair = &model.rows[ball.row].pairs[self.race];
-        let motion = view.ball(self.ball);
-        let Some(leaning) = view.leaning else {
-            pair.evaluate_into(&ball.side, &motion, &view.ring, &mut self.sum);
-            return;
-        };
-        let mut spatial = Spatial::default();
-        pair.evaluate_into(&ball.side, &motion, &view.ring, &mut spatial);
-        let ring = (&leaning.ring, model.balls_turn());
-        (self.sum, self.across) = spatial.on_bodies(&motion.place(), ring);
     }
 }
