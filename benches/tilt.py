@@ -388,7 +388,7 @@ def capped(spin: Spin, place: float) -> Scene:
 
 def tumble() -> pl.DataFrame:
     """Return the outer ring's acceleration over time: a cap that lies where contacts run, at the start."""
-    # A ball about the bearing's axis meets the outer race at a latitude of 40 degrees; a ball that rolls, at its equator.
+    # Held to the axis, a ball meets the outer race at a latitude of 40 degrees; one that rolls, at its equator.
     places: dict[Spin, float] = {"axial": math.sin(math.radians(40.0)), "free": 0.0}
     return pl.concat(
         pl.DataFrame({"time": out.t, "spin": spin, "acceleration": out["outer.ay"]})

@@ -169,9 +169,10 @@ LIMITS = """## Misfits, explained
 ## Not validated
 
 - Sjövall's ratio at working load (1.192 and 1.134 in the reference list): the source names no bearing.
-- Temperature: oil keeps its own. Films and friction torque are compared with formulas (`docs/lubrication.md`, `docs/tilt.md`), not with measurements.
-- Ball defects of a real bearing: unless a scene lets balls spin freely, a ball spins about z, and a short defect meets one race at a contact
-  angle; a real ball tumbles.
+- Temperature: oil keeps its own. Films and friction torque are compared with formulas (`docs/lubrication.md`,
+  `docs/tilt.md`), not with measurements.
+- Ball defects of a real bearing: unless a scene lets balls spin freely, a ball spins about z, and a short defect
+  meets one race at a contact angle; a real ball tumbles.
 - Lines are taken from runs of 0.5 to 1 s by a fit, not from 2 s.
 """
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -290,3 +291,34 @@ def test_what_cannot_spin_freely_is_refused_by_name(
     )
     with pytest.raises(br.SceneError, match=message):
         br.simulate(scene.replace(changes), duration=1e-3)
+
+
+@pytest.mark.parametrize("spin", ["axial", "free"])
+def test_a_cap_is_met_where_its_ball_rolls(spin: s.Spin) -> None:
+    """Truth: geometry. Contacts run at 40° from the bearing's plane, or near a rolling ball's equator."""
+    bearing = br.bearing("7205B", radial_load=0.0, axial_load=1000.0, speed_rpm=1800.0)
+    radius = 0.5 * bearing.rows[0].ball_diameter
+
+    def meets(place: float) -> bool:
+        # Ball 0 begins below the axis; the x axis, from which angles of its defects count, points along its orbit.
+        cap = s.Defect(
+            on="ball", ball=0, angle=0.0, shape="cap", width=1e-3, edge_radius=3e-4,
+            axial_offset=place * radius,
+        )  # fmt: skip
+        scene = bearing.replace(
+            {"spin": spin, "gravity": (0.0, 0.0, 0.0), "defects": {"cap": cap}, "solver": EXPLICIT}
+        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", br.SceneWarning)  # Nothing touched one of them.
+            out = br.simulate(scene, duration=0.02, settle=0.0)
+        return bool(out.provenance.defects[0]["touched"])
+
+    at_forty, at_equator = meets(math.sin(math.radians(40.0))), meets(0.0)
+    assert (at_forty, at_equator) == (spin == "axial", spin == "free")
+
+
+def test_a_patch_of_a_ball_that_spins_freely_is_refused() -> None:
+    patch = s.Defect(on="ball", ball=0, angle=0.0, length=1e-3, width=1e-3, edge_radius=3e-4)
+    scene = br.presets.deep_groove_6205().replace({"defects.patch": patch})
+    with pytest.raises(br.SceneError, match=r'defects\.patch\.shape = absent: "cap" for a ball'):
+        scene.replace({"spin": "free"})
