@@ -241,7 +241,7 @@ impl<T: Number> Slip<T> {
         self.along[1] = self.along[1] - w_n * cos;
         if !law.cut().is_flat() {
             // The ball's surface bends away from the line.
-            self.along[2] = self.along[2] + w_n * middle * inverse * inverse * 0.5;
+            self.along[2] += w_n * middle * inverse * inverse * 0.5;
         }
         let h = section.groove::<FMA>(sin) - section.e;
         let lever = middle.mul_add::<FMA>(sin, h * cos);

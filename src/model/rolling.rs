@@ -114,8 +114,8 @@ mod tests {
     fn control_by_a_race_is_jones() {
         let between = between();
         for (race, orbit, about, pitch_angle) in [
-            (Race::Outer, 0.449729, 2.92044, 28.450_f64),
-            (Race::Inner, 0.415200, 2.94307, 57.398),
+            (Race::Outer, 0.449_729, 2.92044, 28.450_f64),
+            (Race::Inner, 0.415_200, 2.94307, 57.398),
         ] {
             let found = between.controlled_by(race);
             assert!((found.orbit - orbit).abs() < 1e-6, "{race:?} {found:?}");

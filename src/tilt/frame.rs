@@ -54,12 +54,12 @@ impl Frame {
     }
 
     /// A vector of the ring's frame, in the scene's.
-    pub fn to_scene(&self, v: &Vector3<f64>) -> Vector3<f64> {
+    pub fn to_scene(self, v: &Vector3<f64>) -> Vector3<f64> {
         self.matrix * v
     }
 
     /// A vector of the scene's frame, in the ring's.
-    pub fn to_ring(&self, v: &Vector3<f64>) -> Vector3<f64> {
+    pub fn to_ring(self, v: &Vector3<f64>) -> Vector3<f64> {
         self.matrix.tr_mul(v)
     }
 
