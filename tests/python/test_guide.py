@@ -129,7 +129,7 @@ def told_columns() -> list[tuple[re.Pattern[str], str]]:
     anything, word = r".+", r"[^.]+"
     parts = {
         "probe": word, "defect": r"defects\.[^.]+", "column": anything, "row": r"row\d+", "race": "(outer|inner)",
-        "k": r"\d+", "origin": word, "fault": "(ftf|bpfo|bpfi|2bsf)",
+        "k": r"\d+", "origin": r"(?!outer|inner)[^.]+", "fault": "(ftf|bpfo|bpfi|2bsf)",
     }  # fmt: skip
     found = []
     for line in (GUIDE / "columns.md").read_text(encoding="utf-8").splitlines():
@@ -149,9 +149,13 @@ def everything() -> s.Scene:
     probes: dict[str, s.Probe] = {
         "outer": s.MotionProbe(body="outer"), "loads": s.ContactsProbe(row=0), "cage": s.CageProbe(row=0),
         "energy": s.EnergyProbe(), "torque": s.TorqueProbe(), "forces": s.ForcesProbe(body="outer"),
-        "oil": s.LubricationProbe(row=0),
+        "oil": s.LubricationProbe(row=0), "inner": s.MotionProbe(body="inner"),
+        "ball": s.MotionProbe(body="row0.ball0"), "moments": s.MomentsProbe(),
     }  # fmt: skip
-    return dataclasses.replace(scene, probes=probes)
+    free = {
+        f"inner_ring.support.tilt_{axis}": s.Spring(stiffness=1e3, damping=0.05) for axis in "xy"
+    }
+    return dataclasses.replace(scene.replace({"spin": "free", **free}), probes=probes)
 
 
 def test_the_table_of_columns_is_whole(tmp_path: Path) -> None:
