@@ -139,15 +139,6 @@ pub(super) fn of_tilts(model: &Model, start: &[f64], mirrored: bool) -> Symmetry
     let (layout, middle) = (model.layout(), f64::midpoint(low, high));
     for race in Race::BOTH {
         let (ring, of) = (&model.rings[race], race.name());
-        let limit = START * model.scales.approach / model.radius(race.ring());
-        let [tilt, rates] = model.tilt(start, race);
-        let rests = tilt.iter().all(|tilt| tilt.abs() <= limit)
-            && rates
-                .iter()
-                .all(|rate| rate.abs() <= limit * model.scales.frequency);
-        require(ring.tilt == [0.0; 2] && rests, || {
-            format!("the {of} ring leans at the start")
-        })?;
         require(ring.coupled.is_none(), || {
             format!("the {of} ring's support couples directions")
         })?;
@@ -157,6 +148,12 @@ pub(super) fn of_tilts(model: &Model, start: &[f64], mirrored: bool) -> Symmetry
             format!("the {of} ring's centre of mass is off the mirror's plane")
         })?;
     }
+    no_moments(model)?;
+    parallel_at_start(model, start)
+}
+
+/// No load and no unbalance may turn a ring.
+fn no_moments(model: &Model) -> Symmetry {
     for ((name, _), load) in model.scene.loads.iter().zip(&model.loads) {
         let turns = load
             .arm
@@ -191,6 +188,23 @@ pub(super) fn of_turns(model: &Model, start: &[f64]) -> Symmetry {
     require(rests, || {
         "balls spin about another axis at the start".to_owned()
     })
+}
+
+/// Rings must start parallel, and be held so where they are.
+fn parallel_at_start(model: &Model, start: &[f64]) -> Symmetry {
+    for race in Race::BOTH {
+        let (ring, of) = (&model.rings[race], race.name());
+        let limit = START * model.scales.approach / model.radius(race.ring());
+        let [tilt, rates] = model.tilt(start, race);
+        let rests = tilt.iter().all(|tilt| tilt.abs() <= limit)
+            && rates
+                .iter()
+                .all(|rate| rate.abs() <= limit * model.scales.frequency);
+        require(ring.tilt == [0.0; 2] && rests, || {
+            format!("the {of} ring leans at the start")
+        })?;
+    }
+    Ok(())
 }
 
 /// Nothing may act along z.
