@@ -69,7 +69,7 @@
 //! | an oil | an entry of `NAMED_OILS` in `scene/oils.rs` with its source | `tests/lubricant.rs` |
 //! | what oil does | its formula in `contact/laws/film/`; what a contact has of it, `FilmEffect` there | a row of section 12.14, `tests/oil_contact.rs` |
 //! | a force | a file in `forces/`, its entry in `forces/mod.rs`, which names its contribution, a line in `Dynamics::add_applied_forces` | `tests/energy.rs`, power balance |
-//! | a direction of a body | `Dof` and `Layout` in `model/layout.rs`, mass and mount in `model/body.rs`; what carries the four numbers of a contact: `forces/state.rs`, `dynamics/sums.rs`, `dynamics/batch/`, `implicit/` | `model/layout.rs`, momentum |
+//! | a direction of a body | `Dof` in `model/dof.rs`, `Layout` in `model/layout.rs`, mass and mount in `model/body.rs`; what carries the four numbers of a contact: `forces/state.rs`, `dynamics/sums.rs`, `dynamics/batch/`, `implicit/`; where a ring leans `dynamics/batch/view.rs`, `dynamics/leaning.rs` | `model/layout.rs`, momentum |
 //! | what acts along z, or differs by row | `reduction/symmetry.rs`; what contacts share, `RowModel::is_like` | a hair of it in `tests/reduction.rs`, `tests/unlike_rows.rs` |
 //! | an approximation | `scene/approximations.rs`, grounds and a reason in `reduction/`, an offer in `explain/variants.rs` | `tests/approximations.rs`, a row in `benches/approximations.py` |
 //! | a race profile | what can be said by points: a tabulation in `model/race.rs`; else a kind in `contact/scalar/shape.rs` with its contacts, fields in `scene/bearing.rs` and `scene/validate/race.rs` | `tests/profiles.rs`: gap against a closed form, energy |

@@ -35,6 +35,7 @@ pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
             }
             lean(model, &mut y);
             roll(model, &mut y);
+            hold(model, &mut y);
             face(model, &mut y);
             Ok(y)
         }
@@ -42,6 +43,7 @@ pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
             let mut y = equilibrium::positions(model)?;
             roll(model, &mut y);
             settle_speeds(model, &mut y);
+            hold(model, &mut y);
             face(model, &mut y);
             Ok(y)
         }
@@ -53,24 +55,64 @@ pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
                     state[i],
                     "a finite number",
                 )),
-                None => Ok(state.clone()),
+                None => given(model, state),
             }
         }
     }
 }
 
-/// Gives balls that tumble the attitude that their angle about z says, which changes with their angular velocity: ė = ½ ω e.
+/// A state of the right length, with attitudes that are some and that change as the balls turn.
+fn given(model: &Model, state: &[f64]) -> Result<Vec<f64>> {
+    let (mut y, layout) = (state.to_vec(), model.layout());
+    for ball in layout.tumbling().map(BodyId::ball) {
+        let attitude = Dof::ATTITUDE.map(|dof| y[layout.at(ball, dof)]);
+        let square: f64 = attitude.iter().map(|e| e * e).sum();
+        if (square - 1.0).abs() > 1e-6 {
+            return Err(Error::scene(
+                format!("start[{}]", layout.at(ball, Dof::E0)),
+                format!("{attitude:?}"),
+                "Euler parameters, the four of a ball: their squares add up to 1",
+            ));
+        }
+        turn(layout, &mut y, ball, attitude);
+    }
+    Ok(y)
+}
+
+/// Gives balls that tumble the attitude that their angle about z says.
 pub(crate) fn face(model: &Model, y: &mut [f64]) {
     let layout = model.layout();
     for ball in layout.tumbling().map(BodyId::ball) {
         let (sin, cos) = (0.5 * y[layout.at(ball, Dof::Theta)]).sin_cos();
-        let attitude = [cos, 0.0, 0.0, sin];
-        let rates = attitude_rates(&layout.motion(y, ball).turning(), attitude);
-        for (dof, (place, rate)) in Dof::ATTITUDE
-            .into_iter()
-            .zip(attitude.into_iter().zip(rates))
-        {
-            (y[layout.at(ball, dof)], y[layout.speed_at(ball, dof)]) = (place, rate);
+        turn(layout, y, ball, [cos, 0.0, 0.0, sin]);
+    }
+}
+
+/// Gives a ball an attitude, which changes with its angular velocity: ė = ½ ω e.
+fn turn(layout: Layout, y: &mut [f64], ball: BodyId, attitude: [f64; 4]) {
+    let rates = attitude_rates(&layout.motion(y, ball).turning(), attitude);
+    let each = Dof::ATTITUDE
+        .into_iter()
+        .zip(attitude.into_iter().zip(rates));
+    for (dof, (place, rate)) in each {
+        (y[layout.at(ball, dof)], y[layout.speed_at(ball, dof)]) = (place, rate);
+    }
+}
+
+/// Stops balls where they are held.
+fn hold(model: &Model, y: &mut [f64]) {
+    let layout = model.layout();
+    let moving = layout
+        .degrees()
+        .filter(|(body, _)| body.as_ball().is_some());
+    for (ball, dof) in moving {
+        let held = match dof {
+            Dof::TurnX | Dof::TurnY => Dof::Theta,
+            dof if Dof::ATTITUDE.contains(&dof) => continue,
+            dof => dof,
+        };
+        if model.mobility[ball][held] == 0.0 {
+            y[layout.speed_at(ball, dof)] = 0.0;
         }
     }
 }

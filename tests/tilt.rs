@@ -8,7 +8,7 @@ use ballrace::scene::{
     Component, CoupledSupport, Friction, Load, Lubricant, Method, Moment, Mount, Probe, RingName,
     Scene, Unbalance, presets,
 };
-use ballrace::{Explanation, Reduction, Run, Start, compile, explain, simulate, start};
+use ballrace::{Explanation, Reduction, Run, Start, Warning, compile, explain, simulate, start};
 use common::{apart, oiled, run, short};
 
 /// A 6205 under 500 N and 300 N whose inner ring tilts, damped.
@@ -384,4 +384,38 @@ fn oil_lies_in_contacts_of_rings_that_tilt() {
         let values = out.get(&format!("oil.{name}")).unwrap();
         assert!(values.iter().all(|value| *value >= 0.0), "{name}");
     }
+}
+
+/// A ring that leans by more than 3° is told, at equilibrium and by a run; one of any bearing in use is not.
+#[test]
+fn rings_that_lean_far_are_doubted() {
+    let doubts = |scene: &Scene| {
+        let still = ballrace::equilibrium(scene).unwrap().doubts;
+        let out = run(scene, &short(1e-5));
+        [
+            still,
+            out.warnings()
+                .into_iter()
+                .filter_map(|of| match of {
+                    Warning::Doubtful(doubt) => Some(doubt),
+                    _ => None,
+                })
+                .collect(),
+        ]
+        .map(|found: Vec<_>| {
+            found
+                .iter()
+                .filter(|doubt| doubt.path == "tilt of a ring")
+                .count()
+        })
+    };
+    let mut scene = leaning();
+    scene.friction = Friction::None;
+    assert_eq!(doubts(&scene), [0, 0]);
+    scene.rows[0].clearance = 0.6e-3;
+    scene.moments.insert(
+        "bend".to_owned(),
+        Moment::new(RingName::Inner, [1.0, 0.0, 0.0], 60.0),
+    );
+    assert_eq!(doubts(&scene), [1, 1]);
 }

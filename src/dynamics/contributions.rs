@@ -67,7 +67,7 @@ pub fn contributions(model: &Model, t: f64, y: &[f64]) -> Vec<(&'static str, Vec
         let ring = race.ring();
         if let Some(leaning) = &leaning {
             let frame = &leaning[race].rotation.frame;
-            let supported = forces::leaning::support(model, race, &state, 0.0);
+            let supported = forces::leaning::support(model, race, &state, &leaning[race], 0.0);
             let unbalanced = unbalance::on_leaning(model, t, &state, race, frame);
             let loaded = OnRing {
                 force: Vector3::zeros(),

@@ -68,7 +68,8 @@ impl Leaning {
 
     /// Adds what else acts on the rings.
     pub fn add_applied(&mut self, model: &Model, t: f64, state: &State, forces: &mut Table) {
-        forces::leaning::add(model, t, state, forces, &mut self.moments);
+        let rings = self.rings.each_ref().map(|view| &view.ring);
+        forces::leaning::add(model, t, state, rings, (forces, &mut self.moments));
     }
 
     /// Writes the accelerations of the rings' rotations, and of balls that spin freely: a sphere has no gyroscopic moment.
@@ -77,8 +78,7 @@ impl Leaning {
         for (j, moments) in self.across.iter().enumerate() {
             let ball = BodyId::ball(j);
             for (dof, moment) in Dof::TURNS.into_iter().zip(moments) {
-                let inertia = model.bodies[ball].mass[Dof::Theta];
-                accelerations[layout.at(ball, dof)] = moment / inertia;
+                accelerations[layout.at(ball, dof)] = moment * model.mobility[ball][Dof::Theta];
             }
         }
         for ball in layout.tumbling().map(BodyId::ball) {

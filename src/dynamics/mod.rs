@@ -94,7 +94,7 @@ impl<'m> Dynamics<'m> {
             planar: None,
         }));
         let mut dynamics = Self::with(model, order, kind);
-        // Where rings tilt nothing is left out.
+        // Only scenes that stay in the plane are reduced: what tilts or spins freely in them rests.
         dynamics.leaning = None;
         let kept = dynamics.degrees();
         dynamics

@@ -249,10 +249,22 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
     found
 }
 
-/// Of a scene, and of the pressures and films in its contacts.
+/// Of a scene, of the pressures and films in its contacts, and of rings that have tilted from where they nominally are.
 fn doubts(scene: &Scene, found: &Equilibrium) -> Vec<Doubt> {
     let of_contacts = inspect::doubts(found.largest_pressure(), &found.films);
-    scene.doubts().into_iter().chain(of_contacts).collect()
+    let rings = [
+        (&scene.outer_ring, found.outer_tilt),
+        (&scene.inner_ring, found.inner_tilt),
+    ];
+    let tilted = rings
+        .into_iter()
+        .filter(|(ring, tilt)| *tilt != ring.tilt.unwrap_or_default());
+    let tilt = tilted.map(|(_, [x, y])| x.hypot(y)).fold(0.0, f64::max);
+    let of_scene = scene.doubts().into_iter();
+    of_scene
+        .chain(of_contacts)
+        .chain(Doubt::tilt(tilt))
+        .collect()
 }
 
 /// Solves from the first guess; from the nominal places where there is none, or where it leads to no stable place, such

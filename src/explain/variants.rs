@@ -6,7 +6,7 @@ use super::cost::{self, Cost};
 use crate::equilibrium::compile;
 use crate::model::Model;
 use crate::reduction::Reduction;
-use crate::run::step_limit;
+use crate::run::{method, step_limit};
 use crate::scene::{Load, Method, Scene, Slices, Surface};
 use crate::start::{Start, start};
 
@@ -174,6 +174,7 @@ pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Vec<Variant> {
         .into_iter()
         .filter(|(change, ..)| *change != IMPLICIT || is_short)
         .filter_map(|(change, note, changed)| {
+            let y0 = &changed.layout().carry(y0, model.layout());
             let kept = Reduction::of(&changed, y0).map_or(changed.dim(), |r| r.dim());
             let seconds = if [WITHOUT_OIL, IMPLICIT].contains(&change) {
                 seconds_by_own_steps(&changed)?
@@ -218,7 +219,9 @@ fn offers(model: &Model, y0: &[f64]) -> Vec<(&'static str, &'static str, Model)>
         .into_iter()
         .filter_map(|(change, note, apply)| {
             let changed = compile(&apply(model.scene())?).ok()?;
-            let holds = obstacles(Reduction::of(&changed, y0).as_ref()) <= now;
+            method::check(&changed).ok()?;
+            let y0 = changed.layout().carry(y0, model.layout());
+            let holds = obstacles(Reduction::of(&changed, &y0).as_ref()) <= now;
             holds.then_some((change, note, changed))
         })
         .collect()

@@ -26,9 +26,14 @@ pub(crate) fn holds(model: &Model) -> bool {
 }
 
 /// What its support does through tilts, and what of the table's number about z is a force of the spin's own mount.
-pub(crate) fn support(model: &Model, race: Race, state: &State, on_spin: f64) -> OnRing {
+pub(crate) fn support(
+    model: &Model,
+    race: Race,
+    state: &State,
+    leaning: &LeaningRing,
+    on_spin: f64,
+) -> OnRing {
     let ring = &model.rings[race];
-    let leaning = state.leaning(model, race);
     let [tilt, rates] = state.tilt(race);
     let mut forces = [0.0, 0.0, on_spin];
     for i in 0..2 {
@@ -38,7 +43,7 @@ pub(crate) fn support(model: &Model, race: Race, state: &State, on_spin: f64) ->
     }
     let mut sum = OnRing::default();
     if let Some(coupled) = &ring.coupled {
-        let [places, speeds] = stretched(ring, coupled, race, state, &leaning);
+        let [places, speeds] = stretched(ring, coupled, race, state, leaning);
         let pull = -(coupled.stiffness * places + coupled.damping * speeds);
         let arm = leaning.rotation.frame.axis() * coupled.place;
         sum.force = pull.fixed_rows::<3>(0).into_owned();
@@ -120,18 +125,24 @@ pub(crate) fn add(
     model: &Model,
     t: f64,
     state: &State,
-    forces: &mut Table,
-    moments: &mut [Vector3<f64>; 2],
+    rings: [&LeaningRing; 2],
+    (forces, moments): (&mut Table, &mut [Vector3<f64>; 2]),
 ) {
     for race in Race::BOTH {
-        let frame = state.leaning(model, race).rotation.frame;
+        let frame = &rings[race].rotation.frame;
         let ring = race.ring();
         moments[race] += load::moment(model, t, race, |arm| frame.to_scene(arm));
         if let (Race::Inner, Drive::Torque { value, .. }) = (race, &model.scene.drive) {
             moments[race] += frame.axis() * value.at(t);
         }
-        let unbalanced = unbalance::on_leaning(model, t, state, race, &frame);
-        let supported = support(model, race, state, forces.get(ring, Dof::Theta));
+        let unbalanced = unbalance::on_leaning(model, t, state, race, frame);
+        let supported = support(
+            model,
+            race,
+            state,
+            rings[race],
+            forces.get(ring, Dof::Theta),
+        );
         for part in [unbalanced, supported] {
             let [x, y, z] = part.force.into();
             forces.add(ring, &[x, y, z, 0.0]);

@@ -291,6 +291,16 @@ impl Layout {
         (0..self.half()).map(move |at| self.degree(at))
     }
 
+    /// A state of the same bodies in another layout as one of this: what only that has falls away, what only this has is 0.
+    pub(crate) fn carry(self, y: &[f64], from: Self) -> Vec<f64> {
+        let mut carried = vec![0.0; self.dim()];
+        for (body, dof) in self.degrees().filter(|(body, dof)| from.has(*body, *dof)) {
+            carried[self.at(body, dof)] = y[from.at(body, dof)];
+            carried[self.speed_at(body, dof)] = y[from.speed_at(body, dof)];
+        }
+        carried
+    }
+
     /// Rings and balls in their order.
     pub fn bodies(self) -> impl ExactSizeIterator<Item = BodyId> + Clone {
         (0..self.bodies).map(BodyId)

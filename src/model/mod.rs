@@ -202,7 +202,8 @@ impl Model {
         self.bodies.iter().map(|body| body.name.clone()).collect()
     }
 
-    /// Names of the states in their order, such as `outer.x` and `row0.ball3.vz`.
+    /// Names of the states in their order, such as `outer.x`, `row0.ball3.vz` and, of Euler parameters and their rates,
+    /// `row0.ball3.e0` and `row0.ball3.ve0`.
     pub fn names(&self) -> Vec<String> {
         let of = |components: &[Component]| {
             self.bodies

@@ -108,6 +108,22 @@ impl Model {
         found
     }
 
+    /// By how much a ring that may tilt leans most in a state \[rad\].
+    pub(crate) fn largest_tilt(&self, y: &[f64]) -> f64 {
+        let may = |race: &Race| {
+            Dof::TILTS
+                .iter()
+                .any(|dof| self.layout.has(race.ring(), *dof))
+        };
+        let rings = Race::BOTH.into_iter().filter(may);
+        rings
+            .map(|race| {
+                let [[x, y], _] = self.tilt(y, race);
+                x.hypot(y)
+            })
+            .fold(0.0, f64::max)
+    }
+
     /// A ring that may lean, in a state.
     pub(crate) fn leaning(&self, y: &[f64], race: Race) -> LeaningRing {
         let motion = self.layout.motion(y, race.ring());

@@ -107,6 +107,9 @@ pub struct Statistics {
     /// Largest slip speed of a loaded contact under an oil film at the start or at the end of the run \[m/s\]; 0 without oil. Above 0.5
     /// is warned of.
     pub film_slip: f64,
+    /// By how much a ring that may tilt leans most at the start or at the end of the run \[rad\]; 0 where none may. Above 0.05 is
+    /// warned of.
+    pub largest_tilt: f64,
     /// Steps accepted before t = 0, while the start settled; counted nowhere else.
     pub settling_accepted: usize,
     /// Evaluations before t = 0, while the start settled; counted nowhere else.

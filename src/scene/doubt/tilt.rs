@@ -7,6 +7,23 @@ use crate::told::number;
 /// Rings lean by less in use \[rad\]: self-aligning ball bearings by 2.5 to 3°.
 const TILT: f64 = 0.05;
 
+/// Why that is doubted.
+const USUAL: &str = "no bearing's rings lean by 3° in use";
+
+impl Doubt {
+    /// Of how far rings lean in a run or at equilibrium \[rad\], if that is too far.
+    pub(crate) fn tilt(size: f64) -> Option<Self> {
+        (size > TILT).then(|| {
+            let value = format!("{}°", number(size.to_degrees()));
+            Self::new(
+                "tilt of a ring",
+                value,
+                format!("{USUAL}; look at its support and loads"),
+            )
+        })
+    }
+}
+
 pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
     let rings = [
         ("outer_ring.tilt", scene.outer_ring.tilt),
@@ -17,8 +34,11 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
         let size = x.hypot(y);
         if size > TILT {
             let value = format!("{}°", number(size.to_degrees()));
-            let usual = "no bearing's rings lean by 3° in use; tilts are in radians";
-            found.push(Doubt::new(path, value, usual));
+            found.push(Doubt::new(
+                path,
+                value,
+                format!("{USUAL}; tilts are in radians"),
+            ));
         }
     }
 }

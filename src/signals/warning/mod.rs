@@ -124,7 +124,8 @@ impl Signals {
             .doubts()
             .into_iter()
             .chain(of_contacts)
-            .chain(of_slip);
+            .chain(of_slip)
+            .chain(Doubt::tilt(self.stats.largest_tilt));
         let defects = self.provenance.defects.iter();
         let untouched = defects.filter_map(|of| not_touched(of, self.provenance.duration));
         [
