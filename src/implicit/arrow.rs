@@ -13,48 +13,49 @@ use crate::simd::Lanes;
 type Rings = SVector<f64, RING_DOFS>;
 type Factors = LU<f64, Const<RING_DOFS>, Const<RING_DOFS>>;
 
-/// A matrix with a row a direction for each of eight balls.
-pub(super) type Block<const COLUMNS: usize> = [[Lanes; COLUMNS]; DOFS];
+/// A matrix for each of eight balls, of which a row is a direction of the ball.
+pub(super) type Block<const ROWS: usize, const COLUMNS: usize> = [[Lanes; COLUMNS]; ROWS];
 
 /// Balls eliminated by eights, and the rings' own matrix factorised: good for any right-hand side.
 ///
 /// With contacts of slope S between ball and ring, w = v_b − T v_r, ball and rings obey
-/// (1 − Σ D S) x + Σ D S T X = r and (1 + d) X − D_r Σ Tᵀ S (T X − x) = R.
+/// (1 − Σ D S) x + Σ D S T X = r and (1 + d) X − D_r Σ Tᵀ S (T X − x) = R. Balls have N directions, rings those along the axes and
+/// about z: what turns across the axis is the ball alone.
 #[derive(Debug, Clone)]
-pub(super) struct Arrow {
+pub(super) struct Arrow<const N: usize> {
     /// What the balls put into the rings' rows, before D_r, and into their right-hand side.
     rings: [[Lanes; RING_DOFS]; RING_DOFS],
     right: [Lanes; RING_DOFS],
     factors: Option<Factors>,
     scale: Rings,
-    eights: Vec<Eight>,
+    eights: Vec<Eight<N>>,
 }
 
 /// Of the balls' rows A x + B X = r and the rings' C x.
 #[derive(Debug, Clone)]
-struct Eight {
+struct Eight<const N: usize> {
     /// A⁻¹.
-    inverse: Block<DOFS>,
+    inverse: Block<N, N>,
     /// A⁻¹ B.
-    wide: Block<RING_DOFS>,
+    wide: Block<N, RING_DOFS>,
     /// Tᵀ S, and whether there is any.
-    from: [Block<DOFS>; 2],
+    from: [Block<DOFS, N>; 2],
     touches: [bool; 2],
     /// A⁻¹ r.
-    part: [Lanes; DOFS],
+    part: [Lanes; N],
 }
 
 /// The slopes S of eight contacts, and where the balls are from the ring's centre.
-pub(super) type Contacts<'a> = Option<(&'a Block<DOFS>, [Lanes; 2])>;
+pub(super) type Contacts<'a, const N: usize> = Option<(&'a Block<N, N>, [Lanes; 2])>;
 
-impl Arrow {
+impl<const N: usize> Arrow<N> {
     pub fn new(eights: usize) -> Self {
         let eight = Eight {
-            inverse: [[Lanes::ZERO; DOFS]; DOFS],
-            wide: [[Lanes::ZERO; RING_DOFS]; DOFS],
-            from: [[[Lanes::ZERO; DOFS]; DOFS]; 2],
+            inverse: [[Lanes::ZERO; N]; N],
+            wide: [[Lanes::ZERO; RING_DOFS]; N],
+            from: [[[Lanes::ZERO; N]; DOFS]; 2],
             touches: [false; 2],
-            part: [Lanes::ZERO; DOFS],
+            part: [Lanes::ZERO; N],
         };
         Self {
             rings: [[Lanes::ZERO; RING_DOFS]; RING_DOFS],
@@ -75,42 +76,44 @@ impl Arrow {
     pub fn eliminate<const FMA: bool>(
         &mut self,
         eight: usize,
-        contacts: &[Contacts<'_>; 2],
-        scale: &[Lanes; DOFS],
+        contacts: &[Contacts<'_, N>; 2],
+        scale: &[Lanes; N],
     ) {
         let eight = &mut self.eights[eight];
-        let mut own = [[Lanes::ZERO; DOFS]; DOFS];
-        let mut to = [[Lanes::ZERO; RING_DOFS]; DOFS];
+        let mut own = [[Lanes::ZERO; N]; N];
+        let mut to = [[Lanes::ZERO; RING_DOFS]; N];
         for (s, contact) in contacts.iter().enumerate() {
             eight.touches[s] = contact.is_some();
             let Some((slope, apart)) = *contact else {
                 continue;
             };
-            for i in 0..DOFS {
-                let carried = carried::<FMA>(&slope[i], apart);
-                for j in 0..DOFS {
+            for i in 0..N {
+                let carried = carried::<FMA, N>(&slope[i], apart);
+                for j in 0..N {
                     own[i][j] = own[i][j] - slope[i][j];
+                }
+                for j in 0..DOFS {
                     to[i][DOFS * s + j] = scale[i] * carried[j];
                 }
             }
             let from = &mut eight.from[s];
-            *from = *slope;
-            for j in 0..DOFS {
+            from.copy_from_slice(&slope[..DOFS]);
+            for j in 0..N {
                 let turned = slope[1][j].mul_add::<FMA>(apart[0], slope[3][j]);
                 from[3][j] = (-slope[0][j]).mul_add::<FMA>(apart[1], turned);
             }
         }
-        for i in 0..DOFS {
-            for j in 0..DOFS {
+        for i in 0..N {
+            for j in 0..N {
                 own[i][j] = own[i][j] * scale[i];
             }
             own[i][i] = own[i][i] + 1.0;
         }
-        invert::<FMA>(&mut own);
-        for i in 0..DOFS {
+        invert::<FMA, N>(&mut own);
+        for i in 0..N {
             for j in 0..RING_DOFS {
                 let mut sum = own[i][0] * to[0][j];
-                for k in 1..DOFS {
+                for k in 1..N {
                     sum = own[i][k].mul_add::<FMA>(to[k][j], sum);
                 }
                 eight.wide[i][j] = sum;
@@ -123,11 +126,11 @@ impl Arrow {
             };
             // Tᵀ S (T X − x), with x = A⁻¹ r − A⁻¹ B X.
             for (row, sums) in eight.from[s].iter().zip(&mut self.rings[DOFS * s..]) {
-                let own = carried::<FMA>(row, apart);
+                let own = carried::<FMA, N>(row, apart);
                 for j in 0..DOFS {
                     sums[DOFS * s + j] += own[j];
                 }
-                for k in 0..DOFS {
+                for k in 0..N {
                     for j in 0..RING_DOFS {
                         sums[j] = row[k].mul_add::<FMA>(eight.wide[k][j], sums[j]);
                     }
@@ -155,11 +158,11 @@ impl Arrow {
 
     /// Eliminates eight balls from the right-hand side.
     #[inline(always)]
-    pub fn eliminate_right<const FMA: bool>(&mut self, eight: usize, right: &[Lanes; DOFS]) {
+    pub fn eliminate_right<const FMA: bool>(&mut self, eight: usize, right: &[Lanes; N]) {
         let eight = &mut self.eights[eight];
-        eight.part = product::<FMA>(&eight.inverse, right);
+        eight.part = product::<FMA, _, _>(&eight.inverse, right);
         for s in (0..2).filter(|&s| eight.touches[s]) {
-            let sums = product::<FMA>(&eight.from[s], &eight.part);
+            let sums = product::<FMA, _, _>(&eight.from[s], &eight.part);
             for i in 0..DOFS {
                 self.right[DOFS * s + i] += sums[i];
             }
@@ -175,10 +178,10 @@ impl Arrow {
 
     /// The unknowns of eight balls, once the rings' are known.
     #[inline(always)]
-    pub fn balls<const FMA: bool>(&self, eight: usize, rings: &Rings) -> [Lanes; DOFS] {
+    pub fn balls<const FMA: bool>(&self, eight: usize, rings: &Rings) -> [Lanes; N] {
         let Eight { part, wide, .. } = &self.eights[eight];
         let mut x = *part;
-        for i in 0..DOFS {
+        for i in 0..N {
             for j in 0..RING_DOFS {
                 x[i] = x[i] - wide[i][j] * rings[j];
             }
@@ -188,11 +191,14 @@ impl Arrow {
 }
 
 #[inline(always)]
-fn product<const FMA: bool>(a: &Block<DOFS>, x: &[Lanes; DOFS]) -> [Lanes; DOFS] {
-    let mut product = [Lanes::ZERO; DOFS];
-    for i in 0..DOFS {
+fn product<const FMA: bool, const ROWS: usize, const N: usize>(
+    a: &Block<ROWS, N>,
+    x: &[Lanes; N],
+) -> [Lanes; ROWS] {
+    let mut product = [Lanes::ZERO; ROWS];
+    for i in 0..ROWS {
         product[i] = a[i][0] * x[0];
-        for k in 1..DOFS {
+        for k in 1..N {
             product[i] = a[i][k].mul_add::<FMA>(x[k], product[i]);
         }
     }
@@ -201,7 +207,7 @@ fn product<const FMA: bool>(a: &Block<DOFS>, x: &[Lanes; DOFS]) -> [Lanes; DOFS]
 
 /// A row times T, whose last column is (−a_y, a_x, 0, 1).
 #[inline(always)]
-fn carried<const FMA: bool>(row: &[Lanes; DOFS], apart: [Lanes; 2]) -> [Lanes; DOFS] {
+fn carried<const FMA: bool, const N: usize>(row: &[Lanes; N], apart: [Lanes; 2]) -> [Lanes; DOFS] {
     let turned = row[1].mul_add::<FMA>(apart[0], row[3]);
     let last = (-row[0]).mul_add::<FMA>(apart[1], turned);
     [row[0], row[1], row[2], last]
@@ -211,17 +217,17 @@ fn carried<const FMA: bool>(row: &[Lanes; DOFS], apart: [Lanes; 2]) -> [Lanes; D
 ///
 /// There is no pivoting: 1 − D S is the unit matrix and what friction and damping add to its definite side.
 #[inline(always)]
-fn invert<const FMA: bool>(a: &mut Block<DOFS>) {
-    for k in 0..DOFS {
+fn invert<const FMA: bool, const N: usize>(a: &mut Block<N, N>) {
+    for k in 0..N {
         let inverse = Lanes::all(1.0) / a[k][k];
         a[k][k] = Lanes::all(1.0);
-        for j in 0..DOFS {
+        for j in 0..N {
             a[k][j] = a[k][j] * inverse;
         }
-        for i in (0..DOFS).filter(|&i| i != k) {
+        for i in (0..N).filter(|&i| i != k) {
             let factor = -a[i][k];
             a[i][k] = Lanes::ZERO;
-            for j in 0..DOFS {
+            for j in 0..N {
                 a[i][j] = factor.mul_add::<FMA>(a[k][j], a[i][j]);
             }
         }
@@ -231,39 +237,39 @@ fn invert<const FMA: bool>(a: &mut Block<DOFS>) {
 /// The truth is the residual of the written-out system.
 #[cfg(test)]
 mod tests {
-    use nalgebra::{Matrix4, Vector4};
+    use nalgebra::{SMatrix, SVector, Vector4};
 
     use super::*;
 
-    fn block(seed: f64) -> Matrix4<f64> {
-        Matrix4::from_fn(|i, j| (seed + (5 * i + 3 * j) as f64).sin())
+    fn block<const N: usize>(seed: f64) -> SMatrix<f64, N, N> {
+        SMatrix::from_fn(|i, j| (seed + (5 * i + 3 * j) as f64).sin())
     }
 
-    fn carry(apart: [f64; 2]) -> Matrix4<f64> {
-        let mut carry = Matrix4::identity();
+    /// T: what turns across the axis is the ball alone.
+    fn carry<const N: usize>(apart: [f64; 2]) -> SMatrix<f64, N, DOFS> {
+        let mut carry = SMatrix::identity();
         (carry[(0, 3)], carry[(1, 3)]) = (-apart[1], apart[0]);
         carry
     }
 
-    #[test]
-    fn solves_the_arrow_it_was_given() {
+    fn solves_the_arrow<const N: usize>() {
         // Ball by ring and lane; the second eight has no contact with the first ring.
         let slope = |eight: usize, s: usize, lane: usize| {
-            block((eight * 31 + s * 7 + lane) as f64) - Matrix4::identity() * 4.0
+            block::<N>((eight * 31 + s * 7 + lane) as f64) - SMatrix::identity() * 4.0
         };
         let apart = |s: usize, lane: usize| [0.3 + lane as f64 / 9.0, 0.7 - s as f64];
         let right = |eight: usize, lane: usize| {
-            Vector4::from_fn(|i, _| ((eight * 8 + lane * 3 + i) as f64).cos())
+            SVector::<f64, N>::from_fn(|i, _| ((eight * 8 + lane * 3 + i) as f64).cos())
         };
-        let scale = [0.5, 0.25, 1.0, 0.0];
+        let scale: [f64; N] = std::array::from_fn(|i| [0.5, 0.25, 1.0, 0.0, 0.7, 0.3][i]);
         let (ring_scale, diagonal) = (Rings::from_fn(|i, _| i as f64 / 4.0), Rings::repeat(9.0));
         let ring_right = Rings::from_fn(|i, _| i as f64);
-        let mut arrow = Arrow::new(2);
+        let mut arrow = Arrow::<N>::new(2);
         arrow.begin();
         arrow.begin_right();
         let has = |eight: usize, s: usize| eight == 0 || s == 1;
         for eight in 0..2 {
-            let blocks: [Block<DOFS>; 2] = [0, 1].map(|s| {
+            let blocks: [Block<N, N>; 2] = [0, 1].map(|s| {
                 std::array::from_fn(|i| {
                     std::array::from_fn(|j| Lanes::from_fn(|lane| slope(eight, s, lane)[(i, j)]))
                 })
@@ -283,12 +289,12 @@ mod tests {
         for eight in 0..2 {
             let balls = arrow.balls::<true>(eight, &rings);
             for lane in 0..8 {
-                let ball = Vector4::from_fn(|i, _| balls[i][lane]);
+                let ball = SVector::<f64, N>::from_fn(|i, _| balls[i][lane]);
                 let mut off = ball - right(eight, lane);
                 for s in (0..2).filter(|&s| has(eight, s)) {
-                    let carry = carry(apart(s, lane));
+                    let carry = carry::<N>(apart(s, lane));
                     let force = slope(eight, s, lane) * (ball - carry * ring(s));
-                    off -= Vector4::from(scale).component_mul(&force);
+                    off -= SVector::from(scale).component_mul(&force);
                     let mut rows = sums.fixed_rows_mut::<4>(4 * s);
                     let scale = ring_scale.fixed_rows::<4>(4 * s);
                     rows += scale.component_mul(&carry.tr_mul(&force));
@@ -297,5 +303,11 @@ mod tests {
             }
         }
         assert!(sums.norm() < 1e-11, "{sums}");
+    }
+
+    #[test]
+    fn solves_the_arrow_it_was_given() {
+        solves_the_arrow::<4>();
+        solves_the_arrow::<6>();
     }
 }

@@ -14,6 +14,7 @@ mod stage_batch;
 
 use nalgebra::{Matrix4, Vector4};
 
+use crate::contact::AXIAL;
 use crate::dynamics::{Dynamics, View};
 use crate::integrate::{ImplicitVelocity, Stuck, System};
 use crate::model::{BodyId, DOFS, Layout, Race};
@@ -43,7 +44,7 @@ const RESIDUAL_SHARE: f64 = 0.002;
 pub struct ImplicitDynamics<'d, 'm> {
     /// The right-hand side, of states of all bodies.
     pub dynamics: &'d mut Dynamics<'m>,
-    stage: Stage,
+    stage: Stage<AXIAL>,
 }
 
 impl<'d, 'm> ImplicitDynamics<'d, 'm> {
@@ -189,7 +190,7 @@ mod tests {
 
     /// A scene whose nodes weigh the same for friction as for the normal force: a stage holds what they weigh as it holds where
     /// they are, and the right-hand side does not.
-    fn compiled(scene: &Scene) -> Model {
+    pub(super) fn compiled(scene: &Scene) -> Model {
         let mut model = compile(scene).unwrap();
         for pair in model.rows.iter_mut().flat_map(|row| &mut row.pairs) {
             if let contact::Slices::Fitted(rules) = &pair.slices {
@@ -202,7 +203,7 @@ mod tests {
     }
 
     /// A state off any symmetry, in motion.
-    fn state(model: &Model) -> Vec<f64> {
+    pub(super) fn state(model: &Model) -> Vec<f64> {
         let mut y = start(model, &Start::Equilibrium).unwrap();
         let half = y.len() / 2;
         for (i, (_, dof)) in model.layout().degrees().enumerate() {
@@ -212,7 +213,7 @@ mod tests {
         y
     }
 
-    fn scenes() -> Vec<Scene> {
+    pub(super) fn scenes() -> Vec<Scene> {
         let mut wheel = presets::wheel_bearing(3000.0);
         let mut hertz = presets::deep_groove_6205(2000.0, 500.0, 1800.0);
         (wheel.cage, hertz.cage) = (None, None);
@@ -262,12 +263,12 @@ mod tests {
     }
 
     /// Whole contacts and some with a defect.
-    fn oiled_wheel() -> Scene {
+    pub(super) fn oiled_wheel() -> Scene {
         in_oil(&scenes()[0])
     }
 
     /// Nothing of the oil but its rolling resistance.
-    fn rolling() -> Scene {
+    pub(super) fn rolling() -> Scene {
         let mut scene = in_oil(&scenes()[4]);
         let only = scene.lubricant.as_mut().unwrap();
         (only.film, only.damping, only.traction) = (false, false, false);

@@ -17,17 +17,17 @@ const SAME: f64 = 0.2;
 
 /// Memory of an implicit stage.
 #[derive(Debug, Clone)]
-pub(super) struct Stage {
+pub(super) struct Stage<const N: usize> {
     /// Used to search what touches.
     search: Batch,
     /// What every ball may meet at both rings.
     meetings: Vec<[Meeting; 2]>,
     /// The balls that meet something, by eights: the first `active` of these.
-    batches: Vec<StageBatch>,
+    batches: Vec<StageBatch<N>>,
     active: usize,
-    arrow: Arrow,
-    /// Residuals of all velocities, by body; after [`Stage::correct`] their corrections.
-    pub residual: Vec<[f64; DOFS]>,
+    arrow: Arrow<N>,
+    /// Residuals of all velocities, by body; after [`Stage::correct`] their corrections. What is behind the four of a ring is none.
+    pub residual: Vec<[f64; N]>,
     /// Radii that make speeds of rotation comparable, by body.
     radii: Vec<f64>,
     /// Whether slopes are secants, since tangents led astray.
@@ -38,7 +38,7 @@ pub(super) struct Stage {
     kept_meetings: Vec<[bool; 2]>,
 }
 
-impl Stage {
+impl<const N: usize> Stage<N> {
     /// For the contacts of some rows.
     pub fn new(model: &Model, rows: Range<usize>) -> Self {
         let kind = Kind {
@@ -53,7 +53,7 @@ impl Stage {
             batches: vec![StageBatch::default(); eights],
             active: 0,
             arrow: Arrow::new(eights),
-            residual: vec![[0.0; DOFS]; model.bodies.len()],
+            residual: vec![[0.0; N]; model.bodies.len()],
             radii: model.layout().bodies().map(|id| model.radius(id)).collect(),
             secant: false,
             kept: None,
@@ -67,7 +67,7 @@ impl Stage {
         self.search.find(None, model, views);
         self.gather(model);
         let constants = &self.search.constants;
-        let find = |batch: &mut StageBatch| batch.find_elements(model, constants, views);
+        let find = |batch: &mut StageBatch<N>| batch.find_elements(model, constants, views);
         let batches = &mut self.batches[..self.active];
         match dynamics.pool() {
             Some(pool) => pool.install(|| batches.par_iter_mut().for_each(find)),
@@ -118,7 +118,7 @@ impl Stage {
     /// Finds what the contacts do at some velocities, with slopes or without.
     pub fn forces(&mut self, dynamics: &Dynamics<'_>, velocities: &Velocities<'_>, slopes: bool) {
         let (model, secant) = (dynamics.model(), self.secant);
-        let find = |batch: &mut StageBatch| {
+        let find = |batch: &mut StageBatch<N>| {
             if slopes {
                 batch.forces_and_slopes(model, velocities, secant);
             } else {
@@ -140,7 +140,8 @@ impl Stage {
                 if !side.touches {
                     continue;
                 }
-                let ([x, y, z, turn], apart) = (side.wrenches.wrench, side.apart());
+                let (wrench, apart) = (&side.wrenches.wrench, side.apart());
+                let [x, y, z, turn] = [0, 1, 2, 3].map(|i| wrench[i]);
                 for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
                     let wrench = [x[lane], y[lane], z[lane], turn[lane]];
                     forces.add(BodyId::ball(*ball), &wrench);
@@ -203,7 +204,7 @@ impl Stage {
     }
 
     /// The balls that meet something, by eights.
-    pub fn batches(&self) -> &[StageBatch] {
+    pub fn batches(&self) -> &[StageBatch<N>] {
         &self.batches[..self.active]
     }
 
@@ -221,13 +222,13 @@ pub(super) struct Largest {
 }
 
 /// Makes the matrix.
-struct Factorise<'a> {
-    work: &'a mut Stage,
+struct Factorise<'a, const N: usize> {
+    work: &'a mut Stage<N>,
     model: &'a Model,
     gamma_h: f64,
 }
 
-impl Task for Factorise<'_> {
+impl<const N: usize> Task for Factorise<'_, N> {
     type Output = ();
 
     // Compiled for the instruction set that runs it.
@@ -243,11 +244,12 @@ impl Task for Factorise<'_> {
         } = self.work;
         arrow.begin();
         for (eight, batch) in batches[..*active].iter().enumerate() {
-            let mut scale = [Lanes::ZERO; DOFS];
+            let mut scale = [Lanes::ZERO; N];
             for (lane, ball) in batch.balls.iter().enumerate() {
                 let mobility = &model.mobility[BodyId::ball(*ball)];
-                for (scale, mobility) in scale.iter_mut().zip(mobility) {
-                    scale[lane] = gamma_h * mobility;
+                for (i, scale) in scale.iter_mut().enumerate() {
+                    // A sphere turns about all axes alike.
+                    scale[lane] = gamma_h * mobility[i.min(Dof::Theta.index())];
                 }
             }
             let contacts = batch
@@ -273,11 +275,11 @@ impl Task for Factorise<'_> {
 }
 
 /// Solves for the corrections.
-struct Correct<'a> {
-    work: &'a mut Stage,
+struct Correct<'a, const N: usize> {
+    work: &'a mut Stage<N>,
 }
 
-impl Task for Correct<'_> {
+impl<const N: usize> Task for Correct<'_, N> {
     type Output = bool;
 
     // Compiled for the instruction set that runs it.
@@ -294,25 +296,27 @@ impl Task for Correct<'_> {
         let batches = &batches[..*active];
         arrow.begin_right();
         for (eight, batch) in batches.iter().enumerate() {
-            let mut right = [Lanes::ZERO; DOFS];
+            let mut right = [Lanes::ZERO; N];
             for (lane, ball) in batch.balls.iter().enumerate() {
                 let residual = &residual[BodyId::ball(*ball)];
-                for i in 0..DOFS {
+                for i in 0..N {
                     right[i][lane] = residual[i];
                 }
             }
             arrow.eliminate_right::<FMA>(eight, &right);
         }
-        let right = SVector::from_fn(|i, _| residual.as_flattened()[i]);
+        let right = SVector::from_fn(|i, _| residual[i / DOFS][i % DOFS]);
         let Some(rings) = arrow.rings(&right) else {
             return false;
         };
-        residual.as_flattened_mut()[..rings.len()].copy_from_slice(rings.as_slice());
+        for (i, found) in rings.iter().enumerate() {
+            residual[i / DOFS][i % DOFS] = *found;
+        }
         for (eight, batch) in batches.iter().enumerate() {
             let balls = arrow.balls::<FMA>(eight, &rings);
             for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
                 let residual = &mut residual[BodyId::ball(*ball)];
-                for i in 0..DOFS {
+                for i in 0..N {
                     residual[i] = balls[i][lane];
                 }
             }

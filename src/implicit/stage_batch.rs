@@ -3,8 +3,8 @@
 use std::array::from_fn;
 
 use crate::contact::{
-    Around, PlaneVector, Raise, SlicePack, SlicePacking, StageContacts, StageElements, StageWrench,
-    in_contact,
+    AXIAL, Around, PlaneVector, Raise, SlicePack, SlicePacking, StageContacts, StageElements,
+    StageWrench, in_contact,
 };
 use crate::dynamics::{SideConstants, Touching, View};
 use crate::model::{BodyId, DOFS, Model, Race};
@@ -28,6 +28,15 @@ impl Velocities<'_> {
             Self::Seen(views) => views[race].v.of(body),
         }
     }
+
+    /// Angular velocities about x and y, of a body that spins freely.
+    #[inline]
+    fn across(&self, race: Race, body: BodyId) -> [f64; 2] {
+        match self {
+            Self::Of(_) => [0.0; 2],
+            Self::Seen(views) => views[race].across(body),
+        }
+    }
 }
 
 /// What a ball may meet at one ring.
@@ -43,18 +52,18 @@ pub(super) enum Meeting {
 
 /// Up to eight balls that touch something; the last one fills the lanes that are left.
 #[derive(Debug, Clone, Default)]
-pub(super) struct StageBatch {
+pub(super) struct StageBatch<const N: usize> {
     /// The class of their rows.
     class: usize,
     pub balls: [usize; LANES],
     pub count: usize,
     meetings: [[Meeting; LANES]; 2],
-    pub sides: [Side; 2],
+    pub sides: [Side<N>; 2],
 }
 
 /// Their contacts with one ring.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Side {
+pub(super) struct Side<const N: usize> {
     held: StageContacts,
     nodes: StageElements,
     /// Slices of contacts that are evaluated alone, and the numbers of these.
@@ -66,17 +75,17 @@ pub(super) struct Side {
     /// Whether any touches.
     pub touches: bool,
     /// Force and moment on the balls, in (x, y, z, about z), with slopes.
-    pub wrenches: StageWrench,
+    pub wrenches: StageWrench<N>,
 }
 
-impl Side {
+impl<const N: usize> Side<N> {
     /// From the ring's centre to the balls'.
     pub fn apart(&self) -> PlaneVector {
         self.held.apart
     }
 }
 
-impl StageBatch {
+impl<const N: usize> StageBatch<N> {
     /// Empties it, for balls of a class of rows.
     pub fn clear(&mut self, class: usize) {
         (self.class, self.count) = (class, 0);
@@ -126,6 +135,7 @@ impl StageBatch {
                 constants,
                 model,
                 view: &views[race],
+                free: N > AXIAL,
             });
             let [x, y] = side.held.aside;
             side.aside = [x, y, Lanes::ZERO, Lanes::ZERO];
@@ -139,7 +149,7 @@ impl StageBatch {
 
     /// Finds what all contacts do at some velocities.
     pub fn forces(&mut self, model: &Model, velocities: &Velocities<'_>) {
-        model.instructions.run(StageForces::<false> {
+        model.instructions.run(StageForces::<N, false> {
             batch: self,
             model,
             velocities,
@@ -149,7 +159,7 @@ impl StageBatch {
 
     /// The same with the slopes; see [`crate::contact::Pair::force`].
     pub fn forces_and_slopes(&mut self, model: &Model, velocities: &Velocities<'_>, secant: bool) {
-        model.instructions.run(StageForces::<true> {
+        model.instructions.run(StageForces::<N, true> {
             batch: self,
             model,
             velocities,
@@ -158,7 +168,7 @@ impl StageBatch {
     }
 }
 
-impl Side {
+impl<const N: usize> Side<N> {
     /// The slices of a contact that is evaluated alone.
     fn single(&mut self, lane: usize, model: &Model, ball: usize, race: Race, view: &View<'_>) {
         let compiled = &model.balls[ball];
@@ -193,6 +203,8 @@ struct FindElements<'a> {
     constants: &'a [SideConstants; 2],
     model: &'a Model,
     view: &'a View<'a>,
+    /// Whether balls spin freely.
+    free: bool,
 }
 
 impl Task for FindElements<'_> {
@@ -206,19 +218,22 @@ impl Task for FindElements<'_> {
         let pair = &self.model.rows[self.class].pairs[self.race];
         let ring = &self.view.ring;
         let instructions = self.model.instructions;
-        pair.stage_elements::<FMA>(&eight, ring, self.whole, instructions, self.nodes)
+        let balls = self.contacts.map(|contact| BodyId::ball(contact.ball));
+        let turning = self.free.then(|| self.view.turning(&balls));
+        let of = (&eight, turning);
+        pair.stage_elements::<FMA>(of, ring, self.whole, instructions, self.nodes)
     }
 }
 
 /// Finds what the nodes do.
-struct StageForces<'a, const SLOPE: bool> {
-    batch: &'a mut StageBatch,
+struct StageForces<'a, const N: usize, const SLOPE: bool> {
+    batch: &'a mut StageBatch<N>,
     model: &'a Model,
     velocities: &'a Velocities<'a>,
     secant: bool,
 }
 
-impl<const SLOPE: bool> Task for StageForces<'_, SLOPE> {
+impl<const N: usize, const SLOPE: bool> Task for StageForces<'_, N, SLOPE> {
     type Output = ();
 
     // Compiled for the instruction set that runs it.
@@ -239,29 +254,34 @@ impl<const SLOPE: bool> Task for StageForces<'_, SLOPE> {
             let (n_e, apart) = (side.held.n_e, side.held.apart);
             let pair = &model.rows[batch.class].pairs[race];
             let ring = velocities.of(model, race, race.ring());
-            let mut of_balls = [Lanes::ZERO; DOFS];
+            let mut twist = [Lanes::ZERO; N];
             for (lane, ball) in batch.balls.iter().enumerate() {
-                let v = velocities.of(model, race, BodyId::ball(*ball));
+                let ball = BodyId::ball(*ball);
+                let v = velocities.of(model, race, ball);
                 for i in 0..DOFS {
-                    of_balls[i][lane] = v[i];
+                    twist[i][lane] = v[i];
+                }
+                if N > AXIAL {
+                    for (i, across) in velocities.across(race, ball).into_iter().enumerate() {
+                        twist[AXIAL + i][lane] = across;
+                    }
                 }
             }
             // w = v_b − v_r − θ̇_r ẑ × a.
-            let twist = [
-                of_balls[0] - ring[0] + apart[1] * ring[3],
-                of_balls[1] - ring[1] - apart[0] * ring[3],
-                of_balls[2] - ring[2],
-                of_balls[3] - ring[3],
-            ];
+            twist[0] = twist[0] - ring[0] + apart[1] * ring[3];
+            twist[1] = twist[1] - ring[1] - apart[0] * ring[3];
+            twist[2] = twist[2] - ring[2];
+            twist[3] = twist[3] - ring[3];
             let local = in_contact(&twist, n_e);
             let held = (&mut side.nodes, &side.held);
-            let found = pair.stage_forces::<FMA, SLOPE>(held, &local, secant, model.instructions);
+            let found =
+                pair.stage_forces::<FMA, SLOPE, N>(held, &local, secant, model.instructions);
             let sum = &mut side.wrenches;
             sum.wrench = found.wrench;
             if SLOPE {
                 sum.slope = found.slope;
             }
-            pair.rolling_resistance::<SLOPE>(&side.held.around, &local, sum);
+            pair.rolling_resistance::<SLOPE, N>(&side.held.around, &local, sum);
             sum.turn::<SLOPE>(n_e);
             for (wrench, aside) in sum.wrench.iter_mut().zip(side.aside) {
                 *wrench += aside;
@@ -272,7 +292,7 @@ impl<const SLOPE: bool> Task for StageForces<'_, SLOPE> {
                 let mut part = StageWrench::default();
                 let local = in_contact(&all, pack.n_e);
                 let element = (&pack.element, Some(&pack.rolling));
-                pair.force::<FMA, SLOPE>(element, around, &local, secant, &mut part);
+                pair.force::<FMA, SLOPE, N>(element, around, &local, secant, &mut part);
                 part.turn::<SLOPE>(pack.n_e);
                 sum.gather::<SLOPE>(*lane, &part);
             }
@@ -280,7 +300,7 @@ impl<const SLOPE: bool> Task for StageForces<'_, SLOPE> {
                 let all = twist.map(|w| Lanes::all(w[*lane]));
                 let n_e = n_e.map(|n| Lanes::all(n[*lane]));
                 let mut part = StageWrench::default();
-                pair.rolling_resistance::<SLOPE>(around, &in_contact(&all, n_e), &mut part);
+                pair.rolling_resistance::<SLOPE, N>(around, &in_contact(&all, n_e), &mut part);
                 part.turn::<SLOPE>(n_e);
                 sum.add_lane::<SLOPE>(*lane, &part);
             }

@@ -32,7 +32,7 @@ impl Rubbing {
 
     /// The same, with angular velocities along n_e and t_e where balls before a ring that may lean have some \[rad/s\].
     #[inline(always)]
-    pub(super) fn at_nodes_turning<const FMA: bool, const LEAN: bool>(
+    pub(in crate::contact) fn at_nodes_turning<const FMA: bool, const LEAN: bool>(
         &mut self,
         instructions: InstructionSet,
         pair: &Pair,

@@ -3,7 +3,7 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::{Around, StageContacts, StageElements, StageWrench};
+use super::{AXIAL, Around, StageContacts, StageElements, StageWrench};
 use crate::contact::Pair;
 use crate::contact::slip::Moves;
 use crate::simd::{InstructionSet, Lanes};
@@ -17,40 +17,46 @@ impl Pair {
     ///
     /// Under films nodes weigh anew for every twist, since friction peaks where slip vanishes, and slopes are differences of that.
     #[inline(always)]
-    pub(crate) fn stage_forces<const FMA: bool, const SLOPE: bool>(
+    pub(crate) fn stage_forces<const FMA: bool, const SLOPE: bool, const N: usize>(
         &self,
         (nodes, held): (&mut StageElements, &StageContacts),
-        twist: &[Lanes; 4],
+        twist: &[Lanes; N],
         secant: bool,
         instructions: InstructionSet,
-    ) -> StageWrench {
+    ) -> StageWrench<N> {
         let mut sum = StageWrench::default();
         if !self.law.traction.is_some_and(|law| law.is_film()) {
             for node in nodes.iter() {
-                self.force::<FMA, SLOPE>(node, &held.around, twist, secant, &mut sum);
+                self.force::<FMA, SLOPE, N>(node, &held.around, twist, secant, &mut sum);
             }
             return sum;
         }
         let slow = held.around.oil.bend * STEP;
-        let steps = [slow, slow, slow, slow / held.whole.section.radius];
+        let step = |i: usize| {
+            if i < 3 {
+                slow
+            } else {
+                slow / held.whole.section.radius
+            }
+        };
         // The twist itself first, then beside it to both sides.
-        for k in 0..if SLOPE { 9_usize } else { 1 } {
+        for k in 0..if SLOPE { 2 * N + 1 } else { 1 } {
             let (mut beside, side) = (*twist, if k % 2 == 0 { 0.5 } else { -0.5 });
             let j = k.div_ceil(2);
             if k > 0 {
-                beside[j - 1] += steps[j - 1] * side;
+                beside[j - 1] += step(j - 1) * side;
             }
-            self.weigh::<FMA>(nodes, held, &beside, instructions);
+            self.weigh::<FMA, N>(nodes, held, &beside, instructions);
             let mut found = StageWrench::default();
             for node in nodes.iter() {
-                self.force::<FMA, false>(node, &held.around, &beside, false, &mut found);
+                self.force::<FMA, false, N>(node, &held.around, &beside, false, &mut found);
             }
             if k == 0 {
                 sum.wrench = found.wrench;
                 continue;
             }
-            for i in 0..4 {
-                sum.slope[i][j - 1] += found.wrench[i] * (2.0 * side) / steps[j - 1];
+            for i in 0..N {
+                sum.slope[i][j - 1] += found.wrench[i] * (2.0 * side) / step(j - 1);
             }
         }
         sum
@@ -58,11 +64,11 @@ impl Pair {
 
     /// Gives nodes the weights that a twist asks for.
     #[inline(always)]
-    fn weigh<const FMA: bool>(
+    fn weigh<const FMA: bool, const N: usize>(
         &self,
         nodes: &mut StageElements,
         held: &StageContacts,
-        twist: &[Lanes; 4],
+        twist: &[Lanes; N],
         instructions: InstructionSet,
     ) {
         let moves = Moves {
@@ -77,7 +83,13 @@ impl Pair {
         let StageElements {
             elements, rubbing, ..
         } = nodes;
-        let weights = rubbing.at_nodes::<FMA>(instructions, self, &held.whole, &moves, None);
+        let whole = &held.whole;
+        let weights = if N > AXIAL {
+            let turns = (&moves, [twist[AXIAL], twist[AXIAL + 1]]);
+            rubbing.at_nodes_turning::<FMA, true>(instructions, self, whole, turns, None)
+        } else {
+            rubbing.at_nodes::<FMA>(instructions, self, whole, &moves, None)
+        };
         for (element, weight) in elements.iter_mut().zip(weights.into_iter().flatten()) {
             element.rubbing = *weight;
         }
@@ -86,11 +98,11 @@ impl Pair {
     /// Adds the rolling resistance of eight contacts at a relative twist in that frame, with its slope or without: −2 k u ∂u/∂w of
     /// the entrainment speed u, which is linear in the twist.
     #[inline(always)]
-    pub(crate) fn rolling_resistance<const SLOPE: bool>(
+    pub(crate) fn rolling_resistance<const SLOPE: bool, const N: usize>(
         &self,
         around: &Around,
-        twist: &[Lanes; 4],
-        to: &mut StageWrench,
+        twist: &[Lanes; N],
+        to: &mut StageWrench<N>,
     ) {
         if self.law.film.is_none() {
             return;

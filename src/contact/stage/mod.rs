@@ -2,7 +2,8 @@
 //!
 //! With all of a node's force at one point, slip and approach depend only on the relative twist
 //! w = (v_b − v_r − θ̇_r ẑ × a, θ̇_b − θ̇_r), where a leads from the ring's centre to the ball's: four numbers a
-//! contact. The wrench on the ball about its centre and its derivative by w say all about both bodies.
+//! contact, and the ball's turning about x and y behind them where it spins freely. The wrench on the ball about its centre and
+//! its derivative by w say all about both bodies.
 
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
@@ -11,18 +12,18 @@
 
 mod films;
 mod packs;
+mod wrench;
 
 pub(crate) use packs::{SlicePack, SlicePacking};
+pub(crate) use wrench::{AXIAL, FREE, PlaneVector, StageWrench, in_contact};
 
-use super::batch::{EightContacts, Rubbing};
+use super::batch::{Across, EightContacts, Rubbing};
 use super::kernel::{self, Element, Force, Receiver, State, Whole};
 use super::laws::traction::Rolling;
 use super::slip::Moves;
 use super::{FilmEffect, Motion, Pair};
 use crate::simd::{InstructionSet, Lanes, Mask};
-
-/// Directions in the plane.
-pub(crate) type PlaneVector = [Lanes; 2];
+use wrench::Slope;
 
 /// An element of eight contacts, or eight slices of one: what of its [`State`] does not depend on velocities.
 #[derive(Debug, Clone, Copy, Default)]
@@ -103,14 +104,6 @@ impl Around {
     }
 }
 
-/// Wrench on the ball about its centre, (n_e, t_e, z \[N\], about z \[N m\]) or (x, y, z, about z), and its
-/// derivative by the relative twist.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct StageWrench {
-    pub wrench: [Lanes; 4],
-    pub slope: [[Lanes; 4]; 4],
-}
-
 /// Where eight contacts of a stage are.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct StageContacts {
@@ -130,11 +123,12 @@ pub(crate) struct StageContacts {
 }
 
 impl Pair {
-    /// Finds eight contacts of a stage, those of `whole` with their elements.
+    /// Finds eight contacts of a stage, those of `whole` with their elements; with angular velocities about x and y where balls spin
+    /// freely \[rad/s\].
     #[inline(always)]
     pub(crate) fn stage_elements<const FMA: bool>(
         &self,
-        eight: &EightContacts,
+        (eight, turning): (&EightContacts, Option<Across>),
         ring: &Motion,
         whole: Mask,
         instructions: InstructionSet,
@@ -147,7 +141,13 @@ impl Pair {
             rolling,
             rubbing,
         } = nodes;
-        let rubbing = rubbing.at_nodes::<FMA>(instructions, self, &contact, &moves, None);
+        let rubbing = match turning {
+            None => rubbing.at_nodes::<FMA>(instructions, self, &contact, &moves, None),
+            Some(turning) => {
+                let turns = (&moves, place.along_contact(turning, sigma));
+                rubbing.at_nodes_turning::<FMA, true>(instructions, self, &contact, turns, None)
+            }
+        };
         let mut holding = Holding {
             elements,
             rolling,
@@ -183,21 +183,31 @@ impl Pair {
     /// With `secant`, friction's slope is the steeper one through rest, φ for φ + φ'(u) u: from far away, where
     /// Newton's tangent leads across to the other side, iterations by it do not overshoot.
     #[inline(always)]
-    pub(crate) fn force<const FMA: bool, const SLOPE: bool>(
+    pub(crate) fn force<const FMA: bool, const SLOPE: bool, const N: usize>(
         &self,
         (element, rolling): (&StageElement, Option<&StageRolling>),
         around: &Around,
-        twist: &[Lanes; 4],
+        twist: &[Lanes; N],
         secant: bool,
-        to: &mut StageWrench,
+        to: &mut StageWrench<N>,
     ) {
         let levers = element.levers;
         let StageRolling { load, depth, arm } = rolling.copied().unwrap_or_default();
-        let velocity = [
+        let mut velocity = [
             twist[3].mul_add::<FMA>(levers[0], twist[0]),
             twist[3].mul_add::<FMA>(levers[1], twist[1]),
             twist[2],
         ];
+        let (one, none) = (Lanes::all(1.0), Lanes::ZERO);
+        // Slip along t_e and the meridian by turning about n_e and t_e.
+        let mut turns = [none; 2];
+        let mut across = none;
+        if N > AXIAL {
+            let at = (levers[1], element.slope.0 * around.radii[0]);
+            turns = kernel::slip_of_turning::<_, FMA>([one; 2], at, element.slope);
+            velocity[1] = twist[AXIAL].mul_add::<FMA>(turns[0], velocity[1]);
+            across = twist[AXIAL + 1] * turns[1];
+        }
         let state = State {
             elastic: element.elastic,
             share: element.share,
@@ -211,11 +221,26 @@ impl Pair {
             radii: around.radii,
             oil: around.oil,
         };
-        let force = kernel::force::<_, FMA, false, SLOPE, false>(&self.law, &state, Lanes::ZERO);
+        let force = if N > AXIAL {
+            kernel::force::<_, FMA, false, SLOPE, true>(&self.law, &state, across)
+        } else {
+            kernel::force::<_, FMA, false, SLOPE, false>(&self.law, &state, none)
+        };
         to.subtract_force::<FMA>(&force.on_ring, levers);
+        if N > AXIAL {
+            let (sin, cos) = element.slope;
+            let rubs = force.friction;
+            let along = [rubs[1], rubs[2] * cos - rubs[0] * sin];
+            for (k, along) in along.into_iter().enumerate() {
+                to.wrench[AXIAL + k] = turns[k].mul_add::<FMA>(along, to.wrench[AXIAL + k]);
+            }
+        }
         if SLOPE {
             let slope = self.slope::<FMA>(&state, &force, secant);
-            to.subtract_slope::<FMA>(&slope, levers);
+            to.subtract_slope::<FMA>(&slope.force, levers);
+            if N > AXIAL {
+                to.subtract_turning::<FMA>(&slope, levers, turns, element.slope);
+            }
         }
     }
 
@@ -227,7 +252,7 @@ impl Pair {
         state: &State<Lanes>,
         force: &Force<Lanes>,
         secant: bool,
-    ) -> [[Lanes; 3]; 3] {
+    ) -> Slope {
         let ((in_plane, axial), (sin, cos)) = (state.share, state.slope);
         let zero = Lanes::ZERO;
         // How the normal force grows with the velocities; friction only where it presses.
@@ -247,7 +272,11 @@ impl Pair {
         (slope[0][0], slope[0][2]) = (by_n * in_plane, by_n * axial);
         (slope[2][0], slope[2][2]) = (by_n * axial, by_z * axial);
         if self.law.traction.is_none() {
-            return slope;
+            return Slope {
+                force: slope,
+                meridian: [zero; 3],
+                slip: [zero; 3],
+            };
         }
         let ([v_t, u_m], factor) = (force.slip, force.factor);
         // By slip at constant normal force: N (φ 1 + (φ'/u) u⃗ u⃗ᵀ).
@@ -273,87 +302,12 @@ impl Pair {
             slope[i][0] = rubbing[i].mul_add::<FMA>(by_n, slope[i][0]);
             slope[i][2] = rubbing[i].mul_add::<FMA>(by_z, slope[i][2]);
         }
-        slope
-    }
-}
-
-impl StageWrench {
-    /// Subtracts a force at a point with those levers.
-    #[inline(always)]
-    fn subtract_force<const FMA: bool>(&mut self, force: &[Lanes; 3], levers: PlaneVector) {
-        for i in 0..3 {
-            self.wrench[i] = self.wrench[i] - force[i];
-        }
-        self.wrench[3] = self.wrench[3] - moment::<FMA>(force[0], force[1], levers);
-    }
-
-    /// Subtracts the slope of such a force by the velocity of the point.
-    #[inline(always)]
-    fn subtract_slope<const FMA: bool>(&mut self, slope: &[[Lanes; 3]; 3], levers: PlaneVector) {
-        for i in 0..3 {
-            for j in 0..3 {
-                self.slope[i][j] = self.slope[i][j] - slope[i][j];
-            }
-            let turning = moment::<FMA>(slope[i][0], slope[i][1], levers);
-            self.slope[i][3] = self.slope[i][3] - turning;
-        }
-        let mut turning = [Lanes::ZERO; 3];
-        for j in 0..3 {
-            turning[j] = moment::<FMA>(slope[0][j], slope[1][j], levers);
-            self.slope[3][j] = self.slope[3][j] - turning[j];
-        }
-        self.slope[3][3] = self.slope[3][3] - moment::<FMA>(turning[0], turning[1], levers);
-    }
-
-    /// Turns it from the contact's frame into (x, y, z, about z).
-    #[inline(always)]
-    pub(crate) fn turn<const SLOPE: bool>(&mut self, n_e: PlaneVector) {
-        let turn = |n: Lanes, t: Lanes| (n * n_e[0] - t * n_e[1], n * n_e[1] + t * n_e[0]);
-        let force = &mut self.wrench;
-        (force[0], force[1]) = turn(force[0], force[1]);
-        if SLOPE {
-            let slope = &mut self.slope;
-            for j in 0..4 {
-                (slope[0][j], slope[1][j]) = turn(slope[0][j], slope[1][j]);
-            }
-            for row in slope {
-                (row[0], row[1]) = turn(row[0], row[1]);
-            }
+        Slope {
+            force: slope,
+            meridian: [f_m * by_n - m_n, tm, f_m * by_z + m_z],
+            slip: [tt, tm, mm],
         }
     }
-
-    /// Adds one lane of another, whose lanes are alike, to that lane.
-    pub(crate) fn add_lane<const SLOPE: bool>(&mut self, lane: usize, other: &Self) {
-        for i in 0..4 {
-            self.wrench[i][lane] += other.wrench[i][lane];
-            for j in 0..if SLOPE { 4 } else { 0 } {
-                self.slope[i][j][lane] += other.slope[i][j][lane];
-            }
-        }
-    }
-
-    /// Adds all lanes of another to one lane.
-    pub(crate) fn gather<const SLOPE: bool>(&mut self, lane: usize, other: &Self) {
-        for i in 0..4 {
-            self.wrench[i][lane] += other.wrench[i].sum();
-            for j in 0..if SLOPE { 4 } else { 0 } {
-                self.slope[i][j][lane] += other.slope[i][j].sum();
-            }
-        }
-    }
-}
-
-/// About z of components along n_e and t_e.
-#[inline(always)]
-fn moment<const FMA: bool>(n: Lanes, t: Lanes, levers: PlaneVector) -> Lanes {
-    levers[0].mul_add::<FMA>(n, levers[1] * t)
-}
-
-/// A relative twist (x, y, z, about z) in the frame (n_e, t_e, z, about z).
-#[inline(always)]
-pub(crate) fn in_contact(twist: &[Lanes; 4], n_e: PlaneVector) -> [Lanes; 4] {
-    let [x, y, z, turn] = *twist;
-    [x * n_e[0] + y * n_e[1], y * n_e[0] - x * n_e[1], z, turn]
 }
 
 /// Collects the elements of eight contacts, of those that are whole.

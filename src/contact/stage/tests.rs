@@ -62,7 +62,7 @@ fn the_slope_is_the_kernels() {
             };
             let lanes = state(Lanes::all, velocity.map(Lanes::all));
             let force = kernel::force::<_, false, false, true, false>(&law, &lanes, Lanes::ZERO);
-            let written = pair.slope::<false>(&lanes, &force, false);
+            let written = pair.slope::<false>(&lanes, &force, false).force;
             let of = Dual::<f64, 3>::constant;
             let variables = [0, 1, 2].map(|i| Dual::variable(velocity[i], i));
             let dual = state(of, variables);

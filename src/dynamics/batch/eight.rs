@@ -1,6 +1,6 @@
 //! Eight contacts gathered from anywhere, and evaluated together.
 
-use super::{RingView, Single, View};
+use super::{Single, View};
 use crate::contact::{
     Across, BatchForces, Constants, Contour, EightContacts, FilmNumbers, Pair, Raise, Rubbing,
     Summing,
@@ -278,16 +278,14 @@ impl<const LEAN: bool> Eight<'_, LEAN> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn turning(&self) -> Across {
-        let mut turning = [Lanes::ZERO; 2];
-        let view = &self.views[self.group.race];
-        if LEAN && let Some(of) = view.leaning.map(RingView::across) {
-            for (lane, contact) in self.group.contacts.iter().enumerate() {
-                let body = BodyId::ball(contact.ball).index();
-                turning[0][lane] = of[0][body];
-                turning[1][lane] = of[1][body];
-            }
+        if !LEAN {
+            return [Lanes::ZERO; 2];
         }
-        turning
+        let mut balls = [BodyId::default(); LANES];
+        for (to, contact) in balls.iter_mut().zip(&self.group.contacts) {
+            *to = BodyId::ball(contact.ball);
+        }
+        self.views[self.group.race].turning(&balls)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Where balls are and how they move, as their contacts with one ring see them.
 
-use crate::contact::{LeaningRing, Motion};
+use crate::contact::{Across, LeaningRing, Motion};
 use crate::forces::{State, Table};
 use crate::model::{BodyId, DOFS, Model, Race};
 use crate::simd::{LANES, Lanes, Task};
@@ -28,6 +28,27 @@ impl<'a> View<'a> {
             ring,
             leaning: None,
         })
+    }
+
+    /// Angular velocity of a ball across the ring's axis, along x and y \[rad/s\].
+    #[inline]
+    pub fn across(&self, ball: BodyId) -> [f64; 2] {
+        self.leaning.map_or([0.0; 2], |of| {
+            [of.across[0][ball.index()], of.across[1][ball.index()]]
+        })
+    }
+
+    /// The same of eight balls.
+    // Compiled for the instruction set that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    pub fn turning(&self, balls: &[BodyId; LANES]) -> Across {
+        let mut turning = [Lanes::ZERO; 2];
+        for (lane, ball) in balls.iter().enumerate() {
+            let [x, y] = self.across(*ball);
+            (turning[0][lane], turning[1][lane]) = (x, y);
+        }
+        turning
     }
 
     /// A ball.
@@ -83,11 +104,6 @@ impl RingView {
             ring: self.ring.standing(),
             leaning: Some(self),
         }
-    }
-
-    /// Angular velocities of all bodies across the ring's axis, along x and y of its frame \[rad/s\].
-    pub fn across(&self) -> &[Vec<f64>; 2] {
-        &self.across
     }
 
     /// Whether its balls spin freely.
