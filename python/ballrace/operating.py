@@ -172,7 +172,7 @@ def spin_of(scene: Scene, rates: FaultFrequencies, row: int = 0) -> tuple[float,
     -------
     tuple of float and int, or None
         Order of the turns against the cage, BSF/cos α over the shaft's rate, and 1 or 2; None where no ball of
-        the row has a defect.
+        the row has a defect, or balls spin freely.
 
     Examples
     --------
@@ -185,7 +185,7 @@ def spin_of(scene: Scene, rates: FaultFrequencies, row: int = 0) -> tuple[float,
     (True, 1)
     """
     own = [d for d in scene.defects.values() if d.on == "ball" and d.row == row]
-    if not own:
+    if not own or scene.spin == "free":
         return None
     order = rates.orders.bsf / math.cos(rates.contact_angle)
     track = scene.rows[row].ball_diameter / 2.0 * math.sin(abs(rates.contact_angle))

@@ -44,7 +44,9 @@ def run_page(
 
 
 def _add_frequencies(page: Page, out: Signals) -> None:
+    from ..operating import spin_of
     from ..plot.sources import rates_of
+    from ..plot.times import fault_rate
 
     rows = []
     for row in range(len(out.scene.rows)):
@@ -52,14 +54,16 @@ def _add_frequencies(page: Page, out: Signals) -> None:
         if found is None:
             page.text("No constant speed: fault frequencies stand at their orders.")
             return
-        hertz = (found.shaft, found.ftf, found.bpfo, found.bpfi, 2.0 * found.bsf)
+        ball = fault_rate(found, "ball", spin_of(out.scene, found, row))
+        hertz = (found.shaft, found.ftf, found.bpfo, found.bpfi, ball)
         rows.append(
             [f"{row}", words.degrees(found.contact_angle), *(words.number(f) for f in hertz)]
         )
     page.text(
-        "Fault frequencies at the contact angle under load; a ball's defect is hit twice a turn."
+        "Fault frequencies at the contact angle under load. A ball's defect is hit twice a turn, at 2·BSF; one "
+        "of a ball whose axis the model holds at BSF/cos α, or twice that where it reaches both races."
     )
-    header = ["row", "contact angle", "shaft, Hz", "FTF, Hz", "BPFO, Hz", "BPFI, Hz", "2·BSF, Hz"]
+    header = ["row", "contact angle", "shaft, Hz", "FTF, Hz", "BPFO, Hz", "BPFI, Hz", "ball, Hz"]
     page.table(header, rows)
 
 
