@@ -414,7 +414,7 @@ pub fn rhs(model: &Model, t: f64, y: &[f64], dy: &mut [f64]) {
     Dynamics::new(model).rhs(t, y, dy);
 }
 
-fn add(sum: &mut [f64; DOFS], part: &[f64; DOFS]) {
+fn add<const N: usize>(sum: &mut [f64; N], part: &[f64; N]) {
     for (s, p) in sum.iter_mut().zip(part) {
         *s += p;
     }

@@ -79,10 +79,13 @@ pub(crate) fn on_leaning(
     ring: Race,
     frame: &Frame,
 ) -> OnRing {
+    let mut sum = OnRing::default();
+    if model.unbalances.is_empty() {
+        return sum;
+    }
     let motion = state.motion(ring.ring());
     let driven = drive::acceleration(model, t).filter(|_| ring == Race::Inner);
     let (square, spin) = (motion.omega * motion.omega, driven.unwrap_or(0.0));
-    let mut sum = OnRing::default();
     for unbalance in model.unbalances.iter().filter(|u| u.ring == ring) {
         let (sin, cos) = motion.direction_of(unbalance.angle).sin_cos();
         let force = Vector3::new(square * cos + spin * sin, square * sin - spin * cos, 0.0);

@@ -218,8 +218,8 @@ impl Task for FindElements<'_> {
         let pair = &self.model.rows[self.class].pairs[self.race];
         let ring = &self.view.ring;
         let instructions = self.model.instructions;
-        let balls = self.contacts.map(|contact| BodyId::ball(contact.ball));
-        let turning = self.free.then(|| self.view.turning(&balls));
+        let balls = self.contacts.iter().map(|contact| contact.ball);
+        let turning = self.free.then(|| self.view.turning(balls));
         let of = (&eight, turning);
         pair.stage_elements::<FMA>(of, ring, self.whole, instructions, self.nodes)
     }

@@ -1,6 +1,6 @@
 //! Eight contacts gathered from anywhere, and evaluated together.
 
-use super::{Single, View};
+use super::{RingView, Single, View};
 use crate::contact::{
     Across, BatchForces, Constants, Contour, EightContacts, FilmNumbers, Pair, Raise, Rubbing,
     Summing,
@@ -52,6 +52,8 @@ pub(super) struct Group {
     pub contacts: [Touching; LANES],
     pub count: usize,
     pub forces: BatchForces,
+    /// Angular velocities of the balls across the axis of a ring that may lean \[rad/s\].
+    pub turning: Across,
     /// Moments across the axis of a ring that may lean, on balls in its frame, and on the ring about the frame's origin.
     pub across: [Across; 2],
     rubbing: Rubbing,
@@ -207,7 +209,6 @@ impl<const LEAN: bool> Task for EightOnCurve<'_, LEAN> {
     fn run<const FMA: bool>(self) {
         let Self(of, contour) = self;
         let eight = of.contacts();
-        let turning = of.turning();
         let Eight { group, model, .. } = of;
         let (pair, view) = (
             &model.rows[group.class].pairs[group.race],
@@ -215,10 +216,9 @@ impl<const LEAN: bool> Task for EightOnCurve<'_, LEAN> {
         );
         let rubbing = (model.instructions, &mut group.rubbing);
         if LEAN {
-            let held = (&eight, turning);
+            let held = (&eight, group.turning);
             (group.forces, group.across) =
                 pair.forces_on_curve_leaning::<FMA>(held, &view.ring, contour, rubbing);
-            group.turn::<FMA>(view);
         } else {
             group.forces = pair.forces_on_curve::<FMA>(&eight, &view.ring, contour, rubbing);
         }
@@ -234,22 +234,30 @@ pub(super) struct Eight<'a, const LEAN: bool> {
     pub views: &'a [View<'a>; 2],
 }
 
-impl Group {
-    /// Turns forces on balls into the scene's frame, and moments on those that spin freely; on others they act about the ring's
-    /// axis.
+/// Turns forces on balls into the scene's frame, and moments on those that spin freely; on others they act about the ring's axis.
+///
+/// A program of its own: in that of the contacts the compiler would split whole registers.
+pub(super) struct Turn<'a> {
+    pub group: &'a mut Group,
+    pub ring: &'a RingView,
+}
+
+impl Task for Turn<'_> {
+    type Output = ();
+
     // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
-    fn turn<const FMA: bool>(&mut self, view: &View<'_>) {
-        let Some(leaning) = view.leaning else { return };
-        let [x, y, z, _] = self.forces.ball;
-        let force = leaning.frame().all_to_scene::<_, FMA>([x, y, z]);
-        self.forces.ball[..3].copy_from_slice(&force);
-        if leaning.balls_turn() {
-            let [across, _] = &mut self.across;
-            let moment = [across[0], across[1], self.forces.ball[3]];
-            let [x, y, z] = leaning.frame().all_to_scene::<_, FMA>(moment);
-            (*across, self.forces.ball[3]) = ([x, y], z);
+    fn run<const FMA: bool>(self) {
+        let Self { group, ring } = self;
+        let [x, y, z, _] = group.forces.ball;
+        let force = ring.frame().all_to_scene::<_, FMA>([x, y, z]);
+        group.forces.ball[..3].copy_from_slice(&force);
+        if ring.balls_turn() {
+            let [across, _] = &mut group.across;
+            let moment = [across[0], across[1], group.forces.ball[3]];
+            let [x, y, z] = ring.frame().all_to_scene::<_, FMA>(moment);
+            (*across, group.forces.ball[3]) = ([x, y], z);
         }
     }
 }
@@ -272,23 +280,6 @@ impl<const LEAN: bool> Eight<'_, LEAN> {
     }
 }
 
-impl<const LEAN: bool> Eight<'_, LEAN> {
-    /// Angular velocities of the balls across the axis of a ring that may lean.
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
-    #[inline(always)]
-    fn turning(&self) -> Across {
-        if !LEAN {
-            return [Lanes::ZERO; 2];
-        }
-        let mut balls = [BodyId::default(); LANES];
-        for (to, contact) in balls.iter_mut().zip(&self.group.contacts) {
-            *to = BodyId::ball(contact.ball);
-        }
-        self.views[self.group.race].turning(&balls)
-    }
-}
-
 impl<const LEAN: bool> Task for Eight<'_, LEAN> {
     type Output = ();
 
@@ -297,7 +288,6 @@ impl<const LEAN: bool> Task for Eight<'_, LEAN> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let eight = self.contacts();
-        let turning = self.turning();
         let group = self.group;
         let race = group.race;
         let pair = &self.model.rows[group.class].pairs[race];
@@ -305,8 +295,7 @@ impl<const LEAN: bool> Task for Eight<'_, LEAN> {
         if LEAN {
             let rubbing = (self.model.instructions, &mut group.rubbing);
             (group.forces, group.across) =
-                pair.forces_leaning::<FMA>((&eight, turning), &view.ring, rubbing);
-            group.turn::<FMA>(view);
+                pair.forces_leaning::<FMA>((&eight, group.turning), &view.ring, rubbing);
             return;
         }
         let summing = Summing::Elements(self.model.instructions, &mut group.rubbing);

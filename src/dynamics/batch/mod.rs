@@ -29,7 +29,7 @@ use crate::reduction::AxialPlaces;
 use crate::simd::{LANES, Lanes};
 
 use axially_fixed::{AxiallyFixedRow, AxiallyFixedSums, EvaluateAxiallyFixed};
-use eight::{Eight, EightOnCurve, Group, leave};
+use eight::{Eight, EightOnCurve, Group, Turn, leave};
 pub(crate) use eight::{SideConstants, Touching};
 use find::{Find, Stretch};
 use single::Single;
@@ -221,9 +221,15 @@ impl Batch {
     ) {
         let (constants, symmetric) = (&self.constants, self.kind.symmetric);
         let eight = |group: &mut Group| {
+            if LEAN {
+                // Not in the kernel: where lanes are filled one by one the compiler splits whole registers.
+                let balls = group.contacts.iter().map(|contact| contact.ball);
+                group.turning = views[group.race].turning(balls);
+            }
             let curve = model.rows[group.class].pairs[group.race].hollow_curve();
+            let ring = views[group.race].leaning;
             let eight = Eight::<LEAN> {
-                group,
+                group: &mut *group,
                 constants,
                 symmetric,
                 model,
@@ -232,6 +238,9 @@ impl Batch {
             match curve {
                 None => model.instructions.run(eight),
                 Some(contour) => model.instructions.run(EightOnCurve(eight, contour)),
+            }
+            if LEAN && let Some(ring) = ring {
+                model.instructions.run(Turn { group, ring });
             }
         };
         let one = |single: &mut Single| single.evaluate(model, &views[single.race]);
@@ -340,33 +349,30 @@ impl Batch {
             return;
         }
         to.fill([0.0; 2]);
-        for (_, ball, [[x, y], _]) in self.across() {
-            to[ball][0] += x;
-            to[ball][1] += y;
+        for group in &self.groups[..self.active] {
+            let [[x, y], _] = &group.across;
+            for (lane, contact) in group.contacts[..group.count].iter().enumerate() {
+                super::add(&mut to[contact.ball], &[x[lane], y[lane]]);
+            }
+        }
+        for single in &self.singles {
+            super::add(&mut to[single.ball], &single.across[0]);
         }
     }
 
     /// Moments across the axes of rings that may lean, about the origins of their frames.
     fn moments_across(&self) -> [[f64; 2]; 2] {
         let mut rings = [[0.0; 2]; 2];
-        for (race, _, [_, [x, y]]) in self.across() {
-            rings[race][0] += x;
-            rings[race][1] += y;
+        for group in &self.groups[..self.active] {
+            let (sum, [_, [x, y]]) = (&mut rings[group.race], &group.across);
+            for lane in 0..group.count {
+                super::add(sum, &[x[lane], y[lane]]);
+            }
+        }
+        for single in &self.singles {
+            super::add(&mut rings[single.race], &single.across[1]);
         }
         rings
-    }
-
-    /// Race, ball and moments about x and y on ball and ring of all contacts.
-    fn across(&self) -> impl Iterator<Item = (Race, usize, [[f64; 2]; 2])> {
-        let grouped = self.groups[..self.active].iter().flat_map(|group| {
-            let contacts = group.contacts.iter().enumerate().take(group.count);
-            contacts.map(|(lane, contact)| {
-                let of = |[x, y]: [Lanes; 2]| [x[lane], y[lane]];
-                (group.race, contact.ball, group.across.map(of))
-            })
-        });
-        let singles = self.singles.iter();
-        grouped.chain(singles.map(|single| (single.race, single.ball, single.across)))
     }
 
     /// The closed forms of all rows, where every contact has one and there are no waves and defects to look for.

@@ -39,14 +39,14 @@ impl<'a> View<'a> {
     }
 
     /// The same of eight balls.
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
-    #[inline(always)]
-    pub fn turning(&self, balls: &[BodyId; LANES]) -> Across {
+    pub fn turning(&self, balls: impl Iterator<Item = usize>) -> Across {
         let mut turning = [Lanes::ZERO; 2];
-        for (lane, ball) in balls.iter().enumerate() {
-            let [x, y] = self.across(*ball);
-            (turning[0][lane], turning[1][lane]) = (x, y);
+        if let Some(of) = self.leaning {
+            for (lane, ball) in balls.enumerate() {
+                let body = BodyId::ball(ball).index();
+                turning[0][lane] = of.across[0][body];
+                turning[1][lane] = of.across[1][body];
+            }
         }
         turning
     }
@@ -88,10 +88,9 @@ impl RingView {
     /// Turns all balls of a state into the frames of both rings.
     pub fn look<'a>(both: &'a mut [Self; 2], model: &Model, state: &'a State) -> [View<'a>; 2] {
         for race in Race::BOTH {
-            let view = &mut both[race];
-            view.ring = state.leaning(model, race);
-            model.instructions.run(Look { view, state });
+            both[race].ring = state.leaning(model, race);
         }
+        model.instructions.run(Look { both, state });
         both.each_ref().map(|ring| ring.view(state))
     }
 
@@ -117,9 +116,9 @@ impl RingView {
     }
 }
 
-/// Turns all balls into the ring's frame, eight at a time.
+/// Turns all balls into the frames of both rings, eight at a time.
 struct Look<'a> {
-    view: &'a mut RingView,
+    both: &'a mut [RingView; 2],
     state: &'a State,
 }
 
@@ -130,21 +129,32 @@ impl Task for Look<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
-        let (state, view) = (self.state, self.view);
+        for view in self.both {
+            view.turn::<FMA>(self.state);
+        }
+    }
+}
+
+impl RingView {
+    /// Turns all balls into this ring's frame.
+    // Compiled for the instruction set that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn turn<const FMA: bool>(&mut self, state: &State) {
         let State { q, v, .. } = state;
         let ([x, y, z, theta], [vx, vy, vz, omega]) = (q.directions(), v.directions());
         let bodies = x.len() - LANES;
-        let (to_q, to_v) = (view.q.directions_mut(), view.v.directions_mut());
-        let [across_x, across_y] = &mut view.across;
+        let (to_q, to_v) = (self.q.directions_mut(), self.v.directions_mut());
+        let [across_x, across_y] = &mut self.across;
         for first in (BodyId::ball(0).index()..bodies).step_by(LANES) {
             let of = |from: &[f64]| Lanes::from_slice(&from[first..]);
             let places = [of(x), of(y), of(z)];
             let velocities = [of(vx), of(vy), of(vz)];
-            let [x, y] = state.across().map_or([Lanes::ZERO; 2], |across| {
-                across.each_ref().map(|along| of(along))
-            });
-            let spins = [x, y, of(omega)];
-            let [places, velocities, spins] = view.ring.see::<_, FMA>(places, velocities, spins);
+            let mut spins = [Lanes::ZERO, Lanes::ZERO, of(omega)];
+            if let Some([x, y]) = state.across() {
+                (spins[0], spins[1]) = (of(x), of(y));
+            }
+            let [places, velocities, spins] = self.ring.see::<_, FMA>(places, velocities, spins);
             for k in 0..3 {
                 places[k].to_slice(&mut to_q[k][first..]);
                 velocities[k].to_slice(&mut to_v[k][first..]);
