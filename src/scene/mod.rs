@@ -20,6 +20,7 @@ mod contact;
 mod defaults;
 mod defect;
 mod doubt;
+mod expected;
 mod fault_lines;
 mod load;
 mod lubricant;
@@ -331,6 +332,6 @@ fn interpret<T: DeserializeOwned>(document: &serde_json::Value, part: &str) -> R
             ("scene", place) => place.to_owned(),
             (part, place) => format!("{part}.{place}"),
         };
-        Error::scene(place, value, e.inner().to_string())
+        Error::scene(place, value, expected::allowed(&e.inner().to_string()))
     })
 }

@@ -161,7 +161,7 @@ def test_a_new_entry_by_its_path(tmp_path: Path) -> None:
     scene = SCENE.replace({"defects.new": spall, "loads.extra": SCENE.loads["radial"]})
     assert scene.defects["new"] == spall
     assert set(scene.loads) == {*SCENE.loads, "extra"}
-    with pytest.raises(br.SceneError, match=r"defects\.new = 0\.001: invalid type"):
+    with pytest.raises(br.SceneError, match=r"defects\.new = 0\.001: a table"):
         SCENE.replace({"defects.new": 1e-3})
     with pytest.raises(br.SceneError, match="no such field"):
         SCENE.replace({"defects.new.width": 1e-3})

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import ballrace as br
+import messages
 from ballrace._progress import Bar
 from ballrace._text import printable
 from ballrace.cli import main
@@ -88,8 +89,8 @@ def test_large_numbers_print_as_such(value: float) -> None:
 @pytest.mark.parametrize(
     ("changes", "told"),
     [
-        ({"rows[0].clearance": 0.1 + 0.2}, "rows[0].clearance = 0.3: from -0.000794 to 0.00397"),
-        ({"cage.play": -1.0}, "cage.play = -1: from 0 to 1"),
+        ({"rows[0].clearance": 0.1 + 0.2}, "rows[0].clearance = 0.3: from -794 µm to 3.97 mm"),
+        ({"cage.play": -1.0}, "cage.play = -1: from 0 m to 1 m"),
         ({"contact.damping": 1e4}, "contact.damping = 10000: from 0 to 1000"),
         ({"rows[0].contact_angle": 30.0}, "contact_angle = 30: from 0 to 1.396 rad, which is 80°"),
         ({"rows[0].ball_count": 40}, "less than the distance of neighbouring balls, 3.063 mm, for"),
@@ -111,3 +112,11 @@ def test_a_field_of_a_new_entry_says_how_to_give_one() -> None:
     scene = br.presets.deep_groove_6205()
     with pytest.raises(br.SceneError, match=r"a new one is given whole, as defects\.new"):
         scene.replace({"defects.new.width": 1e-3})
+
+
+def test_messages_of_all_fields_are_those_reviewed() -> None:
+    """Golden: a message that is new or changed is read as its reader would, and put there (``messages.py``)."""
+    known = (Path(__file__).parents[1] / "documents" / "messages.txt").read_text("utf-8")
+    assert messages.text().splitlines() == known.splitlines()
+    for of_rust in ("invalid type", "f64", "usize", "struct ", "`"):
+        assert of_rust not in known

@@ -35,7 +35,7 @@ def test_the_names_are_those_of_the_core() -> None:
         assert scene.replace({"solver.method": method}).solver == Solver(method=method)
     with pytest.raises(br.SceneError, match=r"solver\.method = .euler.*") as refused:
         scene.replace({"solver.method": "euler"})
-    assert all(f"`{method}`" in str(refused.value) for method in get_args(Method))
+    assert all(f'"{method}"' in str(refused.value) for method in get_args(Method))
 
 
 def test_an_unknown_method_of_a_run_is_refused() -> None:

@@ -274,7 +274,7 @@ RING = s.MotionProbe(body="inner", components=("omega_x",))
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"spin": "round"}, r'spin = "round".*`axial` or `free`'),
+        ({"spin": "round"}, r'spin = "round".*"axial" or "free"'),
         ({"probes": {"ring": RING}}, r"probes\.ring\.motion\.components = omega_x: of balls"),
         ({"spin": "axial", "probes": {"ball": BALL}}, r'omega_x: with spin = "free": row0\.ball0'),
         ({"approximations.rolling": True}, r"approximations.*balls spin freely"),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::check::{positive, within};
+use super::check::{self, positive, within};
 use crate::error::{Error, Result};
 use crate::scene::{Mount, RingName, Row, Scene, Support};
 use crate::told;
@@ -12,12 +12,12 @@ pub(super) fn row(path: &str, row: &Row) -> Result<()> {
     angles_and_places(path, row)?;
     deviations(path, row)?;
     let at = |field: &str| format!("{path}.{field}");
-    for (field, value) in [
-        ("ball_mass", row.ball_mass),
-        ("ball_inertia", row.ball_inertia),
+    for (field, value, unit) in [
+        ("ball_mass", row.ball_mass, "kg"),
+        ("ball_inertia", row.ball_inertia, "kg m²"),
     ] {
         if let Some(value) = value {
-            positive(&at(field), value)?;
+            positive(&at(field), value, unit)?;
         }
     }
     if row.ball_support.is_spatial() {
@@ -34,8 +34,8 @@ fn circle_of_balls(path: &str, row: &Row) -> Result<()> {
     if !(1..=1000).contains(&row.ball_count) {
         return Err(Error::scene(at("ball_count"), row.ball_count, "1 to 1000"));
     }
-    within(&at("ball_diameter"), row.ball_diameter, 1e-6..=10.0)?;
-    within(&at("pitch_diameter"), row.pitch_diameter, 1e-6..=100.0)?;
+    within(&at("ball_diameter"), row.ball_diameter, 1e-6..=10.0, "m")?;
+    within(&at("pitch_diameter"), row.pitch_diameter, 1e-6..=100.0, "m")?;
     let (d, dm) = (row.ball_diameter, row.pitch_diameter);
     if dm <= d {
         return Err(Error::scene(
@@ -75,10 +75,20 @@ fn angles_and_places(path: &str, row: &Row) -> Result<()> {
         return Err(Error::scene(at("side"), row.side, "+1 or -1"));
     }
     let d = row.ball_diameter;
-    within(&at("axial_position"), row.axial_position, -100.0..=100.0)?;
-    within(&at("clearance"), row.clearance, -d / 10.0..=d / 2.0)?;
-    within(&at("axial_preload"), row.axial_preload, -d / 2.0..=d / 2.0)?;
-    within(&at("start_angle"), row.start_angle, -1e3..=1e3)?;
+    within(
+        &at("axial_position"),
+        row.axial_position,
+        -100.0..=100.0,
+        "m",
+    )?;
+    within(&at("clearance"), row.clearance, -d / 10.0..=d / 2.0, "m")?;
+    within(
+        &at("axial_preload"),
+        row.axial_preload,
+        -d / 2.0..=d / 2.0,
+        "m",
+    )?;
+    within(&at("start_angle"), row.start_angle, -1e3..=1e3, "rad")?;
     Ok(())
 }
 
@@ -98,9 +108,9 @@ fn deviations(path: &str, row: &Row) -> Result<()> {
     ] {
         for (i, wave) in waves.iter().enumerate() {
             let at = |name: &str| format!("{path}.{field}[{i}].{name}");
-            within(&at("order"), f64::from(wave.order), 1.0..=1000.0)?;
-            within(&at("amplitude"), wave.amplitude, 0.0..=d / 10.0)?;
-            within(&at("phase"), wave.phase, -1e3..=1e3)?;
+            within(&at("order"), f64::from(wave.order), 1.0..=1000.0, "")?;
+            within(&at("amplitude"), wave.amplitude, 0.0..=d / 10.0, "m")?;
+            within(&at("phase"), wave.phase, -1e3..=1e3, "rad")?;
         }
     }
     if !row.diameter_errors.is_empty() && row.diameter_errors.len() != row.ball_count {
@@ -117,6 +127,7 @@ fn deviations(path: &str, row: &Row) -> Result<()> {
             &format!("{path}.diameter_errors[{i}]"),
             *error,
             -d / 10.0..=largest,
+            "m",
         )?;
     }
     Ok(())
@@ -128,15 +139,15 @@ pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
         RingName::Inner => ("inner_ring", &scene.inner_ring, false, Mount::Free),
     };
     let at = |field: &str| format!("{path}.{field}");
-    for (field, value) in [
-        ("mass", ring.mass),
-        ("inertia", ring.inertia),
-        ("diameter", ring.diameter),
-        ("width", ring.width),
+    for (field, value, unit) in [
+        ("mass", ring.mass, "kg"),
+        ("inertia", ring.inertia, "kg m²"),
+        ("diameter", ring.diameter, "m"),
+        ("width", ring.width, "m"),
     ] {
         if let Some(value) = value {
-            positive(&at(field), value)?;
-            within(&at(field), value, 0.0..=1e9)?;
+            positive(&at(field), value, unit)?;
+            within(&at(field), value, 0.0..=1e9, unit)?;
         }
     }
     if let Some(diameter) = ring.diameter {
@@ -181,18 +192,8 @@ fn support(path: &str, support: &Support) -> Result<()> {
         ("z", support.z),
         ("theta", support.theta),
     ] {
-        if let Some(Mount::Spring { stiffness, damping }) = mount {
-            within(
-                &format!("{path}.{direction}.spring.stiffness"),
-                stiffness,
-                0.0..=1e15,
-            )?;
-            within(
-                &format!("{path}.{direction}.spring.damping"),
-                damping,
-                0.0..=1e12,
-            )?;
-        }
+        let turns = direction == "theta";
+        check::mount(&format!("{path}.{direction}"), mount, turns)?;
     }
     Ok(())
 }

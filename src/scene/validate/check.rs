@@ -3,7 +3,8 @@
 use std::ops::RangeInclusive;
 
 use crate::error::{Error, Result};
-use crate::told::number;
+use crate::scene::Mount;
+use crate::told;
 
 pub(super) fn finite(path: &str, value: f64) -> Result<()> {
     if value.is_finite() {
@@ -13,40 +14,56 @@ pub(super) fn finite(path: &str, value: f64) -> Result<()> {
     }
 }
 
-pub(super) fn positive(path: &str, value: f64) -> Result<()> {
+/// Of a number in some unit.
+pub(super) fn positive(path: &str, value: f64, unit: &str) -> Result<()> {
     if value.is_finite() && value > 0.0 {
-        Ok(())
-    } else {
-        Err(Error::scene(path, value, "a finite number above 0"))
+        return Ok(());
     }
+    let allowed = format!("a finite number above 0 {unit}");
+    Err(Error::scene(path, value, allowed.trim_end()))
 }
 
-pub(super) fn within(path: &str, value: f64, range: RangeInclusive<f64>) -> Result<()> {
+/// Of a number in some unit, or none.
+pub(super) fn within(path: &str, value: f64, range: RangeInclusive<f64>, unit: &str) -> Result<()> {
     if range.contains(&value) {
-        Ok(())
-    } else {
-        Err(Error::scene(
-            path,
-            value,
-            format!(
-                "from {} to {}",
-                number(*range.start()),
-                number(*range.end())
-            ),
-        ))
+        return Ok(());
     }
+    let ends = [*range.start(), *range.end()];
+    let [from, to] = if unit == "m" {
+        ends.map(told::length)
+    } else {
+        ends.map(told::number)
+    };
+    let allowed = match unit {
+        "" | "m" => format!("from {from} to {to}"),
+        _ => format!("from {from} to {to} {unit}"),
+    };
+    Err(Error::scene(path, value, allowed))
 }
 
+/// Of a length \[m\].
 pub(super) fn below(path: &str, value: f64, limit: f64, what: &str) -> Result<()> {
     if value < limit {
         Ok(())
     } else {
-        Err(Error::scene(
-            path,
-            value,
-            format!("below {what}, {}", number(limit)),
-        ))
+        let allowed = format!("below {what}, {}", told::length(limit));
+        Err(Error::scene(path, value, allowed))
     }
+}
+
+/// Of a direction along an axis, or one that turns.
+pub(super) fn mount(path: &str, mount: Option<Mount>, turns: bool) -> Result<()> {
+    let Some(Mount::Spring { stiffness, damping }) = mount else {
+        return Ok(());
+    };
+    let units = if turns {
+        ["N m/rad", "N m s/rad"]
+    } else {
+        ["N/m", "N s/m"]
+    };
+    let at = |field: &str| format!("{path}.spring.{field}");
+    within(&at("stiffness"), stiffness, 0.0..=1e15, units[0])?;
+    within(&at("damping"), damping, 0.0..=1e12, units[1])
 }
 
 pub(super) fn entry_name(collection: &str, name: &str) -> Result<()> {

@@ -27,9 +27,19 @@ pub(super) fn of_row(path: &str, row: &Row) -> Result<()> {
 
 fn material(path: &str, material: &Material) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
-    within(&at("density"), material.density, 1.0..=1e6)?;
-    within(&at("youngs_modulus"), material.youngs_modulus, 1e3..=1e15)?;
-    within(&at("poisson_ratio"), material.poisson_ratio, 0.0..=0.499)
+    within(&at("density"), material.density, 1.0..=1e6, "kg/m³")?;
+    within(
+        &at("youngs_modulus"),
+        material.youngs_modulus,
+        1e3..=1e15,
+        "Pa",
+    )?;
+    within(
+        &at("poisson_ratio"),
+        material.poisson_ratio,
+        0.0..=0.499,
+        "",
+    )
 }
 
 pub(super) fn contact(path: &str, contact: &Contact) -> Result<()> {
@@ -39,8 +49,9 @@ pub(super) fn contact(path: &str, contact: &Contact) -> Result<()> {
         length_ratio,
     } = contact.law
     {
-        within(&at("law.iso16281.constant"), constant, 1.0..=1e16)?;
-        within(&at("law.iso16281.length_ratio"), length_ratio, 1e-3..=10.0)?;
+        within(&at("law.iso16281.constant"), constant, 1.0..=1e16, "")?;
+        let path = at("law.iso16281.length_ratio");
+        within(&path, length_ratio, 1e-3..=10.0, "")?;
     }
     match contact.slices {
         Slices::Fixed(n) if !(10..=100_000).contains(&n) => {
@@ -50,9 +61,9 @@ pub(super) fn contact(path: &str, contact: &Contact) -> Result<()> {
             Err(Error::scene(at("slices.fitted"), n, "2 to 64"))
         }
         Slices::Accuracy(a) if !(1e-9..=1e-1).contains(&a) => {
-            Err(Error::scene(at("slices.accuracy"), a, "1e-9 to 1e-1"))
+            Err(Error::scene(at("slices.accuracy"), a, "from 1e-9 to 0.1"))
         }
-        _ => within(&at("damping"), contact.damping, 0.0..=1e3),
+        _ => within(&at("damping"), contact.damping, 0.0..=1e3, "s/m"),
     }
 }
 
@@ -63,13 +74,13 @@ pub(super) fn friction(path: &str, friction: &Friction) -> Result<()> {
     let at = |field: &str| format!("{path}.{}.{field}", numbers.law);
     for (field, value) in &numbers.fields {
         match *field {
-            "stribeck_speed" => positive(&at(field), *value)?,
+            "stribeck_speed" => positive(&at(field), *value, "m/s")?,
             // A traction curve may begin at or fall to less than nothing, if another part makes up for it.
-            "a" | "b" => within(&at(field), *value, -1e6..=1e6)?,
-            _ => within(&at(field), *value, 0.0..=1e6)?,
+            "a" | "b" => within(&at(field), *value, -1e6..=1e6, "")?,
+            _ => within(&at(field), *value, 0.0..=1e6, "")?,
         }
     }
-    within(&at("slip_speed"), numbers.slip_speed, 1e-9..=1e3)?;
+    within(&at("slip_speed"), numbers.slip_speed, 1e-9..=1e3, "m/s")?;
     match *friction {
         Friction::Traction { a, b, c, d, .. } => traction(path, [a, b, c, d]),
         _ => Ok(()),

@@ -13,13 +13,13 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     let row = scene.row_index(path, defect.row)?;
     let radius = row.ball_diameter / 2.0;
-    within(&at("angle"), defect.angle, -1e3..=1e3)?;
+    within(&at("angle"), defect.angle, -1e3..=1e3, "rad")?;
     if defect.is_cap() {
         only_what_a_cap_has(path, defect)?;
     } else {
-        positive(&at("length"), defect.length)?;
+        positive(&at("length"), defect.length, "m")?;
     }
-    positive(&at("edge_radius"), defect.edge_radius)?;
+    positive(&at("edge_radius"), defect.edge_radius, "m")?;
     width(&at("width"), &defect.width)?;
     if let Some(offset) = defect.axial_offset.number() {
         finite(&at("axial_offset"), offset)?;
@@ -54,7 +54,7 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
         (surface, None) => on_race(path, row, defect, surface == Surface::OuterRace)?,
     }
     if let Some(floor) = &defect.floor {
-        within(&at("floor.depth"), floor.depth, 0.0..=radius / 2.0)?;
+        within(&at("floor.depth"), floor.depth, 0.0..=radius / 2.0, "m")?;
         if !(1..=1000).contains(&floor.elements) {
             return Err(Error::scene(
                 at("floor.elements"),
@@ -108,7 +108,7 @@ fn cap(path: &str, row: &Row, defect: &Defect) -> Result<()> {
 
 fn width(path: &str, width: &Width) -> Result<()> {
     match width {
-        Width::Constant(w) => within(path, *w, 0.0..=10.0),
+        Width::Constant(w) => within(path, *w, 0.0..=10.0, "m"),
         Width::Profile(profile) => {
             let (positions, widths) = (&profile.positions, &profile.widths);
             if positions.is_empty() || positions.len() != widths.len() {
@@ -119,14 +119,14 @@ fn width(path: &str, width: &Width) -> Result<()> {
                 ));
             }
             for (i, w) in widths.iter().enumerate() {
-                within(&format!("{path}.widths[{i}]"), *w, 0.0..=10.0)?;
+                within(&format!("{path}.widths[{i}]"), *w, 0.0..=10.0, "m")?;
             }
             for (i, pair) in positions.windows(2).enumerate() {
                 if pair[1].partial_cmp(&pair[0]) != Some(std::cmp::Ordering::Greater) {
                     return Err(Error::scene(
                         format!("{path}.positions[{}]", i + 1),
                         pair[1],
-                        format!("above the position before it, {}", pair[0]),
+                        format!("above the position before it, {}", told::length(pair[0])),
                     ));
                 }
             }
@@ -140,17 +140,19 @@ fn on_ball(path: &str, row: &Row, defect: &Defect) -> Result<()> {
     let radius = row.ball_diameter / 2.0;
     // At least: one that is yet to be placed is checked again when it is.
     let offset = defect.axial_offset.number().unwrap_or(0.0);
+    below(
+        &at("axial_offset"),
+        offset.abs(),
+        radius,
+        "the ball's radius in size",
+    )?;
     let reach = offset.abs() + defect.length / 2.0;
-
     if reach >= radius {
-        return Err(Error::scene(
-            at("length"),
-            defect.length,
-            format!(
-                "|axial_offset| + length/2 below the ball's radius, {}",
-                told::length(radius)
-            ),
-        ));
+        let allowed = format!(
+            "|axial_offset| + length/2 below the ball's radius, {}",
+            told::length(radius)
+        );
+        return Err(Error::scene(at("length"), defect.length, allowed));
     }
     // The smallest slice that carries the defect.
     let slice = (radius * radius - reach * reach).sqrt();
@@ -174,21 +176,24 @@ fn on_race(path: &str, row: &Row, defect: &Defect, outer: bool) -> Result<()> {
     let radius = row.ball_diameter / 2.0;
 
     let [first, last] = limits(row, outer);
-    let beyond = |offset: &f64| {
+    if let Some(offset) = defect.axial_offset.number() {
+        let ends = format!(
+            "the race ends at {} and {} from the row's plane",
+            told::length(first),
+            told::length(last)
+        );
+        if offset <= first || offset >= last {
+            let allowed = format!("a place on the race: {ends}");
+            return Err(Error::scene(at("axial_offset"), offset, allowed));
+        }
         let half = defect.length / 2.0;
-        offset - half <= first || offset + half >= last
-    };
-    if let Some(offset) = defect.axial_offset.number().filter(beyond) {
-        return Err(Error::scene(
-            at("length"),
-            defect.length,
-            format!(
-                "a defect within the race: its middle is at {}, the race ends at {} and {} from the row's plane",
-                told::length(offset),
-                told::length(first),
-                told::length(last)
-            ),
-        ));
+        if offset - half <= first || offset + half >= last {
+            let allowed = format!(
+                "a defect within the race: its middle is at {}, {ends}",
+                told::length(offset)
+            );
+            return Err(Error::scene(at("length"), defect.length, allowed));
+        }
     }
     below(
         &at("edge_radius"),

@@ -3,11 +3,12 @@
 use super::check::{entry_name, finite, within};
 use crate::error::{Error, Result};
 use crate::scene::{Drive, Profile, Scene, TimeFunction};
+use crate::told;
 
 pub(super) fn drive(drive: &Drive) -> Result<()> {
     match drive {
         Drive::Speed(speed) => {
-            time_function("drive.speed", speed, 1e6)?;
+            time_function("drive.speed", speed, (1e6, "rad/s"))?;
             let jumps = match speed {
                 TimeFunction::Profile(Profile::Ramp { start, end, .. }) => start == end,
                 TimeFunction::Profile(Profile::Table { times, .. }) => {
@@ -28,8 +29,13 @@ pub(super) fn drive(drive: &Drive) -> Result<()> {
             value,
             initial_speed,
         } => {
-            time_function("drive.torque.value", value, 1e12)?;
-            within("drive.torque.initial_speed", *initial_speed, -1e6..=1e6)
+            time_function("drive.torque.value", value, (1e12, "N m"))?;
+            within(
+                "drive.torque.initial_speed",
+                *initial_speed,
+                -1e6..=1e6,
+                "rad/s",
+            )
         }
     }
 }
@@ -38,7 +44,7 @@ pub(super) fn loads(scene: &Scene) -> Result<()> {
     for (name, load) in &scene.loads {
         entry_name("loads", name)?;
         direction(&format!("loads.{name}"), &load.direction)?;
-        time_function(&format!("loads.{name}.force"), &load.force, 1e12)?;
+        time_function(&format!("loads.{name}.force"), &load.force, (1e12, "N"))?;
     }
     unbalances(scene)
 }
@@ -63,18 +69,24 @@ fn unbalances(scene: &Scene) -> Result<()> {
             &format!("unbalances.{name}.moment"),
             unbalance.moment,
             0.0..=1e6,
+            "kg m",
         )?;
         within(
             &format!("unbalances.{name}.angle"),
             unbalance.angle,
             -1e3..=1e3,
+            "rad",
         )?;
     }
     Ok(())
 }
 
-pub(super) fn time_function(path: &str, value: &TimeFunction, limit: f64) -> Result<()> {
-    let each = |field: &str, x: f64| within(&format!("{path}{field}"), x, -limit..=limit);
+pub(super) fn time_function(
+    path: &str,
+    value: &TimeFunction,
+    (limit, unit): (f64, &str),
+) -> Result<()> {
+    let each = |field: &str, x: f64| within(&format!("{path}{field}"), x, -limit..=limit, unit);
     match value {
         TimeFunction::Constant(x) => each("", *x),
         TimeFunction::Profile(Profile::Ramp {
@@ -91,7 +103,7 @@ pub(super) fn time_function(path: &str, value: &TimeFunction, limit: f64) -> Res
                 return Err(Error::scene(
                     format!("{path}.ramp.end"),
                     end,
-                    format!("at least start, {start}"),
+                    format!("at least start, {}", told::duration(*start)),
                 ));
             }
             Ok(())
@@ -104,7 +116,12 @@ pub(super) fn time_function(path: &str, value: &TimeFunction, limit: f64) -> Res
         }) => {
             each(".sine.mean", *mean)?;
             each(".sine.amplitude", *amplitude)?;
-            within(&format!("{path}.sine.frequency"), *frequency, 0.0..=1e9)?;
+            within(
+                &format!("{path}.sine.frequency"),
+                *frequency,
+                0.0..=1e9,
+                "Hz",
+            )?;
             finite(&format!("{path}.sine.phase"), *phase)
         }
         TimeFunction::Profile(Profile::Table { times, values }) => {
@@ -126,7 +143,7 @@ pub(super) fn time_function(path: &str, value: &TimeFunction, limit: f64) -> Res
                 Some(i) => Err(Error::scene(
                     format!("{path}.table.times[{}]", i + 1),
                     times[i + 1],
-                    format!("at least the time before it, {}", times[i]),
+                    format!("at least the time before it, {}", told::duration(times[i])),
                 )),
                 None => Ok(()),
             }

@@ -53,21 +53,26 @@ fn alone(path: &str, lubricant: &Lubricant) -> Result<()> {
     oil(path, lubricant)?;
     let at = |field: &str| format!("{path}.{field}");
     fraction(&at("boundary_friction"), lubricant.boundary_friction)?;
-    within(&at("conductivity"), lubricant.conductivity, 1e-3..=1e3)?;
+    within(
+        &at("conductivity"),
+        lubricant.conductivity,
+        1e-3..=1e3,
+        "W/(m K)",
+    )?;
     length(&at("roughness"), lubricant.roughness)?;
     if let OilLayer::Thickness(layer) = lubricant.oil_layer {
         length(&at("oil_layer"), layer)?;
     }
-    within(&at("hysteresis"), lubricant.hysteresis, 0.0..=1.0)?;
-    within(&at("slip_floor"), lubricant.slip_floor, 1e-9..=1e3)?;
-    within(&at("fill"), lubricant.fill, 0.0..=1.0)?;
-    for (field, value) in [
-        ("damping_frequency", lubricant.damping_frequency),
-        ("reference_speed", lubricant.reference_speed),
-        ("reference_load", lubricant.reference_load),
+    within(&at("hysteresis"), lubricant.hysteresis, 0.0..=1.0, "")?;
+    within(&at("slip_floor"), lubricant.slip_floor, 1e-9..=1e3, "m/s")?;
+    within(&at("fill"), lubricant.fill, 0.0..=1.0, "")?;
+    for (field, value, unit) in [
+        ("damping_frequency", lubricant.damping_frequency, "Hz"),
+        ("reference_speed", lubricant.reference_speed, "rad/s"),
+        ("reference_load", lubricant.reference_load, "N"),
     ] {
         if let Some(value) = value {
-            positive(&at(field), value)?;
+            positive(&at(field), value, unit)?;
         }
     }
     Ok(())
@@ -97,9 +102,14 @@ fn oil(path: &str, lubricant: &Lubricant) -> Result<()> {
         );
         return Err(Error::scene(at("temperature"), temperature, allowed));
     }
-    within(&at("density_15"), sheet.density_15.value, 100.0..=1e4)?;
+    within(
+        &at("density_15"),
+        sheet.density_15.value,
+        100.0..=1e4,
+        "kg/m³",
+    )?;
     if let Some(coefficient) = sheet.pressure_viscosity {
-        within(&at("pressure_viscosity"), coefficient, 1e-10..=1e-6)?;
+        within(&at("pressure_viscosity"), coefficient, 1e-10..=1e-6, "1/Pa")?;
     }
     fraction(&at("limiting_stress"), sheet.limiting_stress.value)
 }

@@ -51,14 +51,14 @@ impl Scene {
         contact::contact("contact", &self.contact)?;
         contact::friction("friction", &self.friction)?;
         if let Some(cage) = &self.cage {
-            within("cage.stiffness", cage.stiffness, 0.0..=1e15)?;
-            within("cage.damping", cage.damping, 0.0..=1e12)?;
-            within("cage.play", cage.play, 0.0..=1.0)?;
+            within("cage.stiffness", cage.stiffness, 0.0..=1e15, "N/m")?;
+            within("cage.damping", cage.damping, 0.0..=1e12, "N s/m")?;
+            within("cage.play", cage.play, 0.0..=1.0, "m")?;
         }
         load::drive(&self.drive)?;
         lubricant::lubricants(self)?;
         for (i, g) in self.gravity.iter().enumerate() {
-            within(&format!("gravity[{i}]"), *g, -1e6..=1e6)?;
+            within(&format!("gravity[{i}]"), *g, -1e6..=1e6, "m/s²")?;
         }
         load::loads(self)?;
         tilt::loads(self)?;
@@ -72,13 +72,13 @@ impl Scene {
             probe::probe(self, &format!("probes.{name}"), probe)?;
         }
         self.approximations.validate(self)?;
-        within("solver.rtol", self.solver.rtol, 1e-12..=1e-1)?;
+        within("solver.rtol", self.solver.rtol, 1e-12..=1e-1, "")?;
         for (path, step) in [
             ("solver.first_step", self.solver.first_step),
             ("solver.max_step", self.solver.max_step),
         ] {
             if let Some(step) = step {
-                positive(path, step)?;
+                positive(path, step, "s")?;
             }
         }
         Ok(())

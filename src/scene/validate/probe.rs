@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::scene::{Component, Probe, Scene};
 
 fn known_body(scene: &Scene, path: &str, body: &str) -> Result<()> {
-    let known = "`outer`, `inner` or a ball of a row such as `row0.ball3`";
+    let known = "\"outer\", \"inner\" or a ball of a row such as \"row0.ball3\"";
     let unknown = || Error::scene(format!("{path}.body"), body, known);
     scene.body_index(body).map(|_| ()).ok_or_else(unknown)
 }
@@ -15,12 +15,8 @@ pub(super) fn probe(scene: &Scene, path: &str, probe: &Probe) -> Result<()> {
         Probe::Motion { body, components } => {
             let path = format!("{path}.motion");
             known_body(scene, &path, body)?;
-            of_body(
-                scene,
-                &path,
-                body,
-                components.as_deref().unwrap_or_default(),
-            )
+            let components = components.as_deref().unwrap_or_default();
+            of_body(scene, &path, body, components)
         }
         Probe::Forces { body } => known_body(scene, &format!("{path}.forces"), body),
         Probe::Cage { row } => scene.row_index(&format!("{path}.cage"), *row).map(|_| ()),
@@ -33,7 +29,7 @@ pub(super) fn probe(scene: &Scene, path: &str, probe: &Probe) -> Result<()> {
             row, balls, times, ..
         } => {
             for (i, t) in times.iter().enumerate() {
-                within(&format!("{path}.slices.times[{i}]"), *t, 0.0..=1e9)?;
+                within(&format!("{path}.slices.times[{i}]"), *t, 0.0..=1e9, "s")?;
             }
             chosen(scene, &format!("{path}.slices"), *row, balls.as_deref())
         }

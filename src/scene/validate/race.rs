@@ -56,8 +56,8 @@ fn race(path: &str, row: &Row, contact: &Contact, of: &Fields<'_>) -> Result<()>
     }
     let Some(edge) = of.edge else { return Ok(()) };
     let path = at("shoulder_radius");
-    positive(&path, edge)?;
-    within(&path, edge, 0.0..=row.ball_diameter)?;
+    positive(&path, edge, "m")?;
+    within(&path, edge, 0.0..=row.ball_diameter, "m")?;
     only(
         &path,
         of.profile.is_some() || of.arch.is_some(),
@@ -92,7 +92,7 @@ fn shoulders(path: &str, shoulders: Option<[f64; 2]>) -> Result<()> {
             return Err(Error::scene(
                 format!("{path}[{side}]"),
                 angle,
-                "above 0 and below π/2",
+                "above 0 and below π/2 rad, which is 90°",
             ));
         }
     }
@@ -110,7 +110,7 @@ fn points(path: &str, row: &Row, profile: &RaceProfile) -> Result<()> {
     }
     let reach = 2.0 * row.ball_diameter;
     for (i, z) in z.iter().enumerate() {
-        within(&format!("{path}.z[{i}]"), *z, -reach..=reach)?;
+        within(&format!("{path}.z[{i}]"), *z, -reach..=reach, "m")?;
     }
     for (i, pair) in z.windows(2).enumerate() {
         if pair[1] <= pair[0] {
@@ -122,7 +122,7 @@ fn points(path: &str, row: &Row, profile: &RaceProfile) -> Result<()> {
         }
     }
     for (i, r) in r.iter().enumerate() {
-        within(&format!("{path}.r[{i}]"), *r, 1e-6..=100.0)?;
+        within(&format!("{path}.r[{i}]"), *r, 1e-6..=100.0, "m")?;
     }
     Ok(())
 }

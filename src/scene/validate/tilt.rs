@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix6;
 
-use super::check::{entry_name, positive, within};
+use super::check::{self, entry_name, positive, within};
 use super::load::{direction, time_function};
 use crate::error::{Error, Result};
 use crate::scene::{CoupledSupport, Drive, Mount, Ring, Scene};
@@ -17,10 +17,10 @@ const ROUNDING: f64 = 1e-9;
 pub(super) fn ring(path: &str, ring: &Ring, is_driven: bool) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     if let Some(inertia) = ring.transverse_inertia {
-        positive(&at("transverse_inertia"), inertia)?;
+        positive(&at("transverse_inertia"), inertia, "kg m²")?;
     }
     if let Some(place) = ring.centre_of_mass {
-        within(&at("centre_of_mass"), place, -100.0..=100.0)?;
+        within(&at("centre_of_mass"), place, -100.0..=100.0, "m")?;
     }
     if let Some([x, y]) = ring.tilt
         && (!(x.is_finite() && y.is_finite()) || x.hypot(y) > FURTHEST)
@@ -32,11 +32,7 @@ pub(super) fn ring(path: &str, ring: &Ring, is_driven: bool) -> Result<()> {
         ("tilt_x", ring.support.tilt_x),
         ("tilt_y", ring.support.tilt_y),
     ] {
-        if let Some(Mount::Spring { stiffness, damping }) = mount {
-            let of = |name: &str| format!("{path}.support.{field}.spring.{name}");
-            within(&of("stiffness"), stiffness, 0.0..=1e15)?;
-            within(&of("damping"), damping, 0.0..=1e12)?;
-        }
+        check::mount(&at(&format!("support.{field}")), mount, true)?;
     }
     match &ring.support.coupled {
         Some(coupled) => support(&at("support.coupled"), coupled, is_driven),
@@ -47,7 +43,12 @@ pub(super) fn ring(path: &str, ring: &Ring, is_driven: bool) -> Result<()> {
 /// A coupled support.
 fn support(path: &str, coupled: &CoupledSupport, is_driven: bool) -> Result<()> {
     let place = coupled.axial_position;
-    within(&format!("{path}.axial_position"), place, -100.0..=100.0)?;
+    within(
+        &format!("{path}.axial_position"),
+        place,
+        -100.0..=100.0,
+        "m",
+    )?;
     for (field, rows) in [
         ("stiffness", coupled.stiffness),
         ("damping", coupled.damping),
@@ -55,7 +56,7 @@ fn support(path: &str, coupled: &CoupledSupport, is_driven: bool) -> Result<()> 
         let path = format!("{path}.{field}");
         for (i, row) in rows.iter().enumerate() {
             for (j, entry) in row.iter().enumerate() {
-                within(&format!("{path}[{i}][{j}]"), *entry, -1e15..=1e15)?;
+                within(&format!("{path}[{i}][{j}]"), *entry, -1e15..=1e15, "")?;
             }
         }
         let matrix = Matrix6::from_fn(|i, j| rows[i][j]);
@@ -82,17 +83,26 @@ pub(super) fn loads(scene: &Scene) -> Result<()> {
     for (name, moment) in &scene.moments {
         entry_name("moments", name)?;
         direction(&format!("moments.{name}"), &moment.direction)?;
-        time_function(&format!("moments.{name}.moment"), &moment.moment, 1e12)?;
+        time_function(
+            &format!("moments.{name}.moment"),
+            &moment.moment,
+            (1e12, "N m"),
+        )?;
     }
     for (name, load) in &scene.loads {
         for (i, place) in load.at.unwrap_or_default().into_iter().enumerate() {
-            within(&format!("loads.{name}.at[{i}]"), place, -100.0..=100.0)?;
+            within(&format!("loads.{name}.at[{i}]"), place, -100.0..=100.0, "m")?;
         }
     }
     for (name, unbalance) in &scene.unbalances {
         let place = unbalance.axial_position.unwrap_or_default();
         let path = format!("unbalances.{name}");
-        within(&format!("{path}.axial_position"), place, -100.0..=100.0)?;
+        within(
+            &format!("{path}.axial_position"),
+            place,
+            -100.0..=100.0,
+            "m",
+        )?;
         let is_driven = matches!(scene.drive, Drive::Speed(_));
         let (ring, turns) = match unbalance.ring {
             crate::scene::RingName::Outer => (

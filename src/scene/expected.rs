@@ -1,0 +1,57 @@
+//! What a document's reader may write, in words that its writer knows: serde speaks of Rust's types.
+
+/// What is allowed in place of what a message of serde refuses; of an unknown field or a missing one the message itself.
+pub(super) fn allowed(message: &str) -> String {
+    match message.split_once(", expected ") {
+        Some((refused, expected)) if !refused.starts_with("unknown field") => in_words(expected),
+        _ => message.replace('`', "\""),
+    }
+}
+
+fn in_words(expected: &str) -> String {
+    let of_length = expected.strip_prefix("an array of length ");
+    match expected {
+        "f64" => "a number".to_owned(),
+        "u32" | "usize" => "a whole number, 0 or more".to_owned(),
+        "i8" => "a whole number".to_owned(),
+        "a boolean" => "true or false".to_owned(),
+        "a string" => "a text in quotes".to_owned(),
+        "a sequence" => "a list".to_owned(),
+        "a map" => "a table".to_owned(),
+        "string or map" => "a name in quotes, or a table".to_owned(),
+        _ if expected.starts_with("struct ") => "a table".to_owned(),
+        _ => match of_length {
+            Some(length) => format!("a list of {length}"),
+            None => expected.replace('`', "\""),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Golden: no word of Rust, and no ticks where TOML has quotes.
+    #[test]
+    fn messages_speak_of_documents() {
+        for (said, told) in [
+            ("invalid type: string \"much\", expected f64", "a number"),
+            (
+                "invalid length 2, expected an array of length 3",
+                "a list of 3",
+            ),
+            ("invalid type: integer `7`, expected struct Row", "a table"),
+            (
+                "unknown variant `x`, expected `outer` or `inner`",
+                "\"outer\" or \"inner\"",
+            ),
+            ("missing field `row`", "missing field \"row\""),
+            (
+                "unknown field `x`, expected `y`",
+                "unknown field \"x\", expected \"y\"",
+            ),
+        ] {
+            assert_eq!(allowed(said), told);
+        }
+    }
+}
