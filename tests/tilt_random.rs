@@ -10,6 +10,7 @@ use common::Noise;
 const SCENES: usize = 500;
 
 /// Deep-groove and angular-contact bearings, one row or two in any arrangement, loaded up to half of the static rating.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
 fn random(noise: &mut Noise) -> Scene {
     let count = noise.between(7.0, 19.0) as usize;
     let diameter = noise.between(4e-3, 20e-3);

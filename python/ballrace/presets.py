@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Literal, get_args
 
 from . import _core
 from ._numbers import real
@@ -14,7 +15,11 @@ from .errors import SceneError
 from .scene import Lubricant, Scene
 from .scene.lubricant import chosen
 
-__all__ = ["cornering_wheel", "deep_groove_6205", "names", "wheel_bearing"]
+__all__ = ["angular_contact_pair", "cornering_wheel", "deep_groove_6205", "names", "wheel_bearing"]
+
+
+Arrangement = Literal["back_to_back", "face_to_face"]
+"""How two rows of angular contact face each other."""
 
 
 def wheel_bearing(
@@ -63,6 +68,44 @@ def cornering_wheel(lateral: float = 0.3) -> Scene:
     return Scene.from_json(_core.preset_cornering_wheel(_finite("lateral", lateral, "1")))
 
 
+def angular_contact_pair(
+    radial_load: float = 500.0,
+    axial_load: float = 300.0,
+    speed_rpm: float = 2900.0,
+    *,
+    arrangement: Arrangement = "back_to_back",
+) -> Scene:
+    """Return two angular-contact bearings 7205B on a pump's shaft, lightly preloaded; the shaft tilts.
+
+    Parameters
+    ----------
+    radial_load : float
+        Load on the impeller along -y, 60 mm before the middle of the pair towards -z [N].
+    axial_load : float
+        Load on the shaft along +z [N].
+    speed_rpm : float
+        Speed of the shaft [rev/min].
+    arrangement : str
+        ``"back_to_back"``, stiff against tilting, or ``"face_to_face"``, which gives way to a bent shaft.
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable.
+    """
+    allowed = get_args(Arrangement)
+    if arrangement not in allowed:
+        raise SceneError("arrangement", repr(arrangement), " or ".join(map(repr, allowed)))
+    return Scene.from_json(
+        _core.preset_angular_contact_pair(
+            arrangement == "face_to_face",
+            _finite("radial_load", radial_load, "N"),
+            _finite("axial_load", axial_load, "N"),
+            _finite("speed_rpm", speed_rpm, "rev/min"),
+        )
+    )
+
+
 def deep_groove_6205(
     radial_load: float = 500.0,
     axial_load: float = 0.0,
@@ -97,7 +140,7 @@ def deep_groove_6205(
 
 def names() -> tuple[str, ...]:
     """Return the names of the presets."""
-    return ("wheel_bearing", "cornering_wheel", "deep_groove_6205")
+    return ("wheel_bearing", "cornering_wheel", "angular_contact_pair", "deep_groove_6205")
 
 
 def _finite(name: str, value: float, unit: str) -> float:

@@ -30,8 +30,9 @@ mod _core {
     use super::run::{Model, explain, run_from_json, simulate};
     #[pymodule_export]
     use super::scene::{
-        preset_cornering_wheel, preset_deep_groove_6205, preset_wheel_bearing, scene_doubts,
-        scene_from_json, scene_from_toml, scene_replace, scene_to_toml,
+        preset_angular_contact_pair, preset_cornering_wheel, preset_deep_groove_6205,
+        preset_wheel_bearing, scene_doubts, scene_from_json, scene_from_toml, scene_replace,
+        scene_to_toml,
     };
     #[pymodule_export]
     use super::statics::{equilibrium, load_distribution, stiffness};

@@ -57,6 +57,24 @@ pub(super) fn preset_cornering_wheel(py: Python<'_>, lateral: f64) -> PyResult<S
     checked(py, &presets::cornering_wheel(lateral))
 }
 
+/// The preset `angular_contact_pair` as JSON, face to face or back to back.
+#[pyfunction]
+pub(super) fn preset_angular_contact_pair(
+    py: Python<'_>,
+    face_to_face: bool,
+    radial_load: f64,
+    axial_load: f64,
+    speed_rpm: f64,
+) -> PyResult<String> {
+    let arrangement = if face_to_face {
+        presets::Arrangement::FaceToFace
+    } else {
+        presets::Arrangement::BackToBack
+    };
+    let scene = presets::angular_contact_pair(arrangement, radial_load, axial_load, speed_rpm);
+    checked(py, &scene)
+}
+
 /// The preset `deep_groove_6205` as JSON.
 #[pyfunction]
 pub(super) fn preset_deep_groove_6205(

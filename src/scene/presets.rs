@@ -99,6 +99,59 @@ pub fn cornering_wheel(lateral: f64) -> Scene {
     scene
 }
 
+/// How two rows of angular contact face each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Arrangement {
+    /// Their lines of contact part towards the shaft's axis: stiff against tilting.
+    BackToBack,
+    /// Their lines of contact meet towards the shaft's axis: they give way to a bent shaft.
+    FaceToFace,
+}
+
+/// Two angular-contact bearings 7205B side by side on a pump's shaft, lightly preloaded, whose shaft tilts.
+///
+/// `radial_load` in newtons along −y acts on the impeller, 60 mm before the middle of the pair towards −z; `axial_load` along +z;
+/// `speed_rpm` of the inner rings.
+pub fn angular_contact_pair(
+    arrangement: Arrangement,
+    radial_load: f64,
+    axial_load: f64,
+    speed_rpm: f64,
+) -> Scene {
+    let (overhang, width) = (60e-3, 15e-3);
+    let first: i8 = match arrangement {
+        Arrangement::BackToBack => 1,
+        Arrangement::FaceToFace => -1,
+    };
+    let row = |side: i8, place: f64| Row {
+        contact_angle: 40_f64.to_radians(),
+        side,
+        axial_position: place,
+        // Presses each ball with 13 N.
+        axial_preload: 2e-6,
+        start_angle: -FRAC_PI_2,
+        // 13 balls of 7.938 mm on 38.5 mm; angular-contact grooves are wider outside.
+        ..Row::new(13, 7.938e-3, 38.5e-3, 0.53, 0.52)
+    };
+    let mut scene = deep_groove_6205(radial_load, axial_load, speed_rpm);
+    "a pair of 7205B".clone_into(&mut scene.name);
+    scene.rows = vec![row(first, -width / 2.0), row(-first, width / 2.0)];
+    scene.outer_ring.width = Some(2.0 * width);
+    scene.inner_ring.width = Some(2.0 * width);
+    // Damped like its places: 300 N s/m at half of the pitch diameter.
+    let tilts = Some(Mount::Spring {
+        stiffness: 0.0,
+        damping: 0.1,
+    });
+    let support = &mut scene.inner_ring.support;
+    (support.tilt_x, support.tilt_y) = (tilts, tilts);
+    if let Some(load) = scene.loads.get_mut("radial") {
+        load.at = Some([0.0, 0.0, -overhang]);
+    }
+    scene
+}
+
 /// A deep-groove bearing 6205 (SKF 6205-2RS of the Case Western Reserve data), healthy.
 ///
 /// `radial_load` and `axial_load` in newtons on the inner ring, along −y and +z; `speed_rpm` of the inner ring.

@@ -50,6 +50,8 @@ CALLS: list[tuple[str, Callable[[Any], object], tuple[Any, ...]]] = [
     ("speed_rpm", lambda n: br.bearing("6205", speed_rpm=n), (None, "x", math.inf)),
     ("axial_load", br.presets.wheel_bearing, (None, "x", math.nan)),
     ("lateral", br.presets.cornering_wheel, (None, "x", math.inf)),
+    ("radial_load", br.presets.angular_contact_pair, (None, "x", math.inf)),
+    ("arrangement", lambda a: br.presets.angular_contact_pair(arrangement=a), (None, "tandem", 1)),
     ("speed_rpm", lambda n: br.presets.deep_groove_6205(speed_rpm=n), (None, "x", math.nan)),
     ("logger.fs", lambda fs: br.measure(X, fs=1e-3, logger=measuring.Logger(fs=fs)), (12_000.0,)),
     ("fs", lambda t: br.measure(X, fs=FS, sensor=measuring.Sensor(lower_limit=t)), (1e-9,)),
