@@ -15,6 +15,7 @@ const STANDING: f64 = 10.0 / 3.0;
 
 /// Static loads while the cage turns past rings that stand.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct LoadDistribution {
     /// How far the cage has turned from the scene's start angles at each position \[rad\].
     pub turn: Vec<f64>,
@@ -30,6 +31,7 @@ pub struct LoadDistribution {
 /// stands, and its most loaded places decide, (mean of Q^{10/3})^{3/10}. ISO/TS 16281, section on ball bearings, and
 /// T. A. Harris, *Rolling Bearing Analysis*, ch. 18, after G. Lundberg, A. Palmgren 1947.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct EquivalentLoads {
     /// Of the outer race.
     pub outer: f64,

@@ -61,6 +61,7 @@ const ENGAGED: f64 = 1e-7;
 
 /// Static state of a bearing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Equilibrium {
     /// Displacement of the outer ring x, y, z \[m\].
     pub outer: [f64; 3],
@@ -101,6 +102,7 @@ impl Equilibrium {
 
 /// Static state of a ball.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct BallEquilibrium {
     /// Row, from 0.
     pub row: usize,
@@ -120,6 +122,7 @@ pub struct BallEquilibrium {
 
 /// Static state of a contact.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ContactEquilibrium {
     /// Normal force \[N\].
     pub load: f64,

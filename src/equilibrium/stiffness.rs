@@ -17,6 +17,7 @@ use crate::scene::Scene;
 /// positive on the diagonal. The balls follow the rings, each free along its radius and along z at the angle where
 /// the cage holds it. Supports and gravity are no part of it; damping and friction neither.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Stiffness {
     /// Inner ring against a held outer ring: forces and moves of the inner ring along x, y, z \[N/m\].
     pub inner: [[f64; 3]; 3],

@@ -28,6 +28,7 @@ const EVALUATIONS: usize = 60;
 
 /// What a run costs on one thread of this machine, sampling aside.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Cost {
     /// Evaluations of the right-hand side for a simulated second.
     pub evaluations: f64,

@@ -10,6 +10,7 @@ use crate::scene::NormalLaw;
 
 /// How far the heaviest contact gives way at the start, beside Hertz's theory.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct LawExplanation {
     /// The law.
     pub law: NormalLaw,

@@ -31,6 +31,7 @@ pub use variants::Variant;
 
 /// What a run of a scene does.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Explanation {
     /// Name of the scene.
     pub name: String,
@@ -71,6 +72,7 @@ pub struct Explanation {
 
 /// How the contacts of a race are evaluated.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct ContactKind {
     /// Such as `row 0, outer race`.
     pub race: String,

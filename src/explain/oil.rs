@@ -16,6 +16,7 @@ const CELSIUS: f64 = 273.15;
 
 /// The oil of a row, and its films.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct OilExplanation {
     /// Row, from 0.
     pub row: usize,

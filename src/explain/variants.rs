@@ -12,6 +12,7 @@ use crate::start::{Start, start};
 
 /// The same scene with one change.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Variant {
     /// What is changed.
     pub change: String,

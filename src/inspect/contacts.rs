@@ -5,6 +5,7 @@ use crate::model::{Model, Race};
 
 /// A contact in a few numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ContactSummary {
     /// Magnitude of the normal force, elastic and damping \[N\].
     pub load: f64,
@@ -20,6 +21,7 @@ pub struct ContactSummary {
 
 /// The force of one slice.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct SliceForce {
     /// Place along the ball, from its centre \[m\].
     pub zeta: f64,

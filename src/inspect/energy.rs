@@ -7,6 +7,7 @@ use crate::model::{Dof, Model, Race};
 
 /// Energies \[J\] and dissipated powers \[W\]. Loads and drive do work on top of these.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Energy {
     /// Of all bodies that move.
     pub kinetic: f64,

@@ -7,6 +7,7 @@ use crate::scene::{Doubt, FilmJudged, RingName};
 
 /// The film between a row's balls and one race, at its reference load and speed; with a steady drive that of a whole run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct RaceFilm {
     /// Row, from 0.
     pub row: usize,

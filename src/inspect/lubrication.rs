@@ -8,6 +8,7 @@ use crate::model::{Dof, Model, Race};
 
 /// Films and losses of a row: `[outer, inner]` race.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Lubrication {
     /// Central films h \[m\]; not a number without an oil that does something.
     pub film: [f64; 2],

@@ -19,6 +19,7 @@ const SMALLEST_ULPS: f64 = 16.0;
 
 /// Where an integration ended.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Solution {
     /// The time reached: the end of the span unless interrupted.
     pub t: f64,

@@ -9,6 +9,7 @@ const STIFF_SHARE: f64 = 3.25 / 3.3066;
 
 /// What an integration has cost and met so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Statistics {
     /// Steps accepted.
     pub accepted: usize,

@@ -7,6 +7,7 @@ use crate::scene::{Mount, Ring, Row, Scene};
 
 /// A body compiled.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Body {
     /// Its name, as in the names of the states.
     pub name: String,
@@ -37,6 +38,7 @@ impl Body {
 
 /// How one direction of a body moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Degree {
     /// By the forces on it, with a spring and a damper to the frame (both 0 when free).
     Free {

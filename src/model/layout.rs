@@ -84,6 +84,7 @@ impl From<Race> for RingName {
 
 /// What a body is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum BodyKind {
     /// The ring that carries a race.
     Ring(Race),

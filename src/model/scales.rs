@@ -8,6 +8,7 @@ use crate::scene::Row;
 
 /// Scales that tolerances and the step cap follow.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Scales {
     /// Estimated load of the heaviest loaded ball \[N\].
     pub load: f64,

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 /// What a run with a requested accuracy chose, and what it expects of that.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Accuracy {
     /// Relative error of the outer ring's vertical acceleration that was asked for, root mean square over the
     /// predictable horizon of some milliseconds from a given state.

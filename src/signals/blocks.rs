@@ -16,6 +16,7 @@ const SIZE: usize = 16 << 20;
 
 /// Consecutive samples of a record, which are what they are in a record that is kept whole.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Block {
     /// Times k / fs, going on where the block before has ended \[s\].
     pub t: Vec<f64>,

@@ -39,6 +39,7 @@ pub use warning::Warning;
 
 /// What a run gives.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Signals {
     /// Sampling rate \[Hz\].
     pub fs: f64,
@@ -68,6 +69,7 @@ impl Signals {
 
 /// Effort and mishaps of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Statistics {
     /// Steps accepted.
     pub accepted: usize,
@@ -121,6 +123,7 @@ pub struct Statistics {
 
 /// What produced the signals.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Provenance {
     /// Version of this crate.
     pub version: &'static str,
@@ -170,6 +173,7 @@ pub struct Provenance {
 
 /// One signal.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Column {
     /// `<probe>.<quantity>`.
     pub name: String,
@@ -181,6 +185,7 @@ pub struct Column {
 
 /// The force of one slice at one time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SliceRow {
     /// The probe that asked.
     pub probe: String,

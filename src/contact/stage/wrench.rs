@@ -87,13 +87,9 @@ impl<const N: usize> StageWrench<N> {
         turns: [Lanes; 2],
         (sin, cos): (Lanes, Lanes),
     ) {
-        let Slope {
-            force,
-            meridian,
-            slip: [tt, tm, mm],
-        } = of;
-        let by_slip = [(*tt, *tm), (*tm, *mm)];
-        let rubbing = [force[1], *meridian];
+        let [tt, tm, mm] = of.slip;
+        let by_slip = [(tt, tm), (tm, mm)];
+        let rubbing = [of.force[1], of.meridian];
         for k in 0..2 {
             let at = AXIAL + k;
             let (along, across) = by_slip[k];
