@@ -7,21 +7,21 @@
 - film: thickness and λ over speed and over load, beside Hamrock and Dowson's film without heat and starvation;
 - skid: the cage of a light fast bearing, over the oil's temperature;
 - ringing: decay after the blows of a spall, dry and with oil, with and without the film's damping;
-- paper: the wheel bearing's three load cases, dry and with oil.
+- paper: the wheel bearing's three load cases, dry and with oil;
+- cost: of a simulated second, dry and with oil.
 """
 
 from __future__ import annotations
 
-import argparse
 import itertools
 import math
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-import matplotlib as mpl
 import numpy as np
 import polars as pl
+import studies
+from studies import Study, cost_of, draw_costs
 
 import ballrace as br
 from ballrace._ellipse import axis_ratio
@@ -31,14 +31,9 @@ from ballrace.paper.simulations import SETTLED, dynamic
 from ballrace.scene import Lubricant, MotionProbe, OilLayer, Row
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
-
-mpl.use("Agg")
-from matplotlib import pyplot as plt
 
 OIL = "vg68"
 CELSIUS, LOAD, RPM = 55.0, 500.0, 1797.0
@@ -299,37 +294,34 @@ def draw_paper(table: pl.DataFrame, figure: Figure) -> None:
     panels[0].legend(frameon=False)
 
 
-STUDIES: dict[str, tuple[Callable[[], pl.DataFrame], Callable[[pl.DataFrame, Figure], None]]] = {
-    "torque": (torque, draw_torque),
-    "film": (film, draw_film),
-    "skid": (skid, draw_skid),
-    "ringing": (ringing, draw_ringing),
-    "paper": (paper, draw_paper),
+# Cost
+
+
+def cost() -> pl.DataFrame:
+    """Return what a simulated second costs, dry and with oil, by the default method and another."""
+    presets = {
+        "wheel bearing": br.presets.wheel_bearing(3000.0),
+        "6205": br.presets.deep_groove_6205(LOAD, 0.0, RPM),
+    }
+    cases = []
+    for name, dry in presets.items():
+        oiled = dry.replace({"lubricant": Lubricant.named(OIL, temperature_c=CELSIUS)})
+        cases += [
+            (f"{name}, dry", dry),
+            (f"{name}, oil", oiled),
+            (f"{name}, oil, dormand-prince", oiled.replace({"solver.method": "dormand-prince"})),
+        ]
+    return pl.DataFrame([cost_of(case, scene, 0.05) for case, scene in cases])
+
+
+STUDIES = {
+    "torque": Study(torque, draw_torque),
+    "film": Study(film, draw_film),
+    "skid": Study(skid, draw_skid),
+    "ringing": Study(ringing, draw_ringing),
+    "paper": Study(paper, draw_paper),
+    "cost": Study(cost, draw_costs),
 }
 
-
-def main() -> None:
-    """Run, write and draw."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER")
-    parser.add_argument("--only", nargs="+", choices=STUDIES, default=list(STUDIES))
-    options = parser.parse_args()
-    options.output.mkdir(parents=True, exist_ok=True)
-    for name in options.only:
-        measure, draw = STUDIES[name]
-        table = measure()
-        table.write_csv(options.output / f"lubrication_{name}.csv", float_precision=5)
-        figure = plt.figure(figsize=(8.5, 4.0), layout="constrained")
-        draw(table, figure)
-        for axes in figure.axes:
-            axes.grid(color="0.9")
-            axes.set_axisbelow(True)
-            axes.spines[["top", "right"]].set_visible(False)
-        figure.savefig(options.output / f"lubrication_{name}.svg")
-        plt.close(figure)
-        with pl.Config(tbl_rows=40, tbl_cols=-1):
-            print(name, table)
-
-
 if __name__ == "__main__":
-    main()
+    studies.run("lubrication", __doc__, STUDIES)

@@ -9,24 +9,24 @@
 - pivoting: how the races share it, over load, and with the conformities exchanged;
 - wheel: the wheel bearing's load at the bearing's centre and at the tyre, and what a spall on its outer race says;
 - whirl: of a rotor on a tilt spring, and precession of a free one, over speed;
-- tumble: a small cap on a ball whose axis is held, and on one that spins freely.
+- tumble: a small cap on a ball whose axis is held, and on one that spins freely;
+- cost: of a simulated second with axial and free spin, parallel and leaning rings.
 """
 
 from __future__ import annotations
 
-import argparse
 import itertools
 import math
 import warnings
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-import matplotlib as mpl
 import numpy as np
 import polars as pl
+import studies
 from one_ball import EXPLICIT, RACES, ball_of_218, spun
 from scipy.special import ellipe
+from studies import Study, cost_of, draw_costs
 
 import ballrace as br
 from ballrace._ellipse import axis_ratio
@@ -35,6 +35,7 @@ from ballrace.paper.simulations import dynamic
 from ballrace.scene import (
     Coulomb,
     Defect,
+    Lubricant,
     Moment,
     MotionProbe,
     Ramp,
@@ -49,14 +50,9 @@ from ballrace.scene import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
-
-mpl.use("Agg")
-from matplotlib import pyplot as plt
 
 SPINS: tuple[Spin, ...] = ("axial", "free")
 COLOURS = {"free": "#0b6e99", "axial": "#d1495b", "grey": "#9aa5b1"}
@@ -407,40 +403,42 @@ def draw_tumble(table: pl.DataFrame, figure: Figure) -> None:
     lower.set(xlabel="time, s")
 
 
-STUDIES: dict[str, tuple[Callable[[], pl.DataFrame], Callable[[pl.DataFrame, Figure], None]]] = {
-    "orbit": (orbit, draw_orbit),
-    "torque": (torque, draw_torque),
-    "pivoting": (pivoting, draw_pivoting),
-    "wheel": (wheel, draw_wheel),
-    "whirl": (whirl, draw_whirl),
-    "tumble": (tumble, draw_tumble),
+# Cost
+
+
+def cost() -> pl.DataFrame:
+    """Return what a simulated second costs with axial and with free spin, and with the load at the tyre."""
+    thrust = replace(
+        br.bearing("7205B", radial_load=0.0, axial_load=2000.0, speed_rpm=RPM), gravity=(0.0, 0.0, 0.0),
+        probes={"outer": MotionProbe(body="outer")},
+    )  # fmt: skip
+    soft = Coulomb(coefficient=0.05, slip_speed=SLIP_SPEED)
+    free = replace(thrust, spin="free")
+    oiled = free.replace({"lubricant": Lubricant.named("vg68", temperature_c=55.0)})
+    return pl.DataFrame([
+        cost_of("7205B, axial spin", thrust, 0.05),
+        cost_of("free spin", free, 0.05),
+        cost_of("free spin, dormand-prince", replace(free, solver=EXPLICIT), 0.05),
+        cost_of("free spin, slip speed 0.01 m/s", replace(free, friction=soft), 0.05),
+        cost_of("the same, dormand-prince", replace(free, friction=soft, solver=EXPLICIT), 0.02),
+        cost_of("free spin in oil", oiled, 0.02),
+        cost_of("the same, dormand-prince ", replace(oiled, solver=EXPLICIT), 0.005),
+        cost_of("wheel bearing, parallel rings", br.presets.wheel_bearing(2100.0), 0.05),
+        cost_of("the load at the tyre", br.presets.cornering_wheel(0.3), 0.05),
+    ])  # fmt: skip
+
+
+STUDIES = {
+    "orbit": Study(orbit, draw_orbit),
+    "torque": Study(torque, draw_torque),
+    "pivoting": Study(pivoting, draw_pivoting),
+    "wheel": Study(wheel, draw_wheel),
+    "whirl": Study(whirl, draw_whirl),
+    "tumble": Study(tumble, draw_tumble),
+    "cost": Study(cost, draw_costs),
 }
 
-
-def main() -> None:
-    """Run, write and draw."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER")
-    parser.add_argument("--only", nargs="+", choices=STUDIES, default=list(STUDIES))
-    options = parser.parse_args()
-    options.output.mkdir(parents=True, exist_ok=True)
+if __name__ == "__main__":
     # A spall that no ball touches is an answer here, and so is a contact beyond the static rating.
     warnings.simplefilter("ignore", br.SceneWarning)
-    for name in options.only:
-        measure, draw = STUDIES[name]
-        table = measure()
-        table.write_csv(options.output / f"tilt_{name}.csv", float_precision=5)
-        figure = plt.figure(figsize=(8.5, 4.0), layout="constrained")
-        draw(table, figure)
-        for axes in figure.axes:
-            axes.grid(color="0.9")
-            axes.set_axisbelow(True)
-            axes.spines[["top", "right"]].set_visible(False)
-        figure.savefig(options.output / f"tilt_{name}.svg")
-        plt.close(figure)
-        with pl.Config(tbl_rows=40, tbl_cols=-1):
-            print(name, table)
-
-
-if __name__ == "__main__":
-    main()
+    studies.run("tilt", __doc__, STUDIES)
