@@ -70,6 +70,9 @@ def draw_costs(table: pl.DataFrame, figure: Figure) -> None:
         (left, "seconds", "processor time for a simulated second, s"),
         (right, "evaluations", "evaluations for a simulated second"),
     ):
-        axes.barh(table["case"], table[column], color="#0b6e99")
+        bars = axes.barh(table["case"], table[column], color="#0b6e99")
+        axes.bar_label(bars, fmt="{:,.3g}", padding=3, fontsize=8)
         axes.set(xscale="log", xlabel=label)
+        axes.margins(x=0.2)
+        axes.xaxis.set_minor_formatter("")
     left.invert_yaxis()
