@@ -148,7 +148,7 @@ fn unusable_numbers_are_refused_by_name() {
         ("reference_speed", json!(0.0), "above 0"),
         ("reference_load", json!(-5.0), "above 0"),
         ("fill", json!(1.1), "from 0 to 1"),
-        ("film", json!(1), "boolean"),
+        ("film", json!(1), "true or false"),
         ("base", json!("water"), "ester"),
         ("oil", json!("vg46"), "vg32, vg68, vg100, vg220, fva3"),
     ];
@@ -188,7 +188,7 @@ fn half_a_lubricant_is_refused() {
     let [path, _, why] = refused(with(json!({"oil": "vg68"})));
     assert_eq!(path, "lubricant");
     assert!(
-        why.contains("`temperature` [K] or `temperature_c` [°C]"),
+        why.contains(r#""temperature" [K] or "temperature_c" [°C]"#),
         "{why}"
     );
     let [path, _, why] = refused(with(vg68(&json!({"temperature_c": 55.0}))));

@@ -3,8 +3,8 @@
 use std::array::from_fn;
 
 use crate::contact::{
-    AXIAL, Around, PlaneVector, Raise, SlicePack, SlicePacking, StageContacts, StageElements,
-    StageWrench, in_contact,
+    AXIAL, Around, EightContacts, PlaneVector, Raise, SlicePack, SlicePacking, StageContacts,
+    StageElements, StageWrench, in_contact,
 };
 use crate::dynamics::{SideConstants, Touching, View};
 use crate::model::{BodyId, DOFS, Model, Race};
@@ -214,7 +214,8 @@ impl Task for FindElements<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) -> StageContacts {
-        let eight = self.constants[self.race].eight(self.class, self.contacts, self.view);
+        let mut eight = EightContacts::default();
+        self.constants[self.race].eight(self.class, self.contacts, self.view, &mut eight);
         let pair = &self.model.rows[self.class].pairs[self.race];
         let ring = &self.view.ring;
         let instructions = self.model.instructions;

@@ -93,7 +93,7 @@ impl SideConstants {
         }
     }
 
-    /// Eight contacts as they are seen.
+    /// Gathers eight contacts as they are seen, into place: they are too large to be handed on by value.
     // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
@@ -102,7 +102,8 @@ impl SideConstants {
         class: usize,
         contacts: &[Touching; LANES],
         view: &View<'_>,
-    ) -> EightContacts {
+        eight: &mut EightContacts,
+    ) {
         let ClassConstants {
             first,
             alike,
@@ -112,12 +113,10 @@ impl SideConstants {
         } = &self.classes[class];
         let ([x, y, z, _], v) = (view.q.directions(), view.v.directions());
         let q = [x, y, z];
-        let mut eight = EightContacts {
-            constants: *first,
-            wavy: *wavy,
-            film: *film,
-            ..EightContacts::default()
-        };
+        (eight.constants, eight.wavy) = (*first, *wavy);
+        if film.is_some() {
+            eight.film = *film;
+        }
         for (lane, contact) in contacts.iter().enumerate() {
             let of = &self.balls[contact.ball];
             if *alike {
@@ -142,7 +141,6 @@ impl SideConstants {
                 to[lane] = from[body];
             }
         }
-        eight
     }
 }
 
@@ -208,7 +206,8 @@ impl<const LEAN: bool> Task for EightOnCurve<'_, LEAN> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let Self(of, contour) = self;
-        let eight = of.contacts();
+        let mut eight = EightContacts::default();
+        of.gather(&mut eight);
         let Eight { group, model, .. } = of;
         let (pair, view) = (
             &model.rows[group.class].pairs[group.race],
@@ -267,16 +266,15 @@ impl<const LEAN: bool> Eight<'_, LEAN> {
     // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
-    fn contacts(&self) -> EightContacts {
+    fn gather(&self, eight: &mut EightContacts) {
         let group = &self.group;
         let constants = &self.constants[group.race];
         let view = &self.views[group.race];
-        let mut eight = constants.eight(group.class, &group.contacts, view);
+        constants.eight(group.class, &group.contacts, view, eight);
         // Lanes left over must not count as pulling.
         for lane in group.count..LANES {
             eight.constants.radius[lane] *= 0.5;
         }
-        eight
     }
 }
 
@@ -287,7 +285,8 @@ impl<const LEAN: bool> Task for Eight<'_, LEAN> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
-        let eight = self.contacts();
+        let mut eight = EightContacts::default();
+        self.gather(&mut eight);
         let group = self.group;
         let race = group.race;
         let pair = &self.model.rows[group.class].pairs[race];
