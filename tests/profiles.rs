@@ -422,7 +422,7 @@ fn bad_races_are_named() {
         s.rows[0].inner_profile = None;
         s.rows[0].inner_shoulder_radius = Some(1e-4);
     });
-    refused("defects.d.length", &|s| {
+    refused("defects.d.axial_offset", &|s| {
         let far = spall(Surface::OuterRace).at_offset(12e-3);
         s.defects.insert("d".to_owned(), far);
     });

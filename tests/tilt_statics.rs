@@ -304,7 +304,7 @@ fn a_pair_back_to_back_is_stiffer_than_face_to_face() {
         let mut scene = presets::angular_contact_pair(arrangement, 500.0, 300.0, 2900.0);
         scene.gravity = [0.0; 3];
         let found = equilibrium(&scene).unwrap();
-        let moment = found.inner_moment[0].abs();
+        let moment = found.outer_moment[0].abs();
         assert!((moment - 30.0).abs() < 0.1, "{arrangement:?}: {moment} N m");
         let heaviest = found
             .balls
