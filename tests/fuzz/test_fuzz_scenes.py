@@ -191,7 +191,6 @@ def test_any_path_is_replaced_or_refused(base: str, changes: dict[str, object]) 
 
 
 TO_MEND = {
-    "oil_at_the_smallest_speed.json": "a reference speed below 1e-308 rad/s gives loads that are no numbers",
     "field_without_a_name.toml": "the message of a field without a name begins with an empty path",
     "list_for_a_scene.json": "the core takes a list for a struct, its items in the order of the fields",
 }
