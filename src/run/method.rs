@@ -51,7 +51,7 @@ pub(crate) fn check(model: &Model) -> error::Result<()> {
     let allowed = if model.leans() {
         "adams or an explicit one where a ring may tilt: implicit steps know parallel rings only"
     } else if model.balls_turn() {
-        "an explicit one where balls spin freely: implicit steps know spin about the axis only"
+        "adams or an explicit one where balls spin freely: implicit steps know spin about the axis only"
     } else {
         return Ok(());
     };

@@ -19,6 +19,9 @@ fn in_words(expected: &str) -> String {
         "a sequence" => "a list".to_owned(),
         "a map" => "a table".to_owned(),
         "string or map" => "a name in quotes, or a table".to_owned(),
+        "map with a single key" => "a table of one name".to_owned(),
+        "unit" => "the name alone, in quotes".to_owned(),
+        "newtype variant" => "a value after the name: { name = … }".to_owned(),
         _ if expected.starts_with("struct ") => "a table".to_owned(),
         _ => match of_length {
             Some(length) => format!("a list of {length}"),
@@ -44,6 +47,14 @@ mod tests {
             (
                 "unknown variant `x`, expected `outer` or `inner`",
                 "\"outer\" or \"inner\"",
+            ),
+            (
+                "invalid type: integer `5`, expected unit",
+                "the name alone, in quotes",
+            ),
+            (
+                "invalid value: map, expected map with a single key",
+                "a table of one name",
             ),
             ("missing field `row`", "missing field \"row\""),
             (

@@ -75,12 +75,7 @@ fn angles_and_places(path: &str, row: &Row) -> Result<()> {
         return Err(Error::scene(at("side"), row.side, "+1 or -1"));
     }
     let d = row.ball_diameter;
-    within(
-        &at("axial_position"),
-        row.axial_position,
-        -100.0..=100.0,
-        "m",
-    )?;
+    check::place(&at("axial_position"), row.axial_position)?;
     within(&at("clearance"), row.clearance, -d / 10.0..=d / 2.0, "m")?;
     within(
         &at("axial_preload"),

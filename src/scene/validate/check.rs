@@ -41,6 +41,11 @@ pub(super) fn within(path: &str, value: f64, range: RangeInclusive<f64>, unit: &
     Err(Error::scene(path, value, allowed))
 }
 
+/// Of a place of a bearing or its shaft \[m\].
+pub(super) fn place(path: &str, value: f64) -> Result<()> {
+    within(path, value, -100.0..=100.0, "m")
+}
+
 /// Of a length \[m\].
 pub(super) fn below(path: &str, value: f64, limit: f64, what: &str) -> Result<()> {
     if value < limit {

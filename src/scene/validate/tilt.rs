@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix6;
 
-use super::check::{self, entry_name, positive, within};
+use super::check::{self, entry_name, place, positive, within};
 use super::load::{direction, time_function};
 use crate::error::{Error, Result};
 use crate::scene::{CoupledSupport, Drive, Mount, Ring, Scene};
@@ -19,8 +19,8 @@ pub(super) fn ring(path: &str, ring: &Ring, is_driven: bool) -> Result<()> {
     if let Some(inertia) = ring.transverse_inertia {
         positive(&at("transverse_inertia"), inertia, "kg m²")?;
     }
-    if let Some(place) = ring.centre_of_mass {
-        within(&at("centre_of_mass"), place, -100.0..=100.0, "m")?;
+    if let Some(centre) = ring.centre_of_mass {
+        place(&at("centre_of_mass"), centre)?;
     }
     if let Some([x, y]) = ring.tilt
         && (!(x.is_finite() && y.is_finite()) || x.hypot(y) > FURTHEST)
@@ -42,13 +42,7 @@ pub(super) fn ring(path: &str, ring: &Ring, is_driven: bool) -> Result<()> {
 
 /// A coupled support.
 fn support(path: &str, coupled: &CoupledSupport, is_driven: bool) -> Result<()> {
-    let place = coupled.axial_position;
-    within(
-        &format!("{path}.axial_position"),
-        place,
-        -100.0..=100.0,
-        "m",
-    )?;
+    place(&format!("{path}.axial_position"), coupled.axial_position)?;
     for (field, rows) in [
         ("stiffness", coupled.stiffness),
         ("damping", coupled.damping),
@@ -90,19 +84,14 @@ pub(super) fn loads(scene: &Scene) -> Result<()> {
         )?;
     }
     for (name, load) in &scene.loads {
-        for (i, place) in load.at.unwrap_or_default().into_iter().enumerate() {
-            within(&format!("loads.{name}.at[{i}]"), place, -100.0..=100.0, "m")?;
+        for (i, at) in load.at.unwrap_or_default().into_iter().enumerate() {
+            place(&format!("loads.{name}.at[{i}]"), at)?;
         }
     }
     for (name, unbalance) in &scene.unbalances {
-        let place = unbalance.axial_position.unwrap_or_default();
         let path = format!("unbalances.{name}");
-        within(
-            &format!("{path}.axial_position"),
-            place,
-            -100.0..=100.0,
-            "m",
-        )?;
+        let offset = unbalance.axial_position.unwrap_or_default();
+        place(&format!("{path}.axial_position"), offset)?;
         let is_driven = matches!(scene.drive, Drive::Speed(_));
         let (ring, turns) = match unbalance.ring {
             crate::scene::RingName::Outer => (
