@@ -69,7 +69,16 @@ fn a_right_hand_side_in_oil_allocates_nothing() {
 /// Analytic: counted by the allocator, once the memory of implicit stages is there.
 #[test]
 fn an_implicit_stage_allocates_nothing() {
-    let model = compile(&presets::wheel_bearing(3000.0)).unwrap();
+    let mut scene = presets::wheel_bearing(3000.0);
+    implicit_stage_allocates_nothing(&scene);
+    let support = &mut scene.inner_ring.support;
+    (support.tilt_x, support.tilt_y) = (Some(Mount::Free), Some(Mount::Free));
+    scene.spin = Some(Spin::Free);
+    implicit_stage_allocates_nothing(&scene);
+}
+
+fn implicit_stage_allocates_nothing(scene: &Scene) {
+    let model = compile(scene).unwrap();
     let y = start(&model, &Start::Equilibrium).unwrap();
     let base = &y[model.dim() / 2..];
     let mut dynamics = Dynamics::new(&model);

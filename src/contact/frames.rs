@@ -182,12 +182,6 @@ impl LeaningRing {
         ball.place() - self.centre
     }
 
-    /// What a moment across the ring's axis, in its frame, does about z of the scene: there a ball's caps turn with it.
-    pub fn across(&self, moment: &V2) -> f64 {
-        let [x, y] = self.rotation.frame.tilt;
-        x * moment.y - y * moment.x
-    }
-
     /// A ball and this ring, both as [`Self::see`] tells them; the ring's mark stands at θ.
     pub fn facing(&self, ball: &Motion) -> [Motion; 2] {
         let place = [ball.centre.x, ball.centre.y, ball.z];
@@ -256,6 +250,11 @@ impl LeaningRing {
         [[x, y, z + self.offset], velocity, spin]
     }
 
+    /// What turning about its centre of mass does to the origin of its frame, both in that frame \[m/s\].
+    pub fn moved_at_origin(&self, turning: &Vector3<f64>) -> Vector3<f64> {
+        turning.cross(&(Vector3::z() * -self.offset))
+    }
+
     /// A force on this ring and a moment about the origin of its frame, in the scene's frame and about the centre of mass.
     pub fn about_centre(&self, force: &Vector3<f64>, moment: &Vector3<f64>) -> [Vector3<f64>; 2] {
         let arm = Vector3::z() * -self.offset;
@@ -271,6 +270,16 @@ impl LeaningRing {
 pub(crate) fn attitude_rates(turning: &Vector3<f64>, [w, x, y, z]: [f64; 4]) -> [f64; 4] {
     let rates = Quaternion::from_imag(turning * 0.5) * Quaternion::new(w, x, y, z);
     [rates.w, rates.i, rates.j, rates.k]
+}
+
+/// How their rates change, ½ ω̇ e − ¼ ω² e.
+pub(crate) fn attitude_accelerations(
+    rates: &Vector3<f64>,
+    turning: &Vector3<f64>,
+    e: [f64; 4],
+) -> [f64; 4] {
+    let (found, square) = (attitude_rates(rates, e), 0.25 * turning.norm_squared());
+    std::array::from_fn(|i| found[i] - square * e[i])
 }
 
 /// Centrifugal force on a mass \[kg\] that rests in the cage's frame, over its radius \[N/m\].

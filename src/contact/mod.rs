@@ -38,7 +38,7 @@ pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz
 pub use fault::Fault;
 pub(crate) use fault::{Sight, Sighted, Toward};
 pub use frames::Motion;
-pub(crate) use frames::{LeaningRing, attitude_rates, centrifugal};
+pub(crate) use frames::{LeaningRing, attitude_accelerations, attitude_rates, centrifugal};
 pub use laws::elastic::{elliptic, hertz, iso16281};
 pub use laws::film;
 pub use laws::film::Oiled;

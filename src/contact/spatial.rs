@@ -7,7 +7,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Aside, OilTouch, Tangent, Touch, V2, cross};
+use super::{Aside, LeaningRing, OilTouch, Tangent, Touch, V2, cross};
 use crate::tilt::Frame;
 
 /// Force on a ball \[N\] and moment about its centre \[N m\], in the frame of its ring.
@@ -39,6 +39,20 @@ impl Wrench {
             force: out(&self.force),
             moment: out(&self.moment),
         }
+    }
+
+    /// The same in the scene's frame, on a ball before a ring that may lean: force, and moment about the ball's centre. Balls that do not
+    /// spin freely turn about the ring's axis; what acts on their caps across it, in the ring's frame, turns with them about z of the
+    /// scene.
+    pub fn on_ball(&self, ring: &LeaningRing, on_caps: &V2) -> [Vector3<f64>; 2] {
+        let frame = &ring.rotation.frame;
+        let moment = if ring.balls_turn() {
+            frame.to_scene(&self.moment)
+        } else {
+            let [x, y] = frame.tilt;
+            self.moment + Vector3::z() * (x * on_caps.y - y * on_caps.x)
+        };
+        [frame.to_scene(&self.force), moment]
     }
 
     /// The moment about the ring's own point that the ball stands at a place from: what the opposite of this does there.

@@ -6,10 +6,25 @@
 use nalgebra::Vector3;
 use rayon::ThreadPool;
 
-use super::batch::{Batch, RingView};
-use crate::contact::attitude_rates;
+use super::batch::{Batch, OnRings, RingView, View};
+use crate::contact::{LeaningRing, attitude_accelerations};
 use crate::forces::{self, State, Table, drive};
 use crate::model::{BodyId, Degree, Dof, Model, Race};
+
+/// Contacts that were found at a state and are held there while velocities change.
+pub(crate) trait HeldContacts {
+    /// Adds their forces to those on all bodies, where rings stand parallel.
+    fn add_to(&self, forces: &mut Table);
+
+    /// The same where rings may lean: on balls in the scene's frame, with moments about x and y on those that spin freely; returns what
+    /// acts on the rings.
+    fn add_leaning(
+        &self,
+        views: &[View<'_>; 2],
+        forces: &mut Table,
+        across: &mut [[f64; 2]],
+    ) -> OnRings;
+}
 
 /// What an evaluation knows of what turns about x and y.
 #[derive(Debug)]
@@ -51,13 +66,36 @@ impl Leaning {
         let views = RingView::look(&mut self.rings, model, state);
         let on_rings = contacts.add_leaning(forces, model, &views, pool);
         contacts.moments_on_balls(&mut self.across);
+        self.carry(&on_rings, forces);
+        on_rings.map(|[_, moment]| moment.z)
+    }
+
+    /// Adds the forces of contacts that are held, at the state that was looked at last.
+    pub fn add_held(&mut self, held: &impl HeldContacts, state: &State, forces: &mut Table) {
+        self.across.fill([0.0; 2]);
+        let views = self.rings.each_ref().map(|ring| ring.view(state));
+        let on_rings = held.add_leaning(&views, forces, &mut self.across);
+        self.carry(&on_rings, forces);
+    }
+
+    /// Adds what contacts do to the rings.
+    fn carry(&mut self, on_rings: &OnRings, forces: &mut Table) {
         for race in Race::BOTH {
             let [force, moment] = &on_rings[race];
             let [force, moment] = self.rings[race].ring.about_centre(force, moment);
             forces.add(race.ring(), &[force.x, force.y, force.z, 0.0]);
             self.moments[race] = moment;
         }
-        on_rings.map(|[_, moment]| moment.z)
+    }
+
+    /// Turns all balls of a state into the frames of both rings.
+    pub fn look(&mut self, model: &Model, state: &State) {
+        RingView::look(&mut self.rings, model, state);
+    }
+
+    /// What contacts saw when this last looked at a state.
+    pub fn views<'a>(&'a self, state: &'a State) -> [View<'a>; 2] {
+        self.rings.each_ref().map(|ring| ring.view(state))
     }
 
     /// Moments about the rings' centres of mass in the last evaluation, in the scene's frame \[N m\].
@@ -86,16 +124,9 @@ impl Leaning {
         }
         for race in Race::BOTH {
             let ring = race.ring();
-            let spin = match model.bodies[ring].degrees[Dof::Theta] {
-                Degree::Free { .. } => None,
-                Degree::Fixed => Some(0.0),
-                Degree::Driven => drive::acceleration(model, t),
-            };
-            let held = |dof| (!layout.has(ring, dof)).then_some(0.0);
-            let prescribed = [held(Dof::TiltX), held(Dof::TiltY), spin];
-            let (inertia, moment) = (&model.rings[race].inertia, &self.moments[race]);
-            let rotation = &self.rings[race].ring.rotation;
-            let found = rotation.accelerations(inertia, moment, &prescribed);
+            let (of, moment) = (&self.rings[race].ring, &self.moments[race]);
+            let driven = drive::acceleration(model, t);
+            let found = turning_accelerations(model, race, of, moment, driven);
             for (dof, found) in [Dof::TiltX, Dof::TiltY, Dof::Theta].into_iter().zip(found) {
                 if layout.has(ring, dof) {
                     accelerations[layout.at(ring, dof)] = found;
@@ -105,7 +136,28 @@ impl Leaning {
     }
 }
 
-/// Writes how the rates of a ball's Euler parameters change, ë = ½ ω̇ e − ¼ ω² e, once its angular acceleration is there.
+/// Accelerations of a ring's tilts and of its spin under a moment about its centre of mass \[N m\], with that of a driven spin
+/// \[rad/s²\].
+pub(crate) fn turning_accelerations(
+    model: &Model,
+    race: Race,
+    ring: &LeaningRing,
+    moment: &Vector3<f64>,
+    driven: Option<f64>,
+) -> [f64; 3] {
+    let spin = match model.degree(race, Dof::Theta) {
+        Degree::Free { .. } => None,
+        Degree::Fixed => Some(0.0),
+        Degree::Driven => Some(driven.unwrap_or_default()),
+    };
+    let layout = model.layout();
+    let held = |dof| (!layout.has(race.ring(), dof)).then_some(0.0);
+    let prescribed = [held(Dof::TiltX), held(Dof::TiltY), spin];
+    let inertia = &model.rings[race].inertia;
+    ring.rotation.accelerations(inertia, moment, &prescribed)
+}
+
+/// Writes how the rates of a ball's Euler parameters change, once its angular acceleration is there.
 fn tumble(model: &Model, state: &State, ball: BodyId, accelerations: &mut [f64]) {
     let layout = model.layout();
     let motion = state.motion(ball);
@@ -114,9 +166,8 @@ fn tumble(model: &Model, state: &State, ball: BodyId, accelerations: &mut [f64])
     };
     let turning =
         [Dof::TurnX, Dof::TurnY, Dof::Theta].map(|dof| accelerations[layout.at(ball, dof)]);
-    let found = attitude_rates(&Vector3::from(turning), attitude);
-    let square = 0.25 * motion.turning().norm_squared();
-    for ((dof, found), e) in Dof::ATTITUDE.into_iter().zip(found).zip(attitude) {
-        accelerations[layout.at(ball, dof)] = found - square * e;
+    let found = attitude_accelerations(&turning.into(), &motion.turning(), attitude);
+    for (dof, found) in Dof::ATTITUDE.into_iter().zip(found) {
+        accelerations[layout.at(ball, dof)] = found;
     }
 }

@@ -25,12 +25,13 @@ use crate::integrate::System;
 use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Spring};
 use crate::reduction::Reduction;
 
-pub(crate) use batch::{Batch, Kind, RingView, SideConstants, Touching, View};
+pub(crate) use batch::{Batch, Kind, OnRings, RingView, SideConstants, Touching, View};
 pub use contributions::{contribution_names, contributions};
 
 use films::Films;
 use kept::Kept;
 use leaning::Leaning;
+pub(crate) use leaning::{HeldContacts, turning_accelerations};
 use planar::{Ground, Planar};
 use rolling::Rolling;
 
@@ -304,11 +305,32 @@ impl<'m> Dynamics<'m> {
         self.add_applied_forces(t);
     }
 
-    /// Sums the forces at a state with those of the contacts as `add_contacts` adds them.
-    pub(crate) fn sum_with(&mut self, t: f64, y: &[f64], add_contacts: impl FnOnce(&mut Table)) {
+    /// Takes over a state vector and looks at it with both rings.
+    pub(crate) fn look(&mut self, t: f64, y: &[f64]) {
         self.read(t, y);
+        if let Some(films) = &mut self.films {
+            films.follow(&self.state, &mut self.contacts);
+        }
+        if let Some(leaning) = &mut self.leaning {
+            leaning.look(self.model, &self.state);
+        }
+    }
+
+    /// How both rings see the state that was looked at last.
+    pub(crate) fn views(&self) -> [View<'_>; 2] {
+        match &self.leaning {
+            Some(leaning) => leaning.views(&self.state),
+            None => View::parallel(&self.state),
+        }
+    }
+
+    /// Sums the forces at the state that was looked at last, with contacts that are held.
+    pub(crate) fn sum_with(&mut self, t: f64, held: &impl HeldContacts) {
         self.forces.copy_from(&self.constant);
-        add_contacts(&mut self.forces);
+        match &mut self.leaning {
+            Some(leaning) => leaning.add_held(held, &self.state, &mut self.forces),
+            None => held.add_to(&mut self.forces),
+        }
         self.add_applied_forces(t);
     }
 
@@ -347,9 +369,20 @@ impl<'m> Dynamics<'m> {
         unbalance::add(self.model, t, state, forces);
     }
 
+    /// M⁻¹ F of all bodies.
+    pub(crate) fn accelerate(&self, t: f64, accelerations: &mut [f64]) {
+        let bodies = Layout::each_mut(accelerations).iter_mut();
+        for (acceleration, body) in bodies.zip(self.model.layout().bodies()) {
+            *acceleration = self.acceleration(t, body);
+        }
+        if let Some(leaning) = &self.leaning {
+            leaning.accelerate(self.model, t, &self.state, accelerations);
+        }
+    }
+
     /// M⁻¹ F of a body. Directions that are fixed do not accelerate; the driven ring's rotation accelerates as
     /// prescribed.
-    pub(crate) fn acceleration(&self, t: f64, body: BodyId) -> [f64; DOFS] {
+    fn acceleration(&self, t: f64, body: BodyId) -> [f64; DOFS] {
         let (force, mobility) = (self.forces.of(body), &self.model.mobility[body]);
         let mut acceleration = std::array::from_fn(|i| force[i] * mobility[i]);
         if body == BodyId::INNER
@@ -380,15 +413,7 @@ impl System for Dynamics<'_> {
         let (rates, accelerations) = dy.split_at_mut(half);
         rates.copy_from_slice(&y[half..]);
         match &self.order {
-            Order::Bodies => {
-                let bodies = Layout::each_mut(accelerations).iter_mut();
-                for (acceleration, body) in bodies.zip(self.model.layout().bodies()) {
-                    *acceleration = self.acceleration(t, body);
-                }
-                if let Some(leaning) = &self.leaning {
-                    leaning.accelerate(self.model, t, &self.state, accelerations);
-                }
-            }
+            Order::Bodies => self.accelerate(t, accelerations),
             Order::Kept(kept) => {
                 kept.accelerate((&self.forces, &self.mobility), accelerations);
                 if let (Some(i), Some(prescribed)) =

@@ -53,19 +53,10 @@ pub(super) struct Spatial {
 impl Spatial {
     /// The same on a ball at a place of the ring's frame, in the scene's frame, and on the ring, in its own; and moments about x and y
     /// on both. Moments on balls that do not spin freely act about the ring's axis, but for those on caps.
-    pub fn on_bodies(
-        &self,
-        place: &Vector3<f64>,
-        (ring, balls_turn): (&LeaningRing, bool),
-    ) -> (Sum, [[f64; 2]; 2]) {
+    pub fn on_bodies(&self, place: &Vector3<f64>, ring: &LeaningRing) -> (Sum, [[f64; 2]; 2]) {
         let (force, on_ring) = (&self.wrench.force, self.wrench.moment_on_ring(place));
-        let frame = &ring.rotation.frame;
-        let [x, y, z] = frame.to_scene(force).into();
-        let on_ball = if balls_turn {
-            frame.to_scene(&self.wrench.moment)
-        } else {
-            self.wrench.moment + Vector3::z() * ring.across(&self.on_caps)
-        };
+        let [on_scene, on_ball] = self.wrench.on_ball(ring, &self.on_caps);
+        let [x, y, z] = on_scene.into();
         let sum = Sum {
             ball: [x, y, z, on_ball.z],
             ring: [-force.x, -force.y, -force.z, on_ring.z],

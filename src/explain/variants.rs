@@ -6,7 +6,7 @@ use super::cost::{self, Cost};
 use crate::equilibrium::compile;
 use crate::model::Model;
 use crate::reduction::Reduction;
-use crate::run::{method, step_limit};
+use crate::run::step_limit;
 use crate::scene::{Load, Method, Scene, Slices, Surface};
 use crate::start::{Start, start};
 
@@ -220,7 +220,6 @@ fn offers(model: &Model, y0: &[f64]) -> Vec<(&'static str, &'static str, Model)>
         .into_iter()
         .filter_map(|(change, note, apply)| {
             let changed = compile(&apply(model.scene())?).ok()?;
-            method::check(&changed).ok()?;
             let y0 = changed.layout().carry(y0, model.layout());
             let holds = obstacles(Reduction::of(&changed, &y0).as_ref()) <= now;
             holds.then_some((change, note, changed))

@@ -1,12 +1,11 @@
 //! Velocities corrected by friction's matrix, once a step: what [`Adams`](crate::integrate::Adams) asks for.
 
-use super::stage::Stage;
-use super::stage_batch::Velocities;
+use super::stage::{Stage, Velocity};
 use crate::contact::{AXIAL, FREE};
 use crate::dynamics::{Dynamics, RingView, View};
 use crate::forces::State;
 use crate::integrate::{LinearlyImplicit, System};
-use crate::model::{BodyId, DOFS, Dof, RowModel};
+use crate::model::{DOFS, RowModel};
 
 /// Steps that a matrix serves at most. On 64 scenes (two presets, random bearings) 8, 32, 128 and 512 gave errors alike and
 /// step counts within half a percent; a new one costs about six evaluations (a profile of the wheel bearing).
@@ -30,8 +29,8 @@ trait Corrects: std::fmt::Debug {
 #[derive(Debug)]
 struct Matrix<const N: usize> {
     stage: Stage<N>,
-    /// The velocities of the run that are corrected: where each stands, its body and its place among the body's.
-    corrected: Vec<(usize, BodyId, usize)>,
+    /// The velocities of the run that are corrected.
+    corrected: Vec<Velocity>,
     /// The last state of all bodies, as a run's vector and as the contacts read it.
     full: Vec<f64>,
     state: State,
@@ -46,8 +45,7 @@ impl<'d, 'm> Damped<'d, 'm> {
         let model = dynamics.model();
         let resists = model.rows.iter().any(RowModel::resists_motion);
         let matrix = (resists && dynamics.is_cartesian()).then(|| {
-            let turns = dynamics.degrees().iter().any(|(_, dof)| *dof == Dof::TurnX);
-            if turns {
+            if dynamics.leans() {
                 Matrix::<FREE>::boxed(dynamics)
             } else {
                 Matrix::<AXIAL>::boxed(dynamics)
@@ -91,18 +89,10 @@ impl<const N: usize> Matrix<N> {
         let (model, state) = (dynamics.model(), dynamics.state().clone());
         let mut full = vec![0.0; model.dim()];
         state.write(&mut full);
-        // Where each stands among the directions of a ball; tilts and Euler parameters do not.
-        let mut directions = Dof::ALL.to_vec();
-        directions.extend(Dof::TURNS);
-        directions.truncate(N);
         let degrees = dynamics.degrees().into_iter().enumerate();
-        let corrected = degrees.filter_map(|(at, (body, dof))| {
-            let place = directions.iter().position(|known| *known == dof)?;
-            Some((at, body, place))
-        });
         Box::new(Self {
             stage: Stage::new(model, dynamics.rows_in_motion()),
-            corrected: corrected.collect(),
+            corrected: degrees.filter_map(Velocity::of).collect(),
             full,
             state,
             rings: RingView::both(model).filter(|_| dynamics.leans()),
@@ -111,10 +101,6 @@ impl<const N: usize> Matrix<N> {
     }
 
     /// Takes the slopes of the contacts at a state of the run.
-    ///
-    /// Of rings that lean contacts are held in the rings' frames, and their slopes taken for those in the scene's: that is wrong by
-    /// a share as small as the tilt. Tilts are not corrected. What is stiff is friction on balls, which are light; a ring's tilt dies
-    /// away slower, as balls weigh less than the ring, and within what a step bears anyway.
     fn renew(&mut self, dynamics: &Dynamics<'_>, t: f64, y: &[f64], gamma_h: f64) {
         dynamics.expand(t, y, &mut self.full);
         self.state.read(&self.full);
@@ -124,8 +110,8 @@ impl<const N: usize> Matrix<N> {
         };
         self.stage.find_elements(dynamics, &views);
         self.stage.secant = false;
-        self.stage.forces(dynamics, &Velocities::Seen(&views), true);
-        self.stage.factorise(dynamics.model(), gamma_h);
+        self.stage.forces(dynamics, &views, true);
+        self.stage.factorise(dynamics.model(), &views, gamma_h);
         self.served = 0;
     }
 
@@ -133,14 +119,14 @@ impl<const N: usize> Matrix<N> {
     fn solve(&mut self, dynamics: &Dynamics<'_>, r: &mut [f64]) {
         let residual = &mut self.stage.residual;
         residual.fill([0.0; N]);
-        for (at, body, place) in &self.corrected {
+        for Velocity { at, body, place } in &self.corrected {
             residual[body.index()][*place] = r[*at];
         }
         if N == DOFS {
             dynamics.mirror(residual.as_flattened_mut());
         }
         if self.stage.correct(dynamics.model()) {
-            for (at, body, place) in &self.corrected {
+            for Velocity { at, body, place } in &self.corrected {
                 r[*at] = self.stage.residual[body.index()][*place];
             }
         }

@@ -2,14 +2,15 @@
 
 use std::ops::Range;
 
-use nalgebra::SVector;
 use rayon::prelude::*;
 
-use super::arrow::Arrow;
-use super::stage_batch::{Meeting, StageBatch, Velocities};
-use crate::dynamics::{Batch, Dynamics, Kind, View};
+use super::arrow::{Arrow, Contacts};
+use super::carrier::{Carrier, Turn};
+use super::stage_batch::{Meeting, StageBatch};
+use crate::contact::AXIAL;
+use crate::dynamics::{Batch, Dynamics, HeldContacts, Kind, OnRings, View};
 use crate::forces::Table;
-use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Race};
+use crate::model::{BodyId, DOFS, Dof, Layout, Model, Race};
 use crate::simd::{LANES, Lanes, Task};
 
 /// Relative change of γh up to which a matrix serves on.
@@ -26,7 +27,8 @@ pub(super) struct Stage<const N: usize> {
     batches: Vec<StageBatch<N>>,
     active: usize,
     arrow: Arrow<N>,
-    /// Residuals of all velocities, by body; after [`Stage::correct`] their corrections. What is behind the four of a ring is none.
+    /// Residuals of all velocities, by body: along x, y and z, about z, and tilts of rings or turning about x and y of balls. After
+    /// [`Stage::correct`] their corrections.
     pub residual: Vec<[f64; N]>,
     /// Radii that make speeds of rotation comparable, by body.
     radii: Vec<f64>,
@@ -63,7 +65,10 @@ impl<const N: usize> Stage<N> {
 
     /// Finds the nodes of all contacts at a state of all bodies, as they are seen there.
     pub fn find_elements(&mut self, dynamics: &Dynamics<'_>, views: &[View<'_>; 2]) {
-        let model = dynamics.model();
+        let model = dynamics.coated();
+        if model.has_films_in_motion() {
+            self.search.coat(model);
+        }
         self.search.find(None, model, views);
         self.gather(model);
         let constants = &self.search.constants;
@@ -115,14 +120,14 @@ impl<const N: usize> Stage<N> {
         }
     }
 
-    /// Finds what the contacts do at some velocities, with slopes or without.
-    pub fn forces(&mut self, dynamics: &Dynamics<'_>, velocities: &Velocities<'_>, slopes: bool) {
-        let (model, secant) = (dynamics.model(), self.secant);
+    /// Finds what the contacts do at the velocities that are seen, with slopes or without.
+    pub fn forces(&mut self, dynamics: &Dynamics<'_>, views: &[View<'_>; 2], slopes: bool) {
+        let (model, secant) = (dynamics.coated(), self.secant);
         let find = |batch: &mut StageBatch<N>| {
             if slopes {
-                batch.forces_and_slopes(model, velocities, secant);
+                batch.forces_and_slopes(model, views, secant);
             } else {
-                batch.forces(model, velocities);
+                batch.forces(model, views);
             }
         };
         let batches = &mut self.batches[..self.active];
@@ -132,32 +137,12 @@ impl<const N: usize> Stage<N> {
         }
     }
 
-    /// Adds the contacts' forces to those on all bodies.
-    pub fn add_to(&self, forces: &mut Table) {
-        for batch in &self.batches[..self.active] {
-            for race in Race::BOTH {
-                let side = &batch.sides[race];
-                if !side.touches {
-                    continue;
-                }
-                let (wrench, apart) = (&side.wrenches.wrench, side.apart());
-                let [x, y, z, turn] = [0, 1, 2, 3].map(|i| wrench[i]);
-                for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
-                    let wrench = [x[lane], y[lane], z[lane], turn[lane]];
-                    forces.add(BodyId::ball(*ball), &wrench);
-                }
-                // −Tᵀ of the wrench on the ball.
-                let about = turn + y * apart[0] - x * apart[1];
-                forces.add(race.ring(), &[x, y, z, about].map(|part| -part.sum()));
-            }
-        }
-    }
-
     /// Makes the matrix of the last slopes.
-    pub fn factorise(&mut self, model: &Model, gamma_h: f64) {
+    pub fn factorise(&mut self, model: &Model, views: &[View<'_>; 2], gamma_h: f64) {
         model.instructions.run(Factorise {
             work: self,
             model,
+            views,
             gamma_h,
         });
         self.kept = Some(gamma_h);
@@ -183,8 +168,9 @@ impl<const N: usize> Stage<N> {
                 .all(|(kept, meetings)| *kept == meetings.map(meets))
     }
 
-    /// Adds the corrections to the velocities, and tells the largest.
-    pub fn apply(&self, velocities: &mut [f64]) -> Largest {
+    /// Adds the corrections to the velocities of all bodies, and tells the largest; `across` are those beside the directions that every
+    /// body has.
+    pub fn apply(&self, velocities: &mut [f64], across: &[Velocity]) -> Largest {
         let mut largest = Largest::default();
         let bodies = Layout::each_mut(velocities).iter_mut();
         let corrections = self.residual.iter().zip(&self.radii);
@@ -193,12 +179,13 @@ impl<const N: usize> Stage<N> {
             levers[Dof::Theta] = *radius;
             for (i, lever) in levers.into_iter().enumerate() {
                 v[i] += correction[i];
-                let size = correction[i].abs() * lever;
-                if size > largest.size || size.is_nan() {
-                    let velocity = DOFS * b + i;
-                    largest = Largest { size, velocity };
-                }
+                largest.take(correction[i] * lever, DOFS * b + i);
             }
+        }
+        for Velocity { at, body, place } in across {
+            let correction = self.residual[body.index()][*place];
+            velocities[*at] += correction;
+            largest.take(correction * self.radii[body.index()], *at);
         }
         largest
     }
@@ -214,6 +201,59 @@ impl<const N: usize> Stage<N> {
     }
 }
 
+impl<const N: usize> HeldContacts for Stage<N> {
+    fn add_to(&self, forces: &mut Table) {
+        for batch in &self.batches[..self.active] {
+            for race in Race::BOTH {
+                let side = &batch.sides[race];
+                if !side.touches {
+                    continue;
+                }
+                let (wrench, apart) = (&side.wrenches.wrench, side.apart());
+                let [x, y, z, turn] = [0, 1, 2, 3].map(|i| wrench[i]);
+                for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
+                    let wrench = [x[lane], y[lane], z[lane], turn[lane]];
+                    forces.add(BodyId::ball(*ball), &wrench);
+                }
+                // −Tᵀ of the wrench on the ball.
+                let about = turn + y * apart[0] - x * apart[1];
+                forces.add(race.ring(), &[x, y, z, about].map(|part| -part.sum()));
+            }
+        }
+    }
+
+    fn add_leaning(
+        &self,
+        views: &[View<'_>; 2],
+        forces: &mut Table,
+        across: &mut [[f64; 2]],
+    ) -> OnRings {
+        let mut on_rings = OnRings::default();
+        for batch in &self.batches[..self.active] {
+            for race in Race::BOTH {
+                let side = &batch.sides[race];
+                let Some(view) = views[race].leaning.filter(|_| side.touches) else {
+                    continue;
+                };
+                for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
+                    let (wrench, place, on_cap) = side.of(lane);
+                    let [force, about] = &mut on_rings[race];
+                    *force -= wrench.force;
+                    *about += wrench.moment_on_ring(&place);
+                    let [force, moment] = wrench.on_ball(&view.ring, &on_cap);
+                    let on_ball = [force.x, force.y, force.z, moment.z];
+                    forces.add(BodyId::ball(*ball), &on_ball);
+                    if let Some(across) = across.get_mut(*ball) {
+                        across[0] += moment.x;
+                        across[1] += moment.y;
+                    }
+                }
+            }
+        }
+        on_rings
+    }
+}
+
 /// The largest correction \[m/s\], or one that is not a number, and of which velocity it is.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Largest {
@@ -221,10 +261,40 @@ pub(super) struct Largest {
     pub velocity: usize,
 }
 
+impl Largest {
+    fn take(&mut self, correction: f64, velocity: usize) {
+        let size = correction.abs();
+        if size > self.size || size.is_nan() {
+            *self = Self { size, velocity };
+        }
+    }
+}
+
+/// Where a velocity stands: among those of a run, and among those of its body in a [`Stage`].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Velocity {
+    pub at: usize,
+    pub body: BodyId,
+    pub place: usize,
+}
+
+impl Velocity {
+    /// That of a direction, of which there is none for the rates of Euler parameters: they follow from how a ball turns.
+    pub fn of((at, (body, dof)): (usize, (BodyId, Dof))) -> Option<Self> {
+        let place = match dof {
+            Dof::TiltX | Dof::TurnX => AXIAL,
+            Dof::TiltY | Dof::TurnY => AXIAL + 1,
+            _ => Dof::ALL.iter().position(|known| *known == dof)?,
+        };
+        Some(Self { at, body, place })
+    }
+}
+
 /// Makes the matrix.
 struct Factorise<'a, const N: usize> {
     work: &'a mut Stage<N>,
     model: &'a Model,
+    views: &'a [View<'a>; 2],
     gamma_h: f64,
 }
 
@@ -235,7 +305,7 @@ impl<const N: usize> Task for Factorise<'_, N> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
-        let (model, gamma_h) = (self.model, self.gamma_h);
+        let (model, views, gamma_h) = (self.model, self.views, self.gamma_h);
         let Stage {
             arrow,
             batches,
@@ -243,34 +313,30 @@ impl<const N: usize> Task for Factorise<'_, N> {
             ..
         } = self.work;
         arrow.begin();
+        let turns = Race::BOTH.map(|race| views[race].leaning.map(Turn::new));
+        let turning = if model.balls_turn() { gamma_h } else { 0.0 };
         for (eight, batch) in batches[..*active].iter().enumerate() {
             let mut scale = [Lanes::ZERO; N];
             for (lane, ball) in batch.balls.iter().enumerate() {
                 let mobility = &model.mobility[BodyId::ball(*ball)];
-                for (i, scale) in scale.iter_mut().enumerate() {
+                for i in 0..DOFS {
+                    scale[i][lane] = gamma_h * mobility[i];
+                }
+                for scale in &mut scale[DOFS..] {
                     // A sphere turns about all axes alike.
-                    scale[lane] = gamma_h * mobility[i.min(Dof::Theta.index())];
+                    scale[lane] = turning * mobility[Dof::Theta];
                 }
             }
-            let contacts = batch
-                .sides
-                .each_ref()
-                .map(|side| side.touches.then(|| (&side.wrenches.slope, side.apart())));
+            let contacts = Race::BOTH.map(|race| {
+                let (side, turn) = (&batch.sides[race], turns[race]);
+                let (slope, apart) = (&side.wrenches.slope, side.apart());
+                side.touches.then_some(Contacts { slope, apart, turn })
+            });
             arrow.eliminate::<FMA>(eight, &contacts, &scale);
         }
-        let layout = model.layout();
-        let scale = SVector::from_fn(|i, _| {
-            let (body, dof) = layout.degree(i);
-            gamma_h * model.mobility[body][dof]
-        });
-        let diagonal = SVector::from_fn(|i, _| {
-            let (body, dof) = layout.degree(i);
-            match model.bodies[body].degrees[dof] {
-                Degree::Free { damping, .. } => 1.0 + scale[i] * damping,
-                Degree::Fixed | Degree::Driven => 1.0,
-            }
-        });
-        arrow.factorise(&diagonal, &scale);
+        let carriers = Race::BOTH.map(|race| Carrier::new(model, race, &views[race], gamma_h));
+        let diagonal = Race::BOTH.map(|race| carriers[race].diagonal(model, race));
+        arrow.factorise(&diagonal, &carriers);
     }
 }
 
@@ -305,15 +371,16 @@ impl<const N: usize> Task for Correct<'_, N> {
             }
             arrow.eliminate_right::<FMA>(eight, &right);
         }
-        let right = SVector::from_fn(|i, _| residual[i / DOFS][i % DOFS]);
+        let right = Race::BOTH.map(|race| residual[race.ring()]);
         let Some(rings) = arrow.rings(&right) else {
             return false;
         };
-        for (i, found) in rings.iter().enumerate() {
-            residual[i / DOFS][i % DOFS] = *found;
+        for race in Race::BOTH {
+            residual[race.ring()] = rings[race];
         }
+        let seen = arrow.seen(&rings);
         for (eight, batch) in batches.iter().enumerate() {
-            let balls = arrow.balls::<FMA>(eight, &rings);
+            let balls = arrow.balls::<FMA>(eight, &seen);
             for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
                 let residual = &mut residual[BodyId::ball(*ball)];
                 for i in 0..N {

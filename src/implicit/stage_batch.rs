@@ -2,42 +2,15 @@
 
 use std::array::from_fn;
 
+use nalgebra::Vector3;
+
 use crate::contact::{
-    AXIAL, Around, EightContacts, PlaneVector, Raise, SlicePack, SlicePacking, StageContacts,
-    StageElements, StageWrench, in_contact,
+    AXIAL, Around, EightContacts, FREE, PlaneVector, Raise, SlicePack, SlicePacking, StageContacts,
+    StageElements, StageWrench, V2, Wrench, in_contact,
 };
 use crate::dynamics::{SideConstants, Touching, View};
-use crate::model::{BodyId, DOFS, Model, Race};
+use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
-
-/// Velocities of all bodies.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Velocities<'a> {
-    /// Of a state vector, where rings stand parallel.
-    Of(&'a [f64]),
-    /// As each ring sees them.
-    Seen(&'a [View<'a>; 2]),
-}
-
-impl Velocities<'_> {
-    /// Those of a body, as contacts with a race meet it.
-    #[inline]
-    fn of(&self, model: &Model, race: Race, body: BodyId) -> [f64; DOFS] {
-        match self {
-            Self::Of(y) => *model.layout().of(&y[y.len() / 2..], body),
-            Self::Seen(views) => views[race].v.of(body),
-        }
-    }
-
-    /// Angular velocities about x and y, of a body that spins freely.
-    #[inline]
-    fn across(&self, race: Race, body: BodyId) -> [f64; 2] {
-        match self {
-            Self::Of(_) => [0.0; 2],
-            Self::Seen(views) => views[race].across(body),
-        }
-    }
-}
 
 /// What a ball may meet at one ring.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -70,18 +43,35 @@ pub(super) struct Side<const N: usize> {
     packs: Vec<(usize, SlicePack)>,
     /// These contacts: their lane, and what their slices share.
     singles: Vec<(usize, Around)>,
-    /// Forces on the balls that do not depend on velocities, of waves and of the ends of defects: (x, y, z, about z).
-    aside: [Lanes; DOFS],
+    /// Axial places of the balls, in the ring's frame.
+    raised: Lanes,
+    /// Forces on the balls that do not depend on velocities, of waves and of the ends of defects: (x, y, z, about z …).
+    aside: [Lanes; FREE],
     /// Whether any touches.
     pub touches: bool,
-    /// Force and moment on the balls, in (x, y, z, about z), with slopes.
+    /// Force and moment on the balls, in (x, y, z, about z …) of the ring's frame, with slopes.
     pub wrenches: StageWrench<N>,
+    /// Of the moments what turns caps of the balls across the ring's axis.
+    pub on_caps: PlaneVector,
 }
 
 impl<const N: usize> Side<N> {
-    /// From the ring's centre to the balls'.
-    pub fn apart(&self) -> PlaneVector {
-        self.held.apart
+    /// From the ring's centre to the balls', in the ring's frame.
+    pub fn apart(&self) -> [Lanes; 3] {
+        let [x, y] = self.held.apart;
+        [x, y, self.raised]
+    }
+
+    /// What one of them does to its ball, where that is, and what of the moment turns its caps across the ring's axis.
+    pub fn of(&self, lane: usize) -> (Wrench, Vector3<f64>, V2) {
+        let number = |i: usize| self.wrenches.wrench.get(i).map_or(0.0, |of| of[lane]);
+        let wrench = Wrench {
+            force: Vector3::new(number(0), number(1), number(2)),
+            moment: Vector3::new(number(AXIAL), number(AXIAL + 1), number(3)),
+        };
+        let [x, y] = self.on_caps;
+        let place = self.apart().map(|along| along[lane]);
+        (wrench, place.into(), V2::new(x[lane], y[lane]))
     }
 }
 
@@ -137,8 +127,10 @@ impl<const N: usize> StageBatch<N> {
                 view: &views[race],
                 free: N > AXIAL,
             });
-            let [x, y] = side.held.aside;
-            side.aside = [x, y, Lanes::ZERO, Lanes::ZERO];
+            side.aside = [Lanes::ZERO; FREE];
+            side.aside[..2].copy_from_slice(&side.held.aside);
+            let place = |ball: usize| views[race].q.get(BodyId::ball(ball), Dof::Z);
+            side.raised = Lanes::from_fn(|lane| place(self.balls[lane]));
             for (lane, ball) in self.balls[..self.count].iter().enumerate() {
                 if meetings[lane] != Meeting::Nothing && !side.held.regular.lane(lane) {
                     side.single(lane, model, *ball, race, &views[race]);
@@ -148,21 +140,21 @@ impl<const N: usize> StageBatch<N> {
     }
 
     /// Finds what all contacts do at some velocities.
-    pub fn forces(&mut self, model: &Model, velocities: &Velocities<'_>) {
+    pub fn forces(&mut self, model: &Model, views: &[View<'_>; 2]) {
         model.instructions.run(StageForces::<N, false> {
             batch: self,
             model,
-            velocities,
+            views,
             secant: false,
         });
     }
 
     /// The same with the slopes; see [`crate::contact::Pair::force`].
-    pub fn forces_and_slopes(&mut self, model: &Model, velocities: &Velocities<'_>, secant: bool) {
+    pub fn forces_and_slopes(&mut self, model: &Model, views: &[View<'_>; 2], secant: bool) {
         model.instructions.run(StageForces::<N, true> {
             batch: self,
             model,
-            velocities,
+            views,
             secant,
         });
     }
@@ -180,7 +172,7 @@ impl<const N: usize> Side<N> {
             radius: compiled.side.radius,
             outwards: at.seen_from(&view.ring).centre.normalize(),
             flat: pair.law.cut().is_flat(),
-            aside: [0.0; DOFS],
+            aside: [0.0; FREE],
             count: 0,
             contacts: &mut self.singles,
             around: self.held.around.of(lane),
@@ -230,7 +222,7 @@ impl Task for FindElements<'_> {
 struct StageForces<'a, const N: usize, const SLOPE: bool> {
     batch: &'a mut StageBatch<N>,
     model: &'a Model,
-    velocities: &'a Velocities<'a>,
+    views: &'a [View<'a>; 2],
     secant: bool,
 }
 
@@ -244,7 +236,7 @@ impl<const N: usize, const SLOPE: bool> Task for StageForces<'_, N, SLOPE> {
         let Self {
             batch,
             model,
-            velocities,
+            views,
             secant,
         } = self;
         for race in Race::BOTH {
@@ -254,16 +246,17 @@ impl<const N: usize, const SLOPE: bool> Task for StageForces<'_, N, SLOPE> {
             }
             let (n_e, apart) = (side.held.n_e, side.held.apart);
             let pair = &model.rows[batch.class].pairs[race];
-            let ring = velocities.of(model, race, race.ring());
+            let view = &views[race];
+            let ring = view.v.of(race.ring());
             let mut twist = [Lanes::ZERO; N];
             for (lane, ball) in batch.balls.iter().enumerate() {
                 let ball = BodyId::ball(*ball);
-                let v = velocities.of(model, race, ball);
+                let v = view.v.of(ball);
                 for i in 0..DOFS {
                     twist[i][lane] = v[i];
                 }
                 if N > AXIAL {
-                    for (i, across) in velocities.across(race, ball).into_iter().enumerate() {
+                    for (i, across) in view.across(ball).into_iter().enumerate() {
                         twist[AXIAL + i][lane] = across;
                     }
                 }
@@ -287,13 +280,21 @@ impl<const N: usize, const SLOPE: bool> Task for StageForces<'_, N, SLOPE> {
             for (wrench, aside) in sum.wrench.iter_mut().zip(side.aside) {
                 *wrench += aside;
             }
+            if N > AXIAL {
+                side.on_caps.copy_from_slice(&side.aside[AXIAL..]);
+            }
             for (contact, pack) in &side.packs {
                 let (lane, around) = &side.singles[*contact];
                 let all = twist.map(|w| Lanes::all(w[*lane]));
                 let mut part = StageWrench::default();
-                let local = in_contact(&all, pack.n_e);
+                let mut local = in_contact(&all, pack.n_e);
+                pack.approach(&mut local);
                 let element = (&pack.element, Some(&pack.rolling));
                 pair.force::<FMA, SLOPE, N>(element, around, &local, secant, &mut part);
+                let [along, across] = pack.swing(&mut part.wrench);
+                let [n_x, n_y] = pack.n_e;
+                side.on_caps[0][*lane] += (along * n_x - across * n_y).sum();
+                side.on_caps[1][*lane] += (along * n_y + across * n_x).sum();
                 part.turn::<SLOPE>(pack.n_e);
                 sum.gather::<SLOPE>(*lane, &part);
             }

@@ -13,9 +13,6 @@ use crate::scene::RingName;
 /// Bodies before the first ball: one ring a race.
 pub(crate) const RINGS: usize = Race::BOTH.len();
 
-/// Directions of both rings.
-pub(crate) const RING_DOFS: usize = RINGS * DOFS;
-
 /// One of the two races of a row, and the ring that carries it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum Race {

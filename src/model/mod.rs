@@ -28,8 +28,8 @@ use crate::simd::{InstructionSet, LANES};
 pub use body::{Body, Degree};
 pub(crate) use compile::{ball_fault, compile_placed, race_fault};
 pub use dof::{DOFS, Dof};
+pub(crate) use layout::RINGS;
 pub use layout::{BodyId, BodyKind, Layout, Race};
-pub(crate) use layout::{RING_DOFS, RINGS};
 #[cfg(feature = "python")]
 pub(crate) use ring::layout_of;
 pub(crate) use ring::{CoupledModel, RingModel};

@@ -268,7 +268,6 @@ pub(crate) fn threads(model: &Model, asked: usize) -> Result<usize> {
 pub(crate) fn options(model: &Model) -> Result<Options> {
     let scene = &model.scene;
     let solver = &scene.solver;
-    method::check(model)?;
     let cap = if solver.frequency_cap {
         step_limit::largest(solver.method, model)
     } else {

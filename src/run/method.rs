@@ -5,7 +5,6 @@ use std::ops::ControlFlow;
 
 use super::step_limit;
 use crate::dynamics::Dynamics;
-use crate::error::{self, Error};
 use crate::implicit::{Damped, ImplicitDynamics};
 use crate::integrate::{
     self, Adams, BOGACKI_SHAMPINE, DORMAND_PRINCE, DenseStep, Failure, KENNEDY_CARPENTER, Observer,
@@ -39,23 +38,6 @@ impl fmt::Display for Choice {
         let auto = if self.auto { "auto: " } else { "" };
         write!(f, "{auto}{}", self.names.join(", "))
     }
-}
-
-/// Refuses methods that solve for all velocities but those of tilts and of balls that spin freely.
-pub(crate) fn check(model: &Model) -> error::Result<()> {
-    let name = match model.scene().solver.method {
-        Method::ImplicitFriction => "implicit-friction",
-        Method::Auto => "auto",
-        _ => return Ok(()),
-    };
-    let allowed = if model.leans() {
-        "adams or an explicit one where a ring may tilt: implicit steps know parallel rings only"
-    } else if model.balls_turn() {
-        "adams or an explicit one where balls spin freely: implicit steps know spin about the axis only"
-    } else {
-        return Ok(());
-    };
-    Err(Error::scene("solver.method", name, allowed))
 }
 
 /// From where to where, and how well.

@@ -279,11 +279,6 @@ RING = s.MotionProbe(body="inner", components=("omega_x",))
         ({"spin": "axial", "probes": {"ball": BALL}}, r'omega_x: with spin = "free": row0\.ball0'),
         ({"approximations.rolling": True}, r"approximations.*balls spin freely"),
         ({"approximations.plane": True}, r"approximations.*balls spin freely"),
-        (
-            {"solver.method": "implicit-friction"},
-            r"solver\.method = implicit-friction: adams or an expl",
-        ),
-        ({"solver.method": "auto"}, r"solver\.method = auto: adams or an explicit one"),
     ],
 )
 def test_what_cannot_spin_freely_is_refused_by_name(

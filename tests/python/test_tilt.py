@@ -80,12 +80,6 @@ def test_a_run_records_tilts_and_moments() -> None:
         assert np.asarray(out[name]).size == tilt.size
 
 
-def test_implicit_methods_are_refused_by_name() -> None:
-    scene = leaning().replace({"solver.method": "implicit-friction"})
-    with pytest.raises(br.SceneError, match=r"solver\.method.*adams"):
-        br.simulate(scene, duration=1e-3)
-
-
 def test_the_road_tilts_a_cornering_wheel() -> None:
     tilts = [br.equilibrium(br.presets.cornering_wheel(g)).inner_tilt[0] for g in (0.1, 0.3)]
     assert abs(tilts[1]) > abs(tilts[0]) > 1e-3

@@ -35,6 +35,8 @@ pub(crate) struct StageElement {
     slope: (Lanes, Lanes),
     /// Moments about the ball's centre of unit forces along n_e and t_e.
     levers: PlaneVector,
+    /// ζ, from the ball's centre along the axis.
+    place: Lanes,
 }
 
 /// What traction laws read of an element beside its slip, where they do ([`super::Traction::reads_rolling`]).
@@ -154,6 +156,7 @@ impl Pair {
             reads_rolling: self.reads_rolling(),
             moves: &moves,
             sigma,
+            radius: contact.section.radius,
             regular,
             radial: Lanes::ZERO,
         };
@@ -199,14 +202,16 @@ impl Pair {
             twist[2],
         ];
         let (one, none) = (Lanes::all(1.0), Lanes::ZERO);
-        // Slip along t_e and the meridian by turning about n_e and t_e.
+        // Slip along t_e and the meridian by turning about n_e and t_e; about n_e also where a point stands off the line of centres, as
+        // edges of the ball's own do.
+        let beside = -(levers[0] * element.slope.1);
         let mut turns = [none; 2];
         let mut across = none;
         if N > AXIAL {
-            let at = (levers[1], element.slope.0 * around.radii[0]);
+            let at = (levers[1], element.place);
             turns = kernel::slip_of_turning::<_, FMA>([one; 2], at, element.slope);
             velocity[1] = twist[AXIAL].mul_add::<FMA>(turns[0], velocity[1]);
-            across = twist[AXIAL + 1] * turns[1];
+            across = twist[AXIAL].mul_add::<FMA>(beside, twist[AXIAL + 1] * turns[1]);
         }
         let state = State {
             elastic: element.elastic,
@@ -231,9 +236,10 @@ impl Pair {
             let (sin, cos) = element.slope;
             let rubs = force.friction;
             let along = [rubs[1], rubs[2] * cos - rubs[0] * sin];
-            for (k, along) in along.into_iter().enumerate() {
-                to.wrench[AXIAL + k] = turns[k].mul_add::<FMA>(along, to.wrench[AXIAL + k]);
+            for k in 0..2 {
+                to.wrench[AXIAL + k] = turns[k].mul_add::<FMA>(along[k], to.wrench[AXIAL + k]);
             }
+            to.wrench[AXIAL] = beside.mul_add::<FMA>(along[1], to.wrench[AXIAL]);
         }
         if SLOPE {
             let slope = self.slope::<FMA>(&state, &force, secant);
@@ -317,6 +323,8 @@ struct Holding<'a> {
     reads_rolling: bool,
     moves: &'a Moves<Lanes>,
     sigma: f64,
+    /// Of the balls.
+    radius: Lanes,
     regular: Mask,
     /// Sum of the elastic forces in the plane.
     radial: Lanes,
@@ -340,6 +348,7 @@ impl Receiver<Lanes> for Holding<'_> {
             rubbing: element.rubbing,
             slope: (element.sin, element.cos),
             levers: [Lanes::ZERO, arm * sigma],
+            place: element.sin * self.radius,
         });
         if self.reads_rolling {
             self.rolling.push(StageRolling {

@@ -1,6 +1,9 @@
 //! Slices of contacts that are evaluated alone, in packs of eight.
 
-use super::{Around, PlaneVector, StageElement, StageRolling};
+// Everything here must be compiled for the instructions of its caller.
+#![allow(clippy::inline_always)]
+
+use super::{AXIAL, Around, FREE, PlaneVector, StageElement, StageRolling};
 use crate::contact::{Aside, OilTouch, Sink, Touch, V2, cross, turned};
 use crate::simd::{LANES, Lanes};
 
@@ -10,6 +13,50 @@ pub(crate) struct SlicePack {
     pub n_e: PlaneVector,
     pub element: StageElement,
     pub rolling: StageRolling,
+    /// What turns edges of the ball's own beside the ring's axis, along n_e and t_e (see [`Touch`]).
+    swing: PlaneVector,
+}
+
+impl SlicePack {
+    /// What a ball does that turns across the ring's axis at a relative twist in the frame (n_e, t_e, z, about z …): its own edges come
+    /// nearer, without slip.
+    #[inline(always)]
+    pub fn approach<const N: usize>(&self, twist: &mut [Lanes; N]) {
+        if N > AXIAL {
+            let rate = self.swing[0] * twist[AXIAL] + self.swing[1] * twist[AXIAL + 1];
+            let (sin, cos) = self.element.slope;
+            let size = rate * self.element.levers[0] * self.pressing();
+            twist[0] += size * cos;
+            twist[2] += size * sin;
+        }
+    }
+
+    /// Adds the moments across the ring's axis of the normal forces in a wrench, which turn these edges; returns them. The wrench's slope
+    /// is without them: few slices have any, and what they dampen is slow.
+    #[inline(always)]
+    pub fn swing<const N: usize>(&self, wrench: &mut [Lanes; N]) -> PlaneVector {
+        if N <= AXIAL {
+            return [Lanes::ZERO; 2];
+        }
+        // Friction lies across the normal force.
+        let (sin, cos) = self.element.slope;
+        let normal = wrench[0] * cos + wrench[2] * sin;
+        let moment = normal * self.pressing() * self.element.levers[0];
+        let moments = self.swing.map(|swing| swing * moment);
+        wrench[AXIAL] += moments[0];
+        wrench[AXIAL + 1] += moments[1];
+        moments
+    }
+
+    /// The part of a normal force in the plane, over what of it shows along (cos α, sin α).
+    #[inline(always)]
+    fn pressing(&self) -> Lanes {
+        let ((in_plane, axial), (sin, cos)) = (self.element.share, self.element.slope);
+        let shows = in_plane * cos + axial * sin;
+        // Nothing in lanes without a slice.
+        let pressing = in_plane / shows;
+        shows.above(Lanes::ZERO).choose(pressing, Lanes::ZERO)
+    }
 }
 
 /// Collects the slices of a contact in packs of some lane.
@@ -24,8 +71,8 @@ pub(crate) struct SlicePacking<'a> {
     pub outwards: V2,
     /// Whether all slices press along the common normal.
     pub flat: bool,
-    /// Sum of forces beside those of slices: x, y, z and about the ball's centre.
-    pub aside: [f64; 4],
+    /// Sum of forces beside those of slices: x, y, z, and about z, x and y of the ball's centre.
+    pub aside: [f64; FREE],
     /// Slices so far.
     pub count: usize,
     /// What slices share beside their film.
@@ -53,6 +100,7 @@ impl Sink for SlicePacking<'_> {
             n_e,
             element,
             rolling,
+            swing,
         } = pack;
         // α of the slice: that of the place on the ball (flat contact), or of the force's direction.
         let (sin, cos) = if self.flat {
@@ -74,6 +122,11 @@ impl Sink for SlicePacking<'_> {
         rolling.arm[lane] = arm.dot(&self.outwards);
         element.levers[0][lane] = cross(arm, out);
         element.levers[1][lane] = cross(arm, turned(out));
+        element.place[lane] = touch.zeta;
+        (swing[0][lane], swing[1][lane]) = (
+            touch.swing.xy().dot(&out),
+            touch.swing.xy().dot(&turned(out)),
+        );
     }
 
     fn oil(&mut self, touch: &OilTouch) {
@@ -90,8 +143,10 @@ impl Sink for SlicePacking<'_> {
     }
 
     fn aside(&mut self, force: &Aside) {
-        let (on_ball, _) = force.wrenches();
-        for (sum, part) in self.aside.iter_mut().zip(on_ball) {
+        let ([x, y, z, about], _) = force.wrenches();
+        let on_cap = force.on_cap();
+        let parts = [x, y, z, about, on_cap.x, on_cap.y];
+        for (sum, part) in self.aside.iter_mut().zip(parts) {
             *sum += part;
         }
     }

@@ -35,6 +35,9 @@ use find::{Find, Stretch};
 use single::Single;
 pub(crate) use view::{RingView, View};
 
+/// Force on each ring and moment about the origin of its frame, both in that frame \[N\], \[N m\].
+pub(crate) type OnRings = [[Vector3<f64>; 2]; 2];
+
 /// What a reduction guarantees, so that a batch may use it.
 #[derive(Debug, Clone)]
 pub(crate) struct Kind {
@@ -188,7 +191,7 @@ impl Batch {
         model: &Model,
         views: &[View<'_>; 2],
         pool: Option<&ThreadPool>,
-    ) -> [[Vector3<f64>; 2]; 2] {
+    ) -> OnRings {
         self.fill::<true>(forces, model, views, pool);
         let (rings, across) = (self.add_balls(forces), self.moments_across());
         Race::BOTH.map(|race| {

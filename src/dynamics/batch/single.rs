@@ -35,7 +35,6 @@ impl Single {
         };
         let mut spatial = Spatial::default();
         pair.evaluate_into(&ball.side, &motion, &view.ring, &mut spatial);
-        let ring = (&leaning.ring, model.balls_turn());
-        (self.sum, self.across) = spatial.on_bodies(&motion.place(), ring);
+        (self.sum, self.across) = spatial.on_bodies(&motion.place(), &leaning.ring);
     }
 }

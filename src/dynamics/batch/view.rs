@@ -95,7 +95,7 @@ impl RingView {
     }
 
     /// What contacts see.
-    fn view<'a>(&'a self, state: &'a State) -> View<'a> {
+    pub fn view<'a>(&'a self, state: &'a State) -> View<'a> {
         View {
             q: &self.q,
             v: &self.v,

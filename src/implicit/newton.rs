@@ -1,0 +1,217 @@
+//! Newton's iteration for the velocities of a stage.
+
+use nalgebra::DMatrix;
+
+use super::stage::{Largest, Stage, Velocity};
+use crate::contact::{AXIAL, attitude_accelerations};
+use crate::dynamics::Dynamics;
+use crate::integrate::Stuck;
+use crate::model::{BodyId, DOFS, Dof, Layout, Model, Race};
+
+/// Iterations before a stage is given up and the step tried again smaller.
+const MOST_ITERATIONS: usize = 20;
+
+/// Size of a correction over that of the one before it, above which the next stage gets a new matrix.
+const WORN: f64 = 0.1;
+
+/// The same ratio, above which the next correction of this stage gets a new matrix.
+const SLOW: f64 = 0.3;
+
+/// The same ratio, above which that new matrix is made of secants.
+const DIVERGING: f64 = 0.7;
+
+/// Error of a velocity at which corrections end, over the one that the tolerance allows. With ten times as much, the
+/// accelerations show it at loose tolerances; one more correction costs less than smaller steps.
+pub(super) const RESIDUAL_SHARE: f64 = 0.002;
+
+/// What solves for velocities, of bodies of any number of directions.
+pub(super) trait Solves: std::fmt::Debug {
+    /// As [`super::ImplicitDynamics::fastest_rate`].
+    fn fastest_rate(&mut self, dynamics: &mut Dynamics<'_>, t: f64, y: &[f64]) -> f64;
+
+    /// As [`crate::integrate::ImplicitVelocity::solve_velocity`].
+    fn solve(
+        &mut self,
+        dynamics: &mut Dynamics<'_>,
+        t: f64,
+        y: &mut [f64],
+        stage: &StageEquation<'_>,
+    ) -> Result<usize, Stuck>;
+}
+
+/// v = base + γh a.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StageEquation<'a> {
+    pub base: &'a [f64],
+    pub gamma_h: f64,
+}
+
+/// The memory that it takes.
+#[derive(Debug)]
+pub(super) struct Newton<const N: usize> {
+    pub stage: Stage<N>,
+    /// Velocities beside the directions that every body has.
+    across: Vec<Velocity>,
+    accelerations: Vec<f64>,
+}
+
+impl<const N: usize> Newton<N> {
+    pub fn new(dynamics: &Dynamics<'_>) -> Self {
+        let model = dynamics.model();
+        let velocities = model.layout().degrees().enumerate();
+        Self {
+            stage: Stage::new(model, dynamics.rows_in_motion()),
+            across: velocities
+                .filter_map(Velocity::of)
+                .filter(|velocity| velocity.place >= DOFS)
+                .collect(),
+            accelerations: vec![0.0; model.layout().half()],
+        }
+    }
+
+    /// Finds the nodes of all contacts at the places of a state.
+    pub fn find_elements(&mut self, dynamics: &mut Dynamics<'_>, t: f64, y: &[f64]) {
+        dynamics.look(t, y);
+        self.stage.find_elements(dynamics, &dynamics.views());
+        self.stage.secant = false;
+    }
+
+    /// The residual base + γh a − v with the last reactions of the contacts.
+    fn residual(
+        &mut self,
+        dynamics: &mut Dynamics<'_>,
+        t: f64,
+        y: &[f64],
+        StageEquation { base, gamma_h }: &StageEquation<'_>,
+    ) {
+        dynamics.sum_with(t, &self.stage);
+        dynamics.accelerate(t, &mut self.accelerations);
+        let (a, v) = (&self.accelerations, &y[y.len() / 2..]);
+        let [bases, velocities, accelerations] = [base, v, a].map(Layout::each);
+        let residuals = &mut self.stage.residual;
+        for (b, residual) in residuals.iter_mut().enumerate() {
+            for i in 0..DOFS {
+                residual[i] = bases[b][i] + accelerations[b][i] * gamma_h - velocities[b][i];
+            }
+        }
+        for Velocity { at, body, place } in &self.across {
+            residuals[body.index()][*place] = base[*at] + a[*at] * gamma_h - v[*at];
+        }
+    }
+
+    fn iterate(
+        &mut self,
+        dynamics: &mut Dynamics<'_>,
+        t: f64,
+        y: &mut [f64],
+        equation: &StageEquation<'_>,
+    ) -> Result<usize, Stuck> {
+        let (model, gamma_h) = (dynamics.model(), equation.gamma_h);
+        let limit = velocity_limit(model);
+        let half = y.len() / 2;
+        let mut worst = Largest::default();
+        // Not a number: comparisons with it are false.
+        let mut before = f64::NAN;
+        let mut anew = !self.stage.is_kept(gamma_h);
+        for iteration in 1..=MOST_ITERATIONS {
+            if iteration > 1 {
+                dynamics.look(t, y);
+            }
+            self.stage.forces(dynamics, &dynamics.views(), anew);
+            self.residual(dynamics, t, y, equation);
+            if anew {
+                self.stage.factorise(model, &dynamics.views(), gamma_h);
+            }
+            if !self.stage.correct(model) {
+                break;
+            }
+            worst = self.stage.apply(&mut y[half..], &self.across);
+            // What is left after a correction, by the rate at which they shrink (Hairer & Wanner II, IV.8).
+            let (size, rate) = (worst.size, worst.size / before);
+            if size <= limit || rate < 1.0 && size * rate / (1.0 - rate) <= limit {
+                if rate > WORN {
+                    self.stage.kept = None;
+                }
+                return Ok(iteration);
+            }
+            (anew, self.stage.secant) = (rate > SLOW, rate > DIVERGING);
+            before = size;
+        }
+        self.stage.kept = None;
+        Err(Stuck {
+            state: half + worst.velocity,
+            iterations: MOST_ITERATIONS,
+        })
+    }
+}
+
+impl<const N: usize> Solves for Newton<N> {
+    fn fastest_rate(&mut self, dynamics: &mut Dynamics<'_>, t: f64, y: &[f64]) -> f64 {
+        self.find_elements(dynamics, t, y);
+        self.stage.forces(dynamics, &dynamics.views(), true);
+        let mut fastest: f64 = 0.0;
+        for batch in self.stage.batches() {
+            for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
+                let slope = |i: usize, j: usize| {
+                    let of = |race: Race| batch.sides[race].wrenches.slope[i][j][lane];
+                    of(Race::Outer) + of(Race::Inner)
+                };
+                fastest = fastest.max(fastest_of::<N>(dynamics.model(), *ball, slope));
+            }
+        }
+        fastest
+    }
+
+    fn solve(
+        &mut self,
+        dynamics: &mut Dynamics<'_>,
+        t: f64,
+        y: &mut [f64],
+        equation: &StageEquation<'_>,
+    ) -> Result<usize, Stuck> {
+        self.find_elements(dynamics, t, y);
+        let iterations = self.iterate(dynamics, t, y, equation)?;
+        tumble(dynamics.model().layout(), y, equation);
+        Ok(iterations)
+    }
+}
+
+/// The fastest rate at which contacts let the velocities of a ball decay \[1/s\].
+fn fastest_of<const N: usize>(
+    model: &Model,
+    ball: usize,
+    slope: impl Fn(usize, usize) -> f64,
+) -> f64 {
+    let mobility = &model.mobility[BodyId::ball(ball)];
+    let root = |i: usize| match i {
+        // A sphere turns about all axes alike.
+        AXIAL.. if model.balls_turn() => mobility[Dof::Theta].sqrt(),
+        AXIAL.. => 0.0,
+        _ => mobility[i].sqrt(),
+    };
+    let block = DMatrix::from_fn(N, N, |i, j| root(i) * slope(i, j) * root(j));
+    // Friction's part is symmetric, damping's nearly: the spectral norm of the symmetric part.
+    let symmetric = (&block + block.transpose()) / 2.0;
+    symmetric.symmetric_eigenvalues().amax()
+}
+
+/// The change of a velocity \[m/s\] below which an iteration is over.
+pub(super) fn velocity_limit(model: &Model) -> f64 {
+    let scales = &model.scales;
+    RESIDUAL_SHARE * model.scene.solver.rtol * scales.approach * scales.frequency
+}
+
+/// Writes the rates of Euler parameters, which no force depends on, once it is known how their balls turn.
+fn tumble(layout: Layout, y: &mut [f64], StageEquation { base, gamma_h }: &StageEquation<'_>) {
+    for ball in layout.tumbling().map(BodyId::ball) {
+        let e = Dof::ATTITUDE.map(|dof| y[layout.at(ball, dof)]);
+        let turns = [Dof::TurnX, Dof::TurnY, Dof::Theta];
+        let turning = turns.map(|dof| y[layout.speed_at(ball, dof)]);
+        let rates =
+            turns.map(|dof| (y[layout.speed_at(ball, dof)] - base[layout.at(ball, dof)]) / gamma_h);
+        let found = attitude_accelerations(&rates.into(), &turning.into(), e);
+        for (dof, found) in Dof::ATTITUDE.into_iter().zip(found) {
+            y[layout.speed_at(ball, dof)] = base[layout.at(ball, dof)] + gamma_h * found;
+        }
+    }
+}
