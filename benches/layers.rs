@@ -92,6 +92,12 @@ fn right_hand_side(c: &mut Criterion) {
     group.finish();
 }
 
+/// A parallel bearing's state with one ring free to tilt, which does not yet.
+fn upright(y: &[f64]) -> Vec<f64> {
+    let (places, speeds) = y.split_at(y.len() / 2);
+    [places, &[0.0; 2], speeds, &[0.0; 2]].concat()
+}
+
 /// A parallel bearing's state turned as a whole by 1 mrad about x, for rings free to tilt: the same balls touch alike.
 fn turned(parallel: &Model, y: &[f64], leaning: &Model) -> Vec<f64> {
     const TILT: f64 = 1e-3;
@@ -134,13 +140,20 @@ fn leaning_rings(c: &mut Criterion) {
         }),
     ] {
         let (parallel, y) = loaded(&scene);
-        for ring in [&mut scene.outer_ring, &mut scene.inner_ring] {
-            (ring.support.tilt_x, ring.support.tilt_y) = (Some(Mount::Free), Some(Mount::Free));
-        }
+        let free = Some(Mount::Free);
+        let inner = &mut scene.inner_ring.support;
+        (inner.tilt_x, inner.tilt_y) = (free, free);
+        let one = compile(&scene).unwrap();
+        let outer = &mut scene.outer_ring.support;
+        (outer.tilt_x, outer.tilt_y) = (free, free);
         let leaning = compile(&scene).unwrap();
-        let tilted = turned(&parallel, &y, &leaning);
+        let (upright, tilted) = (upright(&y), turned(&parallel, &y, &leaning));
         for instructions in InstructionSet::available() {
-            for (kind, model, y) in [("parallel", &parallel, &y), ("leaning", &leaning, &tilted)] {
+            for (kind, model, y) in [
+                ("parallel", &parallel, &y),
+                ("inner free to lean", &one, &upright),
+                ("leaning", &leaning, &tilted),
+            ] {
                 let model = model.clone().with_instructions(instructions);
                 let mut dynamics = Dynamics::new(&model);
                 let mut dy = vec![0.0; model.dim()];

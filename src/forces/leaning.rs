@@ -129,6 +129,9 @@ pub(crate) fn add(
     (forces, moments): (&mut Table, &mut [Vector3<f64>; 2]),
 ) {
     for race in Race::BOTH {
+        if model.is_parallel_and_held(race) {
+            continue;
+        }
         let frame = &rings[race].rotation.frame;
         let ring = race.ring();
         moments[race] += load::moment(model, t, race, |arm| frame.to_scene(arm));

@@ -232,15 +232,18 @@ impl<const N: usize> HeldContacts for Stage<N> {
         for batch in &self.batches[..self.active] {
             for race in Race::BOTH {
                 let side = &batch.sides[race];
-                let Some(view) = views[race].leaning.filter(|_| side.touches) else {
+                if !side.touches {
                     continue;
-                };
+                }
                 for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
                     let (wrench, place, on_cap) = side.of(lane);
                     let [force, about] = &mut on_rings[race];
                     *force -= wrench.force;
                     *about += wrench.moment_on_ring(&place);
-                    let [force, moment] = wrench.on_ball(&view.ring, &on_cap);
+                    let [force, moment] = match views[race].leaning {
+                        Some(view) => wrench.on_ball(&view.ring, &on_cap),
+                        None => [wrench.force, wrench.moment],
+                    };
                     let on_ball = [force.x, force.y, force.z, moment.z];
                     forces.add(BodyId::ball(*ball), &on_ball);
                     if let Some(across) = across.get_mut(*ball) {

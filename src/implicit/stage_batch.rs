@@ -129,7 +129,8 @@ impl<const N: usize> StageBatch<N> {
             });
             side.aside = [Lanes::ZERO; FREE];
             side.aside[..2].copy_from_slice(&side.held.aside);
-            let place = |ball: usize| views[race].q.get(BodyId::ball(ball), Dof::Z);
+            let View { q, ring, .. } = &views[race];
+            let place = |ball: usize| q.get(BodyId::ball(ball), Dof::Z) - ring.z;
             side.raised = Lanes::from_fn(|lane| place(self.balls[lane]));
             for (lane, ball) in self.balls[..self.count].iter().enumerate() {
                 if meetings[lane] != Meeting::Nothing && !side.held.regular.lane(lane) {

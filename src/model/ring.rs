@@ -75,6 +75,19 @@ impl Model {
         self.leans
     }
 
+    /// The same of one ring.
+    pub(crate) fn ring_leans(&self, race: Race) -> bool {
+        let moves = |dof: &Dof| self.layout.has(race.ring(), *dof);
+        Dof::TILTS.iter().any(moves) || self.rings[race].tilt != [0.0; 2]
+    }
+
+    /// Whether no moment turns a ring that stands parallel, and nothing acts on it but contacts, loads and the mounts of its centre.
+    pub(crate) fn is_parallel_and_held(&self, race: Race) -> bool {
+        let turns = self.degree(race, Dof::Theta).is_free() || self.ring_leans(race);
+        let carries = self.rings[race].coupled.is_some() || !self.scene.unbalances.is_empty();
+        !turns && !carries
+    }
+
     /// How a direction of a ring moves.
     pub(crate) fn degree(&self, race: Race, dof: Dof) -> Degree {
         match dof {

@@ -92,10 +92,9 @@ impl Rotation {
             return free.into();
         }
         // Accelerations are linear in the forces of the holds.
-        let at_rest = self.free(inertia, &Vector3::zeros());
         if let [None, None, Some(spin)] = *prescribed {
             // Most rings that tilt are held or driven about their axis: one division, and no matrix.
-            let by_hold = self.free(inertia, &self.moment_of([0.0, 0.0, 1.0])) - at_rest;
+            let by_hold = self.response(inertia, &self.moment_of([0.0, 0.0, 1.0]));
             let [x, y, _] = (free + by_hold * ((spin - free.z) / by_hold.z)).into();
             return [x, y, spin];
         }
@@ -105,8 +104,7 @@ impl Rotation {
         for i in 0..3 {
             let mut unit = [0.0; 3];
             unit[i] = 1.0;
-            let by_unit = self.free(inertia, &self.moment_of(unit)) - at_rest;
-            response.set_column(i, &by_unit);
+            response.set_column(i, &self.response(inertia, &self.moment_of(unit)));
         }
         for (i, prescribed) in prescribed.iter().enumerate() {
             if let Some(acceleration) = prescribed {
@@ -121,6 +119,15 @@ impl Rotation {
             *found = prescribed.unwrap_or(*found);
         }
         found.into()
+    }
+
+    /// What a moment adds where nothing is prescribed: of the same form as [`Self::free`], at rest.
+    fn response(&self, inertia: &Inertia, moment: &Vector3<f64>) -> Vector3<f64> {
+        let (axis, [x, y]) = (self.frame.axis(), self.frame.tilt);
+        let turning = moment.cross(&axis) / inertia.transverse;
+        let (ax, ay) = (-turning.y, turning.x);
+        let drift_rate = self.frame.k * (y * ax - x * ay);
+        Vector3::new(ax, ay, moment.dot(&axis) / inertia.polar - drift_rate)
     }
 
     /// Where nothing is prescribed.

@@ -196,7 +196,7 @@ pub(super) fn leave(groups: &[Group], singles: &mut Vec<Single>) {
 }
 
 /// Evaluates a group on a race that is a hollow curve.
-pub(super) struct EightOnCurve<'a, const LEAN: bool>(pub Eight<'a, LEAN>, pub &'a Contour);
+struct EightOnCurve<'a, const LEAN: bool>(Eight<'a, LEAN>, &'a Contour);
 
 impl<const LEAN: bool> Task for EightOnCurve<'_, LEAN> {
     type Output = ();
@@ -205,10 +205,11 @@ impl<const LEAN: bool> Task for EightOnCurve<'_, LEAN> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
-        let Self(of, contour) = self;
+        let Self(evaluated, contour) = self;
         let mut eight = EightContacts::default();
-        of.gather(&mut eight);
-        let Eight { group, model, .. } = of;
+        evaluated.gather(&mut eight);
+        let Eight { group, of } = evaluated;
+        let model = of.model;
         let (pair, view) = (
             &model.rows[group.class].pairs[group.race],
             &of.views[group.race],
@@ -224,13 +225,31 @@ impl<const LEAN: bool> Task for EightOnCurve<'_, LEAN> {
     }
 }
 
-/// Evaluates a group, as `LEAN` says before a ring that may lean.
-pub(super) struct Eight<'a, const LEAN: bool> {
-    pub group: &'a mut Group,
+/// Evaluates groups.
+#[derive(Clone, Copy)]
+pub(super) struct EvaluateEight<'a> {
     pub constants: &'a [SideConstants; 2],
     pub symmetric: bool,
     pub model: &'a Model,
     pub views: &'a [View<'a>; 2],
+}
+
+impl EvaluateEight<'_> {
+    /// One of them, as `LEAN` says before a ring that may lean.
+    pub fn run<const LEAN: bool>(&self, group: &mut Group) {
+        let curve = self.model.rows[group.class].pairs[group.race].hollow_curve();
+        let eight = Eight::<LEAN> { group, of: self };
+        match curve {
+            None => self.model.instructions.run(eight),
+            Some(contour) => self.model.instructions.run(EightOnCurve(eight, contour)),
+        }
+    }
+}
+
+/// A group and what evaluates it.
+struct Eight<'a, const LEAN: bool> {
+    group: &'a mut Group,
+    of: &'a EvaluateEight<'a>,
 }
 
 /// Turns forces on balls into the scene's frame, and moments on those that spin freely; on others they act about the ring's axis.
@@ -268,8 +287,8 @@ impl<const LEAN: bool> Eight<'_, LEAN> {
     #[inline(always)]
     fn gather(&self, eight: &mut EightContacts) {
         let group = &self.group;
-        let constants = &self.constants[group.race];
-        let view = &self.views[group.race];
+        let constants = &self.of.constants[group.race];
+        let view = &self.of.views[group.race];
         constants.eight(group.class, &group.contacts, view, eight);
         // Lanes left over must not count as pulling.
         for lane in group.count..LANES {
@@ -287,18 +306,18 @@ impl<const LEAN: bool> Task for Eight<'_, LEAN> {
     fn run<const FMA: bool>(self) {
         let mut eight = EightContacts::default();
         self.gather(&mut eight);
-        let group = self.group;
+        let Self { group, of } = self;
         let race = group.race;
-        let pair = &self.model.rows[group.class].pairs[race];
-        let (view, skip) = (&self.views[race], Mask::default());
+        let pair = &of.model.rows[group.class].pairs[race];
+        let (view, skip) = (&of.views[race], Mask::default());
         if LEAN {
-            let rubbing = (self.model.instructions, &mut group.rubbing);
+            let rubbing = (of.model.instructions, &mut group.rubbing);
             (group.forces, group.across) =
                 pair.forces_leaning::<FMA>((&eight, group.turning), &view.ring, rubbing);
             return;
         }
-        let summing = Summing::Elements(self.model.instructions, &mut group.rubbing);
-        group.forces = if self.symmetric {
+        let summing = Summing::Elements(of.model.instructions, &mut group.rubbing);
+        group.forces = if of.symmetric {
             pair.forces::<FMA, true>(&eight, &view.ring, skip, summing)
         } else {
             pair.forces::<FMA, false>(&eight, &view.ring, skip, summing)

@@ -29,7 +29,7 @@ use crate::reduction::AxialPlaces;
 use crate::simd::{LANES, Lanes};
 
 use axially_fixed::{AxiallyFixedRow, AxiallyFixedSums, EvaluateAxiallyFixed};
-use eight::{Eight, EightOnCurve, Group, Turn, leave};
+use eight::{EvaluateEight, Group, Turn, leave};
 pub(crate) use eight::{SideConstants, Touching};
 use find::{Find, Stretch};
 use single::Single;
@@ -170,7 +170,7 @@ impl Batch {
         views: &[View<'_>; 2],
         pool: Option<&ThreadPool>,
     ) -> [f64; 2] {
-        self.fill::<false>(forces, model, views, pool);
+        self.fill(forces, model, views, pool);
         let mut rings = self.add_balls(forces);
         for race in Race::BOTH {
             let sum = &mut rings[race];
@@ -192,15 +192,15 @@ impl Batch {
         views: &[View<'_>; 2],
         pool: Option<&ThreadPool>,
     ) -> OnRings {
-        self.fill::<true>(forces, model, views, pool);
-        let (rings, across) = (self.add_balls(forces), self.moments_across());
+        self.fill(forces, model, views, pool);
+        let (rings, across) = (self.add_balls(forces), self.moments_across(views));
         Race::BOTH.map(|race| {
             let ([x, y, z, about], [about_x, about_y]) = (rings[race], across[race]);
             [Vector3::new(x, y, z), Vector3::new(about_x, about_y, about)]
         })
     }
 
-    fn fill<const LEAN: bool>(
+    fn fill(
         &mut self,
         forces: &mut Table,
         model: &Model,
@@ -211,40 +211,28 @@ impl Batch {
         self.axially_fixed(forces, model, views);
         self.gather();
         if self.active > 0 || !self.singles.is_empty() {
-            self.evaluate::<LEAN>(model, views, pool);
+            self.evaluate(model, views, pool);
         }
     }
 
     /// Evaluates what was found, by eights and one by one.
-    fn evaluate<const LEAN: bool>(
-        &mut self,
-        model: &Model,
-        views: &[View<'_>; 2],
-        pool: Option<&ThreadPool>,
-    ) {
-        let (constants, symmetric) = (&self.constants, self.kind.symmetric);
+    fn evaluate(&mut self, model: &Model, views: &[View<'_>; 2], pool: Option<&ThreadPool>) {
+        let all = EvaluateEight {
+            constants: &self.constants,
+            symmetric: self.kind.symmetric,
+            model,
+            views,
+        };
         let eight = |group: &mut Group| {
-            if LEAN {
-                // Not in the kernel: where lanes are filled one by one the compiler splits whole registers.
-                let balls = group.contacts.iter().map(|contact| contact.ball);
-                group.turning = views[group.race].turning(balls);
-            }
-            let curve = model.rows[group.class].pairs[group.race].hollow_curve();
-            let ring = views[group.race].leaning;
-            let eight = Eight::<LEAN> {
-                group: &mut *group,
-                constants,
-                symmetric,
-                model,
-                views,
+            let Some(ring) = views[group.race].leaning else {
+                all.run::<false>(group);
+                return;
             };
-            match curve {
-                None => model.instructions.run(eight),
-                Some(contour) => model.instructions.run(EightOnCurve(eight, contour)),
-            }
-            if LEAN && let Some(ring) = ring {
-                model.instructions.run(Turn { group, ring });
-            }
+            // Not in the kernel: where lanes are filled one by one the compiler splits whole registers.
+            let balls = group.contacts.iter().map(|contact| contact.ball);
+            group.turning = views[group.race].turning(balls);
+            all.run::<true>(group);
+            model.instructions.run(Turn { group, ring });
         };
         let one = |single: &mut Single| single.evaluate(model, &views[single.race]);
         let (groups, singles) = (&mut self.groups[..self.active], &mut self.singles);
@@ -363,10 +351,11 @@ impl Batch {
         }
     }
 
-    /// Moments across the axes of rings that may lean, about the origins of their frames.
-    fn moments_across(&self) -> [[f64; 2]; 2] {
+    /// Moments across the axes of rings that lean, about the origins of their frames.
+    fn moments_across(&self, views: &[View<'_>; 2]) -> [[f64; 2]; 2] {
         let mut rings = [[0.0; 2]; 2];
-        for group in &self.groups[..self.active] {
+        let groups = self.groups[..self.active].iter();
+        for group in groups.filter(|group| views[group.race].leaning.is_some()) {
             let (sum, [_, [x, y]]) = (&mut rings[group.race], &group.across);
             for lane in 0..group.count {
                 super::add(sum, &[x[lane], y[lane]]);

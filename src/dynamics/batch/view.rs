@@ -21,13 +21,18 @@ pub(crate) struct View<'a> {
 impl<'a> View<'a> {
     /// Both rings of a state in which they stand parallel.
     pub fn parallel(state: &'a State) -> [Self; 2] {
-        state.rings().map(|ring| Self {
+        Race::BOTH.map(|race| Self::of_parallel(state, race))
+    }
+
+    /// Of a ring that stands parallel.
+    fn of_parallel(state: &'a State, race: Race) -> Self {
+        Self {
             q: &state.q,
             v: &state.v,
             state,
-            ring,
+            ring: state.motion(race.ring()),
             leaning: None,
-        })
+        }
     }
 
     /// Angular velocity of a ball across the ring's axis, along x and y \[rad/s\].
@@ -64,6 +69,10 @@ impl<'a> View<'a> {
 /// All balls in the frame of a ring that may lean.
 #[derive(Debug)]
 pub(crate) struct RingView {
+    race: Race,
+    /// Whether balls are turned into its frame: not before a ring that stays parallel, if they spin about the axis.
+    leans: bool,
+    /// As it stood at the start, where it stays parallel: of that only the frame is read.
     pub ring: LeaningRing,
     q: Table,
     /// The rings' own are 0.
@@ -77,6 +86,8 @@ impl RingView {
     pub fn both(model: &Model) -> Option<[Self; 2]> {
         let (bodies, state) = (model.bodies.len(), State::new(model));
         let of = |race| Self {
+            race,
+            leans: model.balls_turn() || model.ring_leans(race),
             ring: state.leaning(model, race),
             q: Table::zeros(bodies),
             v: Table::zeros(bodies),
@@ -87,8 +98,8 @@ impl RingView {
 
     /// Turns all balls of a state into the frames of both rings.
     pub fn look<'a>(both: &'a mut [Self; 2], model: &Model, state: &'a State) -> [View<'a>; 2] {
-        for race in Race::BOTH {
-            both[race].ring = state.leaning(model, race);
+        for view in both.iter_mut().filter(|view| view.leans) {
+            view.ring = state.leaning(model, view.race);
         }
         model.instructions.run(Look { both, state });
         both.each_ref().map(|ring| ring.view(state))
@@ -96,6 +107,9 @@ impl RingView {
 
     /// What contacts see.
     pub fn view<'a>(&'a self, state: &'a State) -> View<'a> {
+        if !self.leans {
+            return View::of_parallel(state, self.race);
+        }
         View {
             q: &self.q,
             v: &self.v,
@@ -129,7 +143,7 @@ impl Task for Look<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
-        for view in self.both {
+        for view in self.both.iter_mut().filter(|view| view.leans) {
             view.turn::<FMA>(self.state);
         }
     }
