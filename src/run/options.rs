@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::error::{Error, Result};
-use crate::scene::Method;
+use crate::scene::{ByName, Method};
 use crate::signals::Bandwidth;
 use crate::start::Start;
 
@@ -81,7 +81,7 @@ impl Run {
     pub fn from_json(text: &str) -> Result<Self> {
         let document: Value = serde_json::from_str(text)
             .map_err(|e| Error::scene("run", "not JSON", e.to_string()))?;
-        let run: Self = serde_path_to_error::deserialize(&document).map_err(|e| {
+        let run: Self = serde_path_to_error::deserialize(ByName(&document)).map_err(|e| {
             let field = e.path().to_string();
             match document.get(&field) {
                 Some(value) => Error::scene(field, value, e.inner().to_string()),
@@ -245,6 +245,7 @@ mod tests {
     fn errors_name_the_field() {
         for (text, field) in [
             ("{", "run"),
+            ("[0.5, 50e3]", "run"),
             (r#"{"steps": 3}"#, "steps"),
             (r#"{"fs": 0}"#, "fs"),
             (r#"{"duration": "long"}"#, "duration"),

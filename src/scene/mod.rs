@@ -16,6 +16,7 @@
 mod antiderivative;
 mod approximations;
 mod bearing;
+mod by_name;
 mod contact;
 mod defaults;
 mod defect;
@@ -49,6 +50,7 @@ pub use approximations::Approximations;
 pub use bearing::{
     CoupledSupport, GothicArch, Mount, RaceProfile, Ring, RingName, Row, Support, Waviness,
 };
+pub(crate) use by_name::ByName;
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
 pub use defect::{AxialOffset, Defect, DefectShape, Floor, Surface, Width, WidthProfile};
 pub(crate) use doubt::FilmJudged;
@@ -275,7 +277,7 @@ impl Scene {
     pub(crate) fn from_json_unchecked(text: &str) -> Result<Self> {
         check_length(text, JSON)?;
         // The document takes three times as long; it knows the path and the value of what is wrong.
-        serde_json::from_str(text).or_else(|_| {
+        by_name::from_json(text).or_else(|_| {
             check_length(text, DOCUMENT)?;
             let document = serde_json::from_str(text)
                 .map_err(|e| Error::scene("scene", "not JSON", e.to_string()))?;
@@ -324,12 +326,11 @@ impl Scene {
 
 /// Reads a document, or a part of one; its messages say where.
 fn interpret<T: DeserializeOwned>(document: &serde_json::Value, part: &str) -> Result<T> {
-    serde_path_to_error::deserialize(document).map_err(|e| {
-        let place = e.path().to_string();
-        let value = path::get(document, &place).map_or_else(|| "absent".to_owned(), path::short);
-        let place = match (part, place.as_str()) {
-            (part, ".") => part.to_owned(),
-            ("scene", place) => place.to_owned(),
+    serde_path_to_error::deserialize(ByName(document)).map_err(|e| {
+        let value = path::at(document, e.path()).map_or_else(|| "absent".to_owned(), path::short);
+        let place = match (part, path::place(e.path())) {
+            (part, place) if place.is_empty() => part.to_owned(),
+            ("scene", place) => place,
             (part, place) => format!("{part}.{place}"),
         };
         Error::scene(place, value, expected::allowed(&e.inner().to_string()))

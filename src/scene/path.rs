@@ -1,6 +1,9 @@
 //! Dotted paths into the document: `loads.axial.force`, `rows[0].clearance`.
 
+use std::borrow::Cow;
+
 use serde_json::{Map, Value, json};
+use serde_path_to_error::{Path, Segment};
 
 use crate::error::{Error, Result};
 
@@ -92,15 +95,35 @@ fn all_of<'v>(document: &'v mut Value, keys: &[&str]) -> Vec<&'v mut Map<String,
     maps.collect()
 }
 
-/// The value at `path`, if there is one.
-pub(super) fn get<'v>(document: &'v Value, path: &str) -> Option<&'v Value> {
-    steps(path)
-        .ok()?
-        .into_iter()
-        .try_fold(document, |place, step| match step {
-            Step::Key(key) => place.get(key),
-            Step::Index(index) => place.get(index),
-        })
+/// A place that serde tells of, as people write it; empty: the whole document.
+pub(super) fn place(path: &Path) -> String {
+    path.iter().fold(String::new(), |place, step| match step {
+        Segment::Seq { index } => format!("{place}[{index}]"),
+        Segment::Map { key: name } | Segment::Enum { variant: name } => {
+            let dot = if place.is_empty() { "" } else { "." };
+            format!("{place}{dot}{}", shown(name))
+        }
+        Segment::Unknown => place,
+    })
+}
+
+/// The value at a place that serde tells of, if there is one.
+pub(super) fn at<'v>(document: &'v Value, path: &Path) -> Option<&'v Value> {
+    path.iter().try_fold(document, |place, step| match step {
+        Segment::Seq { index } => place.get(index),
+        Segment::Map { key: name } | Segment::Enum { variant: name } => place.get(name),
+        Segment::Unknown => None,
+    })
+}
+
+/// A name in a place: in quotes where it is none that a path can say.
+pub(in crate::scene) fn shown(name: &str) -> Cow<'_, str> {
+    let is_plain = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
+    if !name.is_empty() && name.chars().all(is_plain) {
+        Cow::Borrowed(name)
+    } else {
+        Cow::Owned(format!("{name:?}"))
+    }
 }
 
 /// A value as text, cut where it is long.
@@ -119,11 +142,9 @@ enum Step<'a> {
 
 fn steps(path: &str) -> Result<Vec<Step<'_>>> {
     let malformed = || {
-        Error::scene(
-            path,
-            path,
-            "names joined by dots, with [n] for a place in a list",
-        )
+        let said = if path.is_empty() { "\"\"" } else { path };
+        let allowed = "names joined by dots, with [n] for a place in a list";
+        Error::scene(said, said, allowed)
     };
     let mut steps = Vec::new();
     for part in path.split('.') {
@@ -149,4 +170,42 @@ fn a_new_one(path: &str, key: &str) -> Option<String> {
     let field = rest.strip_prefix(key)?;
     (NAMED.contains(&part) && !field.is_empty())
         .then(|| format!("; a new one is given whole, as {part}.{key}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Scene;
+    use crate::error::Error;
+
+    /// Path and value that a document is refused by.
+    fn refused(toml: &str) -> (String, String) {
+        match Scene::from_toml(toml) {
+            Err(Error::Scene { path, value, .. }) => (path, value),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn names_that_no_path_can_say_are_quoted() {
+        let place = |toml: &str| {
+            let (path, value) = refused(toml);
+            format!("{path} = {value}")
+        };
+        assert_eq!(place("'' = 1"), r#""" = 1"#);
+        assert_eq!(place("'a.b' = 2"), r#""a.b" = 2"#);
+        assert_eq!(place("[[rows]]\n'' = 3"), r#"rows[0]."" = 3"#);
+        assert_eq!(place("[cage]\n'' = 4"), r#"cage."" = 4"#);
+        assert_eq!(place("loads.'a[0]'.x = 5"), r#"loads."a[0]".x = 5"#);
+        assert_eq!(place(r#""\u001b" = 6"#), r#""\u{1b}" = 6"#);
+        assert_eq!(place("Größe-1 = 7"), "scene = not TOML");
+    }
+
+    #[test]
+    fn an_empty_path_is_told() {
+        let scene = crate::scene::presets::wheel_bearing(0.0);
+        let Err(Error::Scene { path, value, .. }) = scene.with(&[("", 1.0.into())]) else {
+            panic!("it leads nowhere");
+        };
+        assert_eq!([path, value], [r#""""#; 2]);
+    }
 }

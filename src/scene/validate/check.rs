@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use crate::error::{Error, Result};
 use crate::scene::Mount;
+use crate::scene::path::shown;
 use crate::told;
 
 pub(super) fn finite(path: &str, value: f64) -> Result<()> {
@@ -80,7 +81,7 @@ pub(super) fn entry_name(collection: &str, name: &str) -> Result<()> {
         Ok(())
     } else {
         Err(Error::scene(
-            format!("{collection}.{name}"),
+            format!("{collection}.{}", shown(name)),
             name,
             "a name of letters, digits, _ and -",
         ))
