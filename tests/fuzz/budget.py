@@ -128,27 +128,14 @@ def decided(call: Callable[[], T]) -> T | br.BallraceError:
         except BaseException as error:
             # Panics of the core are no Exception, and the shrinker does not know them.
             if type(error).__name__ == "PanicException":
-                reject_known(str(error))
                 raise AssertionError(f"a panic crossed the border: {error}") from None
             raise
-
-
-KNOWN: tuple[str, ...] = ("unknown field ``",)
-"""Beginnings of panics and messages that the corpus holds an example of, as an expected failure."""
-
-
-def reject_known(text: str) -> None:
-    """Pass over an example that fails as one of the corpus does; targets alone do so, the corpus is looked at."""
-    if text.startswith(KNOWN) and hypothesis.currently_in_test_context():
-        hypothesis.reject()
 
 
 def _tells(error: br.BallraceError) -> None:
     """Check that an error says something, and where."""
     assert str(error).strip(), type(error)
     if isinstance(error, br.SceneError):
-        if error.allowed.startswith(KNOWN) and hypothesis.currently_in_test_context():
-            hypothesis.reject()
         assert error.path, f"no field: {error!r}"
         assert error.allowed, f"nothing is allowed: {error!r}"
 
