@@ -1,0 +1,102 @@
+//! One short run of a scene with some places changed.
+
+use std::fmt;
+
+use arbitrary::{Arbitrary, Result, Unstructured};
+use ballrace::{Error, Run, Scene, simulate};
+use serde_json::{Value, json};
+
+use crate::bases;
+use crate::changes::change;
+use crate::check::{finite, of_a_scene};
+
+/// Steps that a run may take, and wall time \[s\].
+const STEPS: usize = 400;
+const TIME: f64 = 10.0;
+
+/// A scene and a run as documents.
+pub struct Short {
+    document: Value,
+    run: Value,
+}
+
+/// Both as JSON, to be kept where they are found to go wrong.
+impl fmt::Debug for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}\n{}", self.document, self.run)
+    }
+}
+
+impl<'a> Arbitrary<'a> for Short {
+    fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
+        let bases = bases::all();
+        let base = &bases[usize::from(u.arbitrary::<u8>()?) % bases.len()];
+        let run = some_run(u)?;
+        let mut document = base.document.clone();
+        for _ in 0..u.arbitrary::<u8>()? % 6 {
+            change(u, &mut document)?;
+        }
+        Ok(Self { document, run })
+    }
+}
+
+/// Arguments of a run of a few samples. A byte each, so that a change of one is a change of one.
+fn some_run(u: &mut Unstructured<'_>) -> Result<Value> {
+    fn one<T: Clone>(u: &mut Unstructured<'_>, of: &[T]) -> Result<T> {
+        Ok(of[usize::from(u.arbitrary::<u8>()?) % of.len()].clone())
+    }
+    let method = one(u, methods())?;
+    let fs = one(u, &[1e6, 1e5, 1e7, 2e4])?;
+    let samples = 1 + u.arbitrary::<u8>()? % 30;
+    let start = one(
+        u,
+        &[
+            json!("rolling"),
+            json!("equilibrium"),
+            json!([0.0]),
+            json!([]),
+        ],
+    )?;
+    let settle = one(u, &[json!(0.0), json!(1e-5), Value::Null])?;
+    let rtol = one(u, &[Value::Null, json!(1e-3), json!(1e-12), json!(0.1)])?;
+    let bandwidth = one(u, &[Value::Null, json!("auto")])?;
+    let threads = one(u, &[1, 1, 1, 2])?;
+    let mut run = json!({
+        "duration": f64::from(samples) / fs, "fs": fs, "start": start, "settle": settle, "method": method, "rtol": rtol,
+        "bandwidth": bandwidth, "threads": threads, "max_steps": STEPS, "time_limit": TIME,
+    });
+    if one(u, &[false, false, false, false, false, false, false, true])? {
+        run["rtol"] = Value::Null;
+        run["accuracy"] = json!(1e-2);
+    }
+    Ok(run)
+}
+
+/// Names of the methods, as the crate tells them, and none.
+fn methods() -> &'static [Option<String>] {
+    static METHODS: std::sync::OnceLock<Vec<Option<String>>> = std::sync::OnceLock::new();
+    METHODS.get_or_init(|| {
+        let told = match Run::from_json(r#"{"method": "?"}"#) {
+            Err(Error::Scene { allowed, .. }) => allowed,
+            other => panic!("{other:?}"),
+        };
+        let names = told.split('`').skip(3).step_by(2);
+        let names = names.map(|name| Some(name.to_owned()));
+        std::iter::once(None).chain(names).collect()
+    })
+}
+
+impl Short {
+    /// Runs it, if the scene is one.
+    pub fn check(&self) {
+        let Some(scene) = of_a_scene(Scene::from_json(&self.document.to_string())) else {
+            return;
+        };
+        let Some(run) = of_a_scene(Run::from_json(&self.run.to_string())) else {
+            return;
+        };
+        if let Some(out) = of_a_scene(simulate(&scene, &run)) {
+            finite(&out);
+        }
+    }
+}
