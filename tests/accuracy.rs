@@ -198,5 +198,21 @@ fn what_cannot_be_asked_is_refused() {
         method: Some(Method::VelocityVerlet),
         ..Run::default()
     };
-    assert_eq!(refused(&elsewhere), "method");
+    let text = simulate(&scene, &elsewhere).unwrap_err().to_string();
+    assert!(text.starts_with("method = velocity-verlet: "), "{text}");
+}
+
+/// Of which none is as long as from one sample of a pilot run to the next.
+#[test]
+fn a_run_of_three_samples_chooses_too() {
+    let run = Run {
+        duration: 3e-6,
+        fs: 1e6,
+        accuracy: Some(1e-2),
+        settle: Some(0.0),
+        ..Run::default()
+    };
+    let out = simulate(&presets::wheel_bearing(0.0), &run).unwrap();
+    assert_eq!(out.t.len(), 3);
+    assert!(out.provenance.accuracy.unwrap().pilot_evaluations > 0);
 }

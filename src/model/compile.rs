@@ -151,7 +151,8 @@ fn ring(scene: &Scene, ring: &scene::Ring, race: Race) -> Result<(Body, RingMode
         if value <= 0.0 {
             return Err(Error::scene(
                 format!("{label}_ring.width"),
-                format!("{:?}", ring.width),
+                ring.width
+                    .map_or("absent".to_owned(), |width| width.to_string()),
                 format!(
                     "a ring wide enough for its grooves: its {field} would be {}",
                     number(value)
@@ -389,4 +390,17 @@ fn moments(scene: &Scene) -> Vec<MomentModel> {
 fn unit(direction: [f64; 3]) -> [f64; 3] {
     let size = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
     direction.map(|x| x / size)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::presets;
+
+    #[test]
+    fn a_ring_without_mass_is_refused_by_its_width() {
+        let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+        scene.outer_ring.width = Some(1e-3);
+        let text = crate::compile(&scene).unwrap_err().to_string();
+        assert!(text.starts_with("outer_ring.width = 0.001: "), "{text}");
+    }
 }

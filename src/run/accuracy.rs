@@ -16,7 +16,9 @@ use crate::start::{Start, start};
 /// Length of a pilot run \[s\]: the horizon.
 pub(crate) const HORIZON: f64 = 3e-3;
 /// Sampling rate at which pilot runs are compared \[Hz\].
-pub(crate) const FS: f64 = 100e3;
+const FS: f64 = 100e3;
+/// Samples of a pilot run below which it is sampled faster.
+const SAMPLES: f64 = 10.0;
 /// Share of the request that tolerance and nodes may each use.
 const SHARE: f64 = 1.0 / 3.0;
 /// First tolerance tried over the request: for 1 % the default, so that an impact after the pilot is met well.
@@ -65,6 +67,11 @@ pub(crate) fn choose(
     })
 }
 
+/// Sampling rate of a pilot run of a duration \[s\], of a run at a rate \[Hz\] which is exceeded only by the usual one.
+pub(crate) fn sampling_rate(duration: f64, of_run: f64) -> f64 {
+    (SAMPLES / duration).clamp(FS, FS.max(of_run))
+}
+
 fn is_fitted(contact: &Contact) -> bool {
     !matches!(contact.slices, Slices::Fixed(_))
 }
@@ -80,11 +87,7 @@ fn set_nodes(scene: &mut Scene, count: usize) {
 pub(crate) fn check(scene: &Scene) -> Result<()> {
     if scene.solver.method != Method::Adams {
         let allowed = "adams where `accuracy` is given: its choice is measured on that method";
-        return Err(Error::scene(
-            "method",
-            format!("{:?}", scene.solver.method),
-            allowed,
-        ));
+        return Err(Error::scene("method", scene.solver.method, allowed));
     }
     Ok(())
 }

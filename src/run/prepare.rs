@@ -64,9 +64,10 @@ fn pilot(
     simulate: Simulate,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<(Vec<f64>, usize)> {
+    let duration = run.duration.min(accuracy::HORIZON);
     let first = Run {
-        duration: run.duration.min(accuracy::HORIZON),
-        fs: accuracy::FS,
+        duration,
+        fs: accuracy::sampling_rate(duration, run.fs),
         start: from.clone(),
         accuracy: None,
         bandwidth: Bandwidth::Raw,

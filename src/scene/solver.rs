@@ -1,5 +1,7 @@
 //! Options of the integrator.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 /// The method of integration; measured against each other in `benches/README.md`.
@@ -35,6 +37,17 @@ impl Method {
     /// Whether it has no error estimate and so wants a step.
     pub(crate) fn is_fixed(self) -> bool {
         matches!(self, Self::RungeKutta4 | Self::VelocityVerlet)
+    }
+}
+
+/// As documents name it.
+///
+/// ```
+/// assert_eq!(ballrace::scene::Method::RungeKutta4.to_string(), "runge-kutta-4");
+/// ```
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(f)
     }
 }
 

@@ -81,7 +81,11 @@ fn changed() -> Vec<(&'static str, Scene)> {
         (
             "shaped",
             of(&[
-                ("rows[0].outer_arch", json!({"shim_angle": 0.3})),
+                (
+                    "rows[0].outer_arch",
+                    json!({"shim_angle": 0.3, "conformities": [0.525, 0.525]}),
+                ),
+                ("rows[0].inner_profile", profile()),
                 (
                     "rows[0].inner_waviness",
                     json!([{"order": 7, "amplitude": 1e-7, "phase": 0.1}]),
@@ -98,6 +102,9 @@ fn changed() -> Vec<(&'static str, Scene)> {
         (
             "probed",
             of(&[
+                ("contact.law", json!({"iso16281": {}})),
+                ("rows[0].outer_shoulders", json!([0.6, 0.6])),
+                ("rows[0].outer_shoulder_radius", json!(1e-4)),
                 (
                     "probes.contacts",
                     json!({"contacts": {"balls": [0, 4], "races": ["inner"]}}),
@@ -124,9 +131,10 @@ fn changed() -> Vec<(&'static str, Scene)> {
                 ("inner_ring.centre_of_mass", json!(1e-3)),
                 ("outer_ring.support.coupled", coupled()),
                 ("loads.radial.at", json!([0.0, 0.0, 0.02])),
-                ("solver.method", json!("implicit-friction")),
+                ("solver.method", json!("dormand-prince")),
             ]),
         ),
+        ("filled", of(&options())),
         (
             "simplified",
             of(&[
@@ -145,6 +153,51 @@ fn changed() -> Vec<(&'static str, Scene)> {
             ]),
         ),
     ]
+}
+
+/// Options that other scenes leave absent.
+fn options() -> Vec<(&'static str, Value)> {
+    let contact = json!({"law": {"iso16281": {}}, "slices": {"accuracy": 1e-3}, "damping": 0.1, "clamp_pull": false});
+    let material = json!({"density": 3200.0, "youngs_modulus": 3.1e11, "poisson_ratio": 0.27});
+    let oil = json!({
+        "viscosity_40": 6e-5, "viscosity_100": 9e-6, "density_15": 880.0, "temperature": 330.0, "base": "mineral",
+        "pressure_viscosity": 2e-8, "limiting_stress": 0.05, "damping_frequency": 1000.0, "reference_speed": 180.0,
+        "reference_load": 100.0, "oil_layer": "flooded", "fill": 0.1,
+    });
+    let unbalance = json!({"ring": "inner", "moment": 1e-5, "axial_position": 1e-3});
+    vec![
+        ("rows[0].outer_shoulders", json!([0.6, 0.6])),
+        ("rows[0].inner_shoulders", json!([0.6, 0.6])),
+        ("rows[0].ball_mass", json!(2e-3)),
+        ("rows[0].ball_inertia", json!(1.3e-8)),
+        ("rows[0].ball_material", material),
+        ("rows[0].contact", contact),
+        ("rows[0].friction", json!("none")),
+        ("rows[0].lubricant", oil),
+        (
+            "rows[0].ball_support.z",
+            json!({"spring": {"stiffness": 1e4, "damping": 1.0}}),
+        ),
+        ("outer_ring.inertia", json!(1e-4)),
+        (
+            "outer_ring.support.theta",
+            json!({"spring": {"stiffness": 1e6, "damping": 1.0}}),
+        ),
+        ("unbalances.rotor", unbalance),
+        ("solver.first_step", json!(1e-8)),
+        ("solver.max_step", json!(1e-6)),
+    ]
+}
+
+/// A groove by its points, of the deep-groove bearing's inner race.
+fn profile() -> Value {
+    let (groove, bottom) = (0.515 * 7.94e-3, (39.04e-3 - 7.94e-3) / 2.0);
+    let z: Vec<f64> = (-6..=6).map(|i| 0.5e-3 * f64::from(i)).collect();
+    let r: Vec<f64> = z
+        .iter()
+        .map(|z| bottom + groove - (groove * groove - z * z).sqrt())
+        .collect();
+    json!({"z": z, "r": r})
 }
 
 fn coupled() -> Value {

@@ -102,33 +102,49 @@ pub fn change(u: &mut Unstructured<'_>, document: &mut Value) -> Result<()> {
 
 fn new_value(u: &mut Unstructured<'_>, document: &Value, place: &Place) -> Result<Value> {
     let there = document.pointer(&place.pointer).unwrap_or(&Value::Null);
-    Ok(match u.arbitrary::<u8>()? % 16 {
-        0..=4 => scaled(u, there, &place.name)?,
-        5 | 6 => bound(u, document, place)?,
-        7 => json!(u.choose(&EDGES)?),
-        8 => json!(u.arbitrary::<f64>()?),
-        9 => json!(u.choose(&WHOLE)?),
-        10 | 11 => pooled(u, &place.name)?,
-        12 => offered(u, document, place)?,
-        13 | 14 => reshaped(u, there, &place.name)?,
-        _ => u.choose(&wrong())?.clone(),
-    })
+    let kind = u.arbitrary::<u8>()? % 16;
+    match there {
+        _ if kind == 15 => Ok(u.choose(&wrong())?.clone()),
+        Value::Number(_) => some_number(u, document, place, kind),
+        Value::Null if kind < 4 => some_number(u, document, place, kind),
+        Value::Bool(yes) => Ok(json!(!yes)),
+        Value::String(_) if kind < 8 => offered(u, document, place),
+        Value::Array(_) | Value::Object(_) if kind < 8 => reshaped(u, there, &place.name),
+        _ => pooled(u, &place.name),
+    }
 }
 
-/// A number of the size of what is there, or of what is elsewhere under that name; other values as they are elsewhere.
+/// A number, of a kind from 0 to 14.
+fn some_number(
+    u: &mut Unstructured<'_>,
+    document: &Value,
+    place: &Place,
+    kind: u8,
+) -> Result<Value> {
+    let there = document.pointer(&place.pointer).unwrap_or(&Value::Null);
+    match kind {
+        0..=7 => scaled(u, there, &place.name),
+        8..=10 => bound(u, document, place),
+        11 => Ok(json!(u.choose(&EDGES)?)),
+        12 => Ok(json!(u.arbitrary::<f64>()?)),
+        13 => Ok(json!(u.choose(&WHOLE)?)),
+        _ => pooled(u, &place.name),
+    }
+}
+
+/// A number of the size of what is there, or of what is elsewhere under that name.
 fn scaled(u: &mut Unstructured<'_>, there: &Value, name: &str) -> Result<Value> {
     let size = match there.as_f64() {
         Some(value) if value != 0.0 => value,
-        Some(_) => typical(name),
-        None => return pooled(u, name),
+        _ => typical(name),
     };
     let power = f64::from(u.arbitrary::<i8>()?) / 32.0;
     let sign = if u.ratio(1, 8)? { -1.0 } else { 1.0 };
     let value = sign * size * 10_f64.powf(power);
-    if there.is_f64() {
-        Ok(json!(value))
-    } else {
+    if there.is_i64() || there.is_u64() {
         Ok(json!(value.round() as i64))
+    } else {
+        Ok(json!(value))
     }
 }
 
@@ -142,8 +158,8 @@ fn typical(name: &str) -> f64 {
 /// A value that some scene has under that name.
 fn pooled(u: &mut Unstructured<'_>, name: &str) -> Result<Value> {
     match pool().get(name) {
-        Some(values) => Ok(u.choose(values)?.clone()),
-        None => Ok(Value::Null),
+        Some(values) if !values.is_empty() => Ok(u.choose(values)?.clone()),
+        _ => Ok(Value::Null),
     }
 }
 
@@ -156,7 +172,7 @@ fn pool() -> &'static BTreeMap<String, Vec<Value>> {
             for place in places(&base.document) {
                 let value = base.document.pointer(&place.pointer).expect("it is there");
                 let values = pool.entry(place.name).or_default();
-                if !values.contains(value) {
+                if !value.is_null() && !values.contains(value) {
                     values.push(value.clone());
                 }
             }

@@ -35,6 +35,9 @@ pub fn of_a_scene<T>(outcome: Result<T>) -> Option<T> {
 fn told(error: &Error) {
     let text = error.to_string();
     assert!(!text.trim().is_empty());
+    for of_rust in ["Some(", "None"] {
+        assert!(!text.contains(of_rust), "{text}");
+    }
     match error {
         Error::Scene { path, allowed, .. } => {
             assert!(!path.is_empty(), "no field: {text}");
@@ -107,6 +110,10 @@ pub fn finite(out: &Signals) {
     );
     for warning in out.warnings() {
         assert!(!warning.to_string().contains("NaN"), "{warning}");
+    }
+    if let Some(accuracy) = &out.provenance.accuracy {
+        let node_error = accuracy.node_error.unwrap_or_default();
+        all_finite("accuracy", &[accuracy.integration_error, node_error]);
     }
     if let Some(found) = decided(features(out, &FeatureOptions::default())) {
         all_finite(

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use arbitrary::{Arbitrary, Result, Unstructured};
-use ballrace::{Error, Run, Scene, simulate};
+use ballrace::{Error, Run, Scene, Signals, simulate};
 use serde_json::{Value, json};
 
 use crate::bases;
@@ -48,15 +48,7 @@ fn some_run(u: &mut Unstructured<'_>) -> Result<Value> {
     let method = one(u, methods())?;
     let fs = one(u, &[1e6, 1e5, 1e7, 2e4])?;
     let samples = 1 + u.arbitrary::<u8>()? % 30;
-    let start = one(
-        u,
-        &[
-            json!("rolling"),
-            json!("equilibrium"),
-            json!([0.0]),
-            json!([]),
-        ],
-    )?;
+    let start = one(u, &starts())?;
     let settle = one(u, &[json!(0.0), json!(1e-5), Value::Null])?;
     let rtol = one(u, &[Value::Null, json!(1e-3), json!(1e-12), json!(0.1)])?;
     let bandwidth = one(u, &[Value::Null, json!("auto")])?;
@@ -70,6 +62,20 @@ fn some_run(u: &mut Unstructured<'_>) -> Result<Value> {
         run["accuracy"] = json!(1e-2);
     }
     Ok(run)
+}
+
+/// Mostly those of which a scene makes the state.
+fn starts() -> [Value; 8] {
+    let [rolling, rest] = ["rolling", "equilibrium"].map(Value::from);
+    let mut starts = std::array::from_fn(|i| {
+        if i % 2 == 0 {
+            rolling.clone()
+        } else {
+            rest.clone()
+        }
+    });
+    starts[7] = json!([0.0]);
+    starts
 }
 
 /// Names of the methods, as the crate tells them, and none.
@@ -95,8 +101,24 @@ impl Short {
         let Some(run) = of_a_scene(Run::from_json(&self.run.to_string())) else {
             return;
         };
-        if let Some(out) = of_a_scene(simulate(&scene, &run)) {
+        let outcome = simulate(&scene, &run);
+        self.tells_what_was_given(&outcome);
+        if let Some(out) = of_a_scene(outcome) {
             finite(&out);
+        }
+    }
+
+    /// Checks that a number of the run that is refused is the one that was given.
+    fn tells_what_was_given(&self, outcome: &ballrace::Result<Signals>) {
+        let Err(Error::Scene { path, value, .. }) = outcome else {
+            return;
+        };
+        if let Some(given) = self.run.get(path).and_then(Value::as_f64) {
+            let told = value.parse::<f64>().ok();
+            assert!(
+                told.is_some_and(|told| (told - given).abs() <= 1e-12 * given.abs()),
+                "{outcome:?}"
+            );
         }
     }
 }
