@@ -21,8 +21,8 @@ from .errors import SceneError
 T = TypeVar("T")
 
 LEFT_OUT = MappingProxyType({"left_out": True})
-"""Metadata of a field that a document leaves out where it is None or empty, so that older documents keep their
-text."""
+"""Metadata of a field that a document leaves out where it is None, False or empty, so that older documents keep
+their text."""
 
 INSTEAD = "instead"
 """Metadata of a field: the key that a document may have in its place, only read, and what that means."""
@@ -129,7 +129,7 @@ def _encode_fields(part: Part, path: str) -> dict[str, Any]:
     document = {}
     for name, key, left_out in _names(type(part)):
         value = getattr(part, name)
-        if not (left_out and (value is None or value == {})):
+        if not (left_out and (value is None or value is False or value == {})):
             document[key] = encode(value, _join(path, key))
     return document
 

@@ -47,9 +47,7 @@ pub(super) fn provenance(run: &Run, done: Done<'_>) -> Provenance {
         duration: run.duration,
         threads: done.threads,
         states: done.reduction.as_ref().map_or(model.dim(), Reduction::dim),
-        left_out: done
-            .reduction
-            .map_or_else(Vec::new, |reduction| reduction.omissions().to_vec()),
+        left_out: Reduction::left_out(done.reduction.as_ref(), model),
         simd: model.instructions().name(),
         distrust: done.distrust,
         architecture: std::env::consts::ARCH,

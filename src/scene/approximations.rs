@@ -7,6 +7,8 @@ use crate::error::{Error, Result};
 
 /// Simplifications that change the answer, all off by default. What each costs in accuracy is measured in
 /// `benches/records.md`; [`crate::explain()`] offers those that apply to a scene.
+// Each is asked for by itself.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 #[non_exhaustive]
@@ -20,6 +22,9 @@ pub struct Approximations {
     pub plane: bool,
     /// Of two rows the one that carries next to nothing at the start is left out, for thrust that unloads it.
     pub one_row: bool,
+    /// Rings keep the tilts of equilibrium under the loads at the start: they lean, and do not rock. For loads that do not change.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub tilt: bool,
 }
 
 impl Approximations {
@@ -28,6 +33,7 @@ impl Approximations {
         rolling: false,
         plane: false,
         one_row: false,
+        tilt: false,
     };
 
     /// Whether any is asked for.
@@ -55,7 +61,11 @@ impl Approximations {
             ))
         };
         let method = scene.solver.method;
-        if self.any() && matches!(method, Method::ImplicitFriction | Method::Auto) {
+        let of_states = Self {
+            tilt: false,
+            ..self
+        };
+        if of_states.any() && matches!(method, Method::ImplicitFriction | Method::Auto) {
             return Err(Error::scene(
                 "approximations",
                 "asked for",
@@ -80,6 +90,11 @@ impl Approximations {
         }
         if self.one_row && scene.rows.len() != 2 {
             return refuse("one_row", "false unless there are two rows".to_owned());
+        }
+        if self.tilt {
+            scene
+                .check_held_tilts()
+                .or_else(|allowed| refuse("tilt", allowed))?;
         }
         Ok(())
     }

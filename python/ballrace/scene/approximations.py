@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from .._document import Part
+from .._document import LEFT_OUT, Part
 
 __all__ = ["Approximations"]
 
@@ -28,8 +28,12 @@ class Approximations(Part):
     one_row : bool
         Of two rows the one that carries less than 2 % of the load at the start is left out, where loads do not
         change.
+    tilt : bool
+        Rings keep the tilts of equilibrium under the loads at the start: they lean, and do not rock. Needs loads
+        that do not change.
     """
 
     rolling: bool = False
     plane: bool = False
     one_row: bool = False
+    tilt: bool = field(default=False, metadata=LEFT_OUT)
