@@ -89,6 +89,18 @@ fn what_cannot_be_carried_is_refused() {
     );
 }
 
+/// Limits: a ring of 330 t, whose weight pushes it past the other's middle, is refused by a ball and with numbers.
+#[test]
+fn rings_that_lie_beyond_each_other_are_refused_with_numbers() {
+    let mut scene = presets::deep_groove_6205(500.0, 100.0, 1800.0);
+    scene.outer_ring.diameter = Some(60.048_663);
+    let Err(Error::Equilibrium { reason }) = equilibrium(&scene) else {
+        panic!("it is carried");
+    };
+    assert!(reason.starts_with("row0.ball"), "{reason}");
+    assert!(!reason.contains("NaN"), "{reason}");
+}
+
 /// Truth: Newton's law. In the cage's frame nothing is left on any ball of a bearing whose loose balls hang on their
 /// cage between the races; and it takes few iterations (22 where tension and balls take turns).
 #[test]

@@ -156,8 +156,10 @@ impl Problem<'_> {
             let place = Vector2::new(x.hypot(y), z);
             return Ok(self.ball_at(j, rings, place));
         }
+        // Beyond the axis its place is that of another ball.
         let accepted = |state: &BallState| {
-            state.force.norm() <= BALL_STALLED * self.share().max(state.pressed())
+            state.place.x > 0.0
+                && state.force.norm() <= BALL_STALLED * self.share().max(state.pressed())
         };
         let found = self.relax(j, rings, start, precision)?;
         if accepted(&found) {
@@ -168,12 +170,13 @@ impl Problem<'_> {
         if accepted(&found) {
             return Ok(found);
         }
+        let why = if found.place.x > 0.0 {
+            format!("{} are not balanced", told::force(found.force.norm()))
+        } else {
+            "they lie beyond each other".to_owned()
+        };
         Err(Error::Equilibrium {
-            reason: format!(
-                "{} finds no place between the rings: {} are not balanced",
-                body.name,
-                told::force(found.force.norm())
-            ),
+            reason: format!("{} finds no place between the rings: {why}", body.name),
         })
     }
 

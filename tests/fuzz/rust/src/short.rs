@@ -12,7 +12,7 @@ use crate::check::{finite, of_a_scene};
 
 /// Steps that a run may take, and wall time \[s\].
 const STEPS: usize = 400;
-const TIME: f64 = 10.0;
+const TIME: f64 = 3.0;
 
 /// A scene and a run as documents.
 pub struct Short {

@@ -74,7 +74,7 @@ fn short(run: Run) -> Run {
     Run {
         duration: run.duration.min(DURATION),
         max_steps: Some(STEPS as usize),
-        time_limit: Some(10.0),
+        time_limit: Some(3.0),
         ..run
     }
 }
