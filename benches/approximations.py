@@ -31,18 +31,20 @@ from matplotlib import pyplot as plt
 FS = 50_000.0
 DURATION = 0.6
 BEGIN = 0.1
-TIMES = 5
+TIMES = 11
 FREE = Approximations()
 ROLLING = Approximations(rolling=True)
 PLANE = Approximations(plane=True)
 FLAT = Approximations(rolling=True, plane=True)
 ONE_ROW = Approximations(one_row=True)
+TILT = Approximations(tilt=True)
 NAMES = {
     FREE: "a nanometre away",
     ROLLING: "rolling",
     PLANE: "plane",
     FLAT: "rolling, plane",
     ONE_ROW: "one_row",
+    TILT: "tilt",
 }
 
 
@@ -70,6 +72,8 @@ def scenes() -> dict[str, tuple[br.Scene, list[Approximations]]]:
         "wheel bearing, +3 kN": (wheel, angled),
         "the same, healthy": (replace(wheel, defects={}), angled),
         "wheel bearing, 0.5 kN, 20 kN of thrust": (lifted, [*angled, ONE_ROW]),
+        "cornering wheel, −0.3 g": (br.presets.cornering_wheel(-0.3), [TILT]),
+        "cornering wheel, 0.3 g": (br.presets.cornering_wheel(0.3), [TILT]),
     }
 
 
@@ -136,8 +140,8 @@ def draw(table: pl.DataFrame, path: Path) -> None:
     """Draw speed against the error of the rms, a mark an approximation; hollow where no race has a defect."""
     figure, axes = plt.subplots(figsize=(8.5, 4.4), layout="constrained")
     names = table["scene"].unique(maintain_order=True)
-    colours = dict(zip(names, plt.get_cmap("Dark2").colors, strict=False))
-    marks = {"rolling": "o", "plane": "s", "rolling, plane": "D", "one_row": "^"}
+    colours = dict(zip(names, plt.get_cmap("tab10").colors, strict=True))
+    marks = {"rolling": "o", "plane": "s", "rolling, plane": "D", "one_row": "^", "tilt": "v"}
     for row in table.iter_rows(named=True):
         mark, colour = marks.get(row["approximation"]), colours[row["scene"]]
         if mark:

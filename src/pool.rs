@@ -13,6 +13,14 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
 
+/// Stack of our own threads \[bytes\]: without optimisation a frame of the vector code alone takes more than the 2 MiB that Rust
+/// gives a thread.
+pub(crate) const STACK: usize = if cfg!(debug_assertions) {
+    8 << 20
+} else {
+    2 << 20
+};
+
 /// Pools by process and size.
 type Pools = HashMap<(u32, usize), Arc<ThreadPool>>;
 
@@ -28,6 +36,7 @@ fn pool(threads: usize) -> Result<Arc<ThreadPool>> {
     let pool = ThreadPoolBuilder::new()
         .num_threads(threads)
         .thread_name(|i| format!("ballrace-{i}"))
+        .stack_size(STACK)
         .build()
         .map_err(|e| {
             Error::scene(

@@ -396,6 +396,24 @@ fn impossible_requests_are_refused() {
     }
 }
 
+/// Golden: contact damping, which balls that roll kinematically keep, holds no steps short.
+#[test]
+fn rolling_balls_take_steps_as_long_as_free_ones() {
+    let evaluations = |approximations| {
+        let run = Run {
+            duration: 5e-3,
+            ..Run::default()
+        };
+        let out = simulate(&thrust(approximations), &run).unwrap();
+        out.stats.nfev as f64
+    };
+    let free = evaluations(Approximations::NONE);
+    for approximations in [ROLLING, FLAT] {
+        let share = evaluations(approximations) / free;
+        assert!(share < 1.3, "{approximations:?}: {share}");
+    }
+}
+
 /// A run says what it gave up.
 #[test]
 fn a_run_tells_what_it_gave_up() {

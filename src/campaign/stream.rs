@@ -14,6 +14,7 @@ use crate::error::{Error, Result};
 use crate::features::FeatureOptions;
 use crate::interrupt::Interrupt;
 use crate::memory;
+use crate::pool::STACK;
 
 /// How long the calling thread waits at most before it looks up.
 const ATTENTION: Duration = Duration::from_millis(50);
@@ -55,6 +56,7 @@ pub fn stream(
         // Where one cannot be had, the queue ends with this function's return, and so do the threads there are.
         std::thread::Builder::new()
             .name(format!("ballrace-case-{i}"))
+            .stack_size(STACK)
             .spawn(move || work(&shared, &hand_in))
             .map_err(|e| {
                 let allowed = format!("a number of threads the system grants ({e})");

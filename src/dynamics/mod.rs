@@ -10,6 +10,7 @@ mod leaning;
 mod leaning_tests;
 #[cfg(test)]
 mod lost;
+mod order;
 mod planar;
 mod rolling;
 #[cfg(test)]
@@ -32,6 +33,7 @@ use films::Films;
 use kept::Kept;
 use leaning::Leaning;
 pub(crate) use leaning::{HeldContacts, turning_accelerations};
+use order::Order;
 use planar::{Ground, Planar};
 use rolling::Rolling;
 
@@ -48,22 +50,13 @@ pub struct Dynamics<'m> {
     constant: Table,
     /// Supports of the directions that are integrated; the other directions never strain theirs.
     springs: Vec<Spring>,
-    /// One over the mass where a direction is free, 0 where it is not.
+    /// One over the mass where a direction is free, 0 where it is not or where the run keeps an axial place.
     mobility: Table,
     pool: Option<Arc<ThreadPool>>,
     /// Films that follow the rings' speed.
     films: Option<Films>,
     /// Rings that may tilt.
     leaning: Option<Box<Leaning>>,
-}
-
-/// What a state vector holds.
-#[derive(Debug)]
-enum Order {
-    /// Everything, body by body, as [`Model::names`] says.
-    Bodies,
-    /// What a reduction keeps, direction by direction.
-    Kept(Box<Kept>),
 }
 
 impl<'m> Dynamics<'m> {
@@ -88,6 +81,7 @@ impl<'m> Dynamics<'m> {
             .degrees()
             .position(|(body, dof)| model.bodies[body].degrees[dof] == Degree::Driven);
         let rolling = Rolling::new(&reduction);
+        let keeps_axial_places = kind.axial_places.is_some();
         let order = Order::Kept(Box::new(Kept {
             reduction,
             driven,
@@ -97,6 +91,9 @@ impl<'m> Dynamics<'m> {
         let mut dynamics = Self::with(model, order, kind);
         // Only scenes that stay in the plane are reduced: what tilts or spins freely in them rests.
         dynamics.leaning = None;
+        if keeps_axial_places {
+            dynamics.mobility.along_mut(Dof::Z).fill(0.0);
+        }
         let kept = dynamics.degrees();
         dynamics
             .springs
@@ -179,6 +176,11 @@ impl<'m> Dynamics<'m> {
         &self.state
     }
 
+    /// One over the mass where a direction may accelerate, else 0.
+    pub(crate) fn mobility(&self) -> &Table {
+        &self.mobility
+    }
+
     /// The threads that share an evaluation, if there are more than one.
     pub(crate) fn pool(&self) -> Option<&ThreadPool> {
         self.pool.as_deref()
@@ -217,65 +219,9 @@ impl<'m> Dynamics<'m> {
         self.contact_torques
     }
 
-    /// Gives a second row that is the image of the first its changes of velocity, out of those of all bodies.
-    pub(crate) fn mirror(&self, changes: &mut [f64]) {
-        if let Order::Kept(kept) = &self.order {
-            kept.reduction.mirror(self.model, changes);
-        }
-    }
-
-    /// Whether every state is a place along an axis, an angle or its rate: none is a ball's distance from the shaft.
-    pub(crate) fn is_cartesian(&self) -> bool {
-        match &self.order {
-            Order::Bodies => true,
-            Order::Kept(kept) => kept.reduction.is_cartesian(),
-        }
-    }
-
     /// Whether contacts are evaluated in the frames of rings that may tilt.
     pub(crate) fn leans(&self) -> bool {
         self.leaning.is_some()
-    }
-
-    /// What each state belongs to: those of the first half of a state vector, in their order.
-    pub(crate) fn degrees(&self) -> Vec<(BodyId, Dof)> {
-        match &self.order {
-            Order::Bodies => self.model.layout().degrees().collect(),
-            Order::Kept(kept) => kept.reduction.degrees().collect(),
-        }
-    }
-
-    /// The states of a run ([`System::dim`] of them) out of those of all bodies ([`Model::dim`]).
-    ///
-    /// # Panics
-    /// If `full` is too short.
-    pub fn compress(&self, full: &[f64]) -> Vec<f64> {
-        match &self.order {
-            Order::Bodies => full.to_vec(),
-            Order::Kept(kept) => kept.reduction.compress(full),
-        }
-    }
-
-    /// The states of all bodies at a time \[s\] from those of a run; `full` holds them from another time.
-    ///
-    /// # Panics
-    /// If a length is wrong.
-    pub fn expand(&self, t: f64, y: &[f64], full: &mut [f64]) {
-        match &self.order {
-            Order::Bodies => full.copy_from_slice(y),
-            Order::Kept(kept) => kept.reduction.expand(self.model, t, y, full),
-        }
-    }
-
-    /// The same for the rates `dy` of a state `y`.
-    ///
-    /// # Panics
-    /// If a length is wrong.
-    pub fn expand_rates(&self, t: f64, y: &[f64], dy: &[f64], full: &mut [f64]) {
-        match &self.order {
-            Order::Bodies => full.copy_from_slice(dy),
-            Order::Kept(kept) => kept.reduction.expand_rates(self.model, t, y, dy, full),
-        }
     }
 
     /// Takes over a state vector.

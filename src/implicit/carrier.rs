@@ -12,7 +12,7 @@ use nalgebra::{SMatrix, Vector3};
 
 use crate::contact::AXIAL;
 use crate::dynamics::{RingView, View, turning_accelerations};
-use crate::model::{Degree, Dof, Model, Race};
+use crate::model::{DOFS, Degree, Dof, Model, Race};
 use crate::simd::Lanes;
 use crate::tilt::{Frame, Rotation};
 
@@ -42,10 +42,14 @@ impl<const N: usize> Default for Carrier<N> {
 }
 
 impl<const N: usize> Carrier<N> {
-    /// Of the ring of a race, as it is seen.
-    pub fn new(model: &Model, race: Race, view: &View<'_>, gamma_h: f64) -> Self {
+    /// Of the ring of a race and its mobility, as it is seen.
+    pub fn new(
+        model: &Model,
+        (race, mobility): (Race, [f64; DOFS]),
+        view: &View<'_>,
+        gamma_h: f64,
+    ) -> Self {
         let mut carrier = Self::default();
-        let mobility = &model.mobility[race.ring()];
         for (i, mobility) in mobility.iter().enumerate() {
             carrier.scale[(i, i)] = gamma_h * mobility;
         }

@@ -199,7 +199,7 @@ mod tests {
                 work.residual[body.index()][*place] = residual[*at];
             }
             let gamma_h = 1e-6;
-            work.factorise(&model, &views, gamma_h);
+            work.factorise(&dynamics, &views, gamma_h);
             assert!(work.correct(&model));
             let mut x = vec![0.0; half];
             for Velocity { at, body, place } in &velocities {

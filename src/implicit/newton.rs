@@ -98,51 +98,6 @@ impl<const N: usize> Newton<N> {
             residuals[body.index()][*place] = base[*at] + a[*at] * gamma_h - v[*at];
         }
     }
-
-    fn iterate(
-        &mut self,
-        dynamics: &mut Dynamics<'_>,
-        t: f64,
-        y: &mut [f64],
-        equation: &StageEquation<'_>,
-    ) -> Result<usize, Stuck> {
-        let (model, gamma_h) = (dynamics.model(), equation.gamma_h);
-        let limit = velocity_limit(model);
-        let half = y.len() / 2;
-        let mut worst = Largest::default();
-        // Not a number: comparisons with it are false.
-        let mut before = f64::NAN;
-        let mut anew = !self.stage.is_kept(gamma_h);
-        for iteration in 1..=MOST_ITERATIONS {
-            if iteration > 1 {
-                dynamics.look(t, y);
-            }
-            self.stage.forces(dynamics, &dynamics.views(), anew);
-            self.residual(dynamics, t, y, equation);
-            if anew {
-                self.stage.factorise(model, &dynamics.views(), gamma_h);
-            }
-            if !self.stage.correct(model) {
-                break;
-            }
-            worst = self.stage.apply(&mut y[half..], &self.across);
-            // What is left after a correction, by the rate at which they shrink (Hairer & Wanner II, IV.8).
-            let (size, rate) = (worst.size, worst.size / before);
-            if size <= limit || rate < 1.0 && size * rate / (1.0 - rate) <= limit {
-                if rate > WORN {
-                    self.stage.kept = None;
-                }
-                return Ok(iteration);
-            }
-            (anew, self.stage.secant) = (rate > SLOW, rate > DIVERGING);
-            before = size;
-        }
-        self.stage.kept = None;
-        Err(Stuck {
-            state: half + worst.velocity,
-            iterations: MOST_ITERATIONS,
-        })
-    }
 }
 
 impl<const N: usize> Solves for Newton<N> {
@@ -170,9 +125,43 @@ impl<const N: usize> Solves for Newton<N> {
         equation: &StageEquation<'_>,
     ) -> Result<usize, Stuck> {
         self.find_elements(dynamics, t, y);
-        let iterations = self.iterate(dynamics, t, y, equation)?;
-        tumble(dynamics.model().layout(), y, equation);
-        Ok(iterations)
+        let (model, gamma_h) = (dynamics.model(), equation.gamma_h);
+        let limit = velocity_limit(model);
+        let half = y.len() / 2;
+        let mut worst = Largest::default();
+        // Not a number: comparisons with it are false.
+        let mut before = f64::NAN;
+        let mut anew = !self.stage.is_kept(gamma_h);
+        for iteration in 1..=MOST_ITERATIONS {
+            if iteration > 1 {
+                dynamics.look(t, y);
+            }
+            self.stage.forces(dynamics, &dynamics.views(), anew);
+            self.residual(dynamics, t, y, equation);
+            if anew {
+                self.stage.factorise(dynamics, &dynamics.views(), gamma_h);
+            }
+            if !self.stage.correct(model) {
+                break;
+            }
+            worst = self.stage.apply(&mut y[half..], &self.across);
+            // What is left after a correction, by the rate at which they shrink (Hairer & Wanner II, IV.8).
+            let (size, rate) = (worst.size, worst.size / before);
+            if size <= limit || rate < 1.0 && size * rate / (1.0 - rate) <= limit {
+                if rate > WORN {
+                    self.stage.kept = None;
+                }
+                tumble(model.layout(), y, equation);
+                return Ok(iteration);
+            }
+            (anew, self.stage.secant) = (rate > SLOW, rate > DIVERGING);
+            before = size;
+        }
+        self.stage.kept = None;
+        Err(Stuck {
+            state: half + worst.velocity,
+            iterations: MOST_ITERATIONS,
+        })
     }
 }
 

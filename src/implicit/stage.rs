@@ -138,10 +138,10 @@ impl<const N: usize> Stage<N> {
     }
 
     /// Makes the matrix of the last slopes.
-    pub fn factorise(&mut self, model: &Model, views: &[View<'_>; 2], gamma_h: f64) {
-        model.instructions.run(Factorise {
+    pub fn factorise(&mut self, dynamics: &Dynamics<'_>, views: &[View<'_>; 2], gamma_h: f64) {
+        dynamics.model().instructions.run(Factorise {
             work: self,
-            model,
+            dynamics,
             views,
             gamma_h,
         });
@@ -296,7 +296,7 @@ impl Velocity {
 /// Makes the matrix.
 struct Factorise<'a, const N: usize> {
     work: &'a mut Stage<N>,
-    model: &'a Model,
+    dynamics: &'a Dynamics<'a>,
     views: &'a [View<'a>; 2],
     gamma_h: f64,
 }
@@ -308,7 +308,8 @@ impl<const N: usize> Task for Factorise<'_, N> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
-        let (model, views, gamma_h) = (self.model, self.views, self.gamma_h);
+        let (dynamics, views, gamma_h) = (self.dynamics, self.views, self.gamma_h);
+        let (model, mobilities) = (dynamics.model(), dynamics.mobility());
         let Stage {
             arrow,
             batches,
@@ -321,7 +322,7 @@ impl<const N: usize> Task for Factorise<'_, N> {
         for (eight, batch) in batches[..*active].iter().enumerate() {
             let mut scale = [Lanes::ZERO; N];
             for (lane, ball) in batch.balls.iter().enumerate() {
-                let mobility = &model.mobility[BodyId::ball(*ball)];
+                let mobility = mobilities.of(BodyId::ball(*ball));
                 for i in 0..DOFS {
                     scale[i][lane] = gamma_h * mobility[i];
                 }
@@ -337,7 +338,10 @@ impl<const N: usize> Task for Factorise<'_, N> {
             });
             arrow.eliminate::<FMA>(eight, &contacts, &scale);
         }
-        let carriers = Race::BOTH.map(|race| Carrier::new(model, race, &views[race], gamma_h));
+        let carriers = Race::BOTH.map(|race| {
+            let mobility = mobilities.of(race.ring());
+            Carrier::new(model, (race, mobility), &views[race], gamma_h)
+        });
         let diagonal = Race::BOTH.map(|race| carriers[race].diagonal(model, race));
         arrow.factorise(&diagonal, &carriers);
     }

@@ -2,7 +2,7 @@
 
 use super::compile::classify;
 use super::scales::Bottom;
-use super::{BodyId, Degree, Dof, Model, Race, RowModel};
+use super::{BodyId, Degree, Dof, Model, Race};
 use crate::contact::film::{self, Effects, Film, Oil, Reference};
 use crate::contact::{Elastic, Oiled, Pair};
 use crate::error::{Error, Result};
@@ -48,8 +48,13 @@ impl Model {
     pub(crate) fn has_films_in_motion(&self) -> bool {
         let steady = matches!(self.scene.drive, Drive::Speed(TimeFunction::Constant(_)))
             && self.bodies[BodyId::OUTER].degrees[Dof::Theta] == Degree::Fixed;
-        let oiled = |row: &RowModel| row.pairs.iter().any(|pair| pair.law.film.is_some());
-        !steady && self.rows.iter().any(oiled)
+        !steady && self.has_films()
+    }
+
+    /// Whether any contact has a film.
+    pub(crate) fn has_films(&self) -> bool {
+        let mut pairs = self.rows.iter().flat_map(|row| &row.pairs);
+        pairs.any(|pair| pair.law.film.is_some())
     }
 
     /// Gives all films the state that they have at a speed of the rings against each other \[rad/s\].

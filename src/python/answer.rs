@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::errors::OrRaise;
+use crate::pool::STACK;
 use crate::{Block, Column, Interrupt, Result};
 
 /// Longest time between two looks at signals, and least time between two calls of a callback.
@@ -64,6 +65,7 @@ pub(super) fn handing_over<T: Send + 'static>(
     let heeded = stop.clone();
     let worker = thread::Builder::new()
         .name("ballrace".to_owned())
+        .stack_size(STACK)
         .spawn(move || {
             // Owned here, so that listening ends with the work.
             let tell = tell;

@@ -199,11 +199,6 @@ impl Orbit {
         }
     }
 
-    /// Whether the balls' distances from the shaft are states.
-    pub(super) fn has_states(&self) -> bool {
-        self.at.is_some()
-    }
-
     /// Radii and their speeds into the kept states, from a state of all bodies.
     pub(super) fn compress(&self, full: &[f64], y: &mut [f64]) {
         let Some(at) = self.at else { return };

@@ -312,16 +312,20 @@ impl Reduction {
         &self.felt
     }
 
-    /// Whether no ball is followed by its distance from the shaft.
-    pub(crate) fn is_cartesian(&self) -> bool {
-        !self.orbits.iter().any(Orbit::has_states)
-    }
-
     /// Rows that turn as one and whose radii are states, with the place of their first one.
     pub(crate) fn orbits(&self) -> impl Iterator<Item = (&Orbit, usize)> {
         self.orbits
             .iter()
             .filter_map(|orbit| Some((orbit, orbit.at?)))
+    }
+
+    /// States that are distances of balls from the shaft, by their places.
+    pub(crate) fn radii(&self) -> impl Iterator<Item = (usize, BodyId)> {
+        let of = |(orbit, at): (&Orbit, usize)| {
+            let first = orbit.first;
+            (0..orbit.starts.len()).map(move |k| (at + k, first.after(k)))
+        };
+        self.orbits().flat_map(of)
     }
 
     /// The kept degrees of freedom in their order.

@@ -63,7 +63,7 @@ pub(crate) fn run<'m, O: Observer<Dynamics<'m>>>(
         Method::RungeKutta4 => by(&RUNGE_KUTTA_4, dynamics, task, observer),
         Method::Adams => by(
             &Adams,
-            &mut Damped::new(dynamics),
+            &mut Damped::new(dynamics, task.options.max_step),
             task,
             &mut Through(observer),
         ),

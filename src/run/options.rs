@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::error::{Error, Result};
-use crate::scene::{ByName, Method};
+use crate::scene::{Method, interpret};
 use crate::signals::Bandwidth;
 use crate::start::Start;
 
@@ -81,13 +81,7 @@ impl Run {
     pub fn from_json(text: &str) -> Result<Self> {
         let document: Value = serde_json::from_str(text)
             .map_err(|e| Error::scene("run", "not JSON", e.to_string()))?;
-        let run: Self = serde_path_to_error::deserialize(ByName(&document)).map_err(|e| {
-            let field = e.path().to_string();
-            match document.get(&field) {
-                Some(value) => Error::scene(field, value, e.inner().to_string()),
-                None => Error::scene("run", &document, e.inner().to_string()),
-            }
-        })?;
+        let run: Self = interpret(&document, "run")?;
         run.validate()?;
         Ok(run)
     }
@@ -247,6 +241,7 @@ mod tests {
             ("{", "run"),
             ("[0.5, 50e3]", "run"),
             (r#"{"steps": 3}"#, "steps"),
+            (r#"{"": 3}"#, r#""""#),
             (r#"{"fs": 0}"#, "fs"),
             (r#"{"duration": "long"}"#, "duration"),
             (r#"{"settle": -1}"#, "settle"),

@@ -18,7 +18,7 @@ pub(super) fn from_json<T: DeserializeOwned>(text: &str) -> serde_json::Result<T
 }
 
 /// A deserializer, or what one hands out, beneath which lists stand for no struct.
-pub(crate) struct ByName<T>(pub T);
+pub(super) struct ByName<T>(pub T);
 
 /// A visitor beneath which lists stand for no struct.
 struct Reader<V> {

@@ -45,12 +45,13 @@ use serde::{Deserialize, Serialize};
 use crate::error::{Error, Result};
 use crate::memory;
 
+use by_name::ByName;
+
 pub(crate) use antiderivative::Antiderivative;
 pub use approximations::Approximations;
 pub use bearing::{
     CoupledSupport, GothicArch, Mount, RaceProfile, Ring, RingName, Row, Support, Waviness,
 };
-pub(crate) use by_name::ByName;
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
 pub use defect::{AxialOffset, Defect, DefectShape, Floor, Surface, Width, WidthProfile};
 pub(crate) use doubt::FilmJudged;
@@ -325,12 +326,15 @@ impl Scene {
 }
 
 /// Reads a document, or a part of one; its messages say where.
-fn interpret<T: DeserializeOwned>(document: &serde_json::Value, part: &str) -> Result<T> {
+pub(crate) fn interpret<T: DeserializeOwned>(
+    document: &serde_json::Value,
+    part: &str,
+) -> Result<T> {
     serde_path_to_error::deserialize(ByName(document)).map_err(|e| {
         let value = path::at(document, e.path()).map_or_else(|| "absent".to_owned(), path::short);
         let place = match (part, path::place(e.path())) {
             (part, place) if place.is_empty() => part.to_owned(),
-            ("scene", place) => place,
+            ("scene" | "run", place) => place,
             (part, place) => format!("{part}.{place}"),
         };
         Error::scene(place, value, expected::allowed(&e.inner().to_string()))

@@ -1,4 +1,4 @@
-//! What a program outside may rely on: scenes by constructors, runs with an observer, one's own integrator on the
+//! What a program outside may rely on: scenes by constructors, runs with an observer, campaigns, one's own integrator on the
 //! equations, errors that may grow variants.
 
 use std::error::Error;
@@ -7,7 +7,8 @@ use std::ops::ControlFlow;
 use ballrace::integrate::{DORMAND_PRINCE, Options, System, Tolerance, integrate};
 use ballrace::scene::{Drive, Friction, Load, RingName, Row, presets};
 use ballrace::{
-    Model, Run, Scene, Start, compile, dynamics, equilibrium, simulate_with_progress, start,
+    Case, FeatureOptions, Model, Run, Scene, Start, campaign, compile, dynamics, equilibrium,
+    simulate_with_progress, start,
 };
 
 /// The bearing as a stranger's system of equations.
@@ -68,6 +69,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     match simulate_with_progress(&presets::wheel_bearing(3000.0), &run, &mut watch) {
         Ok(out) => println!("{} samples", out.get("outer.ay").map_or(0, <[f64]>::len)),
         Err(error) => println!("{}", told(&error)),
+    }
+
+    let cases = [-1.0, 1.0].map(|axial| Case {
+        scene: presets::wheel_bearing(3000.0 * axial),
+        run: run.clone(),
+    });
+    let options = FeatureOptions::default();
+    for outcome in campaign(cases, 2, &options, &mut |_| ControlFlow::Continue(()))? {
+        println!("{} features", outcome.result?.features.len());
     }
 
     let model = compile(&bearing())?;

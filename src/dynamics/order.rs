@@ -1,0 +1,72 @@
+//! What the states of a run are: from those of all bodies, and back.
+
+use super::Dynamics;
+use super::kept::Kept;
+use crate::model::{BodyId, Dof};
+
+/// What a state vector holds.
+#[derive(Debug)]
+pub(super) enum Order {
+    /// Everything, body by body, as [`Model::names`] says.
+    Bodies,
+    /// What a reduction keeps, direction by direction.
+    Kept(Box<Kept>),
+}
+
+impl Dynamics<'_> {
+    /// What each state belongs to: those of the first half of a state vector, in their order.
+    pub(crate) fn degrees(&self) -> Vec<(BodyId, Dof)> {
+        match &self.order {
+            Order::Bodies => self.model.layout().degrees().collect(),
+            Order::Kept(kept) => kept.reduction.degrees().collect(),
+        }
+    }
+
+    /// The states of a run ([`System::dim`] of them) out of those of all bodies ([`Model::dim`]).
+    ///
+    /// # Panics
+    /// If `full` is too short.
+    pub fn compress(&self, full: &[f64]) -> Vec<f64> {
+        match &self.order {
+            Order::Bodies => full.to_vec(),
+            Order::Kept(kept) => kept.reduction.compress(full),
+        }
+    }
+
+    /// The states of all bodies at a time \[s\] from those of a run; `full` holds them from another time.
+    ///
+    /// # Panics
+    /// If a length is wrong.
+    pub fn expand(&self, t: f64, y: &[f64], full: &mut [f64]) {
+        match &self.order {
+            Order::Bodies => full.copy_from_slice(y),
+            Order::Kept(kept) => kept.reduction.expand(self.model, t, y, full),
+        }
+    }
+
+    /// The same for the rates `dy` of a state `y`.
+    ///
+    /// # Panics
+    /// If a length is wrong.
+    pub fn expand_rates(&self, t: f64, y: &[f64], dy: &[f64], full: &mut [f64]) {
+        match &self.order {
+            Order::Bodies => full.copy_from_slice(dy),
+            Order::Kept(kept) => kept.reduction.expand_rates(self.model, t, y, dy, full),
+        }
+    }
+
+    /// States that are distances of balls from the shaft, by their places.
+    pub(crate) fn radii(&self) -> Vec<(usize, BodyId)> {
+        match &self.order {
+            Order::Bodies => Vec::new(),
+            Order::Kept(kept) => kept.reduction.radii().collect(),
+        }
+    }
+
+    /// Gives a second row that is the image of the first its changes of velocity, out of those of all bodies.
+    pub(crate) fn mirror(&self, changes: &mut [f64]) {
+        if let Order::Kept(kept) = &self.order {
+            kept.reduction.mirror(self.model, changes);
+        }
+    }
+}
