@@ -64,7 +64,7 @@
 //!
 //! | what | touch | prove |
 //! |---|---|---|
-//! | an elastic law | a file in `contact/laws/elastic/`, its variant in the `mod.rs` there, a variant in `scene/contact.rs`; for Python `python/ballrace/scene/contact.py` | doctest values, `tests/contact.rs` |
+//! | an elastic law | a file in `contact/laws/elastic/`, its variant in the `mod.rs` there, a variant in `scene/contact.rs` and its ranges in `scene/validate/contact.rs`, its name in `explain/law.rs`; for Python `python/ballrace/scene/contact.py` and `python/ballrace/report/words.py` | doctest values, `tests/contact.rs` |
 //! | a traction law | a file in `contact/laws/traction/`, its variant in the `mod.rs` there, a variant with its numbers in `scene/contact.rs`; for Python as above | dissipation ≥ 0, its slope |
 //! | an oil | an entry of `NAMED_OILS` in `scene/oils.rs` with its source | `tests/lubricant.rs` |
 //! | what oil does | its formula in `contact/laws/film/`; what a contact has of it, `FilmEffect` there | a row of section 12.14, `tests/oil_contact.rs` |

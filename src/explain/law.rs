@@ -51,11 +51,9 @@ pub(super) fn of(model: &Model, at_start: &Equilibrium) -> Option<LawExplanation
 
 impl fmt::Display for LawExplanation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let is_hertz = self.law == NormalLaw::Hertz;
-        let name = if is_hertz {
-            "Hertz's point contact"
-        } else {
-            "roller slices after ISO/TS 16281, the paper's law"
+        let name = match self.law {
+            NormalLaw::Hertz => "Hertz's point contact",
+            NormalLaw::Iso16281 { .. } => "roller slices after ISO/TS 16281, the paper's law",
         };
         write!(
             f,
@@ -64,7 +62,7 @@ impl fmt::Display for LawExplanation {
             self.contact,
             1e6 * self.approach
         )?;
-        if !is_hertz {
+        if self.law != NormalLaw::Hertz {
             write!(
                 f,
                 ", {:.2} × Hertz's {:.2} µm",

@@ -26,10 +26,10 @@ pub(super) fn set(document: &mut Value, path: &str, value: Value) -> Result<()> 
     for step in steps {
         place = match (step, place) {
             (Step::Key(key), Value::Object(map)) => {
-                let known = map.keys().cloned().collect::<Vec<_>>().join(", ");
+                let known = names(map);
                 map.get_mut(key).ok_or_else(|| {
                     let new = a_new_one(path, key).unwrap_or_default();
-                    Error::scene(path, key, format!("no such field; there are: {known}{new}"))
+                    Error::scene(path, key, format!("no such field; there {known}{new}"))
                 })?
             }
             (Step::Index(index), Value::Array(items)) => {
@@ -37,6 +37,10 @@ pub(super) fn set(document: &mut Value, path: &str, value: Value) -> Result<()> 
                 items
                     .get_mut(index)
                     .ok_or_else(|| Error::scene(path, index, format!("an index below {count}")))?
+            }
+            (Step::Key(key), Value::Array(items)) => {
+                let allowed = format!("an item of a list of {}, as [0]", items.len());
+                return Err(Error::scene(path, key, allowed));
             }
             (Step::Key(key), other) => {
                 return Err(Error::scene(path, key, format!("{other} has no fields")));
@@ -168,6 +172,15 @@ fn steps(path: &str) -> Result<Vec<Step<'_>>> {
     Ok(steps)
 }
 /// How to give a new entry, of which a path names but a field.
+/// What names a part has, in words.
+fn names(map: &Map<String, Value>) -> String {
+    let known: Vec<&str> = map.keys().map(String::as_str).collect();
+    match known.as_slice() {
+        [] => "is none yet".to_owned(),
+        known => format!("are: {}", known.join(", ")),
+    }
+}
+
 fn a_new_one(path: &str, key: &str) -> Option<String> {
     let (part, rest) = path.split_once('.')?;
     let field = rest.strip_prefix(key)?;

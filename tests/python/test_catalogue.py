@@ -236,6 +236,11 @@ def test_clearance_is_the_middle_of_its_class() -> None:
     assert br.bearing("6205").rows[0].clearance == pytest.approx(12.5e-6)
     assert br.bearing("6205", clearance="C3").rows[0].clearance == pytest.approx(20.5e-6)
     assert br.bearing("6205", clearance=3e-6).rows[0].clearance == 3e-6
+    assert br.bearing("SKF 6205-2RS/C3").rows[0].clearance == pytest.approx(20.5e-6)
+    assert br.bearing("6205 C3", clearance="C3").rows[0].clearance == pytest.approx(20.5e-6)
+    assert br.bearing("7205 C").rows[0].clearance == 0.0
+    with pytest.raises(br.SceneError, match="'C3', which '6205/C3' says"):
+        br.bearing("6205/C3", clearance="C2")
     assert radial_clearance(10e-3, "CN") == pytest.approx(7.5e-6)
     with pytest.raises(br.SceneError, match="clearance"):
         br.bearing("6205", clearance="C9")

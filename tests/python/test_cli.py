@@ -126,6 +126,10 @@ def test_equilibrium_prints_stiffness_and_equivalent_loads(
     (printed_loads,) = ([float(x) for x in line[1:]] for line in lines if line[:1] == ["row0"])
     expected = [loads.outer_equivalent[0], loads.inner_equivalent[0]]
     np.testing.assert_allclose(printed_loads, expected, atol=0.051)
+    (printed_life,) = (line[-2:] for line in lines if line[:1] == ["ISO/TS"])
+    life = br.rating_life(scene).reference
+    assert life is not None
+    assert float(printed_life[0]) == pytest.approx(life / 1e6, rel=1e-3)
 
 
 def test_bad_input_is_one_line_and_leaves_nothing(

@@ -128,7 +128,7 @@ def told_columns() -> list[tuple[re.Pattern[str], str]]:
     """Return the rows of the tables of columns as patterns with units."""
     anything, word = r".+", r"[^.]+"
     parts = {
-        "probe": word, "defect": r"defects\.[^.]+", "column": anything, "row": r"row\d+", "race": "(outer|inner)",
+        "probe": word, "defect": word, "column": anything, "row": r"row\d+", "race": "(outer|inner)",
         "k": r"\d+", "origin": r"(?!outer|inner)[^.]+", "fault": "(ftf|bpfo|bpfi|2bsf)",
     }  # fmt: skip
     found = []

@@ -24,6 +24,7 @@ from ..scene import (
 from ..scene.lubricant import chosen
 from .catalogue import Bearing, catalogue
 from .clearance import radial_clearance
+from .names import clearance_class
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -43,7 +44,7 @@ def bearing(
     radial_load: float | None = None,
     axial_load: float | None = None,
     speed_rpm: float = 1800.0,
-    clearance: str | float = "CN",
+    clearance: str | float | None = None,
     defects: Defect | Mapping[str, Defect] | None = None,
     lubricant: str | Lubricant | None = None,
     temperature_c: float | None = None,
@@ -68,9 +69,10 @@ def bearing(
         of its balls carry, 1.22 times that.
     speed_rpm : float
         Speed of the inner ring [rev/min].
-    clearance : {"C2", "CN", "C3", "C4"} or float
-        Of a deep groove bearing: the middle of a class of ISO 5753-1, or a diametral clearance [m]. Fits take
-        some of it. Angular contact bearings have none: their contact angle says it.
+    clearance : {"C2", "CN", "C3", "C4"} or float, optional
+        Of a deep groove bearing: the middle of a class of ISO 5753-1, or a diametral clearance [m]; by default the
+        class that the name says (``"6205-2RS/C3"``), else CN. Fits take some of it. Angular contact bearings have
+        none: their contact angle says it.
     defects : Defect, or mapping of str to Defect
         Defects, as :mod:`ballrace.defects` makes them; a single one is named ``defect``.
     lubricant : str or Lubricant, optional
@@ -102,7 +104,7 @@ def bearing(
     size = (made.outside_diameter**2 - made.pitch_diameter**2) * made.width / _OF_6205
     return Scene(
         name=made.designation,
-        rows=(_row(made, clearance),),
+        rows=(_row(made, _clearance(name, made, clearance)),),
         outer_ring=_ring(made.outside_diameter, made, 1e8 * size, 300.0 * size, None),
         # With 1 kg of shaft in a 6205, damped by its surroundings.
         inner_ring=_ring(made.bore, made, 0.0, 300.0 * size, 1.0 * size),
@@ -117,6 +119,16 @@ def bearing(
         defects=named,
         probes={"outer": MotionProbe(body="outer"), "inner": MotionProbe(body="inner")},
     ).validate()
+
+
+def _clearance(name: str | Bearing, made: Bearing, clearance: str | float | None) -> str | float:
+    """Return the clearance that is asked for, by the name of the bearing or beside it."""
+    said = clearance_class(name, made.designation) if isinstance(name, str) else None
+    if clearance is None:
+        return said or "CN"
+    if said and clearance != said:
+        raise SceneError("clearance", repr(clearance), f"{said!r}, which {name!r} says, or absent")
+    return clearance
 
 
 def _row(made: Bearing, clearance: str | float) -> Row:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Collection
 
-__all__ = ["near", "resolved"]
+__all__ = ["clearance_class", "near", "resolved"]
 
 _MAKERS = re.compile(
     r"^(SKF|FAG|INA|NSK|NTN|SNR|KOYO|JTEKT|NACHI|TIMKEN|LDK|REXNORD|MB|IBU|HRB|ZWZ|LYC)\s*"
@@ -20,6 +20,8 @@ _HARMLESS = re.compile(
     re.VERBOSE,
 )
 """Seals, shields, snap ring grooves, clearance and tolerance: no matter of the balls."""
+
+_CLASS = re.compile(r"C[N2-5]")
 
 _ANGLES = {"AC": "A5", "ACD": "A5", "CD": "C", "BE": "B", "BEP": "B", "BTVP": "B"}
 """Contact angle as other makers write it; of the same name, the balls may differ."""
@@ -43,6 +45,19 @@ def resolved(name: str, known: Collection[str]) -> str | None:
     number, letters = re.fullmatch(r"(\d*)(.*)", _bare(text)).groups()  # type: ignore[union-attr]
     other = number + _ANGLES.get(letters, letters)
     return other if other in known else None
+
+
+def clearance_class(name: str, designation: str) -> str | None:
+    """Return the class of clearance that a name says after its designation, if any.
+
+    Examples
+    --------
+    >>> clearance_class("SKF 6205-2RS/C3", "6205"), clearance_class("7205 C", "7205C")
+    ('C3', None)
+    """
+    text = _MAKERS.sub("", name.strip().upper())
+    said = _CLASS.search(_rest(text, designation)) if _bare(text).startswith(designation) else None
+    return said.group() if said else None
 
 
 def near(name: str, known: Collection[str]) -> list[str]:

@@ -10,6 +10,7 @@ import numpy as np
 
 from .._text import printable
 from ..explanation import explain
+from ..life import RatingLife, rating_life
 from ..report.writing import check_page
 from ..statics import Equilibrium, equilibrium, load_distribution, stiffness
 from .arguments import Commands, add_scene, added, read_scene
@@ -35,7 +36,7 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     )
     static.add_argument(
         "--life", action="store_true",
-        help="print the races' equivalent loads over a turn of the cage, too",
+        help="print the races' equivalent loads over a turn of the cage and the rating life, too",
     )  # fmt: skip
     static.add_argument(
         "--json", action="store_true", help="print the solution as JSON, in SI units"
@@ -72,6 +73,19 @@ def _equilibrium(options: argparse.Namespace) -> None:
             [f"row{i}", f"{outer:.1f}", f"{inner:.1f}"] for i, (outer, inner) in enumerate(races)
         ]
         print_table(["equivalent load", "outer N", "inner N"], lines)
+        life = rating_life(scene)
+        print()
+        lives = {"ISO 281, L10": life.basic, "ISO/TS 16281, L10r": life.reference}
+        lines = [[name, *_lasts(life, turns)] for name, turns in lives.items()]
+        print_table(["rating life", "million turns", "hours"], lines)
+
+
+def _lasts(life: RatingLife, turns: float | None) -> list[str]:
+    """Return a life in millions of turns and in hours, as far as it is known."""
+    if turns is None:
+        return ["-", "-"]
+    hours = life.hours(turns)
+    return [f"{turns / 1e6:.4g}", "-" if hours is None else f"{hours:.4g}"]
 
 
 def _print_balls(eq: Equilibrium) -> None:
@@ -110,6 +124,8 @@ def _equilibrium_json(options: argparse.Namespace, scene: Scene, eq: Equilibrium
         loads = load_distribution(scene)
         told["outer_equivalent"] = loads.outer_equivalent.tolist()
         told["inner_equivalent"] = loads.inner_equivalent.tolist()
+        life = rating_life(scene)
+        told["rating_life"] = {"basic": life.basic, "reference": life.reference}
     print(json.dumps(told, indent=2))
 
 

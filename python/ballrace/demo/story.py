@@ -136,12 +136,13 @@ def _spectra(made: Page, cases: Mapping[str, Case]) -> None:
         made.text("The run is too short for an envelope spectrum.")
         return
     limit, fig = 3.6 * passing(cases[last].out.scene), None
+    # In the order of the other pictures, so that each case keeps its colour.
     for label, case in cases.items():
-        if label != last:
-            fig = plot.envelope_spectrum(
-                case.out, COLUMN, name=label, faults=(), limit=limit, fig=fig
-            )
-    fig = plot.envelope_spectrum(cases[last].out, COLUMN, name=last, limit=limit, fig=fig)
+        faults = None if label == last else ()
+        fig = plot.envelope_spectrum(
+            case.out, COLUMN, name=label, faults=faults, limit=limit, fig=fig
+        )
+    assert fig is not None
     made.figure(
         fig,
         "spectrum of the squared envelope. The spall speaks at BPFO and its multiples, here at the contact angle "

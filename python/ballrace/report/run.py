@@ -104,10 +104,10 @@ def add_model(page: Page, out: Signals) -> None:
     if left:
         page.text("Left out of the integration, and why:")
         page.points(f"{one['what']}: {one['reason']}" for one in left)
-    page.text(
-        "In no model of this package: tilting rings, a lubricant film, heat; balls spin about the bearing's "
-        "axis only."
-    )
+    absent = words.absent(out.scene)
+    if absent:
+        page.text(f"Not in this scene: {', '.join(absent)}.")
+    page.text("In no model of this package: heat, elastic rings and housings, damage that grows.")
 
 
 _PROVENANCE = {

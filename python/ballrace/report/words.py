@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, assert_never
 
 from ..scene import (
     AccurateSlices,
@@ -16,9 +16,9 @@ from ..scene import (
 from ..scene.defect import widest
 
 if TYPE_CHECKING:
-    from ..scene import Defect, Lubricant, Scene
+    from ..scene import Defect, Lubricant, NormalLaw, Scene
 
-__all__ = ["bearing", "degrees", "large", "model", "number", "operation"]
+__all__ = ["absent", "bearing", "degrees", "large", "model", "number", "operation"]
 
 
 def number(value: float | None, digits: int = 4) -> str:
@@ -108,16 +108,42 @@ def _speed(drive: SpeedDrive | TorqueDrive) -> str:
     return "changes in time, inner ring"
 
 
+def absent(scene: Scene) -> list[str]:
+    """Return what a scene could hold and does not."""
+    rings = (scene.outer_ring, scene.inner_ring)
+    tilts = [mount for ring in rings for mount in (ring.support.tilt_x, ring.support.tilt_y)]
+    leans = any(mount not in (None, "fixed") for mount in tilts) or any(
+        ring.tilt is not None or ring.support.coupled is not None for ring in rings
+    )
+    oiled = scene.lubricant is not None or any(row.lubricant is not None for row in scene.rows)
+    held = {
+        "rings that tilt": leans,
+        "oil in the contacts": oiled,
+        "balls that spin about any axis": scene.spin == "free",
+    }
+    return [what for what, is_there in held.items() if not is_there]
+
+
+def _law(law: NormalLaw) -> str:
+    match law:
+        case "hertz":
+            return "Hertz"
+        case Iso16281():
+            return "ISO/TS 16281 slices"
+        case other:
+            # A type checker finds the law that was forgotten.
+            assert_never(other)
+
+
 def model(scene: Scene) -> list[tuple[str, str]]:
     """Return what of physics a scene holds."""
     contact = scene.contact
-    law = "ISO/TS 16281 slices" if isinstance(contact.law, Iso16281) else "Hertz"
     friction = scene.friction
     cage = scene.cage
     told = [
         (
             "Contact",
-            f"{law}, {_slices(contact.slices)}; Hunt–Crossley damping {contact.damping:.3g} s/m",
+            f"{_law(contact.law)}, {_slices(contact.slices)}; Hunt–Crossley damping {contact.damping:.3g} s/m",
         ),
         ("Friction", friction if isinstance(friction, str) else _fields(friction)),
         *([("Lubricant", _oil(scene.lubricant))] if scene.lubricant else []),

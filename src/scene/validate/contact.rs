@@ -44,14 +44,16 @@ fn material(path: &str, material: &Material) -> Result<()> {
 
 pub(super) fn contact(path: &str, contact: &Contact) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
-    if let NormalLaw::Iso16281 {
-        constant,
-        length_ratio,
-    } = contact.law
-    {
-        within(&at("law.iso16281.constant"), constant, 1.0..=1e16, "")?;
-        let path = at("law.iso16281.length_ratio");
-        within(&path, length_ratio, 1e-3..=10.0, "")?;
+    match contact.law {
+        NormalLaw::Iso16281 {
+            constant,
+            length_ratio,
+        } => {
+            within(&at("law.iso16281.constant"), constant, 1.0..=1e16, "")?;
+            let path = at("law.iso16281.length_ratio");
+            within(&path, length_ratio, 1e-3..=10.0, "")?;
+        }
+        NormalLaw::Hertz => {}
     }
     match contact.slices {
         Slices::Fixed(n) if !(10..=100_000).contains(&n) => {
