@@ -32,6 +32,8 @@ FS = 50_000.0
 DURATION = 0.6
 BEGIN = 0.1
 TIMES = 11
+SILENT = 1e-3
+"""Of an outer ring's acceleration [m/s²]."""
 FREE = Approximations()
 ROLLING = Approximations(rolling=True)
 PLANE = Approximations(plane=True)
@@ -67,10 +69,10 @@ def scenes() -> dict[str, tuple[br.Scene, list[Approximations]]]:
         "6205": (level, [ROLLING]),
         "6205, spall": (replace(level, defects={"spall": spall}), [ROLLING]),
         "6205, 500 N of thrust": (thrust, angled),
-        "the same, spall": (replace(thrust, defects={"spall": spall}), angled),
+        "6205, 500 N of thrust, spall": (replace(thrust, defects={"spall": spall}), angled),
         "wheel bearing, 0 kN": (wheel.replace({"loads.axial.force": 0.0}), angled),
         "wheel bearing, +3 kN": (wheel, angled),
-        "the same, healthy": (replace(wheel, defects={}), angled),
+        "wheel bearing, +3 kN, healthy": (replace(wheel, defects={}), angled),
         "wheel bearing, 0.5 kN, 20 kN of thrust": (lifted, [*angled, ONE_ROW]),
         "cornering wheel, −0.3 g": (br.presets.cornering_wheel(-0.3), [TILT]),
         "cornering wheel, 0.3 g": (br.presets.cornering_wheel(0.3), [TILT]),
@@ -139,12 +141,14 @@ def measure(name: str, scene: br.Scene, wanted: list[Approximations]) -> list[di
 def draw(table: pl.DataFrame, path: Path) -> None:
     """Draw speed against the error of the rms, a mark an approximation; hollow where no race has a defect."""
     figure, axes = plt.subplots(figsize=(8.5, 4.4), layout="constrained")
-    names = table["scene"].unique(maintain_order=True)
-    colours = dict(zip(names, plt.get_cmap("tab10").colors, strict=True))
+    # A share of nothing says nothing.
+    silent = table.filter(~pl.col("faulted") & (pl.col("rms") < SILENT))["scene"].unique().to_list()
+    names = table.filter(~pl.col("scene").is_in(silent))["scene"].unique(maintain_order=True)
+    colours = dict(zip(names, plt.get_cmap("tab10").colors[: len(names)], strict=True))
     marks = {"rolling": "o", "plane": "s", "rolling, plane": "D", "one_row": "^", "tilt": "v"}
     for row in table.iter_rows(named=True):
-        mark, colour = marks.get(row["approximation"]), colours[row["scene"]]
-        if mark:
+        mark, colour = marks.get(row["approximation"]), colours.get(row["scene"])
+        if mark and row["scene"] not in silent:
             fill = colour if row["faulted"] else "white"
             error = abs(row["rms_10kHz_%"])
             axes.plot(row["times_faster"], error, mark, color=colour, mfc=fill, ms=7)

@@ -21,6 +21,7 @@ import ballrace as br
 from ballrace import plot
 from ballrace._ellipse import axis_ratio, semi_axes
 from ballrace.plot.outlines import groove, outlines
+from ballrace.plot.style import COLOURS
 
 
 def test_signals(out: br.Signals) -> None:
@@ -188,6 +189,9 @@ def test_no_two_faults_look_alike_without_colour(faulty: br.Signals) -> None:
 def test_spectra_lie_over_each_other_in_one_figure(faulty: br.Signals) -> None:
     fig = plot.envelope_spectrum(faulty, faults=(), limit=400.0, name="one")
     fig = plot.envelope_spectrum(faulty, band=(2000.0, 8000.0), limit=400.0, name="two", fig=fig)
+    fig = plot.envelope_spectrum(faulty, faults=(), limit=400.0, name="three", fig=fig)
+    colours = {trace.name: trace.line.color for trace in fig.data if trace.mode == "lines"}
+    assert list(colours.items()) == list(zip(("one", "two", "three"), COLOURS, strict=False))
     assert [trace.name for trace in fig.data[:2]] == ["one", "two"]
     assert fig.data[0].line.dash != fig.data[1].line.dash
 

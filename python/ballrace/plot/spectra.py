@@ -102,7 +102,8 @@ def envelope_spectrum(
     shown = (f > 0.0) & (f <= end)
     fig = fig if fig is not None else Figure()
     what = "squared envelope" if squared else "envelope"
-    kind = len(fig.data) % len(COLOURS)
+    # Fault lines, which have markers, are no spectra.
+    kind = sum(trace.mode == "lines" for trace in fig.data) % len(COLOURS)
     style = {"color": COLOURS[kind], "dash": DASHES[kind], "width": 1.4}
     fig.add_trace(Scatter(x=f[shown], y=value[shown], name=name or what, mode="lines", line=style))
     if found is not None:
