@@ -296,9 +296,9 @@ fn in_words(defect: &Touched) -> String {
             Some(run) => format!("not touched: contacts run at {:.3} mm", 1e3 * run),
             None => "not touched: no contact is loaded there".to_owned(),
         },
-        (1, _) => format!("touched with up to {:.3} N", defect.largest_load),
+        (1, _) => format!("touched with up to {:.1} N", defect.largest_load),
         (passes, touched) => format!(
-            "touched in {touched} of {passes} contacts with up to {:.3} N",
+            "touched at {touched} of {passes} places of a turn, with up to {:.1} N",
             defect.largest_load
         ),
     };

@@ -82,7 +82,7 @@ def test_what_is_not_touched_is_warned_of() -> None:
 def test_an_explanation_tells_the_place() -> None:
     told = br.explain(angular_7208(spall=INNER))
     assert told.defects[0]["placed"] == "contact"
-    assert "touched in 15 of 15 contacts" in str(told)
+    assert "touched at 15 of 15 places of a turn" in str(told)
     missed = br.explain(angular_7208(spall=replace(INNER, axial_offset=0.0)))
     assert missed.defects[0]["touched"] == 0
     assert "not touched: contacts run at" in str(missed)
