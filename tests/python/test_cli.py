@@ -97,6 +97,15 @@ def test_run(capsys: pytest.CaptureFixture[str], scene_file: Path) -> None:
     assert "outer.ay" in out
 
 
+def test_scene_prints_a_bearing_of_the_catalogue(capsys: pytest.CaptureFixture[str]) -> None:
+    """Truth: the function behind the command."""
+    assert main(["scene", "6309/C3", "--radial-load", "3000", "--rpm", "1470"]) == 0
+    printed = br.Scene.from_toml(capsys.readouterr().out)
+    assert printed == br.bearing("6309", radial_load=3000.0, speed_rpm=1470.0, clearance="C3")
+    assert "near are" in refused(capsys, "scene", "620")
+    assert "absent beside a preset" in refused(capsys, "scene", "wheel-bearing", "--rpm", "100")
+
+
 def test_scene_prints_a_preset(capsys: pytest.CaptureFixture[str]) -> None:
     for name in ("wheel-bearing", "wheel_bearing"):
         assert main(["scene", name]) == 0

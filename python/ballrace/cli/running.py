@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, get_args
 from .. import presets
 from .._files import check_output
 from .._text import printable
+from ..bearings import bearing
 from ..campaigns.cli import add_budget
 from ..errors import SceneError
 from ..options import ARGUMENTS, Run
@@ -49,6 +50,14 @@ _RUN_OPTIONS: dict[str, dict[str, Any]] = {
 }  # fmt: skip
 """Options of a run beside its budget, by the names of its arguments."""
 
+_PRESETS = ", ".join(name.replace("_", "-") for name in presets.names())
+_OPERATION = {
+    "radial-load": ("N", "load of the inner ring along -y (default: a tenth of the static rating)"),
+    "axial-load": ("N", "load of the inner ring along +z (default: what the bearing needs)"),
+    "rpm": ("REV/MIN", "speed of the inner ring (default: 1800)"),
+}
+"""Loads and speed of a bearing of the catalogue: metavar and help."""
+
 
 def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     """Add both subcommands."""
@@ -65,13 +74,14 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
         run.add_argument(f"--{name}", default=getattr(_DEFAULTS, name), **option)
     add_budget(run, "the run")
     scene = added(
-        commands, "scene", "print a ready-made scene as TOML, to start from",
-        "ballrace scene wheel-bearing > scene.toml", _scene,
+        commands, "scene", "print a scene as TOML, to start from: a ready-made one, or a bearing of the catalogue",
+        "ballrace scene 6309/C3 --radial-load 3000 --rpm 1470 > scene.toml", _scene,
     )  # fmt: skip
-    scene.add_argument(
-        "name", metavar="NAME", type=lambda name: name.replace("-", "_"), choices=presets.names(),
-        help=" or ".join(name.replace("_", "-") for name in presets.names()),
-    )  # fmt: skip
+    scene.add_argument("name", metavar="NAME", help=f"a designation, such as 6205, or {_PRESETS}")
+    for name, (unit, told) in _OPERATION.items():
+        scene.add_argument(
+            f"--{name}", type=float, metavar=unit, help=f"{told}; of a bearing of the catalogue"
+        )
 
 
 def _run(options: argparse.Namespace) -> None:
@@ -95,8 +105,25 @@ def _run(options: argparse.Namespace) -> None:
 
 
 def _scene(options: argparse.Namespace) -> None:
-    print(
-        f"# The preset {options.name} of ballrace; SI units. Fields that are left out: help(ballrace.scene)."
-    )
-    print(f"# Run it: ballrace run {options.name}.toml -o {options.name}.parquet\n")
-    print(getattr(presets, options.name)().to_toml(comments=True), end="")
+    given = {
+        "radial_load": options.radial_load, "axial_load": options.axial_load, "speed_rpm": options.rpm
+    }  # fmt: skip
+    given = {name: value for name, value in given.items() if value is not None}
+    name = options.name.replace("-", "_")
+    if name not in presets.names():
+        try:
+            scene = bearing(options.name, **given)
+        except SceneError as error:
+            if error.path != "designation":
+                raise
+            raise SceneError("name", options.name, f"{_PRESETS}, or {error.allowed}") from None
+        what = f"{scene.name} of ballrace's catalogue"
+    elif given:
+        raise SceneError(
+            next(iter(given)), name, "absent beside a preset, which has its loads and speed"
+        )
+    else:
+        scene, what = getattr(presets, name)(), f"The preset {name} of ballrace"
+    print(f"# {what}; SI units. Fields that are left out: help(ballrace.scene).")
+    print("# Run it: ballrace run scene.toml -o run.parquet\n")
+    print(scene.to_toml(comments=True), end="")
