@@ -7,7 +7,7 @@ use crate::model::{BodyId, Dof};
 /// What a state vector holds.
 #[derive(Debug)]
 pub(super) enum Order {
-    /// Everything, body by body, as [`Model::names`] says.
+    /// Everything, body by body, as [`crate::model::Model::names`] says.
     Bodies,
     /// What a reduction keeps, direction by direction.
     Kept(Box<Kept>),
@@ -22,7 +22,7 @@ impl Dynamics<'_> {
         }
     }
 
-    /// The states of a run ([`System::dim`] of them) out of those of all bodies ([`Model::dim`]).
+    /// The states of a run ([`crate::integrate::System::dim`] of them) out of those of all bodies ([`crate::model::Model::dim`]).
     ///
     /// # Panics
     /// If `full` is too short.
