@@ -506,7 +506,7 @@ fn an_explanation_tells_where_and_whether() {
     assert!(of.largest_load > 50.0);
     let text = told.to_string();
     println!("{text}");
-    assert!(text.contains("where contacts run; touched in 15 of 15 contacts"));
+    assert!(text.contains("where contacts run; touched at 15 of 15 places of a turn"));
     let told = explain(&with(angular_7208(), at(0.0, spall(Surface::OuterRace)))).unwrap();
     let of = &told.defects[0];
     assert_eq!((of.placed, of.passes, of.touched), (Placed::Given, 1, 0));
