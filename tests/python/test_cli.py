@@ -103,7 +103,8 @@ def test_scene_prints_a_bearing_of_the_catalogue(capsys: pytest.CaptureFixture[s
     printed = br.Scene.from_toml(capsys.readouterr().out)
     assert printed == br.bearing("6309", radial_load=3000.0, speed_rpm=1470.0, clearance="C3")
     assert "near are" in refused(capsys, "scene", "620")
-    assert "absent beside a preset" in refused(capsys, "scene", "wheel-bearing", "--rpm", "100")
+    told = refused(capsys, "scene", "wheel-bearing", "--rpm", "100")
+    assert "speed_rpm = 100: absent beside wheel-bearing" in told
 
 
 def test_scene_prints_a_preset(capsys: pytest.CaptureFixture[str]) -> None:

@@ -119,9 +119,9 @@ def _scene(options: argparse.Namespace) -> None:
             raise SceneError("name", options.name, f"{_PRESETS}, or {error.allowed}") from None
         what = f"{scene.name} of ballrace's catalogue"
     elif given:
-        raise SceneError(
-            next(iter(given)), name, "absent beside a preset, which has its loads and speed"
-        )
+        argument, value = next(iter(given.items()))
+        allowed = f"absent beside {options.name}, which has loads and a speed of its own"
+        raise SceneError(argument, f"{value:g}", allowed)
     else:
         scene, what = getattr(presets, name)(), f"The preset {name} of ballrace"
     print(f"# {what}; SI units. Fields that are left out: help(ballrace.scene).")
