@@ -17,7 +17,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from . import defects, frequencies, presets, scene
-from ._features import features
 from ._later import later
 from .errors import (
     AccuracyWarning,
@@ -32,46 +31,62 @@ from .errors import (
     SceneError,
     SceneWarning,
 )
-from .explanation import Explanation, explain
-from .model import Model
-from .options import Run
-from .run import simulate
 from .scene import Scene
 from .scene.lubricant import lubricants
-from .signals import Record, Signals, Touched
-from .statics import (
-    Equilibrium,
-    LoadDistribution,
-    RaceFilm,
-    Stiffness,
-    equilibrium,
-    load_distribution,
-    stiffness,
-)
 
 if TYPE_CHECKING:
     from . import measuring, plot, spectra
+    from ._features import features
     from .bearings import Bearing, Catalogue, bearing, catalogue
     from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
+    from .explanation import Explanation, explain
     from .friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf
     from .life import RatingLife, rating_life
     from .measuring import measure
+    from .model import Model
     from .operating import FaultFrequencies, fault_frequencies
+    from .options import Run
     from .recordings import Recording, read
+    from .run import simulate
+    from .signals import Record, Signals, Touched
+    from .statics import (
+        Equilibrium,
+        LoadDistribution,
+        RaceFilm,
+        Stiffness,
+        equilibrium,
+        load_distribution,
+        stiffness,
+    )
 else:
-    # What a run needs is there; the rest would take as long again, and is imported when it is first asked for.
+    # What describes a scene is there; what is done with it is imported when it is first asked for.
     __getattr__ = later(
         __name__,
         {
+            "_features": ("features",),
             "bearings": ("Bearing", "Catalogue", "bearing", "catalogue"),
             "campaigns": ("Campaign", "campaign", "grid", "latin_hypercube", "scatter", "sobol"),
+            "explanation": ("Explanation", "explain"),
             "friction": ("FrictionTorque", "friction_torque_palmgren", "friction_torque_skf"),
             "life": ("RatingLife", "rating_life"),
             "measuring": ("measure",),
+            "model": ("Model",),
             "operating": ("FaultFrequencies", "fault_frequencies"),
+            "options": ("Run",),
             "plot": (),
             "recordings": ("Recording", "read"),
+            "run": ("simulate",),
+            "signals": ("Record", "Signals", "Touched"),
             "spectra": (),
+            "statics": (
+                "Equilibrium",
+                "LoadDistribution",
+                "RaceFilm",
+                "Stiffness",
+                "equilibrium",
+                "load_distribution",
+                "stiffness",
+            ),
         },
     )
 

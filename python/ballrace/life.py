@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .bearings.catalogue import catalogue
+from .bearings.rows import catalogue
 from .errors import SceneError
 from .scene import Scene, SpeedDrive
 from .scene.scene import checked_scene

@@ -6,7 +6,7 @@
 >>> scene = br.bearing("6205", radial_load=500.0, speed_rpm=1797.0)
 
 =============  ====================================================================
-``catalogue``  the rows of ``bearings.csv``, found by designation
+``rows``       the rows of ``bearings.csv``, found by designation
 ``names``      which designations mean a row: makers, seals, clearances
 ``sources``    where each number of a row comes from
 ``clearance``  the classes of ISO 5753
@@ -24,6 +24,6 @@ BPFO by less than 0.4 %.
 from __future__ import annotations
 
 from .build import bearing
-from .catalogue import Bearing, Catalogue, catalogue
+from .rows import Bearing, Catalogue, catalogue
 
 __all__ = ["Bearing", "Catalogue", "bearing", "catalogue"]

@@ -22,9 +22,9 @@ from ..scene import (
     Support,
 )
 from ..scene.lubricant import chosen
-from .catalogue import Bearing, catalogue
 from .clearance import radial_clearance
 from .names import clearance_class
+from .rows import Bearing, catalogue
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
