@@ -7,10 +7,11 @@ or ``{tag: value}`` when it only wraps one value. A field whose name is a Python
 from __future__ import annotations
 
 import dataclasses
+import difflib
 import math
 import types
 import typing
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeVar
 
@@ -183,12 +184,17 @@ def _decode_part(kind: type[Part], value: Any, path: str) -> Part:
             return kind(**{name: _decode(hints[name], value, path)})
     for key in value:
         if key not in fields:
-            raise SceneError(
-                _join(path, key), key, f"no such field; there are: {', '.join(fields)}"
-            )
+            raise SceneError(_join(path, key), key, _no_such_field(key, fields))
     return kind(
         **{fields[k]: _decode(hints[fields[k]], v, _join(path, k)) for k, v in value.items()}
     )
+
+
+def _no_such_field(name: str, known: Iterable[str]) -> str:
+    """Say of a field that nobody knows which one may be meant, and which there are."""
+    near = difflib.get_close_matches(name, known, n=1, cutoff=0.7)
+    perhaps = f", perhaps {near[0]}" if near else ""
+    return f"no such field{perhaps}; there are: {', '.join(known)}"
 
 
 def _choose(choices: tuple[Any, ...], value: Any, path: str) -> Any:

@@ -1,10 +1,33 @@
 //! What a document's reader may write, in words that its writer knows: serde speaks of Rust's types.
 
-/// What is allowed in place of what a message of serde refuses; of an unknown field or a missing one the message itself.
+/// The least likeness, by Jaro and Winkler, of a name that may be meant to the one that is written.
+const LIKE: f64 = 0.8;
+
+/// What is allowed in place of what a message of serde refuses; of a missing field the message itself.
 pub(super) fn allowed(message: &str) -> String {
+    if let Some(refused) = message.strip_prefix("unknown field ") {
+        let names: Vec<&str> = refused.split('`').skip(1).step_by(2).collect();
+        if let [name, known @ ..] = names.as_slice() {
+            return no_such_field(name, known);
+        }
+    }
     match message.split_once(", expected ") {
-        Some((refused, expected)) if !refused.starts_with("unknown field") => in_words(expected),
-        _ => message.replace('`', "\""),
+        Some((_, expected)) => in_words(expected),
+        None => message.replace('`', "\""),
+    }
+}
+
+/// Says of a field that nobody knows which one may be meant, and which there are.
+pub(super) fn no_such_field(name: &str, known: &[&str]) -> String {
+    let likeness = |other: &&&str| strsim::jaro_winkler(name, other);
+    let perhaps = (known.iter())
+        .filter(|other| likeness(other) >= LIKE)
+        .max_by(|a, b| likeness(a).total_cmp(&likeness(b)))
+        .map(|nearest| format!(", perhaps {nearest}"))
+        .unwrap_or_default();
+    match known {
+        [] => "no such field; there is none yet".to_owned(),
+        known => format!("no such field{perhaps}; there are: {}", known.join(", ")),
     }
 }
 
@@ -58,8 +81,16 @@ mod tests {
             ),
             ("missing field `row`", "missing field \"row\""),
             (
-                "unknown field `x`, expected `y`",
-                "unknown field \"x\", expected \"y\"",
+                "unknown field `x`, expected `y` or `z`",
+                "no such field; there are: y, z",
+            ),
+            (
+                "unknown field `masss`, expected one of `matter`, `mass`, `width`",
+                "no such field, perhaps mass; there are: matter, mass, width",
+            ),
+            (
+                "unknown field `x`, there are no fields",
+                "no such field; there is none yet",
             ),
         ] {
             assert_eq!(allowed(said), told);

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use serde_json::{Map, Value, json};
 use serde_path_to_error::{Path, Segment};
 
+use super::expected;
 use crate::error::{Error, Result};
 
 /// Parts of a scene whose entries have names that people choose.
@@ -26,11 +27,13 @@ pub(super) fn set(document: &mut Value, path: &str, value: Value) -> Result<()> 
     for step in steps {
         place = match (step, place) {
             (Step::Key(key), Value::Object(map)) => {
-                let known = names(map);
-                map.get_mut(key).ok_or_else(|| {
+                if !map.contains_key(key) {
+                    let known: Vec<&str> = map.keys().map(String::as_str).collect();
                     let new = a_new_one(path, key).unwrap_or_default();
-                    Error::scene(path, key, format!("no such field; there {known}{new}"))
-                })?
+                    let allowed = expected::no_such_field(key, &known) + &new;
+                    return Err(Error::scene(path, key, allowed));
+                }
+                &mut map[key]
             }
             (Step::Index(index), Value::Array(items)) => {
                 let count = items.len();
@@ -173,14 +176,6 @@ fn steps(path: &str) -> Result<Vec<Step<'_>>> {
 }
 /// How to give a new entry, of which a path names but a field.
 /// What names a part has, in words.
-fn names(map: &Map<String, Value>) -> String {
-    let known: Vec<&str> = map.keys().map(String::as_str).collect();
-    match known.as_slice() {
-        [] => "is none yet".to_owned(),
-        known => format!("are: {}", known.join(", ")),
-    }
-}
-
 fn a_new_one(path: &str, key: &str) -> Option<String> {
     let (part, rest) = path.split_once('.')?;
     let field = rest.strip_prefix(key)?;

@@ -185,7 +185,7 @@ def test_on_error_raise(tmp_path: Path) -> None:
         (
             [{"loads.axal.force": 1.0}],
             {},
-            "loads.axal.force = axal: no such field; there are: axial",
+            "loads.axal.force = axal: no such field, perhaps axial; there are: axial",
         ),
         ([{"rows[3].clearance": 1.0}], {}, "an index below 1"),
         ([{"status": "new"}], {}, "status = a column of cases: another name"),

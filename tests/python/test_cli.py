@@ -348,6 +348,12 @@ def test_spectrum(capsys: pytest.CaptureFixture[str], tmp_path: Path, blows: Pat
     first = capsys.readouterr().out.splitlines()[1].split()
     assert float(first[0]) == pytest.approx(162.2, abs=0.5)
     assert first[2] == "BPFI"
+    turning = tmp_path / "turning.csv"
+    t = np.arange(12_000) / 12_000.0
+    shaft = np.sin(2.0 * np.pi * 2.0 * 29.95 * t)
+    turning.write_text("t,ay\n" + "".join(f"{a},{b}\n" for a, b in zip(t, shaft, strict=True)))
+    assert main(["spectrum", str(turning), "--plain", *named]) == 0
+    assert capsys.readouterr().out.splitlines()[1].split()[2] == "2·f_r"
     assert main(["spectrum", str(blows), "-o", "-", "--band", "2000", "4000"]) == 0
     rows = np.array(
         [line.split(",") for line in capsys.readouterr().out.splitlines()[1:]], dtype=float

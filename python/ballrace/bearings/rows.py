@@ -187,5 +187,5 @@ def _bearing(line: dict[str, str]) -> Bearing:
 
 _LENGTHS = ("ball", "pitch", "bore", "outside", "width")
 
-catalogue = Catalogue()
+catalogue: Catalogue = Catalogue()
 """Some sixty common bearings, and those of public data sets."""

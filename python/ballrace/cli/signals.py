@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["add_commands"]
 
 _STRONGEST = 10
+_HARMONICS = 5
 
 
 def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
@@ -192,21 +193,26 @@ def _write_page(
 def _print_strongest(
     lines: list[tuple[float, float]], rates: FaultFrequencies | None, spin: tuple[float, int] | None
 ) -> None:
-    """Print the highest summits, with the nearest fault line within a line's width of each."""
+    """Print the highest summits, with the nearest line of defects or shaft within a line's width of each."""
     inner = range(1, len(lines) - 1)
     summits = [k for k in inner if lines[k - 1][1] < lines[k][1] >= lines[k + 1][1]]
     summits.sort(key=lambda k: -lines[k][1])
     width = 2.0 * (lines[1][0] - lines[0][0])
-    bands = (
-        ()
-        if rates is None
-        else spectra.fault_bands(rates.orders, abs(rates.shaft), harmonics=5, spin=spin)
-    )
+    known = () if rates is None else tuple(_known_lines(rates, spin, width))
     rows = []
     for k in summits[:_STRONGEST]:
         f, value = lines[k]
-        near = sorted(
-            (abs(b.centre - f), b.label) for b in bands if b.low - width <= f <= b.high + width
-        )
+        near = sorted((abs(at - f), label) for low, at, high, label in known if low <= f <= high)
         rows.append([f"{f:.2f}", f"{value:.4g}", near[0][1] if near else ""])
     print_table(["frequency Hz", "value", "near"], rows)
+
+
+def _known_lines(
+    rates: FaultFrequencies, spin: tuple[float, int] | None, width: float
+) -> Iterator[tuple[float, float, float, str]]:
+    """Yield lowest frequency, centre, highest [Hz] and label of lines of defects and of the shaft."""
+    shaft = abs(rates.shaft)
+    for band in spectra.fault_bands(rates.orders, shaft, harmonics=_HARMONICS, spin=spin):
+        yield band.low - width, band.centre, band.high + width, band.label
+    for k in range(1, _HARMONICS + 1):
+        yield k * shaft - width, k * shaft, k * shaft + width, "f_r" if k == 1 else f"{k}·f_r"

@@ -148,8 +148,8 @@ def model(scene: Scene) -> list[tuple[str, str]]:
         ("Friction", friction if isinstance(friction, str) else _fields(friction)),
         *([("Lubricant", _oil(scene.lubricant))] if scene.lubricant else []),
         ("Cage", "none" if cage is None else _fields(cage)),
-        ("Outer ring", _held(scene.outer_ring.support)),
-        ("Inner ring", _held(scene.inner_ring.support)),
+        ("Outer ring", _held(scene.outer_ring.support, "fixed")),
+        ("Inner ring", _held(scene.inner_ring.support, "free")),
     ]
     return [(what, text.replace("-", "−")) for what, text in told]
 
@@ -175,12 +175,12 @@ def _fields(part: Any) -> str:
     return f"{name}: " + ", ".join(f"{k.replace('_', ' ')} {v:.4g}" for k, v in values.items())
 
 
-def _held(support: Any) -> str:
+def _held(support: Any, absent: str) -> str:
     parts = []
     for axis in "xyz":
         mount = getattr(support, axis)
         if mount is None or isinstance(mount, str):
-            parts.append(f"{axis} {mount or 'as usual'}")
+            parts.append(f"{axis} {mount or absent}")
         else:
             parts.append(
                 f"{axis} spring {mount.stiffness:.3g} N/m, damper {mount.damping:.3g} N s/m"
