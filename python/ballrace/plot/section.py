@@ -125,8 +125,8 @@ def _axes(fig: go.Figure, shapes: Outlines) -> None:
     _line(
         fig, [shapes.left - 0.55 * length, shapes.right + 0.35 * length], [0.0, 0.0], dash="dashdot"
     )
-    _text(fig, shapes.left - 0.05 * length, -0.5 * shapes.outside, "−z side", xanchor="right")
-    _text(fig, shapes.right + 0.05 * length, -0.5 * shapes.outside, "+z side", xanchor="left")
+    _text(fig, shapes.left - 0.05 * length, -0.9 * shapes.outside, "−z side", xanchor="right")
+    _text(fig, shapes.right + 0.05 * length, -0.9 * shapes.outside, "+z side", xanchor="left")
     corner = shapes.left - 0.55 * length
     reach = 0.22 * shapes.outside
     for dx, dy, name in ((reach, 0.0, "z"), (0.0, reach, "y")):
