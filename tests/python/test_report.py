@@ -9,6 +9,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import plotly.graph_objects as go
+import polars as pl
 import pytest
 
 import ballrace as br
@@ -104,16 +106,27 @@ def test_without_plotly(out: br.Signals, tmp_path: Path, monkeypatch: pytest.Mon
         out.report(tmp_path / "r.html")
 
 
-def test_a_campaign(tmp_path: Path) -> None:
+def test_a_campaign(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     table = br.grid({"loads.axial.force": [0.0, 3000.0, 1e7], "defects.spall.width": [0.0, 2e-3]})
     scene = br.presets.wheel_bearing()
     done = br.campaign(table, tmp_path / "runs", scene=scene, duration=0.03, columns=["outer.ay"])
     assert done.parameters == ("loads.axial.force", "defects.spall.width")
+    mapped = []
+    drawn = br.plot.campaign_map
+
+    def remembered(part: pl.DataFrame, *others: str) -> go.Figure:
+        mapped.append(part["fault_outer_race"].to_list())
+        return drawn(part, *others)
+
+    monkeypatch.setattr(br.plot, "campaign_map", remembered)
     done.report(tmp_path / "r.html", features=["outer.ay.rms"])
+    assert sorted(map(set, mapped), key=str) == [{False}, {True}]
     text = told(tmp_path / "r.html")
     assert "2 of 6 cases failed" in text
     assert done.failed["message"][0][:30] in text
-    assert "outer.ay.rms over loads.axial.force and defects.spall.width" in text
+    over = "outer.ay.rms over loads.axial.force and defects.spall.width: the mean of the cases of each cell"
+    assert f"{over}, where a loaded contact met a defect of the outer race" in text
+    assert f"{over}, but for those where a loaded contact met" in text
     with pytest.raises(br.SceneError, match="features"):
         done.report(tmp_path / "r.html", features=["outer.rms"])
 

@@ -83,27 +83,42 @@ def _add_maps(page: Page, table: pl.DataFrame, varied: list[str], names: list[st
     if len(grids) < 2:
         return
     page.section("Maps")
+    # A mean of healthy and damaged cases would tell of neither.
+    by = _fault(table)
+    parts = {"": table}
+    if by is not None:
+        met = f"a loaded contact met a defect of the {by.removeprefix('fault_').replace('_', ' ')}"
+        parts = {
+            f", where {met}": table.filter(table[by]),
+            f", but for those where {met}": table.filter(~table[by]),
+        }
     for name in names:
-        fig = plot.campaign_map(table, grids[0], grids[1], name)
-        page.figure(
-            fig, f"{name} over {grids[0]} and {grids[1]}: the mean of the cases of each cell."
-        )
+        for which, part in parts.items():
+            told = (
+                f"{name} over {grids[0]} and {grids[1]}: the mean of the cases of each cell{which}."
+            )
+            if part[name].drop_nulls().len():
+                page.figure(plot.campaign_map(part, grids[0], grids[1], name), told)
 
 
 def _add_distributions(page: Page, table: pl.DataFrame, names: list[str]) -> None:
     from .. import plot
 
     page.section("Distributions")
-    faults = [
-        n for n in ("fault_outer_race", "fault_inner_race", "fault_ball") if n in table.columns
-    ]
-    by = next((n for n in faults if table[n].drop_nulls().n_unique() > 1), None)
+    by = _fault(table)
     for name in names:
         caption = f"{name} of all cases" + (
             f", by {by}: whether a loaded contact met such a defect" if by else ""
         )
         if table[name].drop_nulls().len():
             page.figure(plot.distribution(table, name, by=by), caption + ".")
+
+
+def _fault(table: pl.DataFrame) -> str | None:
+    """Return the column of faults, if there is one, that tells damaged cases from others."""
+    faults = ("fault_outer_race", "fault_inner_race", "fault_ball")
+    told = (name for name in faults if name in table.columns)
+    return next((name for name in told if table[name].drop_nulls().n_unique() > 1), None)
 
 
 def _add_troubles(page: Page, table: pl.DataFrame, varied: list[str]) -> None:
