@@ -76,6 +76,9 @@ class Bearing:
 class Catalogue(Mapping[str, Bearing]):
     """The bearings by their designations; ``ballrace.catalogue`` is the one that there is.
 
+    A name may go on with seals, clearance and tolerance, as ``6205-2RS/C3``. They are not part of the row that it
+    finds; :func:`ballrace.bearing` takes the clearance from them.
+
     Examples
     --------
     >>> import ballrace as br
