@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,9 +15,6 @@ from . import _core
 from ._document import Part, whole_number
 from .errors import SceneError
 from .scene import Method
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 __all__ = ["Run"]
 
@@ -122,6 +120,9 @@ def document(given: Mapping[str, Any]) -> dict[str, Any]:
 
 def _said(name: str, value: Any) -> Any:
     """Return the value of an argument as JSON has it."""
+    if isinstance(value, Mapping):
+        # None of them is a mapping: messages show it as it was written, not as a part of a scene keeps it.
+        value = dict(value)
     match name:
         case "start":
             return _start(value)

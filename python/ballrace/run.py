@@ -220,9 +220,12 @@ def _written(path: Path, run: Callable[[_Sink], _Signals]) -> tuple[_Signals, Sc
 
 
 def _state(start: NDArray[np.float64]) -> NDArray[np.float64]:
-    state = np.asarray(start, dtype=np.float64)
+    allowed = "'equilibrium', 'rolling' or an array of shape (n_states,)"
+    try:
+        state = np.asarray(start, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise SceneError("start", repr(start), allowed) from None
     if state.ndim != 1:
-        raise SceneError(
-            "start", f"an array of shape {state.shape}", "an array of shape (n_states,)"
-        )
+        given = f"an array of shape {state.shape}" if state.ndim else repr(start)
+        raise SceneError("start", given, allowed)
     return state

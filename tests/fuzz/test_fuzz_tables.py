@@ -129,7 +129,9 @@ def sweep_is_decided(sweep: str, table: str) -> str:
         cases = read.pop("cases")
         if cases.height > 9:
             return "many"
-        options = {**SHORT, **read, "duration": min(read.get("duration", 1e-4), 1e-3)}
+        options = {**SHORT, **read}
+        if isinstance(options["duration"], int | float):
+            options["duration"] = min(options["duration"], 1e-3)
         found = decided(lambda: br.campaign(cases, path.parent / "out", **options))
         return type(found).__name__
 

@@ -81,6 +81,7 @@ def test_the_sweep_of_the_guide(tmp_path: Path) -> None:
         ("[grid]\na = [1]", "scene = absent: one of both"),
         ('scene = "x.txt"\n[grid]\na = [1]', "a file that ends in .toml or .json"),
         ('scenes = { a = "wheel-bearing" }\nscene = "a"', "scene = beside scenes: one of both"),
+        ('scene = "wheel-bearing"\nduration.start = 1\n[grid]\na = [1]', "duration = {'start': 1}: a number"),
         ('colums = ["outer.ay"]', "colums = an entry of the sweep: one of scene"),
         ('scene = "wheel-bearing"\ntable = "a.xlsx"', "a file that ends in .csv or .parquet"),
         ('scene = "wheel-bearing"\n[grid]\n"a.b" = 3', "a.b = 3: a list of values, or { from"),

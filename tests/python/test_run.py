@@ -85,6 +85,7 @@ def test_a_run_says_what_the_arguments_say() -> None:
     [
         ({"duration": 0.0}, "duration"),
         ({"duration": "long"}, "duration"),
+        ({"duration": {"start": "rolling"}}, "duration"),
         ({"fs": 1e10}, "fs"),
         ({"start": "standing"}, "start"),
         ({"start": np.array([0.0, np.inf])}, "start[1]"),
@@ -103,6 +104,23 @@ def test_what_is_not_usable_is_refused_by_name(given: dict[str, Any], path: str)
     with pytest.raises(br.SceneError) as caught:
         br.Run(**given).to_json()
     assert caught.value.path == path
+
+
+@pytest.mark.parametrize(
+    ("start", "shown"),
+    [
+        (None, "None"),
+        ({"a": 1}, "{'a': 1}"),
+        ([[1.0], [1.0, 2.0]], "[[1.0], [1.0, 2.0]]"),
+        (np.zeros((2, 3)), "an array of shape (2, 3)"),
+    ],
+)
+def test_a_start_that_is_no_state_is_refused(start: Any, shown: str) -> None:
+    with pytest.raises(br.SceneError) as caught:
+        br.simulate(SCENE, duration=1e-3, start=start)
+    assert str(caught.value) == (
+        f"start = {shown}: 'equilibrium', 'rolling' or an array of shape (n_states,)"
+    )
 
 
 def test_unknown_fields_are_refused_by_name() -> None:
