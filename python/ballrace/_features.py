@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._interrupt import answers_ctrl_c
+from ._numbers import real
 from .errors import SceneError
 from .scene.scene import checked_scene
 
@@ -90,16 +93,16 @@ def feature_options(
     if not isinstance(loads, bool):
         raise SceneError("contact_loads", repr(loads), "True or False")
     columns = [columns] if isinstance(columns, str) else columns
-    try:
-        low, high = (0.0, 0.0) if band is None else map(float, band)
-    except (TypeError, ValueError):
-        raise SceneError("band", repr(band), "two frequencies [Hz]") from None
-    try:
-        return {
-            "columns": None if columns is None else [str(name) for name in columns],
-            "skip": float(skip),
-            "band": None if band is None else [low, high],
-            "contact_loads": loads,
-        }
-    except (TypeError, ValueError):
-        raise SceneError("skip", repr(skip), "a time [s]") from None
+    if columns is not None and not isinstance(columns, Iterable):
+        raise SceneError("columns", repr(columns), "a name of a column, or several")
+    edges = [real(edge) for edge in band] if isinstance(band, Iterable) else []
+    if band is not None and not (len(edges) == 2 and all(map(math.isfinite, edges))):
+        raise SceneError("band", repr(band), "two frequencies [Hz]")
+    if not math.isfinite(real(skip)):
+        raise SceneError("skip", repr(skip), "a time [s]")
+    return {
+        "columns": None if columns is None else [str(name) for name in columns],
+        "skip": real(skip),
+        "band": None if band is None else edges,
+        "contact_loads": loads,
+    }

@@ -17,6 +17,27 @@ PARQUET = (".parquet", ".pq", "")
 """What the name of a Parquet file may end in."""
 
 
+def as_path(
+    path: object, name: str = "path", allowed: str = "the name of a file or folder"
+) -> Path:
+    """Take what was given as the argument ``name`` as a path.
+
+    Raises
+    ------
+    SceneError
+        It is no text and no path, or has a character that no file's name can have.
+    """
+    if not isinstance(path, (str, os.PathLike)) or isinstance(os.fspath(path), bytes):
+        raise SceneError(name, type(path).__name__, allowed)
+    try:
+        storable = b"\0" not in os.fsencode(path)
+    except UnicodeEncodeError:
+        storable = False
+    if not storable:
+        raise SceneError(name, str(path), f"{allowed}; NUL and lone surrogates are in none")
+    return Path(path)
+
+
 def check_writable(path: Path) -> None:
     """Raise the ``OSError`` that writing a file to ``path`` would meet, as far as it can be known before.
 
@@ -63,7 +84,7 @@ def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
 
     Where ``path`` is a link, what it leads to is replaced, not the link.
     """
-    path = Path(path)
+    path = as_path(path)
     check_writable(path)
     path = path.resolve()
     temporary = path.with_name(f".{path.name}.{os.getpid()}.part")

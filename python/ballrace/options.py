@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._document import Part, whole_number
+from ._numbers import real
 from .errors import SceneError
 from .scene import Method
 
@@ -158,12 +159,10 @@ def _one_of(name: str, value: Any, names: tuple[Any, ...], allowed: str) -> Any:
 
 
 def _number(name: str, value: Any) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise SceneError(name, shown(value), "a number") from None
+    number = real(value)
     if not math.isfinite(number):
-        raise SceneError(name, shown(value), "a finite number")
+        finite = isinstance(value, float | int | np.floating) and not isinstance(value, bool)
+        raise SceneError(name, shown(value), "a finite number" if finite else "a number")
     return number
 
 

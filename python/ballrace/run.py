@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import functools
-import os
 import warnings
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal, ParamSpec, TypeAlias
 
 import numpy as np
 
 from . import _core
-from ._files import check_output
+from ._files import as_path, check_output
 from ._progress import Bar
 from ._record import Scanned, metadata, writing
 from ._text import printable
@@ -21,7 +19,9 @@ from .scene.scene import checked_scene
 from .signals import Signals
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Callable, Mapping
+    from pathlib import Path
 
     from numpy.typing import NDArray
 
@@ -204,9 +204,7 @@ def simulate(
 
 
 def _target(out: str | os.PathLike[str]) -> Path:
-    if not isinstance(out, (str, os.PathLike)):
-        raise SceneError("out", type(out).__name__, "the name of a Parquet file, or None")
-    path = Path(out)
+    path = as_path(out, "out", "the name of a Parquet file, or None")
     check_output(path, name="out")
     return path
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
 from . import _core
 from ._features import feature_options
-from ._files import PARQUET, whole
+from ._files import PARQUET, as_path, whole
 from ._interrupt import heard_once
 from ._parquet import read_sealed, scan_sealed, seal, writing_to
 from ._record import Scanned, described, metadata, samples, unless_damaged
@@ -318,7 +317,8 @@ class Signals(Columns):
         columns: str | Iterable[str] | Mapping[str, str] | None = None,
     ) -> None:
         """Write as :meth:`Recording.write` does; all columns into Parquet as :meth:`write_parquet` does."""
-        if columns is None and Path(path).suffix.lower() in PARQUET and Path(path).suffix:
+        suffix = as_path(path).suffix.lower()
+        if columns is None and suffix and suffix in PARQUET:
             self.write_parquet(path)
         else:
             super().write(path, columns)
@@ -397,7 +397,7 @@ class Signals(Columns):
         OSError
             The file cannot be read.
         """
-        path = Path(path)
+        path = as_path(path)
         table, entries = unless_damaged(path, lambda: read_sealed(path))
         told = described(path, entries, table.columns)
         times = samples(path, table, "t")
@@ -429,7 +429,7 @@ class Signals(Columns):
         ...     (out.n_samples, out["outer.ay"].shape)
         (50, (50,))
         """
-        path = Path(path)
+        path = as_path(path)
         entries = unless_damaged(path, lambda: scan_sealed(path))
         columns = Scanned(path)
         return cls(t=columns, columns=columns, **described(path, entries, list(columns)))

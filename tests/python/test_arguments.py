@@ -119,3 +119,24 @@ def test_a_description_that_is_no_text_is_told(tmp_path: Path) -> None:
     (tmp_path / "campaign.json").write_bytes(b"\x80\x81")
     with pytest.raises(br.CampaignError, match="damaged, not the description of a campaign"):
         br.Campaign.open(tmp_path)
+
+
+def test_a_name_that_no_file_can_have_is_refused(tmp_path: Path) -> None:
+    """Such as one with a NUL, which TOML and JSON can bring along; nothing is written."""
+    out = br.simulate(SCENE, duration=1e-3, settle=0.0)
+    figure, cases = br.plot.section(br.bearing("6205")), [{"duration": 1e-3}]
+    calls: dict[str, list[Callable[[Any], object]]] = {
+        "path": [br.Scene.load, br.Signals.read_parquet, br.Signals.scan_parquet, br.read,
+                 out.write, out.write_parquet, out.report, RECORD.write,
+                 lambda path: br.plot.write(figure, path)],
+        "out": [lambda path: br.simulate(SCENE, duration=1e-3, out=path),
+                lambda path: br.campaign(cases, path, scene=SCENE)],
+        "folder": [br.Campaign.open],
+    }  # fmt: skip
+    for name, takers in calls.items():
+        for call in takers:
+            for unusable in (tmp_path / "a\0.parquet", "\ud800.parquet", 3, b"a.parquet"):
+                with pytest.raises(br.SceneError, match="the name of a") as caught:
+                    call(unusable)
+                assert caught.value.path == name
+    assert not list(tmp_path.iterdir())

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import ballrace as br
-from ballrace.campaigns.cli import read
+from ballrace.campaigns.cli import _ARGUMENTS, _BUILDERS, read
 from ballrace.cli import main
 
 SWEEP = """
@@ -86,6 +86,17 @@ def test_the_sweep_of_the_guide(tmp_path: Path) -> None:
         ('scene = "wheel-bearing"\ntable = "a.xlsx"', "a file that ends in .csv or .parquet"),
         ('scene = "wheel-bearing"\n[grid]\n"a.b" = 3', "a.b = 3: a list of values, or { from"),
         ('scene = "wheel-bearing"\n[grid]\nx = [1]\n[sobol]\nx = [0, 1]\nn = 2\nseed = 1', "x = given twice"),
+        ('scene = "x"\n[grid]\na = [1]', "scene = x: one of wheel-bearing"),
+        ('scenes = { b = "x" }\n[grid]\na = [1]', "scenes.b = x: one of wheel-bearing"),
+        ('scenes = "wheel-bearing"\n[grid]\na = [1]', "scenes = wheel-bearing: a table of scenes by name"),
+        ('scene = "wheel-bearing"\ngrid = 3', "grid = 3: a table, as told by ballrace campaign"),
+        ('scene = "wheel-bearing"\nband = 3\nduration = 1e-3\n[grid]\n"rows[0].clearance" = [1e-5]',
+         "band = 3: two frequencies [Hz]"),
+        ('scene = "wheel-bearing"\ntable = "\\u0000.csv"', "table = \\x00.csv: the name of a file or folder"),
+        ('scene = "wheel-bearing"\n[grid]\n"a.b" = { from = 0, to = 1, count = 1000000000000 }',
+         "a.b.count = 1,000,000,000,000 cases: at most 10,000,000"),
+        ('scene = "wheel-bearing"\n[sobol]\nx = [0, 1]\nn = 131072\nseed = 1\n'
+         "[latin_hypercube]\ny = [0, 1]\nn = 100\nseed = 1", "cases = 13,107,200 cases: at most 10,000,000"),
         ('scene = "wheel-bearing"\n[scatter]\nn = 2', "scatter = "),
         ('scene = "wheel-bearing"\n[scatter]\nn = 2\nseed = 1\nsize = 1.0', "as told by ballrace campaign"),
     ],
@@ -97,6 +108,30 @@ def test_bad_sweeps(
     assert main(["campaign", str(tmp_path / "sweep.toml"), "-o", str(tmp_path / "runs")]) == 2
     assert message in capsys.readouterr().err
     assert not (tmp_path / "runs").exists()
+
+
+VALUES = (
+    "3", "-1", "1.5", "nan", "1e300", "9223372036854775807", "true", "2026-01-01", '""', '"x"',
+    '"\\u0000"', '"a\\u0001b"', "[]", "[1]", '["a"]', "[[1]]", "{}", "{ a = 1 }",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("entry", ["scene", "scenes", *_ARGUMENTS, *_BUILDERS])
+def test_any_value_of_any_entry_is_run_or_refused(entry: str, tmp_path: Path) -> None:
+    """By an error of the package or of the file system; no other one reaches the user."""
+    (tmp_path / "cases.csv").write_text("loads.radial.force\n100.0\n")
+    others = {"scene": '"deep-groove-6205"', "duration": "2e-4", "table": '"cases.csv"'}
+    others.pop("scene" if entry == "scenes" else entry, None)
+    for number, value in enumerate(VALUES):
+        sweep, out = tmp_path / "sweep.toml", tmp_path / f"out{number}"
+        entries = {entry: value, **others}
+        sweep.write_text("".join(f"{name} = {text}\n" for name, text in entries.items()))
+        try:
+            arguments = read(sweep)
+            if arguments["duration"] not in (3, 1.5):  # These would take their time.
+                br.campaign(arguments.pop("cases"), out, progress=False, **arguments)
+        except (br.BallraceError, OSError):
+            assert not out.exists()
 
 
 def test_bad_options(tmp_path: Path, sweep: Path, capsys: pytest.CaptureFixture[str]) -> None:

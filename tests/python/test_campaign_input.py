@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 import polars as pl
 import pytest
@@ -30,6 +31,12 @@ def test_one_bad_method_cell_fails_one_case(tmp_path: Path, method: object) -> N
         ({"method": "euler"}, "method = 'euler': one of adams, dormand-prince"),
         ({"skip": 1.0}, "skip = 1: from 0 to below the duration"),
         ({"skip": "a moment"}, "skip = 'a moment': a time"),
+        ({"skip": True}, "skip = True: a time"),
+        ({"skip": np.inf}, "skip = inf: a time"),
+        ({"columns": 3}, "columns = 3: a name of a column, or several"),
+        ({"band": 3}, "band = 3: two frequencies"),
+        ({"band": (1.0, np.nan)}, "band = (1.0, nan): two frequencies"),
+        ({"band": (True, 5e3)}, "band = (True, 5000.0): two frequencies"),
         ({"band": (5.0, 2.0)}, "band = [5, 2]: two rising frequencies"),
         ({"band": (5.0,)}, "band = (5.0,): two frequencies"),
         ({"band": "all"}, "band = 'all': two frequencies"),

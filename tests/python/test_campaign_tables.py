@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import count
 from typing import Any
 
 import numpy as np
@@ -67,6 +68,11 @@ def test_scatter_is_seeded_and_usable() -> None:
     [
         (lambda: br.grid({}), "values"),
         (lambda: br.grid({"a": []}), "a = []: at least one value"),
+        (lambda: br.grid({"a": count()}), "a = 10,000,001 cases: at most 10,000,000"),
+        (lambda: br.grid({"a": range(4000), "b": range(4000)}), "values = 16,000,000 cases"),
+        (lambda: br.sobol({"a": (0.0, 1.0)}, 2**60, seed=1), "n = 1,152,921,504,606,846,976 cases"),
+        (lambda: br.latin_hypercube({"a": (0.0, 1.0)}, 10**12, seed=1), "n = 1,000,000,000,000"),
+        (lambda: br.scatter(br.presets.deep_groove_6205(), 10**12, seed=1), "n = 1,000,000,000"),
         (lambda: br.latin_hypercube({"a": (1.0, 1.0)}, 4, seed=1), "a = (1.0, 1.0)"),
         (lambda: br.latin_hypercube({}, 4, seed=1), "ranges"),
         (lambda: br.sobol({"a": (0.0, 1.0)}, 6, seed=1), "n = 6: a power of two"),

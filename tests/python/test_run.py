@@ -90,6 +90,8 @@ def test_a_run_says_what_the_arguments_say() -> None:
         ({"start": "standing"}, "start"),
         ({"start": np.array([0.0, np.inf])}, "start[1]"),
         ({"rtol": 1.0}, "rtol"),
+        ({"rtol": "1e-6"}, "rtol"),
+        ({"settle": True}, "settle"),
         ({"accuracy": 1.0}, "accuracy"),
         ({"method": "euler"}, "method"),
         ({"bandwidth": "wide"}, "bandwidth"),

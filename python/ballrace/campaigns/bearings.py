@@ -10,6 +10,7 @@ import numpy as np
 from .._document import counted
 from .._numbers import real
 from ..errors import SceneError
+from .tables import counted_cases
 
 if TYPE_CHECKING:
     import polars as pl
@@ -45,7 +46,7 @@ def scatter(
     scene : Scene
         The drawing.
     n : int
-        Number of bearings.
+        Number of bearings, at most ten million.
     seed : int
         The same seed gives the same bearings.
     ball_diameter : float
@@ -74,7 +75,7 @@ def scatter(
     """
     from .._polars import pl
 
-    n, seed = counted("n", n, 1), counted("seed", seed, 0)
+    n, seed = counted_cases(n), counted("seed", seed, 0)
     deviations = {
         "ball_diameter": ball_diameter, "clearance": clearance, "groove_radius": groove_radius,
     }  # fmt: skip

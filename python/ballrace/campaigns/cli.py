@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import presets
+from .._files import as_path
 from .._text import printable
 from ..errors import SceneError
 from ..options import ARGUMENTS, BUDGET
@@ -16,7 +17,7 @@ from ..scene import Scene
 from .bearings import scatter
 from .result import Campaign
 from .run import campaign
-from .tables import grid, latin_hypercube, sobol
+from .tables import check_cases, grid, latin_hypercube, sobol
 
 if TYPE_CHECKING:
     import polars as pl
@@ -144,8 +145,6 @@ def read(path: Path) -> dict[str, Any]:
             raise SceneError(name, "an entry of the sweep", f"one of {', '.join(known)}")
     scene = _scene(sweep, path.parent)
     arguments = {name: sweep[name] for name in _ARGUMENTS if name in sweep}
-    if "band" in arguments:
-        arguments["band"] = tuple(arguments["band"])
     return {"cases": _table(sweep, scene, path.parent), "scene": scene, **arguments}
 
 
@@ -155,16 +154,22 @@ def _scene(sweep: dict[str, Any], folder: Path) -> Scene | dict[str, Scene]:
             "scene", "absent" if "scene" not in sweep else "beside scenes", "one of both"
         )
     if "scene" in sweep:
-        return _load(sweep["scene"], folder)
-    return {name: _load(value, folder) for name, value in sweep["scenes"].items()}
+        return _load("scene", sweep["scene"], folder)
+    scenes = sweep["scenes"]
+    if not (isinstance(scenes, dict) and scenes):
+        raise SceneError("scenes", str(scenes), "a table of scenes by name")
+    return {name: _load(f"scenes.{name}", value, folder) for name, value in scenes.items()}
 
 
-def _load(name: str, folder: Path) -> Scene:
+def _load(field: str, name: object, folder: Path) -> Scene:
     preset = str(name).replace("-", "_")
     if preset in presets.names():
         made: Scene = getattr(presets, preset)()
         return made
-    return Scene.load(folder / str(name))
+    if not str(name).lower().endswith((".toml", ".json")):
+        known = ", ".join(presets.names()).replace("_", "-")
+        raise SceneError(field, str(name), f"one of {known}, or a file that ends in .toml or .json")
+    return Scene.load(folder / as_path(str(name), field))
 
 
 def _table(sweep: dict[str, Any], scene: Scene | dict[str, Scene], folder: Path) -> pl.DataFrame:
@@ -177,13 +182,16 @@ def _table(sweep: dict[str, Any], scene: Scene | dict[str, Scene], folder: Path)
         twice = set(crossed.columns) & set(table.columns)
         if twice:
             raise SceneError(min(twice), "given twice", "one entry for each column")
+        check_cases("cases", crossed.height * table.height)
         crossed = crossed.join(table, how="cross")
     return crossed
 
 
 def _built(name: str, entry: Any, scene: Scene | dict[str, Scene], folder: Path) -> pl.DataFrame:
     if name == "table":
-        return _file(folder / str(entry))
+        return _file(folder / as_path(str(entry), "table"))
+    if not isinstance(entry, dict):
+        raise SceneError(name, str(entry), "a table, as told by ballrace campaign --help")
     entry = dict(entry)
     try:
         if name == "grid":
@@ -210,6 +218,7 @@ def _values(column: str, value: Any) -> list[Any]:
     low, high, count = value["from"], value["to"], value["count"]
     if not (isinstance(count, int) and count >= 2):
         raise SceneError(f"{column}.count", str(count), "a number from 2")
+    check_cases(f"{column}.count", count)
     return [low + (high - low) * i / (count - 1) for i in range(count)]
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .._files import as_path
 from .._parquet import collected
 from .._text import printable
 from ..scene import Scene
@@ -17,6 +17,7 @@ from .store import BASE, BUDGET, Store
 if TYPE_CHECKING:
     import os
     from collections.abc import Iterator, Sequence
+    from pathlib import Path
 
     import polars as pl
 
@@ -45,7 +46,7 @@ class Campaign:
         CampaignError
             It holds none, or a file is damaged.
         """
-        return cls(Store(Path(folder)))
+        return cls(Store(as_path(folder, "folder")))
 
     @property
     def folder(self) -> Path:

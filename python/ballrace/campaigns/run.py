@@ -6,10 +6,10 @@ import contextlib
 import json
 import os
 import warnings
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
 
 from .._features import feature_options
+from .._files import as_path
 from .._text import printable
 from ..errors import CampaignError, CampaignWarning, SceneError
 from ..options import BUDGET, DECIDING, Run, document
@@ -33,6 +33,7 @@ from .work import Job, check_process, record_of, row, run_here
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
+    from pathlib import Path
 
     import polars as pl
 
@@ -225,6 +226,7 @@ def campaign(
     """
     check_process()
     check_choices(keep=keep, resume=resume, on_error=on_error)
+    folder = as_path(out, "out")
     asked = Run(
         duration=duration, fs=fs, start=start, rtol=rtol, accuracy=accuracy, method=method,
         bandwidth=bandwidth, settle=settle, time_limit=time_limit, max_steps=max_steps,
@@ -257,11 +259,11 @@ def campaign(
     )
     warn_of_labels(plan.cases, scenes)
     if dry_run:
-        return estimate(plan, Path(out))
+        return estimate(plan, folder)
     failed = [case.error for case in plan.cases.cases if case.error is not None]
     if failed and on_error == "raise":
         raise failed[0]
-    return _run(plan, Path(out), most, progress)
+    return _run(plan, folder, most, progress)
 
 
 def _run(

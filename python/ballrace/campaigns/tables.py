@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
 
 __all__ = ["grid", "latin_hypercube", "sobol"]
 
+MOST_CASES = 10_000_000
+"""Rows that a table is built with at most: a slip of the pen is refused before it takes the memory."""
+
 
 def grid(values: Mapping[str, Iterable[object]]) -> pl.DataFrame:
     """Return every combination of the given values, the last column changing fastest.
@@ -29,7 +33,7 @@ def grid(values: Mapping[str, Iterable[object]]) -> pl.DataFrame:
     Raises
     ------
     SceneError
-        There is nothing to combine.
+        There is nothing to combine, or more than ten million cases come of it.
 
     Examples
     --------
@@ -42,6 +46,7 @@ def grid(values: Mapping[str, Iterable[object]]) -> pl.DataFrame:
 
     lists = {name: _listed(name, column) for name, column in _named("values", values).items()}
     count = math.prod(len(column) for column in lists.values())
+    check_cases("values", count)
     each, columns = count, []
     for name, column in lists.items():
         each //= len(column)
@@ -63,11 +68,12 @@ def _named(argument: str, columns: object) -> Mapping[str, Any]:
 
 
 def _listed(name: str, column: object) -> list[object]:
-    found = (
-        list(column) if isinstance(column, Iterable) and not isinstance(column, str | bytes) else []
-    )
+    values = column if isinstance(column, Iterable) and not isinstance(column, str | bytes) else ()
+    # No more than is needed to know that they are too many: a generator may have no end.
+    found = list(islice(values, MOST_CASES + 1))
     if not found:
         raise SceneError(name, repr(column), "at least one value, in a list")
+    check_cases(name, len(found))
     return found
 
 
@@ -87,7 +93,7 @@ def latin_hypercube(
     ranges : mapping of str to (float, float)
         Lowest and highest value by dotted path of a field.
     n : int
-        Number of cases.
+        Number of cases, at most ten million.
     seed : int
         The same seed gives the same table.
 
@@ -117,7 +123,7 @@ def sobol(ranges: Mapping[str, tuple[float, float]], n: int, *, seed: int) -> pl
     ranges, seed
         As for :func:`latin_hypercube`.
     n : int
-        Number of cases, a power of two: others spoil the balance of the sequence.
+        Number of cases, at most ten million and a power of two: others spoil the balance of the sequence.
 
     Raises
     ------
@@ -144,7 +150,20 @@ def _checked(ranges: Mapping[str, tuple[float, float]], n: int, seed: int) -> tu
         low, high = map(real, pair) if is_pair else (math.nan, math.nan)
         if not (low < high and math.isfinite(high - low)):
             raise SceneError(name, repr(pair), "two finite numbers, the second above")
-    return counted("n", n, 1), counted("seed", seed, 0)
+    return counted_cases(n), counted("seed", seed, 0)
+
+
+def counted_cases(n: object) -> int:
+    """Return the number of cases that was asked for as ``n``."""
+    count = counted("n", n, 1)
+    check_cases("n", count)
+    return count
+
+
+def check_cases(name: str, count: int) -> None:
+    """Refuse a table of more cases than anybody means; ``name`` is what asks for them."""
+    if count > MOST_CASES:
+        raise SceneError(name, f"{count:,} cases", f"at most {MOST_CASES:,}")
 
 
 def _scaled(unit: Any, ranges: Mapping[str, tuple[float, float]]) -> pl.DataFrame:

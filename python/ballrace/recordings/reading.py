@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from .._files import as_path
 from ..errors import SceneError
 from . import hierarchical, matlab, parquet, sound, text, universal
 from .formats import by_contents
@@ -13,6 +13,7 @@ from .recording import Recording
 
 if TYPE_CHECKING:
     import os
+    from pathlib import Path
 
     from .samples import Samples
 
@@ -73,7 +74,7 @@ def read(
     >>> record.fs, record.units["ay"], record["ay"].tolist()
     (1000.0, 'g', [0.1, 0.3, -0.2])
     """
-    path = Path(path)
+    path = as_path(path)
     if fs is not None and not 0.0 < fs < math.inf:
         raise SceneError("fs", str(fs), "above 0")
     if format is not None and format not in _READERS:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .._files import whole
+from .._files import as_path, whole
 from . import hierarchical, matlab, parquet, sound, text, universal
 from .formats import by_name
 
@@ -32,7 +31,7 @@ def write(samples: Samples, path: str | os.PathLike[str]) -> None:
     OSError
         It cannot be written.
     """
-    path = Path(path)
+    path = as_path(path)
     writer = _WRITERS[by_name(path)]
     with whole(path) as temporary:
         writer(samples, temporary, path)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import importlib.util
 import warnings
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .._files import check_writable, whole
+from .._files import as_path, check_writable, whole
 from ..errors import SceneError, SceneWarning
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Callable
+    from pathlib import Path
 
     from .page import Page
 
@@ -47,7 +47,7 @@ def write_page(path: str | os.PathLike[str], make: Callable[[], Page]) -> None:
     OSError
         The file cannot be written.
     """
-    path = Path(path)
+    path = as_path(path)
     check_page(path)
     with warnings.catch_warnings():
         # What a run was warned of stands on its page; its scene is not to warn again.

@@ -6,12 +6,12 @@ import json
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal
 
 from .. import _core
 from .._document import LEFT_OUT, Part, decode, encode
+from .._files import as_path
 from ..errors import SceneError
 from .approximations import Approximations
 from .bearing import Ring, Row
@@ -167,7 +167,7 @@ class Scene(Part):
         OSError
             The file cannot be read.
         """
-        path = Path(path)
+        path = as_path(path)
         readers = {".toml": cls.from_toml, ".json": cls.from_json}
         reader = readers.get(path.suffix.lower())
         if reader is None:
