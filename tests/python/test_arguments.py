@@ -90,7 +90,11 @@ def test_numbers_of_any_kind_are_taken() -> None:
 def test_a_grid_holds_cells_of_any_kind() -> None:
     """A number beside a list, or beside a part of a scene, stays what it is."""
     ramp = br.scene.Ramp(from_=1.0, to=2.0, start=0.0, end=1.0)
-    for column in ([np.float32(1.0), [1.0]], [1.0, ramp], ["a", 1.0], [b"a", "a"], [1.0, {"a": 1}]):
+    columns: tuple[list[Any], ...] = (
+        [np.float32(1.0), [1.0]], [1.0, ramp], ["a", 1.0], [b"a", "a"], [1.0, {"a": 1}], [SCENE, None],
+        [np.float32(1.0), SCENE], [1.0, 1j], [np.complex64(1j)], [np.longdouble(1.0)], [range(3), [1.0]],
+    )  # fmt: skip
+    for column in columns:
         assert br.grid({"a": column})["a"].to_list() == column
 
 

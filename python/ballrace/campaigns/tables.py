@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from itertools import islice
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -50,10 +52,8 @@ def grid(values: Mapping[str, Iterable[object]]) -> pl.DataFrame:
     each, columns = count, []
     for name, column in lists.items():
         each //= len(column)
-        # A number beside a word would become a word, and beside a list there is no type for both.
-        kind = pl.Object if _is_mixed(column) else None
         place = np.arange(count) // each % len(column)
-        columns.append(pl.Series(name, column, dtype=kind, strict=False)[place])
+        columns.append(_series(name, column)[place])
     return pl.DataFrame(columns)
 
 
@@ -77,10 +77,18 @@ def _listed(name: str, column: object) -> list[object]:
     return found
 
 
-def _is_mixed(column: list[object]) -> bool:
-    kinds = (str, bytes, Mapping, Sequence, np.ndarray, Part)
+def _series(name: str, column: list[object]) -> pl.Series:
+    """Return a column whose cells are what was given, as objects where polars has no type for them."""
+    from .._polars import pl
+
+    # A number beside a word would become a word, and beside a list there is no type for both.
+    kinds = (str, bytes, Mapping, Sequence, np.ndarray, Part, Real, np.bool_)
     present = [value for value in column if value is not None]
-    return len({next((k for k in kinds if isinstance(v, k)), None) for v in present}) > 1
+    if len({next((k for k in kinds if isinstance(v, k)), type(v)) for v in present}) <= 1:
+        # Some that polars knows no type for it tells by errors of Python's own, too.
+        with suppress(pl.exceptions.PolarsError, TypeError, ValueError, AttributeError):
+            return pl.Series(name, column, strict=False)
+    return pl.Series(name, column, dtype=pl.Object)
 
 
 def latin_hypercube(
