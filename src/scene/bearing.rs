@@ -353,7 +353,7 @@ pub enum RingName {
 
 impl RingName {
     /// `outer` or `inner`.
-    pub(super) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Outer => "outer",
             Self::Inner => "inner",

@@ -16,10 +16,10 @@
 mod antiderivative;
 mod approximations;
 mod bearing;
-mod by_name;
 mod contact;
 mod defaults;
 mod defect;
+mod document;
 mod doubt;
 mod expected;
 mod fault_lines;
@@ -39,13 +39,10 @@ mod validate;
 
 use std::collections::BTreeMap;
 
-use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
 use crate::memory;
-
-use by_name::ByName;
 
 pub(crate) use antiderivative::Antiderivative;
 pub use approximations::Approximations;
@@ -54,6 +51,7 @@ pub use bearing::{
 };
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
 pub use defect::{AxialOffset, Defect, DefectShape, Floor, Surface, Width, WidthProfile};
+pub(crate) use document::interpret;
 pub(crate) use doubt::FilmJudged;
 pub use doubt::{Doubt, STATIC_PRESSURE};
 pub use fault_lines::kinematic_orders;
@@ -136,10 +134,9 @@ pub struct Scene {
 }
 
 /// Memory that reading takes over the length of the text, where it is a list of one-digit numbers: of TOML its tokens and
-/// the document, of JSON the scene, or the document where the scene has an error.
+/// the document, of JSON the document.
 const TOML: f64 = 50.0;
-const JSON: f64 = 8.0;
-const DOCUMENT: f64 = 40.0;
+const JSON: f64 = 40.0;
 
 /// Refuses to read a text that does not fit into memory.
 fn check_length(text: &str, factor: f64) -> Result<()> {
@@ -275,15 +272,12 @@ impl Scene {
     }
 
     /// Reads a scene from JSON for [`crate::compile()`], which checks it.
-    pub(crate) fn from_json_unchecked(text: &str) -> Result<Self> {
+    #[doc(hidden)]
+    pub fn from_json_unchecked(text: &str) -> Result<Self> {
         check_length(text, JSON)?;
-        // The document takes three times as long; it knows the path and the value of what is wrong.
-        by_name::from_json(text).or_else(|_| {
-            check_length(text, DOCUMENT)?;
-            let document = serde_json::from_str(text)
-                .map_err(|e| Error::scene("scene", "not JSON", e.to_string()))?;
-            interpret(&document, "scene")
-        })
+        let document = serde_json::from_str(text)
+            .map_err(|e| Error::scene("scene", "not JSON", e.to_string()))?;
+        interpret(&document, "scene")
     }
 
     /// The scene as TOML.
@@ -323,20 +317,4 @@ impl Scene {
         scene.validate()?;
         Ok(scene)
     }
-}
-
-/// Reads a document, or a part of one; its messages say where.
-pub(crate) fn interpret<T: DeserializeOwned>(
-    document: &serde_json::Value,
-    part: &str,
-) -> Result<T> {
-    serde_path_to_error::deserialize(ByName(document)).map_err(|e| {
-        let value = path::at(document, e.path()).map_or_else(|| "absent".to_owned(), path::short);
-        let place = match (part, path::place(e.path())) {
-            (part, place) if place.is_empty() => part.to_owned(),
-            ("scene" | "run", place) => place,
-            (part, place) => format!("{part}.{place}"),
-        };
-        Error::scene(place, value, expected::allowed(&e.inner().to_string()))
-    })
 }

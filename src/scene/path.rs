@@ -3,10 +3,16 @@
 use std::borrow::Cow;
 
 use serde_json::{Map, Value, json};
-use serde_path_to_error::{Path, Segment};
 
 use super::expected;
 use crate::error::{Error, Result};
+
+/// A segment of a path that a reader took into a document.
+#[derive(Debug)]
+pub(super) enum Segment {
+    Field(String),
+    Item(usize),
+}
 
 /// Parts of a scene whose entries have names that people choose.
 const NAMED: [&str; 5] = ["loads", "moments", "unbalances", "defects", "probes"];
@@ -105,24 +111,25 @@ fn all_of<'v>(document: &'v mut Value, keys: &[&str]) -> Vec<&'v mut Map<String,
     maps.collect()
 }
 
-/// A place that serde tells of, as people write it; empty: the whole document.
-pub(super) fn place(path: &Path) -> String {
-    path.iter().fold(String::new(), |place, step| match step {
-        Segment::Seq { index } => format!("{place}[{index}]"),
-        Segment::Map { key: name } | Segment::Enum { variant: name } => {
+/// A place of a document, as people write it; empty: the whole document.
+pub(super) fn place<'a>(steps: impl Iterator<Item = &'a Segment>) -> String {
+    steps.fold(String::new(), |place, step| match step {
+        Segment::Item(index) => format!("{place}[{index}]"),
+        Segment::Field(name) => {
             let dot = if place.is_empty() { "" } else { "." };
             format!("{place}{dot}{}", shown(name))
         }
-        Segment::Unknown => place,
     })
 }
 
-/// The value at a place that serde tells of, if there is one.
-pub(super) fn at<'v>(document: &'v Value, path: &Path) -> Option<&'v Value> {
-    path.iter().try_fold(document, |place, step| match step {
-        Segment::Seq { index } => place.get(index),
-        Segment::Map { key: name } | Segment::Enum { variant: name } => place.get(name),
-        Segment::Unknown => None,
+/// The value at a place of a document, if there is one.
+pub(super) fn at<'v, 'a>(
+    document: &'v Value,
+    mut steps: impl Iterator<Item = &'a Segment>,
+) -> Option<&'v Value> {
+    steps.try_fold(document, |place, step| match step {
+        Segment::Item(index) => place.get(index),
+        Segment::Field(name) => place.get(name),
     })
 }
 

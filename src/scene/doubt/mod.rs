@@ -2,7 +2,7 @@
 //!
 //! Validation refuses what cannot be computed; a pitch diameter of 39 m can. So every number is held against what
 //! bearings have, wide enough for any catalogue from miniature bearings to those of a bore of one metre
-//! (`tests/doubts.rs`), and what lies outside is told, not refused: research may well look there.
+//! (`tests/reliability/doubts.rs`), and what lies outside is told, not refused: research may well look there.
 
 mod geometry;
 mod lubricant;
