@@ -1,5 +1,5 @@
 //! One benchmark a layer: the power, a contact, a right-hand side by nodes, slices, balls, threads,
-//! instruction set and rings that lean, the integrator alone, a run, the static solve. `cargo bench --bench layers`.
+//! instruction set and rings that lean, the integrator alone, a run, the static solve. `cargo bench -p ballrace-benches --bench layers`.
 
 use std::hint::black_box;
 use std::sync::Arc;

@@ -1,5 +1,5 @@
 //! A thousand right-hand sides of the faulted wheel bearing and nothing else, to be counted by a profiler:
-//! `BALLRACE_SIMD=x86-64-v3 valgrind --tool=callgrind $(cargo bench --bench profile --no-run 2>&1 | sed 's/.*(\(.*\))/\1/')`.
+//! `BALLRACE_SIMD=x86-64-v3 valgrind --tool=callgrind $(cargo bench -p ballrace-benches --bench profile --no-run 2>&1 | sed 's/.*(\(.*\))/\1/')`.
 
 use std::hint::black_box;
 

@@ -58,25 +58,26 @@
 //! * `interrupt` ([`Interrupt`]), `memory` — what ends work from outside; what a run may set aside.
 //! * `told` — numbers in messages, in units of their size.
 //! * `campaign` ([`campaign()`]) — many cases on all cores; a case that fails is an outcome.
-//! * `python` (feature `python`) — the only place that knows Python.
+//! * The bindings for Python are a crate of their own in `src/python`, the only place that knows Python; what they use beside the interface is
+//!   listed in `bindings` at the end of `lib.rs`.
 //!
 //! # To add
 //!
 //! | what | touch | prove |
 //! |---|---|---|
-//! | an elastic law | a file in `contact/laws/elastic/`, its variant in the `mod.rs` there, a variant in `scene/contact.rs` and its ranges in `scene/validate/contact.rs`, its name in `explain/law.rs`; for Python `python/ballrace/scene/contact.py` and `python/ballrace/report/words.py` | doctest values, `tests/contact.rs` |
+//! | an elastic law | a file in `contact/laws/elastic/`, its variant in the `mod.rs` there, a variant in `scene/contact.rs` and its ranges in `scene/validate/contact.rs`, its name in `explain/law.rs`; for Python `python/ballrace/scene/contact.py` and `python/ballrace/report/words.py` | doctest values, `tests/analytic/contact.rs` |
 //! | a traction law | a file in `contact/laws/traction/`, its variant in the `mod.rs` there, a variant with its numbers in `scene/contact.rs`; for Python as above | dissipation ≥ 0, its slope |
-//! | an oil | an entry of `NAMED_OILS` in `scene/oils.rs` with its source | `tests/lubricant.rs` |
-//! | what oil does | its formula in `contact/laws/film/`; what a contact has of it, `FilmEffect` there | a row of section 12.14, `tests/oil_contact.rs` |
-//! | a force | a file in `forces/`, its entry in `forces/mod.rs`, which names its contribution, a line in `Dynamics::add_applied_forces` | `tests/energy.rs`, power balance |
+//! | an oil | an entry of `NAMED_OILS` in `scene/oils.rs` with its source | `tests/analytic/lubricant.rs` |
+//! | what oil does | its formula in `contact/laws/film/`; what a contact has of it, `FilmEffect` there | a row of section 12.14, `tests/analytic/oil_contact.rs` |
+//! | a force | a file in `forces/`, its entry in `forces/mod.rs`, which names its contribution, a line in `Dynamics::add_applied_forces` | `tests/analytic/energy.rs`, power balance |
 //! | a direction of a body | `Dof` in `model/dof.rs`, `Layout` in `model/layout.rs`, mass and mount in `model/body.rs`; what carries the four numbers of a contact: `forces/state.rs`, `dynamics/sums.rs`, `dynamics/batch/`, `implicit/`; where a ring leans `dynamics/batch/view.rs`, `dynamics/leaning.rs` | `model/layout.rs`, momentum |
-//! | what acts along z, or differs by row | `reduction/symmetry.rs`; what contacts share, `RowModel::is_like` | a hair of it in `tests/reduction.rs`, `tests/unlike_rows.rs` |
-//! | an approximation | `scene/approximations.rs`, grounds and a reason in `reduction/`, an offer in `explain/variants.rs` | `tests/approximations.rs`, a row in `benches/approximations.py` |
-//! | a race profile | what can be said by points: a tabulation in `model/race.rs`; else a kind in `contact/scalar/shape.rs` with its contacts, fields in `scene/bearing.rs` and `scene/validate/race.rs` | `tests/profiles.rs`: gap against a closed form, energy |
+//! | what acts along z, or differs by row | `reduction/symmetry.rs`; what contacts share, `RowModel::is_like` | a hair of it in `tests/limits/reduction.rs`, `tests/limits/unlike_rows.rs` |
+//! | an approximation | `scene/approximations.rs`, grounds and a reason in `reduction/`, an offer in `explain/variants.rs` | `tests/limits/approximations.rs`, a row in `benches/approximations.py` |
+//! | a race profile | what can be said by points: a tabulation in `model/race.rs`; else a kind in `contact/scalar/shape.rs` with its contacts, fields in `scene/bearing.rs` and `scene/validate/race.rs` | `tests/analytic/profiles.rs`: gap against a closed form, energy |
 //! | a defect shape | a constructor in `scene/defect.rs` | width or depth → 0 equals healthy |
 //! | a Runge–Kutta method | a constant in `integrate/tableau_pairs.rs`, a variant in `scene/solver.rs`, an arm in `run/method.rs` and in `run/step_limit.rs` | row sums, order of convergence |
 //! | a signal | a variant in `scene/probe.rs`, two arms in `signals/probes.rs` | unit, value at a known state; filtered or a reading of a state |
-//! | a doubt | a check in `scene/doubt/`, with its source | `tests/doubts.rs`: told, and no ordinary bearing is |
+//! | a doubt | a check in `scene/doubt/`, with its source | `tests/reliability/doubts.rs`: told, and no ordinary bearing is |
 //! | a feature | a file in `features/`, a line in its `mod.rs` | value of a synthetic signal |
 //!
 //! # Units and frames
@@ -84,9 +85,6 @@
 //! SI everywhere. Right-handed inertial frame: z along the bearing axis, x to the right, y up; angle 0 on +x,
 //! counter-clockwise. A body has four degrees of freedom x, y, z, θ (about z): balls spin about z only, and rings stay parallel
 //! unless a scene lets them tilt; then each has two more, behind all bodies (`tilt`).
-
-#[cfg(feature = "python")]
-mod python;
 
 mod campaign;
 pub mod contact;
@@ -135,3 +133,16 @@ pub use signals::{
 };
 pub use start::{Start, start};
 pub use touched::Touched;
+
+/// What the bindings for Python (`src/python`) use beside the interface. Nobody else should: it changes without notice.
+#[doc(hidden)]
+pub mod bindings {
+    pub use crate::features::loads::columns as load_columns;
+    pub use crate::features::lubrication::columns as lubrication_columns;
+    pub use crate::features::transform::{amplitudes, hann_weighted, squared_envelope};
+    pub use crate::features::{Recorded, check as check_features, check_recorded, features_of};
+    pub use crate::memory::{available, within};
+    pub use crate::model::layout_of;
+    pub use crate::pool::STACK;
+    pub use crate::start::check_length;
+}

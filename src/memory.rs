@@ -45,7 +45,7 @@ pub(crate) fn check(needed: f64, what: impl FnOnce() -> String) -> Result<()> {
 }
 
 /// What a run may set aside now \[bytes\].
-pub(crate) fn available() -> f64 {
+pub fn available() -> f64 {
     let root = Path::new("/");
     let told = [free(root), address_space(root), control_groups(root)];
     let least = told.into_iter().flatten().fold(f64::INFINITY, f64::min);
@@ -63,7 +63,7 @@ thread_local! {
 }
 
 /// Works on this thread with a part of what there is \[bytes\]: several runs at once would each count on all of it.
-pub(crate) fn within<T>(part: f64, work: impl FnOnce() -> T) -> T {
+pub fn within<T>(part: f64, work: impl FnOnce() -> T) -> T {
     /// Gives back what there was before, after a panic too.
     struct Before(f64);
     impl Drop for Before {

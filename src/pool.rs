@@ -15,7 +15,7 @@ use crate::error::{Error, Result};
 
 /// Stack of our own threads \[bytes\]: without optimisation a frame of the vector code alone takes more than the 2 MiB that Rust
 /// gives a thread.
-pub(crate) const STACK: usize = if cfg!(debug_assertions) {
+pub const STACK: usize = if cfg!(debug_assertions) {
     8 << 20
 } else {
     2 << 20

@@ -130,7 +130,10 @@ fn lean(model: &Model, y: &mut [f64]) {
 }
 
 /// Refuses a state that is not as long as a model's.
-pub(crate) fn check_length(length: usize, dim: usize) -> Result<()> {
+///
+/// # Errors
+/// [`Error::Scene`] names the lengths.
+pub fn check_length(length: usize, dim: usize) -> Result<()> {
     if length == dim {
         return Ok(());
     }

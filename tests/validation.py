@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "tests" / "README.md"
 LITERATURE = [
-    "literature_contacts",
-    "literature_statics",
-    "literature_dynamics",
-    "literature_spall",
+    "contacts",
     "statics",
+    "dynamics",
+    "spall",
+    "stiffness",
     "moments",
-    "tilt_statics",
+    "tilt",
 ]
 # Python tests that print rows of the same form.
 MEASURED = ["test_defects_speak.py", "test_cwru.py", "test_exudyn.py"]
@@ -61,7 +61,7 @@ def rows(text: str) -> str:
 
 def source(test: str) -> str:
     """Return the module documentation of a Rust test, where its sources stand."""
-    lines = (ROOT / "tests" / f"{test}.rs").read_text(encoding="utf-8").splitlines()
+    lines = (ROOT / "tests" / "literature" / f"{test}.rs").read_text(encoding="utf-8").splitlines()
     return "\n".join(line[3:].strip() for line in lines if line.startswith("//!")) + "\n"
 
 
@@ -70,7 +70,17 @@ def literature() -> str:
     parts = []
     for test in LITERATURE:
         text = output(
-            ["cargo", "test", "-q", "--test", test, "--", "--nocapture", "--test-threads=1"]
+            [
+                "cargo",
+                "test",
+                "-q",
+                "--test",
+                "literature",
+                f"{test}::",
+                "--",
+                "--nocapture",
+                "--test-threads=1",
+            ]
         )
         parts.append(source(test) + "\n" + HEADER + rows(text))
     return "\n".join(parts)

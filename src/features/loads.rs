@@ -89,7 +89,7 @@ fn label(race: RingName) -> &'static str {
 ///
 /// # Errors
 /// [`Error::Scene`] if no probe of the scene records them all.
-pub(crate) fn columns(scene: &Scene) -> Result<Vec<String>> {
+pub fn columns(scene: &Scene) -> Result<Vec<String>> {
     let mut names = Vec::new();
     for row in 0..scene.rows.len() {
         for race in RACES {

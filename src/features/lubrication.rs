@@ -6,7 +6,7 @@ use crate::inspect::Lubrication;
 use crate::scene::{Probe, Scene};
 
 /// Names of all columns that these features are read from.
-pub(crate) fn columns(scene: &Scene) -> Vec<String> {
+pub fn columns(scene: &Scene) -> Vec<String> {
     let recorded = scene.recorded();
     let oils = recorded
         .iter()

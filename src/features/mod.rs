@@ -32,9 +32,8 @@ use crate::scene::Scene;
 use crate::signals::{Signals, columns};
 
 pub(crate) use loads::{with_load_probes, without_load_probes};
-pub(crate) use record::Recorded;
-pub use recorded::signal_features;
-pub(crate) use recorded::{check_recorded, features_of};
+pub use record::Recorded;
+pub use recorded::{check_recorded, features_of, signal_features};
 
 /// What to compute the features of.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
@@ -92,7 +91,7 @@ pub fn feature_columns(scene: &Scene, options: &FeatureOptions) -> Result<Vec<St
 ///
 /// # Errors
 /// [`Error::Scene`] names the option.
-pub(crate) fn check(options: &FeatureOptions, run: &Run) -> Result<()> {
+pub fn check(options: &FeatureOptions, run: &Run) -> Result<()> {
     check_record(options, run.duration, run.fs)
 }
 

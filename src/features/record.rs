@@ -4,7 +4,7 @@ use crate::scene::Scene;
 use crate::signals::Signals;
 
 /// Columns of a run, by their names, all of the same length.
-pub(crate) struct Recorded<'a> {
+pub struct Recorded<'a> {
     /// What was run.
     pub scene: &'a Scene,
     /// Sampling rate \[Hz\].

@@ -10,7 +10,7 @@ use crate::scene::Scene;
 ///
 /// # Errors
 /// [`crate::Error::Scene`] names the option.
-pub(crate) fn check_recorded(recorded: &Recorded<'_>, options: &FeatureOptions) -> Result<()> {
+pub fn check_recorded(recorded: &Recorded<'_>, options: &FeatureOptions) -> Result<()> {
     if options.contact_loads {
         loads::columns(recorded.scene)?;
     }
@@ -20,7 +20,7 @@ pub(crate) fn check_recorded(recorded: &Recorded<'_>, options: &FeatureOptions) 
 
 /// The features of the given columns, then the extremes of the contact loads if they are asked for, what probes of oils
 /// have recorded, and the largest pressure.
-pub(crate) fn features_of(
+pub fn features_of(
     recorded: &Recorded<'_>,
     columns: &[String],
     options: &FeatureOptions,

@@ -69,7 +69,7 @@ fn signal_of(mut lines: Vec<Complex64>, length: usize) -> Vec<f64> {
 /// Squared magnitude of the analytic signal within a band \[Hz\] with sharp edges, by default all frequencies: the signal and
 /// its Hilbert transform, whose lines are those of the signal turned by −90° (J. Antoni, R. B. Randall, Mech. Syst. Signal
 /// Process. 20 (2006) 308).
-pub(crate) fn squared_envelope(x: &[f64], fs: f64, band: Option<[f64; 2]>) -> Vec<f64> {
+pub fn squared_envelope(x: &[f64], fs: f64, band: Option<[f64; 2]>) -> Vec<f64> {
     let count = x.len();
     if count == 0 {
         return Vec::new();
@@ -95,7 +95,7 @@ pub(crate) fn squared_envelope(x: &[f64], fs: f64, band: Option<[f64; 2]>) -> Ve
 }
 
 /// A signal without its mean, weighed with a Hann window so that the magnitude of its Fourier transform is the amplitude.
-pub(crate) fn hann_weighted(x: &[f64]) -> Vec<f64> {
+pub fn hann_weighted(x: &[f64]) -> Vec<f64> {
     let count = x.len();
     // It adds up to the number of samples, and is the same from both ends.
     let rising = |i: usize| 1.0 - (TAU * (i as f64 + 0.5) / count as f64).cos();
@@ -112,7 +112,7 @@ pub(crate) fn hann_weighted(x: &[f64]) -> Vec<f64> {
 
 /// Amplitudes under a Hann window at multiples of fs / `length` from 0 to fs/2, the signal followed by zeros up to that length.
 /// A sine of amplitude 2 has a line of height 2.
-pub(crate) fn amplitudes(x: &[f64], length: usize) -> Vec<f64> {
+pub fn amplitudes(x: &[f64], length: usize) -> Vec<f64> {
     let mut weighted = hann_weighted(x);
     weighted.resize(length, 0.0);
     if length == 0 {

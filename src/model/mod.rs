@@ -30,8 +30,7 @@ pub(crate) use compile::{ball_fault, compile_placed, race_fault};
 pub use dof::{DOFS, Dof};
 pub(crate) use layout::RINGS;
 pub use layout::{BodyId, BodyKind, Layout, Race};
-#[cfg(feature = "python")]
-pub(crate) use ring::layout_of;
+pub use ring::layout_of;
 pub(crate) use ring::{CoupledModel, RingModel};
 pub(crate) use rolling::{Between, Rolling};
 pub use scales::Scales;
@@ -291,7 +290,7 @@ impl Model {
     }
 
     /// Whether sharing one evaluation among threads pays: below some 7 µs the wait for the last thread costs more
-    /// (`cargo bench --bench layers -- threads`).
+    /// (`cargo bench -p ballrace-benches --bench layers -- threads`).
     pub(crate) fn is_large(&self) -> bool {
         /// Nodes of all contacts from which two threads were faster.
         const BREAK_EVEN: usize = 1500;

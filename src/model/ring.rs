@@ -52,7 +52,7 @@ impl RingModel {
 }
 
 /// The layout of all bodies of a scene, of the tilts that move, and of balls that spin freely and tumble with a cap.
-pub(crate) fn layout_of(scene: &Scene) -> Layout {
+pub fn layout_of(scene: &Scene) -> Layout {
     let counts = scene.rows.iter().map(|row| row.ball_count);
     let moves = |ring: &scene::Ring| ring.support.tilt_mounts().map(|of| of != Mount::Fixed);
     let layout = Layout::of_balls(counts.clone().sum())

@@ -11,8 +11,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::errors::OrRaise;
-use crate::pool::STACK;
-use crate::{Block, Column, Interrupt, Result};
+use ballrace::bindings::STACK;
+use ballrace::{Block, Column, Interrupt, Result};
 
 /// Longest time between two looks at signals, and least time between two calls of a callback.
 const ATTENTION: Duration = Duration::from_millis(50);

@@ -10,7 +10,8 @@ use serde_json::json;
 use super::errors::{OrRaise, record};
 use super::features::options_from;
 use super::run::hand_over;
-use crate::{Case, Finished, Outcome, Run, Scene, features, memory};
+use ballrace::bindings::{available, check_features, within};
+use ballrace::{Case, Finished, Outcome, Run, Scene};
 
 /// Share of the memory for cases whose signals are kept: the rest is for those that wait to be written, and for the
 /// table they are written from.
@@ -57,9 +58,9 @@ pub(super) fn campaign(
                 }
             }
         };
-        let stream = || crate::stream(pull, threads, &options, &mut watch);
+        let stream = || ballrace::stream(pull, threads, &options, &mut watch);
         let part = if keep_signals { KEEPING } else { 1.0 } / f64::from(sharing.max(1));
-        memory::within(part * memory::available(), stream)
+        within(part * available(), stream)
     });
     if let Some(exception) = raised.or(failed_pull) {
         return Err(exception);
@@ -72,7 +73,7 @@ pub(super) fn campaign(
 pub(super) fn check_run(py: Python<'_>, run: &str, options: &str) -> PyResult<()> {
     let checked = Run::from_json(run).and_then(|run| {
         run.validate()
-            .and_then(|()| features::check(&options_from(options)?, &run))
+            .and_then(|()| check_features(&options_from(options)?, &run))
     });
     checked.or_raise(py)
 }
@@ -119,7 +120,9 @@ fn tell(
 fn describe(outcome: &Outcome) -> serde_json::Value {
     let wall_time = outcome.wall_time;
     match &outcome.result {
-        Ok(Finished { features, signals }) => {
+        Ok(Finished {
+            features, signals, ..
+        }) => {
             let features: Vec<_> = features.iter().map(|f| (&f.name, f.value)).collect();
             json!({
                 "wall_time": wall_time,

@@ -4,7 +4,7 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 
-use crate::Error;
+use ballrace::Error;
 
 /// Class in `ballrace.errors` and arguments, as JSON, of the exception that says the same as `error`.
 pub(super) fn record(error: &Error) -> Value {
@@ -30,7 +30,8 @@ pub(super) fn record(error: &Error) -> Value {
         Error::Memory {
             needed, available, ..
         } => ("MemoryLimitError", json!([message, needed, available])),
-        Error::Interrupted { .. } | Error::Internal { .. } => ("BallraceError", json!([message])),
+        // Interrupted, internal, and what the exceptions have no class of its own for.
+        _ => ("BallraceError", json!([message])),
     };
     json!({ "class": class, "message": message, "arguments": arguments })
 }
@@ -62,7 +63,7 @@ pub(super) trait OrRaise<T> {
     fn or_raise(self, py: Python<'_>) -> PyResult<T>;
 }
 
-impl<T> OrRaise<T> for crate::Result<T> {
+impl<T> OrRaise<T> for ballrace::Result<T> {
     fn or_raise(self, py: Python<'_>) -> PyResult<T> {
         self.map_err(|error| raise(py, error))
     }

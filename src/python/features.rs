@@ -9,9 +9,9 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use super::errors::OrRaise;
-use crate::features::{Recorded, check_recorded, features_of, loads, lubrication, transform};
-use crate::scene::kinematic_orders;
-use crate::{Error, Feature, FeatureOptions, Scene};
+use ballrace::bindings::{self, Recorded, check_recorded, features_of};
+use ballrace::scene::kinematic_orders;
+use ballrace::{Error, Feature, FeatureOptions, Scene};
 
 type Array<'py> = PyReadonlyArray1<'py, f64>;
 
@@ -38,7 +38,7 @@ pub(super) fn squared_envelope<'py>(
     band: Option<[f64; 2]>,
 ) -> Bound<'py, PyArray1<f64>> {
     let x = copied(&x);
-    let found = py.detach(|| transform::squared_envelope(&x, fs, band));
+    let found = py.detach(|| bindings::squared_envelope(&x, fs, band));
     found.into_pyarray(py)
 }
 
@@ -50,7 +50,7 @@ pub(super) fn amplitudes<'py>(
     length: usize,
 ) -> Bound<'py, PyArray1<f64>> {
     let x = copied(&x);
-    let found = py.detach(|| transform::amplitudes(&x, length));
+    let found = py.detach(|| bindings::amplitudes(&x, length));
     found.into_pyarray(py)
 }
 
@@ -58,7 +58,7 @@ pub(super) fn amplitudes<'py>(
 #[pyfunction]
 pub(super) fn hann_weighted<'py>(py: Python<'py>, x: Array<'py>) -> Bound<'py, PyArray1<f64>> {
     let x = copied(&x);
-    py.detach(|| transform::hann_weighted(&x)).into_pyarray(py)
+    py.detach(|| bindings::hann_weighted(&x)).into_pyarray(py)
 }
 
 /// Columns whose features a scene gives, for options as JSON.
@@ -66,7 +66,7 @@ pub(super) fn hann_weighted<'py>(py: Python<'py>, x: Array<'py>) -> Bound<'py, P
 pub(super) fn feature_columns(py: Python<'_>, scene: &str, options: &str) -> PyResult<Vec<String>> {
     let scene = Scene::from_json(scene).or_raise(py)?;
     let options = options_from(options).or_raise(py)?;
-    crate::feature_columns(&scene, &options).or_raise(py)
+    ballrace::feature_columns(&scene, &options).or_raise(py)
 }
 
 /// Features of a run whose columns a mapping holds.
@@ -81,12 +81,12 @@ pub(super) fn run_features(
 ) -> PyResult<Named> {
     let scene = Scene::from_json(scene).or_raise(py)?;
     let options = options_from(options).or_raise(py)?;
-    let asked = crate::feature_columns(&scene, &options).or_raise(py)?;
+    let asked = ballrace::feature_columns(&scene, &options).or_raise(py)?;
     let mut needed = asked.clone();
     if options.contact_loads {
-        needed.extend(loads::columns(&scene).or_raise(py)?);
+        needed.extend(bindings::load_columns(&scene).or_raise(py)?);
     }
-    needed.extend(lubrication::columns(&scene));
+    needed.extend(bindings::lubrication_columns(&scene));
     let mut held = Vec::new();
     for name in needed {
         let values: Array<'_> = columns.get_item(&name)?.extract()?;
@@ -118,12 +118,12 @@ pub(super) fn signal_features(
     let scene = scene.map(Scene::from_json).transpose().or_raise(py)?;
     let options = options_from(options).or_raise(py)?;
     let x = copied(&x);
-    let found = py.detach(|| crate::signal_features(&x, fs, name, scene.as_ref(), &options));
+    let found = py.detach(|| ballrace::signal_features(&x, fs, name, scene.as_ref(), &options));
     Ok(named(found.or_raise(py)?))
 }
 
 /// Options of the features from JSON.
-pub(super) fn options_from(text: &str) -> crate::Result<FeatureOptions> {
+pub(super) fn options_from(text: &str) -> ballrace::Result<FeatureOptions> {
     serde_json::from_str(text).map_err(|e| Error::scene("features", text, e.to_string()))
 }
 

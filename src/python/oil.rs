@@ -4,8 +4,8 @@ use pyo3::prelude::*;
 use serde_json::json;
 
 use super::errors::OrRaise;
-use crate::contact::film::Oil;
-use crate::scene::{Lubricant, NAMED_OILS};
+use ballrace::contact::film::Oil;
+use ballrace::scene::{Lubricant, NAMED_OILS};
 
 /// The oils that a lubricant may name, a list of their data sheets in SI.
 #[pyfunction]

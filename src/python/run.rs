@@ -11,16 +11,15 @@ use pyo3::types::{PyDict, PyList};
 
 use super::answer::{Callbacks, answering, handing_over};
 use super::errors::{OrRaise, to_json};
-use crate::dynamics;
-use crate::equilibrium::compile;
-use crate::model::{DOFS, layout_of};
-use crate::scene::RingName;
-use crate::start::check_length;
-use crate::{Error, Run, Scene, Signals, SliceRow, Start};
+use ballrace::DOFS;
+use ballrace::bindings::{check_length, layout_of};
+use ballrace::compile;
+use ballrace::dynamics;
+use ballrace::{Error, Run, Scene, Signals, SliceRow, Start};
 
 /// A compiled scene.
 #[pyclass(frozen, module = "ballrace._core")]
-pub(super) struct Model(Arc<crate::Model>);
+pub(super) struct Model(Arc<ballrace::Model>);
 
 #[pymethods]
 impl Model {
@@ -60,7 +59,7 @@ impl Model {
             }
         };
         let model = Arc::clone(&self.0);
-        Ok(answering(py, None, move |_| crate::start(&model, &start))?.into_pyarray(py))
+        Ok(answering(py, None, move |_| ballrace::start(&model, &start))?.into_pyarray(py))
     }
 
     /// Time derivative of a state.
@@ -143,9 +142,9 @@ pub(super) fn simulate<'py>(
     let in_blocks = sink.is_some();
     let signals = handing_over(py, callbacks, move |told, sink| {
         if in_blocks {
-            crate::simulate_into(&scene, &run, sink, told)
+            ballrace::simulate_into(&scene, &run, sink, told)
         } else {
-            crate::simulate_with_progress(&scene, &run, told)
+            ballrace::simulate_with_progress(&scene, &run, told)
         }
     })?;
     if let Some(callback) = progress {
@@ -161,7 +160,7 @@ pub(super) fn run_from_json(py: Python<'_>, text: &str) -> PyResult<String> {
 }
 
 /// A copy of a state to begin from, if it has the length for it.
-fn state_of(scene: &Scene, y: &PyReadonlyArray1<'_, f64>) -> crate::Result<Vec<f64>> {
+fn state_of(scene: &Scene, y: &PyReadonlyArray1<'_, f64>) -> ballrace::Result<Vec<f64>> {
     check_length(y.as_array().len(), layout_of(scene).dim())?;
     Ok(y.as_array().iter().copied().collect())
 }
@@ -170,7 +169,7 @@ fn state_of(scene: &Scene, y: &PyReadonlyArray1<'_, f64>) -> crate::Result<Vec<f
 #[pyfunction]
 pub(super) fn explain(py: Python<'_>, scene: &str) -> PyResult<(String, String)> {
     let scene = Scene::from_json(scene).or_raise(py)?;
-    let told = answering(py, None, move |_| crate::explain(&scene))?;
+    let told = answering(py, None, move |_| ballrace::explain(&scene))?;
     Ok((to_json(&told)?, told.to_string()))
 }
 
@@ -223,10 +222,7 @@ fn slices<'py>(py: Python<'py>, rows: &[SliceRow]) -> PyResult<Option<Bound<'py,
             .collect::<Vec<_>>()
             .into_pyarray(py),
     )?;
-    let race = |r: &SliceRow| match r.race {
-        RingName::Outer => "outer",
-        RingName::Inner => "inner",
-    };
+    let race = |r: &SliceRow| r.race.name();
     table.set_item("race", rows.iter().map(race).collect::<Vec<_>>())?;
     let numbers: [(&str, Number); 6] = [
         ("time", |r| r.time),

@@ -3,8 +3,8 @@
 use pyo3::prelude::*;
 
 use super::errors::OrRaise;
-use crate::scene::presets;
-use crate::{Error, Scene};
+use ballrace::scene::presets;
+use ballrace::{Error, Scene};
 
 /// Read a checked scene from TOML and return it as JSON with every field written out.
 #[pyfunction]

@@ -6,8 +6,8 @@ use pyo3::types::PyDict;
 
 use super::answer::answering;
 use super::errors::to_json;
-use crate::equilibrium::{BallEquilibrium, EquivalentLoads};
-use crate::{Equilibrium, Scene};
+use ballrace::{BallEquilibrium, EquivalentLoads};
+use ballrace::{Equilibrium, Scene};
 
 /// A column of a table of balls: its name, and its value of a ball.
 type Column = (&'static str, fn(&BallEquilibrium) -> f64);
@@ -50,14 +50,14 @@ const OF_RINGS: [OfRing; 4] = [
 /// Static equilibrium.
 #[pyfunction]
 pub(super) fn equilibrium<'py>(py: Python<'py>, scene: &str) -> PyResult<Bound<'py, PyDict>> {
-    let found = solved(py, scene, crate::equilibrium)?;
+    let found = solved(py, scene, ballrace::equilibrium)?;
     arrays(py, &found)
 }
 
 /// Tangent stiffness there.
 #[pyfunction]
 pub(super) fn stiffness<'py>(py: Python<'py>, scene: &str) -> PyResult<Bound<'py, PyDict>> {
-    let found = solved(py, scene, crate::stiffness)?;
+    let found = solved(py, scene, ballrace::stiffness)?;
     let all = PyDict::new(py);
     set(&all, "inner", found.inner.concat(), &[3, 3])?;
     set(&all, "rings", found.rings.concat(), &[6, 6])?;
@@ -79,7 +79,7 @@ pub(super) fn load_distribution<'py>(
     scene: &str,
     positions: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let of = move |scene: &Scene| crate::load_distribution(scene, positions);
+    let of = move |scene: &Scene| ballrace::load_distribution(scene, positions);
     let found = solved(py, scene, of)?;
     let all = PyDict::new(py);
     name(&all, &found.equilibria[0])?;
@@ -108,7 +108,7 @@ pub(super) fn load_distribution<'py>(
 fn solved<T: Send + 'static>(
     py: Python<'_>,
     scene: &str,
-    of: impl FnOnce(&Scene) -> crate::Result<T> + Send + 'static,
+    of: impl FnOnce(&Scene) -> ballrace::Result<T> + Send + 'static,
 ) -> PyResult<T> {
     let scene = scene.to_owned();
     answering(py, None, move |_| of(&Scene::from_json_unchecked(&scene)?))

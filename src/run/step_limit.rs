@@ -22,7 +22,7 @@ struct Bounds {
 }
 
 /// Error of the fastest oscillation when it has rung out \[rad\]; those that matter are slower by a half and more.
-/// With 0.13 Verlet is off by up to 5.8 % in three of 133 scenes of `tests/method_defaults.rs`.
+/// With 0.13 Verlet is off by up to 5.8 % in three of 133 scenes of `tests/accuracy/method_defaults.rs`.
 const LAG: f64 = 0.09;
 /// Longest ringing that is looked at \[s\]: beyond it a trajectory cannot be foretold.
 const HORIZON: f64 = 3e-3;
@@ -30,7 +30,7 @@ const HORIZON: f64 = 3e-3;
 const LIGHTEST: f64 = 60.0;
 
 /// Measured over 3 ms against Dormand–Prince at rtol 1e-10 with a tenth of its step, on the presets and random scenes
-/// (`tests/method_defaults.rs`).
+/// (`tests/accuracy/method_defaults.rs`).
 fn bounds(method: Method) -> Bounds {
     let pair = Bounds {
         oscillation: 1.0,

@@ -256,7 +256,7 @@ mod tests {
     use super::*;
 
     /// Analytic: every primitive against the same on single numbers, masks of every pattern, at every instruction set of this
-    /// machine. `tests/levels.rs` tells which levels there are not.
+    /// machine. `tests/reliability/levels.rs` tells which levels there are not.
     #[test]
     fn every_primitive_at_every_level() {
         for instructions in InstructionSet::available() {

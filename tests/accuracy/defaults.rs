@@ -4,8 +4,7 @@
 //! acceleration of the outer ring over 4 ms (relative, L2, at 100 kHz), as far as it can be foretold: up to the last
 //! moment at which that solution and a looser one agree to a hundredth of the percent.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use ballrace::scene::{

@@ -1,7 +1,6 @@
 //! The one knob: asked for an accuracy, a run stays within it on scenes that it was not tuned on.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use ballrace::compile;

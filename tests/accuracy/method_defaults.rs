@@ -5,8 +5,7 @@
 //! run at rtol 1e-8 with 0.15 of the step, a hundred times better than the default, is itself within a 1000th of the
 //! 5 %. Beyond it the bearing by itself makes errors of the default's size grow past all bounds.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use ballrace::compile;

@@ -1,7 +1,6 @@
 //! What the static solve leaves unbalanced: next to nothing, over scenes drawn at random.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::PI;
 
 use ballrace::compile;

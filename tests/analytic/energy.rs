@@ -2,8 +2,7 @@
 //! supports, gravity, less the work of the loads — over both normal laws, with defects on each body, with waves, and
 //! with two rows that are not alike: to 1e-5 of the swing of the kinetic energy.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::FRAC_PI_2;
 
 use ballrace::compile;

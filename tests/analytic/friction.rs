@@ -1,7 +1,6 @@
 //! Friction of a contact on few nodes against 200 that have no weights of their own for it (`contact::quadrature`).
 
-mod common;
-
+use crate::common;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::iso16281::Iso16281;
 use ballrace::contact::{

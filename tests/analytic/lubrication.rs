@@ -1,7 +1,6 @@
 //! What is read of the oil: probe, energies, equilibrium, explanation, doubts and features.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::PI;
 
 use ballrace::dynamics::contributions;

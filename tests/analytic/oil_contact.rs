@@ -3,8 +3,7 @@
 //! Analytic: a film only lies between two bodies, takes energy and gives none, knows no place and no direction of its own, and
 //! has no kink. Both normal laws, defects on each body, contacts at an angle, the flanks of an arch.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::PI;
 
 use ballrace::dynamics::{contributions, rhs};

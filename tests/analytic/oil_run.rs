@@ -1,7 +1,6 @@
 //! Runs in oil: what settles, what it costs to turn, how balls skid (model section 12.12, numbers 9 and 10).
 
-mod common;
-
+use crate::common;
 use ballrace::dynamics::{Dynamics, contributions};
 use ballrace::inspect;
 use ballrace::scene::{Drive, Lubricant, Method, Probe, Profile, Scene, TimeFunction, presets};

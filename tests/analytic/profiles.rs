@@ -1,7 +1,6 @@
 //! Races of other shapes than one torus: curves through points, gothic arches, rounded shoulders.
 
-mod common;
-
+use crate::common;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 

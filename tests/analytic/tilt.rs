@@ -1,7 +1,6 @@
 //! Rings that tilt, as users meet them: what a scene says, what a run tells of it, and what is refused.
 
-mod common;
-
+use crate::common;
 use ballrace::dynamics::Dynamics;
 use ballrace::integrate::System;
 use ballrace::scene::{

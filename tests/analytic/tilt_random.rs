@@ -1,7 +1,6 @@
 //! Statics of random bearings under forces, moments and loads off the axis, whose rings tilt: solved, or refused by name.
 
-mod common;
-
+use crate::common;
 use ballrace::dynamics::rhs;
 use ballrace::scene::{Drive, Load, Moment, Mount, NormalLaw, RingName, Row, Scene};
 use ballrace::{BodyId, Dof, Error, Start, compile, start};

@@ -1,8 +1,7 @@
 //! Approximations by request do what they say and nothing else; what they cost in accuracy is measured in
 //! `benches/approximations.py`.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::PI;
 
 use ballrace::Reduction;

@@ -1,8 +1,7 @@
 //! Contacts by eights against contacts one by one: `rhs` uses the former wherever surfaces are whole, `forces` the
 //! latter always, and `rhs` at every instruction set that this processor has.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::compile;

@@ -1,7 +1,6 @@
 //! Runs leave out what does not change the motion: the reduced model against the full one.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::compile;

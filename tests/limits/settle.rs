@@ -1,8 +1,7 @@
 //! Free physics: a run shows the bearing's own motion from t = 0 on. What its start leaves has died down before, and
 //! nothing else has changed on the way.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use ballrace::compile;

@@ -3,8 +3,7 @@
 //! Truth: the static equilibrium for the places, counting of passes by the kinematics of pure rolling for the rest, and
 //! the signals themselves: what is not touched sounds healthy.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use ballrace::compile;

@@ -13,8 +13,7 @@
 //! | slice of a roller, load exponent 10/9 | ISO/TS 16281 |
 //! | ball over a slot | geometry |
 
-mod common;
-
+use crate::common;
 use std::f64::consts::PI;
 
 use ballrace::contact::Shape;

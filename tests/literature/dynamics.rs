@@ -10,8 +10,7 @@
 //! | restitution | K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440, and its closed form |
 //! | undamped impact | H. Hertz 1881; K. L. Johnson, *Contact Mechanics*, section 11.4 |
 
-mod common;
-
+use crate::common;
 use std::f64::consts::{PI, TAU};
 
 use ballrace::compile;

@@ -1,8 +1,7 @@
 //! Moments that rings which are kept from tilting carry: statics against catalogues and trials outside the crate, and the same
 //! in a run.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::FRAC_PI_2;
 
 use ballrace::scene::{Drive, Load, Mount, Probe, RingName, Row, Scene, Support};

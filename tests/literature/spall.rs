@@ -3,8 +3,7 @@
 //! Source: N. Sawalhi, R. B. Randall, and Deshpande, PhD thesis, UNSW: 0.685 ms by the formula for 0.8 mm on a
 //! Koyo 1205 at 10 Hz, about 0.6 ms measured. `--nocapture` shows every case with the published and the obtained number.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::scene::{ContactQuantity, Defect, Probe, Scene, Support, Surface, presets};

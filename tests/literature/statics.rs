@@ -15,8 +15,7 @@
 //! There, both forces on a ball lie on one radius; here each points to the centre of its ring, and a radial load moves
 //! the two centres apart: 0.1 % of the largest load of the 209.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use ballrace::compile;

@@ -6,8 +6,7 @@
 //! | stiffness of loaded bearings | central differences of the equilibrium |
 //! | Q_max = 4.37 F/(Z cos α), J₁ = 0.5625, J₂ = 0.5875 | R. Stribeck; T. A. Harris, *Rolling Bearing Analysis*, load zone ε = 0.5 |
 
-mod common;
-
+use crate::common;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use ballrace::contact::hertz::Hertz;

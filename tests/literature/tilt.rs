@@ -7,8 +7,7 @@
 //! | pure moment | slewing-ring catalogues, Q_max = 4.37 M/(Z d_m sin α) |
 //! | eccentric thrust | H. Sjövall 1933, J. Rumbarger 1962: load integral J_a at ε = 1 |
 
-mod common;
-
+use crate::common;
 use std::f64::consts::FRAC_PI_2;
 
 use ballrace::scene::presets::Arrangement;

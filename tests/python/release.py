@@ -47,8 +47,8 @@ def disagreements(root: Path = ROOT) -> list[str]:
 
 
 def manifest(root: Path = ROOT) -> dict[str, Any]:
-    """The table `package` of Cargo.toml."""
-    package: dict[str, Any] = tomllib.loads(text(root, "Cargo.toml"))["package"]
+    """What the packages of Cargo.toml have in common."""
+    package: dict[str, Any] = tomllib.loads(text(root, "Cargo.toml"))["workspace"]["package"]
     return package
 
 

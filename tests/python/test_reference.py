@@ -20,7 +20,7 @@ from reference import INNER, OUTER, Body, Contact, Json, Reference, Vector, hert
 TAU = 2 * math.pi
 KINDS = ["healthy", "outer", "inner", "ball", "outer+ball", "overlap", "floor"]
 LAWS = ["iso", "hertz_fixed"]
-# Inside a defect fitted nodes depend on a search for the ends of the elements' zones; tests/fitted.rs
+# Inside a defect fitted nodes depend on a search for the ends of the elements' zones; tests/analytic/fitted.rs
 # holds them to a converged sum. Here they are compared on whole races.
 FITTED = ["iso_fitted", "hertz_fitted"]
 CASES = [(kind, law) for kind in KINDS for law in LAWS] + [("healthy", law) for law in FITTED]
@@ -306,7 +306,7 @@ def least_width(defect: Json) -> float:
 def with_steep_friction(scene: Json) -> Json:
     """Return the scene with friction too steep for weights of its own at fitted nodes.
 
-    The reference does not know such weights; `tests/friction.rs` tests them.
+    The reference does not know such weights; `tests/analytic/friction.rs` tests them.
     """
     friction = scene["friction"]
     if friction == "none" or "fitted" not in scene["contact"]["slices"]:

@@ -1,4 +1,4 @@
-"""Where methods fail, seen from Python; the numerics themselves are shown in ``tests/stability_*.rs``.
+"""Where methods fail, seen from Python; the numerics themselves are shown in ``tests/stability``.
 
 Each test names the failure, shows it, and shows what ballrace does instead.
 """

@@ -3,8 +3,7 @@
 //! Truth: catalogue-like bearings of all sizes are ordinary, and the same numbers in another unit are not; Hertz's law
 //! without saying so; what is held does not move.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::scene::{

@@ -1,8 +1,7 @@
 //! The same scene at every instruction set that this machine has: whole runs, each set in a process of its
 //! own, as users choose it.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::process::Command;
 
@@ -139,7 +138,7 @@ fn signals_by(method: Method, rtol: f64) -> Vec<Vec<f64>> {
 }
 
 /// What another process of this program is asked to print.
-const CHILD: &str = "print_signals_of_this_level";
+const CHILD: &str = "levels::print_signals_of_this_level";
 
 #[test]
 #[ignore = "a part of levels_agree_over_whole_runs, which starts it in a process of its own for every instruction set"]

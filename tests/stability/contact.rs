@@ -2,8 +2,7 @@
 //!
 //! Each test names the failure, shows it, and shows what happens here instead. `--nocapture` prints the numbers.
 
-mod common;
-
+use crate::common;
 use std::ops::ControlFlow;
 
 use ballrace::compile;

@@ -2,8 +2,7 @@
 //!
 //! Each test names what could fail, shows the case, and holds it to a truth. `--nocapture` prints the numbers.
 
-mod common;
-
+use crate::common;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};

@@ -2,8 +2,7 @@
 //!
 //! Each test names the failure, shows it, and shows what happens here instead. `--nocapture` prints the numbers.
 
-mod common;
-
+use crate::common;
 use ballrace::compile;
 use ballrace::dynamics::Dynamics;
 use ballrace::dynamics::rhs;

@@ -3,13 +3,9 @@
 //! of the libraries beneath (`public`), files of a room name each other one way (`circles`), and functions and
 //! files are short (`length`).
 
-#[path = "architecture/circles.rs"]
 mod circles;
-#[path = "architecture/length.rs"]
 mod length;
-#[path = "architecture/public.rs"]
 mod public;
-#[path = "architecture/sources.rs"]
 mod sources;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -28,7 +28,14 @@ pub fn all() -> Vec<Source> {
     let prefix = root.to_string_lossy().into_owned() + "/";
     found
         .into_iter()
-        .map(|(path, text)| (path.replace(&prefix, ""), text))
+        // The bindings are a room that is a crate.
+        .map(|(path, text)| {
+            (
+                path.replace(&prefix, "")
+                    .replace("python/lib.rs", "python/mod.rs"),
+                text,
+            )
+        })
         .collect()
 }
 

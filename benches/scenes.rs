@@ -1,0 +1,56 @@
+//! The five scenes by which a change of the code is judged for speed: a line each with its name, the seconds that a simulated second takes
+//! (median of the runs), evaluations of the right-hand side, and a number that changes with any bit of the signals.
+//!
+//! `cargo run --release -p ballrace-benches --bin scenes -- 9`. To compare two builds, run their programs in turn, once a time.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::time::Instant;
+
+use ballrace::scene::{Friction, Lubricant, Scene, presets};
+use ballrace::{Run, simulate};
+
+fn scenes() -> [(&'static str, Scene); 5] {
+    let dry = presets::deep_groove_6205(500.0, 0.0, 1797.0);
+    let mut oiled = dry.clone();
+    oiled.lubricant = Some(Lubricant::named("vg68", 328.15));
+    let mut plane = dry.clone();
+    plane.friction = Friction::None;
+    [
+        ("wheel bearing", presets::wheel_bearing(3000.0)),
+        ("6205", dry),
+        ("6205 in oil", oiled),
+        ("plane 6205", plane),
+        ("cornering wheel", presets::cornering_wheel(0.3)),
+    ]
+}
+
+fn main() {
+    let runs = std::env::args().nth(1).and_then(|count| count.parse().ok());
+    let runs: usize = runs.unwrap_or(1).max(1);
+    let run = Run {
+        duration: 0.03,
+        threads: 1,
+        settle: Some(0.0),
+        ..Run::default()
+    };
+    for (name, scene) in scenes() {
+        let mut seconds = Vec::new();
+        let mut told = (0, 0);
+        for _ in 0..runs {
+            let begun = Instant::now();
+            let out = simulate(&scene, &run).expect("the scene runs");
+            seconds.push(begun.elapsed().as_secs_f64() / run.duration);
+            let mut bits = DefaultHasher::new();
+            let numbers = out.columns.iter().flat_map(|column| &column.values);
+            numbers.for_each(|x| x.to_bits().hash(&mut bits));
+            told = (out.stats.nfev, bits.finish());
+        }
+        seconds.sort_by(f64::total_cmp);
+        println!(
+            "{name:16} {:8.4} {:8} {:016x}",
+            seconds[runs / 2],
+            told.0,
+            told.1
+        );
+    }
+}

@@ -1,0 +1,21 @@
+//! Truths that need no other program: closed forms, conservation, symmetry.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod balance;
+mod caps;
+mod contact;
+mod energy;
+mod equilibrium;
+mod fitted;
+mod friction;
+mod laws;
+mod lubricant;
+mod lubrication;
+mod oil_contact;
+mod oil_run;
+mod profiles;
+mod start;
+mod tilt;
+mod tilt_random;

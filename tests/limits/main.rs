@@ -1,0 +1,12 @@
+//! Two ways that must agree: what a run leaves out, contacts by eights and one by one, records in blocks, settled starts.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod approximations;
+mod blocks;
+mod kernel;
+mod reduction;
+mod settle;
+mod touched;
+mod unlike_rows;

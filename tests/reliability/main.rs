@@ -1,0 +1,12 @@
+//! What users and the house rely on: same bits on every level and thread count, refusals and doubts, campaigns, memory, the order of the rooms.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod allocation;
+mod architecture;
+mod campaign;
+mod determinism;
+mod doubts;
+mod levels;
+mod public;
