@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from .explanation import Explanation, explain
     from .friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf
     from .life import RatingLife, rating_life
+    from .life_factor import LifeFactor
     from .measuring import measure
     from .model import Model
     from .operating import FaultFrequencies, fault_frequencies
@@ -69,6 +70,7 @@ else:
             "explanation": ("Explanation", "explain"),
             "friction": ("FrictionTorque", "friction_torque_palmgren", "friction_torque_skf"),
             "life": ("RatingLife", "rating_life"),
+            "life_factor": ("LifeFactor",),
             "measuring": ("measure",),
             "model": ("Model",),
             "operating": ("FaultFrequencies", "fault_frequencies"),
@@ -106,6 +108,7 @@ __all__ = [
     "FileError",
     "FrictionTorque",
     "IntegrationError",
+    "LifeFactor",
     "LoadDistribution",
     "MemoryLimitError",
     "Model",

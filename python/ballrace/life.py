@@ -3,46 +3,35 @@
 ISO 281 takes one equivalent load of the whole bearing. ISO/TS 16281 takes the loads of all balls instead, as
 :func:`ballrace.load_distribution` has them, and so knows of clearance, contact angles and rows that share
 unevenly.
-Both are of a healthy bearing, well lubricated and clean: the factor a_ISO of lubricant and dirt is left out, also
-where a scene has an oil.
+Both are of a healthy bearing, well lubricated and clean. Where a scene has an oil, its film and a class of
+contamination give the factor a_ISO by which the second is modified. Loads that come again and again are summed
+over their period (:mod:`ballrace.duty`).
 """
 
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
-
-import numpy as np
 
 from .bearings.rows import catalogue
-from .errors import SceneError
+from .duty import duty_cycle
+from .errors import EquilibriumError, SceneError, SceneWarning
+from .life_factor import Contamination, LifeFactor, check_contamination, life_factor
+from .load_rating import equivalent_load, race_ratings, row_rating, together
 from .scene import Scene, SpeedDrive
 from .scene.scene import checked_scene
-from .statics import load_distribution
+from .statics import LoadDistribution, load_distribution
 
-if TYPE_CHECKING:
-    from .scene import Row
-
-__all__ = ["FC", "RatingLife", "rating_life"]
-
-FC = (
-    29.1, 35.8, 40.3, 43.8, 46.7, 49.1, 51.1, 52.8, 54.3, 55.5, 56.6, 57.5, 58.2, 58.8, 59.3, 59.6, 59.8, 59.9,
-    60.0, 59.9, 59.8, 59.6, 59.3, 59.0, 58.6, 58.2, 57.7, 57.1, 56.6, 56.0, 55.3, 54.6, 53.9, 53.2, 52.4, 51.7,
-    50.9, 50.0, 49.2, 48.4,
-)  # fmt: skip
-"""f_c of ISO 281 at D cos α / d_m of 0.01, 0.02, … for grooves up to 0.52 inside and 0.53 outside."""
-
-_DEEP = (
-    (0.172, 0.19, 2.30), (0.345, 0.22, 1.99), (0.689, 0.26, 1.71), (1.03, 0.28, 1.55), (1.38, 0.30, 1.45),
-    (2.07, 0.34, 1.31), (3.45, 0.38, 1.15), (5.17, 0.42, 1.04), (6.89, 0.44, 1.00),
-)  # fmt: skip
-"""Of deep groove bearings Fa/(Z D²) [N/mm²], e and Y, ISO 281; X is 0.56."""
+__all__ = ["RatingLife", "rating_life"]
 
 
 @dataclass(frozen=True, kw_only=True)
 class RatingLife:
-    """Rating life at 90 % reliability, without lubricant and contamination.
+    """Rating life at 90 % reliability.
+
+    Where loads or the speed change, all of it is of their whole period: lives by Miner's rule, every state
+    weighted with the turns that it lasts, and equivalent loads as the cubic means that belong to them.
 
     Attributes
     ----------
@@ -57,12 +46,17 @@ class RatingLife:
     reference : float
         Basic reference rating life L₁₀ᵣ after ISO/TS 16281 [turns]; infinite without load.
     equivalent_load : float or None
-        Dynamic equivalent load P after ISO 281 [N]; None where the scene's loads change, the bearing is no single
-        deep groove row, or nothing loads the inner ring.
+        Dynamic equivalent load P after ISO 281 [N]; None where the bearing is no single deep groove row, or
+        nothing loads the inner ring.
     basic : float or None
         Basic rating life L₁₀ = (C/P)³ after ISO 281 [turns]; None without P.
     speed : float or None
         Constant speed of the inner ring [rad/s]; None where it changes.
+    modified : float or None
+        Modified reference rating life L₁₀ₘᵣ = a_ISO L₁₀ᵣ after ISO/TS 16281 [turns]; None where a row has no oil,
+        or nothing turns or loads the bearing.
+    factor : LifeFactor or None
+        a_ISO and what it was made of, in the state of the shortest life; None where ``modified`` is.
     """
 
     rating: float
@@ -75,14 +69,40 @@ class RatingLife:
     equivalent_load: float | None
     basic: float | None
     speed: float | None
+    modified: float | None = None
+    factor: LifeFactor | None = None
 
     def hours(self, turns: float) -> float | None:
         """Return how long a number of turns takes at the scene's speed [h]; None where it changes or is 0."""
         return turns * 2.0 * math.pi / abs(self.speed) / 3600.0 if self.speed else None
 
 
-def rating_life(scene: Scene, rating: float | None = None) -> RatingLife:
+_LIGHT = 0.02
+"""Share of the largest load of a cycle that shortens a life by less than 1e-5."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class _State:
+    """Life under steady loads."""
+
+    share: float
+    loads: LoadDistribution | None  # None: too light for an equilibrium
+    equivalent: float | None
+    reference: float
+    factor: LifeFactor | None
+
+
+def rating_life(
+    scene: Scene,
+    rating: float | None = None,
+    *,
+    contamination: Contamination | float = "normal",
+) -> RatingLife:
     """Return the rating life of a bearing under the loads of a scene, its defects left out.
+
+    Where loads or the speed follow sines or tables, damage is summed over their common period (Miner's rule with
+    the exponent 3 of ISO 281), as if all loads met the same place of the outer ring. A speed that ramps counts as
+    the one it ends at.
 
     Parameters
     ----------
@@ -91,6 +111,10 @@ def rating_life(scene: Scene, rating: float | None = None) -> RatingLife:
     rating : float, optional
         Basic dynamic load rating C of the whole bearing [N], as its maker prints it. By default that of the
         catalogue if the scene's name is there with the same balls, else by the formula of ISO 281.
+    contamination : Contamination or float
+        How clean the oil is, one of the classes of ISO 281 from ``"extreme"`` cleanliness over ``"high"``,
+        ``"normal"``, ``"slight"`` and ``"typical"`` contamination to ``"severe"`` and ``"very severe"``, or e_C
+        itself, 0 to 1. It counts where the scene has an oil.
 
     Returns
     -------
@@ -100,9 +124,15 @@ def rating_life(scene: Scene, rating: float | None = None) -> RatingLife:
     Raises
     ------
     SceneError
-        A field is not usable, or the balls are too large for the table of ISO 281 and no rating is given.
+        A field is not usable, a load ramps or has no period in common with the others, or the balls are too large
+        for the table of ISO 281 and no rating is given.
     EquilibriumError
         There is no stable equilibrium.
+
+    Warns
+    -----
+    SceneWarning
+        As for :func:`equilibrium`, in the state of the shortest life.
 
     Examples
     --------
@@ -112,55 +142,137 @@ def rating_life(scene: Scene, rating: float | None = None) -> RatingLife:
     (14000.0, 1000)
     >>> 0.5 < life.reference / life.basic < 1.5
     True
+    >>> oiled = br.bearing("6205", radial_load=1400.0, speed_rpm=1797.0, lubricant="vg68", temperature_c=55.0)
+    >>> found = br.rating_life(oiled, contamination="slight")
+    >>> round(found.factor.kappa, 1), found.factor.cleanliness, round(found.factor.value, 1)
+    (2.2, 0.4, 5.4)
     """
     healthy = replace(checked_scene(scene), defects={})
     if rating is not None and not 0.0 < rating < math.inf:
         raise SceneError("rating", repr(rating), "a load above 0 [N]")
+    check_contamination(contamination)
     value, source = (rating, "given") if rating is not None else _rating(healthy)
-    loads = load_distribution(healthy)
     formulas = [row_rating(row) for row in healthy.rows]
     # A printed rating is shared by the rows as the formula shares it.
-    scale = value / _together(formulas)
-    ratings = [_races(row, scale * own) for row, own in zip(healthy.rows, formulas, strict=True)]
-    outer, inner = loads.outer_equivalent, loads.inner_equivalent
-    damage = sum(
-        (outer[k] / of_outer) ** (10.0 / 3.0) + (inner[k] / of_inner) ** (10.0 / 3.0)
-        for k, (of_outer, of_inner) in enumerate(ratings)
+    scale = value / together(formulas)
+    ratings = [
+        race_ratings(row, scale * own) for row, own in zip(healthy.rows, formulas, strict=True)
+    ]
+    cycle = _by_turns(duty_cycle(healthy))
+    with warnings.catch_warnings():
+        # What belongs to the hardest state is told below, once.
+        warnings.simplefilter("ignore", SceneWarning)
+        peak = max(_force(each) for _, each in cycle)
+        states = [
+            _state(
+                share, each, rating=value, ratings=ratings, contamination=contamination, peak=peak
+            )
+            for share, each in cycle
+        ]
+    hardest = min(states, key=lambda state: state.reference)
+    for text in hardest.loads.warnings if hardest.loads else ():
+        warnings.warn(text, SceneWarning, stacklevel=2)
+    equivalent = _mean_load([(state.share, state.equivalent) for state in states])
+    outer, inner = (
+        tuple(
+            _mean_load([(s.share, _of_row(s.loads, name, row)) for s in states]) or 0.0
+            for row in range(len(healthy.rows))
+        )
+        for name in ("outer_equivalent", "inner_equivalent")
     )
-    equivalent = _equivalent_load(healthy)
     return RatingLife(
         rating=value,
         source=source,
         outer_ratings=tuple(of_outer for of_outer, _ in ratings),
         inner_ratings=tuple(of_inner for _, of_inner in ratings),
-        outer_equivalent=tuple(outer.tolist()),
-        inner_equivalent=tuple(inner.tolist()),
-        reference=1e6 * float(damage) ** -0.9 if damage > 0.0 else math.inf,
+        outer_equivalent=outer,
+        inner_equivalent=inner,
+        reference=_miner([(state.share, state.reference) for state in states]),
         equivalent_load=equivalent,
         basic=1e6 * (value / equivalent) ** 3 if equivalent else None,
         speed=_speed(healthy),
+        modified=_modified(states),
+        factor=hardest.factor,
     )
 
 
-def row_rating(row: Row) -> float:
-    """Return the basic dynamic load rating of a row after ISO 281, ``1.3 f_c (cos α)^0.7 Z^(2/3) D^1.8`` [N].
+def _by_turns(cycle: list[tuple[float, Scene]]) -> list[tuple[float, Scene]]:
+    """Return states with their shares of the turns in place of those of the time, where they differ."""
+    turns = [share * abs(_speed(scene) or 0.0) for share, scene in cycle]
+    if not sum(turns):
+        return cycle
+    return [
+        (each / sum(turns), scene) for each, (_, scene) in zip(turns, cycle, strict=True) if each
+    ]
 
-    D in mm; above 25.4 mm ``3.647 D^1.4``. Where grooves are wider than the table's, f_c is reduced as the formula
-    behind it says (ISO/TR 1281-1).
-    """
-    gamma = _gamma(row)
-    if not 0.01 <= gamma <= 0.01 * len(FC):
-        allowed = (
-            "from 0.01 to 0.4 times the pitch diameter over cos(contact angle), or give a rating"
+
+def _state(
+    share: float,
+    scene: Scene,
+    *,
+    rating: float,
+    ratings: list[tuple[float, float]],
+    contamination: Contamination | float,
+    peak: float,
+) -> _State:
+    equivalent = equivalent_load(scene)
+    try:
+        loads = load_distribution(scene)
+    except EquilibriumError:
+        # Where a load crosses zero, nothing may hold a ring with clearance; the balls then carry next to nothing.
+        if _force(scene) > _LIGHT * peak or scene.moments:
+            raise
+        return _State(
+            share=share, loads=None, equivalent=equivalent, reference=math.inf, factor=None
         )
-        raise SceneError("ball_diameter", f"{row.ball_diameter:g}", allowed)
-    D = 1e3 * row.ball_diameter
-    power = D**1.8 if D <= 25.4 else 3.647 * D**1.4
-    f_c = float(np.interp(gamma, 0.01 * np.arange(1, len(FC) + 1), FC))
-    wide = _groove_factor(gamma, max(row.inner_conformity, 0.52), max(row.outer_conformity, 0.53))
-    f_c *= wide / _groove_factor(gamma, 0.52, 0.53)
-    size = math.cos(row.contact_angle) ** 0.7 * row.ball_count ** (2.0 / 3.0) * power
-    return 1.3 * f_c * float(size)
+    damage = sum(
+        (loads.outer_equivalent[k] / of_outer) ** (10.0 / 3.0)
+        + (loads.inner_equivalent[k] / of_inner) ** (10.0 / 3.0)
+        for k, (of_outer, of_inner) in enumerate(ratings)
+    )
+    reference = 1e6 * float(damage) ** -0.9 if damage > 0.0 else math.inf
+    load = rating * (1e6 / reference) ** (1.0 / 3.0)
+    return _State(
+        share=share,
+        loads=loads,
+        equivalent=equivalent,
+        reference=reference,
+        factor=life_factor(scene, load, contamination) if load > 0.0 else None,
+    )
+
+
+def _force(scene: Scene) -> float:
+    """Return the size of all steady loads together [N]."""
+    return sum(
+        abs(load.force) for load in scene.loads.values() if isinstance(load.force, int | float)
+    )
+
+
+def _of_row(loads: LoadDistribution | None, name: str, row: int) -> float:
+    return float(getattr(loads, name)[row]) if loads else 0.0
+
+
+def _miner(lives: list[tuple[float, float]]) -> float:
+    """Return the life of shares of the turns, each with its own life."""
+    damage = sum(share / life for share, life in lives)
+    return 1.0 / damage if damage > 0.0 else math.inf
+
+
+def _modified(states: list[_State]) -> float | None:
+    """Return L₁₀ₘᵣ; None where a loaded state has no factor."""
+    loaded = [state for state in states if not math.isinf(state.reference)]
+    if not loaded or any(state.factor is None for state in loaded):
+        return None
+    return _miner([(s.share, s.factor.value * s.reference) for s in loaded if s.factor is not None])
+
+
+def _mean_load(loads: list[tuple[float, float | None]]) -> float | None:
+    """Return the cubic mean of loads with their shares of the turns; None where one is not known, or all are 0."""
+    if any(load is None for _, load in loads):
+        return None
+    if len(loads) == 1:
+        return loads[0][1] or None
+    return float(sum(share * (load or 0.0) ** 3 for share, load in loads)) ** (1.0 / 3.0) or None
 
 
 def _rating(scene: Scene) -> tuple[float, str]:
@@ -173,60 +285,7 @@ def _rating(scene: Scene) -> tuple[float, str]:
     )
     if known is not None and same and len(scene.rows) == 1:
         return known.dynamic_rating, f"catalogue: {known.sources.ratings}"
-    return _together([row_rating(row) for row in scene.rows]), "formula of ISO 281"
-
-
-def _together(ratings: list[float]) -> float:
-    """Return the rating of rows side by side: i^0.7 times that of one where they are equal, as in ISO 281."""
-    each = np.array(ratings)
-    return float(np.sum(each ** (10.0 / 7.0)) ** 0.7)
-
-
-def _races(row: Row, rating: float) -> tuple[float, float]:
-    """Return Q_ce and Q_ci of a row of a rating, ISO/TS 16281: ball loads that a race bears a million turns."""
-    gamma = _gamma(row)
-    ratio = (1.044 / 1.04) * _ratio(gamma, row.inner_conformity, row.outer_conformity)
-    single = rating / (row.ball_count * math.cos(row.contact_angle))
-    inner = single / 0.407 * (1.0 + ratio ** (10.0 / 3.0)) ** 0.3
-    outer = single / 0.389 * (1.0 + ratio ** (-10.0 / 3.0)) ** 0.3
-    return outer, inner
-
-
-def _ratio(gamma: float, inner: float, outer: float) -> float:
-    """Return the rating of the inner race over that of the outer, ISO/TR 1281-1."""
-    grooves: float = inner * (2.0 * outer - 1.0) / (outer * (2.0 * inner - 1.0))
-    rolling = ((1.0 - gamma) / (1.0 + gamma)) ** 1.72
-    return 1.04 * float(rolling * grooves**0.41)
-
-
-def _groove_factor(gamma: float, inner: float, outer: float) -> float:
-    """Return what conformities do to f_c."""
-    together = float((1.0 + _ratio(gamma, inner, outer) ** (10.0 / 3.0)) ** -0.3)
-    return together * float((2.0 * inner / (2.0 * inner - 1.0)) ** 0.41)
-
-
-def _gamma(row: Row) -> float:
-    return row.ball_diameter * math.cos(row.contact_angle) / row.pitch_diameter
-
-
-def _equivalent_load(scene: Scene) -> float | None:
-    """Return P = max(Fr, X Fr + Y Fa) of a single deep groove row under constant loads [N], ISO 281."""
-    row = scene.rows[0]
-    if len(scene.rows) > 1 or row.contact_angle > 0.0 or row.outer_arch or row.inner_arch:
-        return None
-    total = np.zeros(3)
-    for load in scene.loads.values():
-        if load.ring != "inner" or not isinstance(load.force, int | float):
-            return None
-        direction = np.asarray(load.direction)
-        total += load.force * direction / np.linalg.norm(direction)
-    radial, axial = math.hypot(total[0], total[1]), abs(float(total[2]))
-    if radial == axial == 0.0:
-        return None
-    relative = axial / (row.ball_count * (1e3 * row.ball_diameter) ** 2)
-    table = np.array(_DEEP)
-    limit, factor = (float(np.interp(relative, table[:, 0], table[:, k])) for k in (1, 2))
-    return radial if axial <= limit * radial else max(radial, 0.56 * radial + factor * axial)
+    return together([row_rating(row) for row in scene.rows]), "formula of ISO 281"
 
 
 def _speed(scene: Scene) -> float | None:

@@ -17,7 +17,7 @@ from scipy.special import ellipe, ellipkm1
 
 import ballrace as br
 from ballrace.bearings.clearance import radial_clearance
-from ballrace.life import FC
+from ballrace.load_rating import FC
 from reference import hertz
 
 ROWS = list(br.catalogue.values())

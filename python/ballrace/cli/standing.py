@@ -76,6 +76,8 @@ def _equilibrium(options: argparse.Namespace) -> None:
         life = rating_life(scene)
         print()
         lives = {"ISO 281, L10": life.basic, "ISO/TS 16281, L10r": life.reference}
+        if life.modified is not None:
+            lives["with its oil, L10mr"] = life.modified
         lines = [[name, *_lasts(life, turns)] for name, turns in lives.items()]
         print_table(["rating life", "million turns", "hours"], lines)
 
@@ -125,7 +127,11 @@ def _equilibrium_json(options: argparse.Namespace, scene: Scene, eq: Equilibrium
         told["outer_equivalent"] = loads.outer_equivalent.tolist()
         told["inner_equivalent"] = loads.inner_equivalent.tolist()
         life = rating_life(scene)
-        told["rating_life"] = {"basic": life.basic, "reference": life.reference}
+        told["rating_life"] = {
+            "basic": life.basic,
+            "reference": life.reference,
+            "modified": life.modified,
+        }
     print(json.dumps(told, indent=2))
 
 

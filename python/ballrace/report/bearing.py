@@ -95,9 +95,14 @@ def _add_life(page: Page, scene: Scene) -> None:
         return
     page.told(_life(life))
     page.text(
-        "Both lives are of the bearing without its defects, at 90 % reliability; lubrication and contamination "
-        "(a_ISO of ISO 281) are left out. ISO 281 takes one equivalent load; ISO/TS 16281 takes "
-        "the load of every ball, so clearance and contact angles count."
+        "Lives are of the bearing without its defects, at 90 % reliability. ISO 281 takes one equivalent load; "
+        "ISO/TS 16281 takes the load of every ball, so clearance and contact angles count. Loads that change are "
+        "summed over their period (Miner's rule). "
+        + (
+            "No oil is known: lubrication and contamination (a_ISO of ISO 281) are left out."
+            if life.factor is None
+            else "The modified life knows the oil's film, and takes its cleanliness for normal."
+        )
     )
 
 
@@ -107,6 +112,9 @@ def _life(life: RatingLife) -> list[tuple[str, str]]:
         told.append(("Equivalent load P, ISO 281", f"{words.large(life.equivalent_load)} N"))
         told.append(("Basic rating life L₁₀, ISO 281", _turns(life, life.basic)))
     told.append(("Basic reference rating life L₁₀ᵣ, ISO/TS 16281", _turns(life, life.reference)))
+    if life.modified is not None and life.factor is not None:
+        of = f"a_ISO {life.factor.value:.2g}, κ {life.factor.kappa:.2g}"
+        told.append((f"Modified life L₁₀ₘᵣ, {of}", _turns(life, life.modified)))
     return told
 
 
