@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use super::films::Films;
 use super::sums::Named;
 use crate::contact::LeaningRing;
 use crate::forces::{self, Force, OnRing, State, Table, unbalance};
@@ -20,11 +21,21 @@ pub fn contribution_names() -> Vec<&'static str> {
 }
 
 /// The forces on every body by origin (see [`contribution_names`]): x, y, z \[N\] and about z \[N m\] for each body in turn. `y`
-/// holds the states of all bodies.
+/// holds the states of all bodies. Films have the speed of the rings that it holds.
 ///
 /// # Panics
 /// If the length of `y` is wrong.
 pub fn contributions(model: &Model, t: f64, y: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
+    let coated = Films::of(model, y);
+    contributions_coated(coated.as_ref().map_or(model, Films::model), t, y)
+}
+
+/// The same of a model whose films are those of the state.
+pub(crate) fn contributions_coated(
+    model: &Model,
+    t: f64,
+    y: &[f64],
+) -> Vec<(&'static str, Vec<f64>)> {
     assert_eq!(y.len(), model.dim(), "length of the state");
     let bodies = model.bodies.len();
     let mut state = State::new(model);

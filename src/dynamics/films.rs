@@ -21,6 +21,15 @@ impl Films {
         })
     }
 
+    /// Films of the speed that a state of all bodies has; none where they stay as they are.
+    pub fn of(model: &Model, y: &[f64]) -> Option<Self> {
+        let mut films = Self::new(model)?;
+        let mut state = State::new(model);
+        state.read(y);
+        films.coat(&state);
+        Some(films)
+    }
+
     /// With the films of the last state.
     pub fn model(&self) -> &Model {
         &self.model
@@ -28,13 +37,21 @@ impl Films {
 
     /// The model with the films of a state, after the contacts were told.
     pub fn follow(&mut self, state: &State, contacts: &mut Batch) -> &Model {
-        let [outer, inner] = state.rings();
-        let speed = inner.omega - outer.omega;
-        if speed.to_bits() != self.speed.to_bits() {
-            self.speed = speed;
-            self.model.coat(speed);
+        if self.coat(state) {
             contacts.coat(&self.model);
         }
         &self.model
+    }
+
+    /// Gives the films the speed of a state; whether that changes them.
+    fn coat(&mut self, state: &State) -> bool {
+        let [outer, inner] = state.rings();
+        let speed = inner.omega - outer.omega;
+        let changes = speed.to_bits() != self.speed.to_bits();
+        if changes {
+            self.speed = speed;
+            self.model.coat(speed);
+        }
+        changes
     }
 }

@@ -27,6 +27,7 @@ use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Spring};
 use crate::reduction::Reduction;
 
 pub(crate) use batch::{Batch, Kind, OnRings, RingView, SideConstants, Touching, View};
+pub(crate) use contributions::contributions_coated;
 pub use contributions::{contribution_names, contributions};
 
 use films::Films;

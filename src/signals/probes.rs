@@ -2,7 +2,7 @@
 
 use super::Column;
 use super::filter::Kind;
-use crate::dynamics::{Dynamics, contribution_names, contributions};
+use crate::dynamics::{Dynamics, contribution_names, contributions_coated};
 use crate::equilibrium::compile;
 use crate::error::Result;
 use crate::inspect::{self, Energy, Lubrication, MOMENTS};
@@ -266,7 +266,7 @@ impl Reader {
                 values.extend(inspect::lubrication(model, y, *row).values());
             }
             Self::Forces { body } => {
-                for (_, forces) in contributions(model, t, y) {
+                for (_, forces) in contributions_coated(model, t, y) {
                     values.extend(layout.of(&forces, *body));
                 }
             }

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 import ballrace as br
+from ballrace.scene import TorqueDrive
 
 
 @pytest.fixture(scope="module")
@@ -96,3 +99,22 @@ def test_equilibrium_table(eq: br.Equilibrium) -> None:
     assert table.height == 26
     assert table.columns[:5] == ["row", "ball", "angle", "radius", "z"]
     assert "balls loaded" in repr(eq)
+
+
+def test_forces_follow_the_films_of_a_changing_speed() -> None:
+    """Truth: Newton's law between forces and rates, at speeds that are not those that the films were made for."""
+    scene = br.bearing("6205", speed_rpm=1800.0, lubricant="vg68", temperature_c=40.0)
+    driven = replace(scene, drive=TorqueDrive(value=0.0, initial_speed=188.0))
+    model = br.Model(driven)
+    y = model.start().copy()
+    half = y.size // 2
+    y[half:] *= 0.3
+    rates = dict(zip(model.names, model.rhs(0.0, y), strict=True))
+    forces = sum(model.forces(0.0, y).values())
+    ball = model.bodies.index("row0.ball0")
+    row = driven.rows[0]
+    volume = math.pi / 6.0 * row.ball_diameter**3
+    mass = driven.materials.balls.density * volume
+    for k, name in enumerate(("vx", "vy")):
+        acceleration = forces[ball][k] / mass  # type: ignore[index]
+        assert acceleration == pytest.approx(rates[f"row0.ball0.{name}"], rel=1e-6)
