@@ -373,8 +373,9 @@ class LoadDistribution:
 def load_distribution(scene: Scene, *, positions: int = 16) -> LoadDistribution:
     """Solve a scene at rest at many positions of its cage; return ball loads and equivalent loads for life.
 
-    Where all balls are alike, the cage turns by one ball pitch, which shows every ball at every angle. Where they
-    differ (diameters, ball defects, rows of different numbers of balls) it makes a whole turn.
+    Defects are left out: a ball in a spall at one of these positions would count as if it were there all the time.
+    :func:`equilibrium` knows them. Where all balls are alike, the cage turns by one ball pitch, which shows every
+    ball at every angle. Where they differ (diameters, rows of different numbers of balls) it makes a whole turn.
 
     Parameters
     ----------

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::{BallEquilibrium, Equilibrium, doubts, equilibrium, place};
 use crate::error::{Error, Result};
 use crate::memory;
-use crate::scene::{Row, Scene, Surface};
+use crate::scene::Scene;
 
 /// Exponents of the mean for a ring that turns and for one that stands under the load (ball bearings).
 const TURNING: f64 = 3.0;
@@ -39,11 +39,12 @@ pub struct EquivalentLoads {
     pub inner: f64,
 }
 
-/// The static loads at so many positions of the cage per ball pitch.
+/// The static loads of a scene without its defects at so many positions of the cage per ball pitch.
 ///
 /// Where all balls are alike, one pitch shows all there is: ball j at a turn of φ is where ball j + 1 will be a pitch
-/// later. Where they differ (diameters, ball defects, rows of different numbers of balls) the cage makes a whole
-/// turn. Rings stand at angle 0 throughout, with their defects and waviness.
+/// later. Where they differ (diameters, rows of different numbers of balls) the cage makes a whole turn. Rings
+/// stand at angle 0 throughout, with their waviness. Lives are of the healthy bearing: a ball in a spall at one of a few
+/// positions would count as if it were there all the time; [`super::equilibrium()`] knows defects.
 ///
 /// ```
 /// use ballrace::scene::presets;
@@ -59,8 +60,10 @@ pub fn load_distribution(scene: &Scene, positions: usize) -> Result<LoadDistribu
         return Err(Error::scene("positions", "0", "at least 1 per ball pitch"));
     }
     scene.validate()?;
-    // Once for all positions: a defect does not move as the cage turns.
-    let (scene, _) = place(scene)?;
+    let mut scene = scene.clone();
+    scene.defects.clear();
+    // Once for all positions: tilts that are held by request stay as the cage turns.
+    let (scene, _) = place(&scene)?;
     let most = scene.rows.iter().map(|row| row.ball_count).max();
     let pitches = if repeats(&scene) {
         1
@@ -114,10 +117,9 @@ fn check_memory(scene: &Scene, count: usize) -> Result<()> {
 
 /// Whether a turn by one pitch leaves everything as it was.
 fn repeats(scene: &Scene) -> bool {
-    let alike = |row: &Row| {
+    scene.rows.iter().all(|row| {
         row.ball_count == scene.rows[0].ball_count && row.diameter_errors.iter().all(|e| *e == 0.0)
-    };
-    scene.rows.iter().all(alike) && scene.defects.values().all(|d| d.on != Surface::Ball)
+    })
 }
 
 /// Mean of order p over all balls of a row at all positions.

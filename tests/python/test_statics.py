@@ -57,6 +57,17 @@ def test_load_distribution_arrays(scene: br.Scene) -> None:
     assert "4 positions" in repr(found)
 
 
+def test_load_distributions_leave_defects_out() -> None:
+    """Truth: the same scene without them. A ball in a spall at one position is no load for all time."""
+    healthy = br.bearing("6205", radial_load=1500.0, speed_rpm=1800.0)
+    spall = br.defects.spall(on="outer_race", width_mm=1.0)
+    spalled = healthy.replace({"defects.spall": spall})
+    spalled = spalled.replace({"defects.ball": br.defects.spall(on="ball", width_mm=0.5)})
+    found, wanted = (br.load_distribution(scene, positions=4) for scene in (spalled, healthy))
+    np.testing.assert_array_equal(found.inner_load, wanted.inner_load)
+    np.testing.assert_array_equal(found.outer_equivalent, wanted.outer_equivalent)
+
+
 def test_around_orders_the_balls(scene: br.Scene) -> None:
     """Truth: a radial load along -y presses the balls at -90° most."""
     found = br.load_distribution(scene, positions=4)

@@ -44,7 +44,7 @@ def add_loads(page: Page, scene: Scene) -> None:
     page.section("Loads, pressures and life")
     healthy = scene.replace({"defects": {}})
     try:
-        eq, around = equilibrium(healthy), load_distribution(healthy)
+        eq, around = equilibrium(healthy), load_distribution(scene)
     except BallraceError as error:
         page.warning(f"no static solution: {error}")
         return
