@@ -129,7 +129,7 @@ fn steps(model: &Model, start: &[f64], count: usize) -> Result<(f64, f64)> {
 }
 
 /// Time of one evaluation near a state of all bodies.
-pub(super) fn right_hand_side(model: &Model, y0: &[f64]) -> f64 {
+fn right_hand_side(model: &Model, y0: &[f64]) -> f64 {
     time_at_places(model, y0, |dynamics, y, dy| dynamics.rhs(0.0, y, dy))
 }
 

@@ -6,7 +6,6 @@ use super::cost::{self, Cost};
 use crate::equilibrium::compile;
 use crate::model::Model;
 use crate::reduction::Reduction;
-use crate::run::step_limit;
 use crate::scene::{Load, Method, Scene, Slices, Surface};
 use crate::start::{Start, start};
 
@@ -33,18 +32,11 @@ const WITHOUT_ROLLING: &str = "without rolling resistance";
 const WITHOUT_FILM_DAMPING: &str = "without the film's damping";
 const OF_OIL: [&str; 3] = [WITHOUT_OIL, WITHOUT_ROLLING, WITHOUT_FILM_DAMPING];
 
-/// What takes longer steps where friction holds the scene's own short.
-const IMPLICIT: &str = "with solver.method = \"implicit-friction\"";
-/// How simplifications by request begin.
-const APPROXIMATED: &str = "with approximations.";
-/// Steps over the longest that contacts allow, from which on friction holds them short.
-const SHORT: f64 = 0.25;
-
 /// A change that may make a scene cheaper; nothing where it does not apply.
 type Change = fn(&Scene) -> Option<Scene>;
 
 /// Changes by name, and what they do to the answer.
-const CHANGES: [(&str, &str, Change); 16] = [
+const CHANGES: [(&str, &str, Change); 15] = [
     (
         "with approximations.rolling",
         "of faulted races: rms to 20 %, rate of impacts to 0.3 %",
@@ -82,7 +74,7 @@ const CHANGES: [(&str, &str, Change); 16] = [
         },
     ),
     (
-        IMPLICIT,
+        "with solver.method = \"implicit-friction\"",
         "the same answer: stiff friction is solved for at every step",
         |scene| {
             let mut changed = scene.clone();
@@ -152,16 +144,6 @@ const CHANGES: [(&str, &str, Change); 16] = [
         (changed != *scene).then_some(changed)
     }),
     (
-        "on 4 nodes",
-        "normal force to 4e-4, friction to some 10 %",
-        |scene| {
-            let mut changed = scene.clone();
-            let slices = Slices::Fitted(4);
-            changed.contacts_mut().for_each(|of| of.slices = slices);
-            (changed != *scene).then_some(changed)
-        },
-    ),
-    (
         "on 6 fitted nodes instead of slices",
         "closer to the converged force",
         |scene| {
@@ -176,52 +158,29 @@ const CHANGES: [(&str, &str, Change); 16] = [
     ),
 ];
 
-/// All that help or are of the oil, the cheapest first. They are timed at the scene's own start, and take its steps; but
-/// oil, stiff friction and kinematic balls decide how long steps may be, so that without oil, by another method and with
-/// approximations they are its own.
+/// All that help or are of the oil, the cheapest first. Each is started and timed as the scene itself was.
 pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Vec<Variant> {
-    let own = Reduction::of(model, y0).map_or(model.dim(), |r| r.dim());
-    let longest = step_limit::largest(model.scene().solver.method, model);
-    let is_short = SHORT * longest * cost.evaluations > 1.0;
     let mut variants: Vec<Variant> = offers(model, y0)
         .into_iter()
-        .filter(|(change, ..)| *change != IMPLICIT || is_short)
         .filter_map(|(change, note, changed)| {
             let y0 = &changed.layout().carry(y0, model.layout());
-            let kept = Reduction::of(&changed, y0).map_or(changed.dim(), |r| r.dim());
-            let has_own_steps =
-                [WITHOUT_OIL, IMPLICIT].contains(&change) || change.starts_with(APPROXIMATED);
-            let seconds = if has_own_steps {
-                seconds_by_own_steps(&changed)?
-            } else {
-                // The integrator's share goes with the states.
-                let share =
-                    (cost.evaluation - cost.right_hand_side).max(0.0) * kept as f64 / own as f64;
-                cost.evaluations * (cost::right_hand_side(&changed, y0) + share)
-            };
             Some(Variant {
                 change: change.to_owned(),
                 note: note.to_owned(),
-                kept,
-                seconds,
+                kept: Reduction::of(&changed, y0).map_or(changed.dim(), |r| r.dim()),
+                seconds: seconds(&changed)?,
             })
         })
         .collect();
     variants.retain(|variant| {
         variant.seconds < HELPS * cost.seconds || OF_OIL.contains(&variant.change.as_str())
     });
-    variants.push(Variant {
-        change: "with twice the largest step at rtol 1e-3".to_owned(),
-        note: "accelerations to 0.3 %; solver.frequency_cap = false, solver.max_step".to_owned(),
-        kept: own,
-        seconds: 0.5 * cost.seconds,
-    });
     variants.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
     variants
 }
 
-/// Time for a simulated second with steps of the model's own; nothing where it does not start.
-fn seconds_by_own_steps(model: &Model) -> Option<f64> {
+/// Time for a simulated second, measured; nothing where the model does not start.
+fn seconds(model: &Model) -> Option<f64> {
     let y0 = start(model, &Start::Equilibrium).ok()?;
     Some(cost::of(model, &y0).ok()?.seconds)
 }
@@ -279,7 +238,7 @@ mod tests {
         const ONE_ROW: &str = "with approximations.one_row";
         let of = |scene: &Scene| {
             let mut found = offered(scene);
-            found.retain(|change| change.starts_with(APPROXIMATED));
+            found.retain(|change| change.starts_with("with approximations."));
             found
         };
         let faulted = presets::wheel_bearing(3000.0);
@@ -319,7 +278,7 @@ mod tests {
     #[test]
     fn what_a_scene_has_can_be_taken_away() {
         let found = offered(&presets::deep_groove_6205(500.0, 0.0, 1800.0));
-        for change in ["without friction", "without the cage", "on 4 nodes"] {
+        for change in ["without friction", "without the cage"] {
             assert!(found.contains(&change), "{change}");
         }
         for change in [
