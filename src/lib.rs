@@ -137,6 +137,7 @@ pub use touched::Touched;
 /// What the bindings for Python (`src/python`) use beside the interface. Nobody else should: it changes without notice.
 #[doc(hidden)]
 pub mod bindings {
+    pub use crate::equilibrium::place;
     pub use crate::features::loads::columns as load_columns;
     pub use crate::features::lubrication::columns as lubrication_columns;
     pub use crate::features::transform::{amplitudes, hann_weighted, squared_envelope};

@@ -6,6 +6,7 @@ use pyo3::types::PyDict;
 
 use super::answer::answering;
 use super::errors::to_json;
+use ballrace::bindings::place;
 use ballrace::{BallEquilibrium, EquivalentLoads};
 use ballrace::{Equilibrium, Scene};
 
@@ -70,6 +71,12 @@ pub(super) fn stiffness<'py>(py: Python<'py>, scene: &str) -> PyResult<Bound<'py
     )?;
     all.set_item("equilibrium", arrays(py, &found.equilibrium)?)?;
     Ok(all)
+}
+
+/// A scene as JSON with a number for the axial place of every defect, as a run has it.
+#[pyfunction]
+pub(super) fn placed(py: Python<'_>, scene: &str) -> PyResult<String> {
+    solved(py, scene, |scene| Ok(place(scene)?.0.to_json()))
 }
 
 /// Loads at so many positions of the cage per pitch.

@@ -321,6 +321,7 @@ def test_bad_arguments_are_named(faulty: br.Signals, animated: br.Signals, wheel
         "skip": lambda: plot.orbit(faulty, skip=1.0),
         "cases": lambda: plot.slice_forces(faulty),
         "row": lambda: plot.load_distribution(br.equilibrium(wheel), row=2),
+        "loads": lambda: plot.load_distribution(wheel),  # type: ignore[arg-type]
         "frames": lambda: plot.animation(animated, frames=1),
         "start": lambda: plot.animation(animated, start=1.0),
         "out": lambda: plot.animation(faulty),
@@ -332,6 +333,23 @@ def test_bad_arguments_are_named(faulty: br.Signals, animated: br.Signals, wheel
         assert caught.value.path == path
     with pytest.raises(KeyError, match=r"outer\.aq"):
         plot.psd(faulty, "outer.aq")
+
+
+def test_defects_are_drawn_where_a_run_has_them() -> None:
+    """Truth: the scene that a run gives back, whose defects are placed."""
+    spall = br.defects.spall(on="outer_race", width_mm=1.0)
+    scene = br.bearing("6205", radial_load=1500.0, axial_load=800.0, speed_rpm=1800.0)
+    scene = scene.replace({"defects.spall": spall})
+    ran = br.simulate(scene, duration=1e-4, settle=0.0)
+    simulated = 1e3 * ran.defects["spall"].axial_offset
+    assert simulated > 1.0
+    assert scene.placed().defects == ran.scene.defects
+    (box,) = (
+        trace for trace in plot.unrolled(scene).data if (trace.text or "").startswith("spall")
+    )
+    assert 0.5 * (min(box.y) + max(box.y)) == pytest.approx(simulated)
+    thick = next(trace for trace in plot.section(scene).data if trace.line.width == 6)
+    assert thick.x[10] == pytest.approx(simulated)
 
 
 def test_a_page_of_one_figure_is_whole(tmp_path: Path, wheel: br.Scene) -> None:

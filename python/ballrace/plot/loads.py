@@ -51,7 +51,7 @@ def load_distribution(
     Raises
     ------
     SceneError
-        There is no such row.
+        There is no such row, or ``loads`` are something else.
 
     Examples
     --------
@@ -61,6 +61,7 @@ def load_distribution(
     ['row 0', 'row 1']
     """
     cases = dict(loads) if isinstance(loads, Mapping) else {"": loads}
+    _check_solutions(cases)
     largest = max((float(found.outer_load.max()) for found in cases.values()), default=0.0)
     if row is not None:
         return _finish_polars(_one_row(cases, row, fig), largest, layout)
@@ -73,6 +74,13 @@ def load_distribution(
             )
             fig.add_trace(trace, row=1, col=place)
     return _finish_polars(fig, largest, layout)
+
+
+def _check_solutions(cases: Mapping[str, object]) -> None:
+    for found in cases.values():
+        if not isinstance(found, Equilibrium | LoadDistribution):
+            allowed = "what ballrace.equilibrium or ballrace.load_distribution finds of a scene"
+            raise SceneError("loads", f"a {type(found).__name__}", allowed)
 
 
 def force_distribution(

@@ -40,7 +40,8 @@ def unrolled(
     """Draw both races of a row unrolled, with the ellipses of contact, their forces, and the defects.
 
     Along the page goes the angle around the bearing, up the axial place from the row's plane. Ellipses have their
-    length across the race in scale and are drawn five times as wide as they are; defects are in scale.
+    length across the race in scale and are drawn five times as wide as they are; defects are in scale, where a run
+    has them.
 
     Parameters
     ----------
@@ -73,10 +74,11 @@ def unrolled(
         fig = make_subplots(
             rows=2, cols=1, shared_xaxes=True, vertical_spacing=0.1, subplot_titles=titles
         )
+    defects = scene.placed().defects
     largest = max(float(eq.outer_load.max()), float(eq.inner_load.max()), 1e-9)
     for place, race in enumerate(_RACES, start=1):
         _contacts(fig, scene.rows[row], eq, number=row, race=race, largest=largest)
-        for name, defect in scene.defects.items():
+        for name, defect in defects.items():
             if defect.row == row and defect.on == f"{race}_race":
                 _defect(fig, scene.rows[row], name, defect, place)
         fig.update_yaxes(title_text="axial place / mm", row=place, col=1)
@@ -137,7 +139,8 @@ def _defect(fig: go.Figure, row: Row, name: str, defect: Defect, place: int) -> 
     width = defect.width if isinstance(defect.width, float) else max(defect.width.widths)
     half = math.degrees(0.5 * width / _radius(row, race))
     middle = math.degrees(float(_wrapped(np.array(defect.angle))))
-    z = 1e3 * placed(row, defect)
+    assert not isinstance(defect.axial_offset, str)
+    z = 1e3 * defect.axial_offset
     end = 0.5e3 * defect.length
     box = Scatter(
         x=[middle + s * half for s in (-1, 1, 1, -1, -1)], y=[z + s * end for s in (-1, -1, 1, 1, -1)],
@@ -148,14 +151,6 @@ def _defect(fig: go.Figure, row: Row, name: str, defect: Defect, place: int) -> 
     fig.add_trace(box, row=place, col=1)
     fig.add_annotation(x=middle + half, y=z - end, text=name, ax=34, ay=22, font={"color": COLOURS[1]},
                        arrowcolor=COLOURS[1], row=place, col=1)  # fmt: skip
-
-
-def placed(row: Row, defect: Defect) -> float:
-    """Return where a defect's middle lies from the row's plane; of the nominal angle if not given [m]."""
-    if isinstance(defect.axial_offset, str):
-        outward = 1.0 if defect.on == "outer_race" else -1.0
-        return outward * row.side * 0.5 * row.ball_diameter * math.sin(row.contact_angle)
-    return defect.axial_offset
 
 
 def _axial(

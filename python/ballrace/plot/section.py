@@ -10,7 +10,6 @@ import numpy as np
 from ..operating import operating_angle
 from ..scene.defect import extent
 from .outlines import circle, on_groove, outlines
-from .races import placed
 from .style import COLOURS, finished
 
 if TYPE_CHECKING:
@@ -34,7 +33,7 @@ def section(
     """Draw a bearing cut through its axis: rings, balls, contact angle, axes, sides, loads and defects.
 
     The axis lies along the page with +z to the right, y goes up. Balls stand at the top and at the bottom. A
-    defect of a race is drawn in the half that it lies in, where its contact runs if the scene gives no place.
+    defect of a race is drawn in the half that it lies in, at the axial place that it has in a run.
 
     Parameters
     ----------
@@ -77,7 +76,7 @@ def section(
         _angle(fig, row, angle, named=number == 0)
     _axes(fig, shapes)
     _names(fig, scene, shapes)
-    for name, defect in scene.defects.items():
+    for name, defect in scene.placed().defects.items():
         _defect(fig, scene.rows[defect.row], defect, name, shapes)
     _loads(fig, scene, shapes)
     room = 0.65 * (shapes.right - shapes.left)
@@ -157,7 +156,8 @@ def _defect(fig: go.Figure, row: Row, defect: Defect, name: str, shapes: Outline
     degrees = math.degrees(math.atan2(math.sin(defect.angle), math.cos(defect.angle)))
     half = 1.0 if math.sin(defect.angle) >= 0.0 else -1.0
     race: Literal["outer", "inner"] = "inner" if defect.on == "inner_race" else "outer"
-    along = np.linspace(-0.5, 0.5, 21) * extent(defect) + placed(row, defect)
+    assert not isinstance(defect.axial_offset, str)
+    along = np.linspace(-0.5, 0.5, 21) * extent(defect) + defect.axial_offset
     if defect.on == "ball":
         half, points = 1.0, _on_ball(row, along)
     else:

@@ -201,6 +201,19 @@ class Scene(Part):
         """
         return tuple(_core.scene_doubts(self._document()))
 
+    def placed(self) -> Scene:
+        """Check the scene and return it with a number for the axial place of every defect, as runs have it.
+
+        What is to lie where the contact runs (``axial_offset="contact"``) is placed by the static equilibrium, or
+        at the nominal contact angle where there is none or no load. ``out.scene`` of a run is placed already.
+
+        Raises
+        ------
+        SceneError
+            A field is not usable.
+        """
+        return self._read(_core.placed(self._document()))
+
     def to_toml(self, *, comments: bool = False) -> str:
         """Check the scene and return it as TOML.
 
