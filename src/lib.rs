@@ -98,6 +98,7 @@ pub mod implicit;
 pub mod inspect;
 pub mod integrate;
 mod interrupt;
+mod kinematics;
 mod memory;
 mod model;
 mod pool;
@@ -124,6 +125,7 @@ pub use explain::{
 };
 pub use features::{Feature, FeatureOptions, feature_columns, features, signal_features};
 pub use interrupt::Interrupt;
+pub use kinematics::RowKinematics;
 pub use model::{Body, BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Race, Scales};
 pub use reduction::{Obstacle, Omission, Reduction};
 pub use run::{Run, simulate, simulate_into, simulate_with_progress};

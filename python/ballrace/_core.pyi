@@ -130,6 +130,7 @@ def run_features(
     fs: float,
     scene: str,
     largest_pressure: float | None,
+    kinematics: str,
     options: str,
 ) -> list[tuple[str, float | None]]: ...
 def signal_features(

@@ -2,8 +2,9 @@
 
 Where the outer ring stands still and the balls roll, the load alone moves the frequencies from the nominal
 ones: thrust opens the contact angle, which raises BPFO and lowers BPFI. Slip makes the cage slower than rolling
-would, lowers BPFO and raises BPFI. A cage with play, or a clearance in which unloaded balls drop, can make it
-faster: negative slip.
+would, lowers BPFO and raises BPFI. At high speed the contact angles of both races part and balls spin about an
+axis of their own, which makes it faster by percents: negative slip. A scene tells of rolling at one angle, at
+rest; a run measures its own.
 """
 
 from __future__ import annotations
@@ -23,6 +24,8 @@ from .signals import Signals
 from .statics import equilibrium
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from .scene import Row
 
 __all__ = ["FaultFrequencies", "fault_frequencies"]
@@ -41,9 +44,10 @@ class FaultFrequencies:
         meets the races at twice ``bsf``; in a run, whose balls spin about the axis only, at BSF/cos α or
         twice that (:func:`ballrace.operating.spin_of`).
     contact_angle : float
-        The angle they are of [rad].
+        The angle under load at rest [rad].
     slip : float or None
-        How far the cage stays behind rolling at this angle, as a share of it; None where it was not measured.
+        How far the cage stays behind rolling at this angle, as a share of it; negative where it is ahead, None
+        where it was not measured.
     """
 
     shaft: float
@@ -74,8 +78,9 @@ def fault_frequencies(
     ----------
     of : str, Bearing, Scene or Signals
         A designation of the catalogue or a bearing of it: at the nominal contact angle, since no load is given. A
-        scene: at the contact angle under its load. Signals of a run: with the cage's slip as well, if a probe
-        records the motion of a ball of the row (``MotionProbe(body="row0.ball0", components=("x", "y"))``).
+        scene: of balls that roll at the contact angle under its load, at rest. Signals of a run of a turn and
+        more: the means that the run measured, of the cage by all balls of the row, and of the spin where balls
+        spin freely. Of older files by a probe that records the motion of a ball of the row.
     speed_rpm : float, optional
         Speed of the inner ring [rev/min]; by default that of the scene, if it is given and constant.
     row : int
@@ -116,12 +121,20 @@ def fault_frequencies(
         raise SceneError("of", f"a {type(of).__name__}", "a designation, Bearing, Scene or Signals")
     if not 0 <= row < len(scene.rows):
         raise SceneError("row", str(row), f"a row, 0 to {len(scene.rows) - 1}")
-    shaft = _shaft(speed_rpm) if speed_rpm is not None else _constant_speed(scene)
+    did = _measured(of, row) if isinstance(of, Signals) else None
+    if speed_rpm is not None:
+        shaft = _shaft(speed_rpm)
+    else:
+        shaft = did["inner"] if did is not None else _constant_speed(scene)
     if not operating:
         return _rolling(scene.rows[row], scene.rows[row].contact_angle, shaft)
     driven = replace(scene, drive=SpeedDrive(2.0 * math.pi * shaft))
     found = _rolling(scene.rows[row], operating_angle(driven, row), shaft)
-    cage = cage_frequency(of, row) if isinstance(of, Signals) else None
+    if not isinstance(of, Signals):
+        return found
+    if did is not None:
+        return _as_measured(found, did, scene, row)
+    cage = cage_frequency(of, row)
     return found if cage is None else _slipping(found, cage, scene.rows[row].ball_count)
 
 
@@ -199,6 +212,28 @@ def spin_of(scene: Scene, rates: FaultFrequencies, row: int = 0) -> tuple[float,
 def _rolling(of: Bearing | Row, angle: float, shaft: float) -> FaultFrequencies:
     hertz = frequencies.orders(of.ball_count, of.ball_diameter, of.pitch_diameter, angle).at(shaft)
     return FaultFrequencies(shaft=shaft, contact_angle=angle, **vars(hertz))
+
+
+def _measured(out: Signals, row: int) -> Mapping[str, float] | None:
+    """Return the mean speeds that a run tells of a row [Hz]."""
+    return next((did for did in out.provenance.get("kinematics", ()) if did["row"] == row), None)
+
+
+def _as_measured(
+    rolling: FaultFrequencies, did: Mapping[str, float], scene: Scene, row: int
+) -> FaultFrequencies:
+    """Return the frequencies of a run for a shaft's; BSF of balls that spin about z only is that of rolling."""
+    scale = rolling.shaft / did["inner"]
+    balls = scene.rows[row].ball_count
+    spin = did["spin"] if scene.spin == "free" else None
+    return replace(
+        rolling,
+        ftf=scale * did["cage"],
+        bpfo=scale * balls * (did["cage"] - did["outer"]),
+        bpfi=scale * balls * (did["inner"] - did["cage"]),
+        bsf=rolling.bsf if spin is None else abs(scale) * spin,
+        slip=1.0 - scale * did["cage"] / rolling.ftf,
+    )
 
 
 def _slipping(rolling: FaultFrequencies, cage: float, balls: int) -> FaultFrequencies:

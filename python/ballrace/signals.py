@@ -308,7 +308,9 @@ class Signals(Columns):
         """
         options = json.dumps(feature_options(columns, skip, band, contact_loads))
         pressure = self._stats.get("largest_pressure")
-        found = _core.run_features(self, self._fs, self.scene.to_json(), pressure, options)
+        rows = json.dumps(self._provenance.get("kinematics", []))
+        scene = self.scene.to_json()
+        found = _core.run_features(self, self._fs, scene, pressure, rows, options)
         return dict(found)
 
     def write(

@@ -46,7 +46,7 @@ pub fn compile(scene: &Scene) -> Result<Model> {
 ///
 /// # Errors
 /// [`crate::Error::Scene`] for a scene that is not usable.
-pub(crate) fn place(scene: &Scene) -> Result<(Cow<'_, Scene>, BTreeMap<String, Placed>)> {
+pub fn place(scene: &Scene) -> Result<(Cow<'_, Scene>, BTreeMap<String, Placed>)> {
     let is_given = |defect: &Defect| defect.axial_offset != AxialOffset::Contact;
     let mut from: BTreeMap<String, Placed> = scene
         .defects

@@ -4,7 +4,11 @@ use super::shaft::{SHARE, Shaft};
 use super::spectrum::Spectrum;
 use super::transform::squared_envelope;
 use super::{Feature, named};
+use crate::kinematics::RowKinematics;
 use crate::scene::Row;
+
+/// A line is sought this far from its measured frequency: a part of the run has a mean of its own.
+const MEASURED: f64 = 0.005;
 
 /// A line nearer to 0 than this many bins drowns in the Hann window's main lobe around it.
 const BINS: f64 = 2.0;
@@ -18,25 +22,37 @@ pub(super) struct Fault {
     pub name: &'static str,
     /// In turns of the shaft.
     pub order: f64,
+    /// How far from there its line is sought, as a share of it.
+    share: f64,
     /// Distance of its sidebands, where what turns past the load makes it stronger and weaker: the shaft for the inner
     /// race, the cage for a ball.
     sidebands: Option<f64>,
 }
 
-/// The faults of a row by their kinematic orders: the cage's, those of balls that pass a place of the outer and of the inner
-/// race, and of places of a ball that pass a race: it meets both in a turn, so twice the ball's spin.
-pub(super) fn faults(row: &Row) -> [Fault; 4] {
+/// The faults of a row by their orders: the cage's, those of balls that pass a place of the outer and of the inner race, and
+/// of places of a ball that pass a race: it meets both in a turn, so twice the ball's spin. They are what the row did, or, of a
+/// record whose balls nobody watched, those of pure rolling at the nominal contact angle.
+pub(super) fn faults(row: &Row, did: Option<&RowKinematics>) -> [Fault; 4] {
     let [ftf, bpfo, bpfi, bsf] = row.orders();
+    let measured = did.map(|did| did.orders(row.ball_count));
+    let ([ftf, bpfo, bpfi], share) =
+        measured.map_or(([ftf, bpfo, bpfi], SHARE), |(orders, _)| (orders, MEASURED));
+    let spin = measured.and_then(|(_, spin)| spin);
+    let (bsf, share_of_ball) = spin.map_or((bsf, SHARE), |spin| (spin, MEASURED));
     let fault = |name, order, sidebands| Fault {
         name,
         order,
+        share,
         sidebands,
     };
     [
         fault("ftf", ftf, None),
         fault("bpfo", bpfo, None),
         fault("bpfi", bpfi, Some(1.0)),
-        fault("2bsf", 2.0 * bsf, Some(ftf)),
+        Fault {
+            share: share_of_ball,
+            ..fault("2bsf", 2.0 * bsf, Some(ftf))
+        },
     ]
 }
 
@@ -47,7 +63,7 @@ pub(super) fn of(
     x: &[f64],
     (fs, band): (f64, Option<[f64; 2]>),
     shaft: Option<&Shaft>,
-    rows: &[Row],
+    (rows, kinematics): (&[Row], &[RowKinematics]),
 ) -> Vec<Feature> {
     let spectra = shaft.map(|shaft| {
         let envelope = squared_envelope(x, fs, band);
@@ -60,7 +76,8 @@ pub(super) fn of(
     });
     let mut found = Vec::new();
     for (row, of) in rows.iter().enumerate() {
-        for fault in faults(of) {
+        let did = kinematics.iter().find(|did| did.row == row);
+        for fault in faults(of, did) {
             for (i, suffix) in ["", "_envelope"].into_iter().enumerate() {
                 let lines = spectra.as_ref().map(|spectra| {
                     let (spectrum, shaft, bin) = &spectra[i];
@@ -88,7 +105,7 @@ impl Lines {
     /// short for the line, or sampled too slowly.
     fn of(fault: &Fault, spectrum: &Spectrum, shaft: f64, bin: f64) -> Option<Self> {
         let near = fault.order * shaft;
-        let width = (SHARE * near).max(bin);
+        let width = (fault.share * near).max(bin);
         let top = spectrum.top();
         if near < BINS * bin || near + width + bin >= top {
             return None;
@@ -137,7 +154,7 @@ mod tests {
 
     fn lines(scene: &Scene, x: &[f64], fs: f64) -> impl Fn(&str) -> Option<f64> + use<> {
         let shaft = Shaft::of(scene, 0.0, x.len(), fs);
-        let found = of("x", x, (fs, None), shaft.as_ref(), &scene.rows);
+        let found = of("x", x, (fs, None), shaft.as_ref(), (&scene.rows, &[]));
         move |name: &str| {
             let wanted = format!("x.row0.{name}");
             let feature = found.iter().find(|feature| feature.name == wanted);
@@ -149,7 +166,7 @@ mod tests {
     /// FTF 0.3983, twice BSF 4.7135 of the ball diameter 7.94 mm on 39.04 mm.
     #[test]
     fn orders_of_the_6205() {
-        let found = faults(&scene().rows[0]);
+        let found = faults(&scene().rows[0], None);
         for (found, wanted) in found.into_iter().zip([0.3983, 3.5848, 5.4152, 4.7135]) {
             assert!((found.order - wanted).abs() < 6e-5, "{found:?} {wanted}");
         }
@@ -160,7 +177,13 @@ mod tests {
     fn a_short_record_has_no_lines() {
         let scene = scene();
         let shaft = Shaft::of(&scene, 0.0, 50, 50e3);
-        let found = of("x", &[1.0; 50], (50e3, None), shaft.as_ref(), &scene.rows);
+        let found = of(
+            "x",
+            &[1.0; 50],
+            (50e3, None),
+            shaft.as_ref(),
+            (&scene.rows, &[]),
+        );
         assert_eq!(found.len(), 2 * (2 + 2 + 3 + 3));
         assert!(found.iter().all(|f| f.value.is_none()));
     }
@@ -169,7 +192,7 @@ mod tests {
     #[test]
     fn a_family_is_added_up() {
         let (scene, fs, shaft) = (scene(), 20e3, 30.0);
-        let inner = faults(&scene.rows[0])[2].order * shaft;
+        let inner = faults(&scene.rows[0], None)[2].order * shaft;
         let parts = [
             (2.0, inner),
             (1.0, 2.0 * inner),
@@ -203,7 +226,7 @@ mod tests {
             start: 0.0,
             end: 1.0,
         }));
-        let outer = faults(&scene.rows[0])[1].order;
+        let outer = faults(&scene.rows[0], None)[1].order;
         let x: Vec<f64> = (0..count)
             .map(|i| f64::from(i) / fs)
             .map(|t| 3.0 * (TAU * outer * (20.0 * t + 10.0 * t * t)).sin())

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `outer.ay.rms`, `.peak`, `.crest_factor`, `.kurtosis` | moments of a column | `moments.rs` |
 //! | `outer.ay.row0.ftf`, `.bpfo`, `.bpfi`, `.2bsf` | amplitude of its line at a fault frequency of a row | `lines.rs` |
+//! | | … within 0.5 % of where balls of the run passed ([`crate::RowKinematics`]); without, 2 % of nominal rolling | `lines.rs` |
 //! | `….bpfo_harmonics`, … | root of the sum of the squares of the line and its second and third harmonic | `lines.rs` |
 //! | `….bpfi_sidebands`, `….2bsf_sidebands` | the same of the lines a shaft's, a cage's frequency beside it | `lines.rs` |
 //! | `….bpfo_envelope`, `….bpfo_envelope_harmonics`, … | the same lines of its squared envelope | `lines.rs` |

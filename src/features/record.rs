@@ -1,5 +1,6 @@
 //! What is recorded, wherever it is kept: signals of a run, arrays of another program.
 
+use crate::kinematics::RowKinematics;
 use crate::scene::Scene;
 use crate::signals::Signals;
 
@@ -11,6 +12,8 @@ pub struct Recorded<'a> {
     pub fs: f64,
     /// Names and samples.
     pub columns: Vec<(&'a str, &'a [f64])>,
+    /// What the rows did; of those that it tells nothing of, lines are sought where balls would roll.
+    pub kinematics: &'a [RowKinematics],
     /// Largest Hertz pressure of any contact at the start or the end of the run \[Pa\].
     pub largest_pressure: f64,
 }
@@ -22,6 +25,7 @@ impl<'a> From<&'a Signals> for Recorded<'a> {
             scene: &signals.scene,
             fs: signals.fs,
             columns: columns.map(|c| (c.name.as_str(), &*c.values)).collect(),
+            kinematics: &signals.provenance.kinematics,
             largest_pressure: signals.stats.largest_pressure,
         }
     }

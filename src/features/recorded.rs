@@ -4,6 +4,7 @@ use super::record::Recorded;
 use super::shaft::Shaft;
 use super::{Feature, FeatureOptions, check_record, lines, loads, lubrication, moments};
 use crate::error::Result;
+use crate::kinematics::RowKinematics;
 use crate::scene::Scene;
 
 /// Refuses options that a record does not give.
@@ -26,12 +27,15 @@ pub fn features_of(
     options: &FeatureOptions,
 ) -> Vec<Feature> {
     let first = first_sample(options.skip, recorded.fs, recorded.count());
-    let of = Analysis::new(
-        Some(recorded.scene),
-        recorded.fs,
-        recorded.count() - first,
-        options,
-    );
+    let of = Analysis {
+        kinematics: recorded.kinematics,
+        ..Analysis::new(
+            Some(recorded.scene),
+            recorded.fs,
+            recorded.count() - first,
+            options,
+        )
+    };
     let mut found = Vec::new();
     for name in columns {
         if let Some(values) = recorded.get(name) {
@@ -85,6 +89,7 @@ fn first_sample(skip: f64, fs: f64, count: usize) -> usize {
 /// What the features of all columns of a record share.
 struct Analysis<'a> {
     scene: Option<&'a Scene>,
+    kinematics: &'a [RowKinematics],
     shaft: Option<Shaft>,
     fs: f64,
     band: Option<[f64; 2]>,
@@ -95,6 +100,7 @@ impl<'a> Analysis<'a> {
     fn new(scene: Option<&'a Scene>, fs: f64, count: usize, options: &FeatureOptions) -> Self {
         Self {
             scene,
+            kinematics: &[],
             shaft: scene.and_then(|scene| Shaft::of(scene, options.skip, count, fs)),
             fs,
             band: options.band,
@@ -106,7 +112,13 @@ impl<'a> Analysis<'a> {
         if let Some(scene) = self.scene {
             let course = (self.fs, self.band);
             let shaft = self.shaft.as_ref();
-            found.extend(lines::of(name, x, course, shaft, &scene.rows));
+            found.extend(lines::of(
+                name,
+                x,
+                course,
+                shaft,
+                (&scene.rows, self.kinematics),
+            ));
         }
         found
     }

@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 
 use super::errors::OrRaise;
 use ballrace::bindings::{self, Recorded, check_recorded, features_of};
+use ballrace::RowKinematics;
 use ballrace::scene::kinematic_orders;
 use ballrace::{Error, Feature, FeatureOptions, Scene};
 
@@ -77,10 +78,14 @@ pub(super) fn run_features(
     fs: f64,
     scene: &str,
     largest_pressure: Option<f64>,
+    kinematics: &str,
     options: &str,
 ) -> PyResult<Named> {
     let scene = Scene::from_json(scene).or_raise(py)?;
     let options = options_from(options).or_raise(py)?;
+    let kinematics: Vec<RowKinematics> = serde_json::from_str(kinematics)
+        .map_err(|e| Error::scene("kinematics", kinematics, e.to_string()))
+        .or_raise(py)?;
     let asked = ballrace::feature_columns(&scene, &options).or_raise(py)?;
     let mut needed = asked.clone();
     if options.contact_loads {
@@ -97,6 +102,7 @@ pub(super) fn run_features(
             scene: &scene,
             fs,
             columns: held.iter().map(|(name, x)| (&**name, &**x)).collect(),
+            kinematics: &kinematics,
             largest_pressure: largest_pressure.unwrap_or(f64::NAN),
         };
         check_recorded(&recorded, &options)?;

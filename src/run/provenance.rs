@@ -6,6 +6,7 @@ use super::prepare::Prepared;
 use super::step_limit;
 use crate::inspect::films;
 use crate::integrate::Options;
+use crate::kinematics::RowKinematics;
 use crate::model::Model;
 use crate::reduction::Reduction;
 use crate::scene::SCHEMA;
@@ -25,6 +26,7 @@ pub(super) struct Done<'a> {
     pub reduction: Option<Reduction>,
     pub choice: Choice,
     pub defects: Vec<Touched>,
+    pub kinematics: Vec<RowKinematics>,
 }
 
 /// What is to be told of it.
@@ -55,6 +57,7 @@ pub(super) fn provenance(run: &Run, done: Done<'_>) -> Provenance {
         oversampling: done.sampling.oversampling,
         settled: done.prepared.settled.seconds,
         defects: done.defects,
+        kinematics: done.kinematics,
         films: films(model),
         step_limit: step_limit::largest(solver.method, model),
     }

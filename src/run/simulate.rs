@@ -153,6 +153,7 @@ fn unlimited(
         reduction,
         choice,
         defects: recorder.watch.told(&model, &prepared.placed),
+        kinematics: recorder.orbits.told(&model),
     };
     Ok(Signals {
         fs: run.fs,

@@ -22,6 +22,7 @@ mod warning;
 use serde::Serialize;
 
 use crate::inspect::RaceFilm;
+use crate::kinematics::RowKinematics;
 use crate::reduction::Omission;
 use crate::scene::{RingName, Scene};
 use crate::simd::Distrust;
@@ -165,6 +166,8 @@ pub struct Provenance {
     pub settled: f64,
     /// What became of the defects that have a width.
     pub defects: Vec<Touched>,
+    /// Mean speeds of the loaded rows; empty of a run of less than a turn of the inner ring.
+    pub kinematics: Vec<RowKinematics>,
     /// The films of rows with an oil, at the load and the speed that they are computed for.
     pub films: Vec<RaceFilm>,
     /// Largest step by which the method is stable and accurate in this scene \[s\]; `frequency_cap` keeps below it.

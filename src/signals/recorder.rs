@@ -11,6 +11,7 @@ use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
 use crate::inspect;
 use crate::integrate::{DenseStep, System};
+use crate::kinematics::Orbits;
 use crate::memory;
 use crate::model::Model;
 use crate::residual::Residual;
@@ -49,6 +50,7 @@ pub(crate) struct Recorder<'s> {
     dy: Vec<f64>,
     pub residual: Residual,
     pub watch: Watch,
+    pub orbits: Orbits,
     pub held: Held<'s>,
     pub slices: Vec<SliceRow>,
 }
@@ -90,6 +92,7 @@ impl<'s> Recorder<'s> {
             dy: Vec::new(),
             residual: Residual::default(),
             watch: Watch::new(model),
+            orbits: Orbits::default(),
             held: Held::new(probes.columns, count, sink),
             slices: Vec::new(),
         }
@@ -120,6 +123,7 @@ impl<'s> Recorder<'s> {
         (self.y, self.dy) = (start.to_vec(), vec![0.0; start.len()]);
         self.residual = Residual::new(dynamics);
         self.watch.prepare(dynamics, start);
+        self.orbits.prepare(start);
         self.open(0.0);
         Ok(())
     }
@@ -157,6 +161,7 @@ impl<'s> Recorder<'s> {
         // What the filter still sees beyond the end is no part of the run.
         if step.t0() * self.sampling.fs < self.held.count() as f64 {
             self.watch.step(dynamics, step);
+            self.orbits.step(dynamics, step);
         }
         self.open(step.t1());
         while self.grid.is_some() && self.grid_time() <= step.t1() && self.next <= self.last() {

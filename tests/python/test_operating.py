@@ -48,6 +48,7 @@ def test_of_a_run_the_cage_is_measured() -> None:
     turned = np.unwrap(np.arctan2(out["ball.y"], out["ball.x"]))
     rate = (turned[-1] - turned[0]) / (out.t[-1] - out.t[0]) / (2.0 * math.pi)
     assert found.ftf == pytest.approx(rate, rel=1e-3)
+    assert not any("went round" in text for text in out.warnings)
     assert found.bpfo == pytest.approx(9.0 * found.ftf)
     assert found.bpfi == pytest.approx(9.0 * (30.0 - found.ftf))
     assert found.slip is not None
@@ -79,6 +80,35 @@ def test_what_is_refused() -> None:
     with pytest.raises(br.SceneError, match="row"):
         br.fault_frequencies(scene, row=1)
     assert br.fault_frequencies(run_up, 600.0).shaft == 10.0
+
+
+def test_of_a_fast_run_lines_are_sought_where_its_balls_pass() -> None:
+    """Truth: the angles of the loaded balls, and the strongest line of a spall's envelope."""
+    scene = br.bearing(
+        "7205A5", radial_load=50.0, axial_load=400.0, speed_rpm=25_000.0,
+        defects=br.defects.spall(on="outer_race", width_mm=0.8, length_mm=2.0),
+    )  # fmt: skip
+    balls = {
+        f"ball{k}": MotionProbe(body=f"row0.ball{k}", components=("x", "y")) for k in range(12)
+    }
+    scene = replace(
+        scene, spin="free", friction=replace(scene.friction, slip_speed=0.02),
+        probes={**scene.probes, **balls},
+    )  # fmt: skip
+    with pytest.warns(br.SceneWarning, match="its balls went round at"):
+        out = br.simulate(scene, duration=0.1)
+    told, found = br.fault_frequencies(scene), br.fault_frequencies(out)
+    angles = (np.unwrap(np.arctan2(out[f"{ball}.y"], out[f"{ball}.x"])) for ball in balls)
+    turns = np.mean([angle[-1] - angle[0] for angle in angles]) / (2.0 * math.pi)
+    assert found.ftf == pytest.approx(turns / (out.t[-1] - out.t[0]), rel=2e-4)
+    assert found.ftf / told.ftf > 1.03
+    assert found.slip == pytest.approx(1.0 - found.ftf / told.ftf)
+    frequency, height = br.spectra.envelope_spectrum(out["outer.ay"], out.fs)
+    near = np.abs(frequency / told.bpfo - 1.0) < 0.1
+    strongest = frequency[near][np.argmax(height[near])]
+    assert strongest == pytest.approx(found.bpfo, rel=5e-3)
+    line = out.features(columns=["outer.ay"])["outer.ay.row0.bpfo_envelope"]
+    assert line == pytest.approx(height[near].max(), rel=0.2)
 
 
 # ------------------------------------------------------------------------------- defects

@@ -149,9 +149,10 @@ def campaign(
         (a ball's defect meets both races in a turn), the root of the sum of the squares of the first three
         harmonics (``.bpfo_harmonics``), and of the sidebands a shaft's frequency beside BPFI and a cage's beside
         2 BSF (``.bpfi_sidebands``, ``.2bsf_sidebands``); and all of these of the squared envelope,
-        ``outer.ay.row0.bpfo_envelope``, ``.bpfo_envelope_harmonics`` and so on. Where the given speed changes by
-        more than 2 %, lines are taken over the shaft's angle. A line that the record is too short for is empty,
-        and so are all under a torque drive.
+        ``outer.ay.row0.bpfo_envelope``, ``.bpfo_envelope_harmonics`` and so on. They are sought within 0.5 % of
+        where the balls of the run passed; of a run of less than a turn, within 2 % of nominal rolling. Where the
+        given speed changes by more than 2 %, lines are taken over the shaft's angle. A line that the record is too
+        short for is empty, and so are all under a torque drive.
     skip : float
         Beginning of each run that features leave out [s].
     band : tuple of two floats, optional

@@ -3,6 +3,7 @@
 use std::fmt::{Display, Formatter, Result};
 
 use super::Warning;
+use crate::kinematics::RowKinematics;
 use crate::simd::Distrust;
 use crate::told::duration;
 
@@ -34,6 +35,7 @@ impl Display for Warning {
             },
             Self::Unpassed { defect, duration } => unpassed(f, defect, *duration),
             Self::FreeOrbit { slowed } => free_orbit(f, *slowed),
+            Self::Kinematics(row) => kinematics(f, row),
         }
     }
 }
@@ -136,5 +138,20 @@ fn free_orbit(f: &mut Formatter<'_>, slowed: f64) -> Result {
          and fault frequencies moved with them. Give the scene a friction, or approximations.rolling, which keeps the \
          orbit kinematic",
         100.0 * slowed
+    )
+}
+
+fn kinematics(f: &mut Formatter<'_>, of: &RowKinematics) -> Result {
+    let ahead = of.ahead().unwrap_or(0.0);
+    write!(
+        f,
+        "row {}: its balls went round at {:.3} Hz, {:.1} % {} than rolling at the contact angle at rest tells, {:.3} Hz, and \
+         fault frequencies moved with them: contact angles part at high speed, balls spin and slip. Take \
+         fault_frequencies of the signals, as features do, not of the scene",
+        of.row,
+        of.cage,
+        100.0 * ahead.abs(),
+        if ahead > 0.0 { "faster" } else { "slower" },
+        of.rolling.unwrap_or(f64::NAN)
     )
 }

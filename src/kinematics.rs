@@ -1,0 +1,217 @@
+//! How fast the rows of a run went round and their balls turned, beside what rolling at the contact angles at rest tells.
+//!
+//! Lines of faults stand where balls really pass. Where balls run fast their contact angles part, they slip, and without
+//! race control they spin about an axis of their own: rolling at one mean angle, which is what tables of frequencies take,
+//! is then off by percents. A run knows better.
+
+use std::f64::consts::{PI, TAU};
+
+use serde::{Deserialize, Serialize};
+
+use crate::dynamics::Dynamics;
+use crate::equilibrium::{describe, positions};
+use crate::inspect;
+use crate::integrate::DenseStep;
+use crate::model::{BodyId, Model, Race};
+use crate::scene::{Drive, TimeFunction, kinematic_orders};
+
+/// Mean speeds of a row over a run \[Hz\], all in the positive sense about z.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct RowKinematics {
+    /// Row, from 0.
+    pub row: usize,
+    /// Of the inner ring.
+    pub inner: f64,
+    /// Of the outer ring.
+    pub outer: f64,
+    /// Of the balls around the axis: FTF, that of a cage. The mean over all balls of the row: as many of them pass an unloaded
+    /// place of a race as a loaded one.
+    pub cage: f64,
+    /// Of a ball about its own axis against the cage: BSF, or BSF/cos α of balls that spin about the bearing's axis only. Absent
+    /// where all balls of the row have a defect that tumbles.
+    pub spin: Option<f64>,
+    /// What [`Self::cage`] would be of balls that roll at the contact angle of the static equilibrium, as
+    /// [`crate::equilibrium()`] has it; absent where there is none, or the speed of the shaft changes.
+    pub rolling: Option<f64>,
+}
+
+impl RowKinematics {
+    /// FTF, BPFO, BPFI and BSF of so many balls, in turns of the inner ring; BSF absent with [`Self::spin`].
+    pub(crate) fn orders(&self, balls: usize) -> ([f64; 3], Option<f64>) {
+        let balls = balls as f64;
+        let orders = [
+            self.cage,
+            balls * (self.cage - self.outer),
+            balls * (self.inner - self.cage),
+        ];
+        let shaft = self.inner.abs();
+        (
+            orders.map(|f| f.abs() / shaft),
+            self.spin.map(|f| f / shaft),
+        )
+    }
+
+    /// How much faster the balls went round than rolling tells, as a share of that.
+    pub fn ahead(&self) -> Option<f64> {
+        self.rolling.map(|rolling| self.cage / rolling - 1.0)
+    }
+}
+
+/// How far balls may go between two looks \[rad\], and the longest time between them, since speeds change \[s\].
+const APART: f64 = 0.3;
+const LONGEST: f64 = 1e-3;
+/// Turns of the inner ring from which a run tells means.
+const TURNS: f64 = 1.0;
+
+/// Follows the balls of a run.
+#[derive(Default)]
+pub(crate) struct Orbits {
+    /// States of all bodies.
+    y: Vec<f64>,
+    /// When to look again \[s\].
+    next: f64,
+    /// Times of the first and the last look \[s\].
+    times: Option<[f64; 2]>,
+    /// Angles of the rings at the first and at the last look \[rad\].
+    rings: [[f64; 2]; 2],
+    balls: Vec<Ball>,
+}
+
+#[derive(Clone, Copy)]
+struct Ball {
+    /// Where it was seen last, and how far it has come since the first look \[rad\].
+    direction: f64,
+    advance: f64,
+    /// How fast it turned against the cage, and how far it has \[rad/s, rad\]; absent of one that tumbles.
+    spin: Option<f64>,
+    turned: f64,
+}
+
+impl Orbits {
+    /// For a run from a state of all bodies.
+    pub fn prepare(&mut self, start: &[f64]) {
+        self.y = start.to_vec();
+    }
+
+    /// An accepted step.
+    pub fn step(&mut self, dynamics: &Dynamics<'_>, step: &DenseStep<'_>) {
+        let t = step.t1();
+        if t < self.next {
+            return;
+        }
+        dynamics.expand(t, step.y1(), &mut self.y);
+        self.look(dynamics.model(), t);
+    }
+
+    fn look(&mut self, model: &Model, t: f64) {
+        let layout = model.layout();
+        let mut fastest = 0.0_f64;
+        let now = Race::BOTH.map(|race| layout.motion(&self.y, race.ring()).theta);
+        let [first, last] = self.times.unwrap_or([t, t]);
+        for j in 0..model.balls.len() {
+            let motion = layout.motion(&self.y, BodyId::ball(j));
+            let orbit = motion.orbit_speed();
+            fastest = fastest.max(orbit.abs());
+            let along = motion.omega - orbit;
+            let spin = motion
+                .attitude
+                .is_none()
+                .then(|| along.hypot(motion.across.norm()));
+            let direction = motion.direction();
+            let Some(ball) = self.balls.get_mut(j) else {
+                self.balls.push(Ball {
+                    direction,
+                    advance: 0.0,
+                    spin,
+                    turned: 0.0,
+                });
+                continue;
+            };
+            ball.advance += wrapped(direction - ball.direction);
+            ball.turned += 0.5 * (t - last) * (spin.unwrap_or(0.0) + ball.spin.unwrap_or(0.0));
+            (ball.direction, ball.spin) = (direction, spin);
+        }
+        self.rings[1] = now;
+        if self.times.is_none() {
+            self.rings[0] = now;
+        }
+        self.times = Some([first, t]);
+        self.next = t + (APART / fastest).min(LONGEST);
+    }
+
+    /// What the rows did whose balls drive at the end of the run; empty of a run of less than a turn.
+    pub fn told(&self, model: &Model) -> Vec<RowKinematics> {
+        let Some([first, last]) = self.times else {
+            return Vec::new();
+        };
+        let rate = |angle: f64| angle / (TAU * (last - first));
+        let [before, after] = self.rings;
+        let [outer, inner] = Race::BOTH.map(|race| after[race] - before[race]);
+        if !(inner.abs() >= TURNS * TAU) {
+            return Vec::new();
+        }
+        let steady = matches!(model.scene().drive, Drive::Speed(TimeFunction::Constant(_)));
+        let angles = if steady {
+            contact_angles(model)
+        } else {
+            Vec::new()
+        };
+        let rows = model.rows.iter().enumerate();
+        rows.filter(|(_, row)| {
+            row.balls()
+                .any(|j| inspect::contact(model, &self.y, j, Race::Inner).load > 0.0)
+        })
+        .map(|(at, row)| {
+            let balls = || row.balls().map(|j| &self.balls[j]);
+            let mean = |sum: f64, count: usize| rate(sum / count as f64);
+            let seen = balls().filter(|ball| ball.spin.is_some());
+            let of = &model.scene().rows[at];
+            let rolling = angles.get(at).copied().flatten().map(|angle| {
+                let [ftf, ..] = kinematic_orders(
+                    of.ball_count as f64,
+                    of.ball_diameter,
+                    of.pitch_diameter,
+                    angle,
+                );
+                rate(outer + ftf * (inner - outer))
+            });
+            RowKinematics {
+                row: at,
+                inner: rate(inner),
+                outer: rate(outer),
+                cage: mean(balls().map(|ball| ball.advance).sum(), of.ball_count),
+                spin: (seen.clone().count() > 0)
+                    .then(|| mean(seen.clone().map(|ball| ball.turned).sum(), seen.count())),
+                rolling,
+            }
+        })
+        .collect()
+    }
+}
+
+/// The contact angle of each row at rest: the mean of both races, weighted with the loads \[rad\]. Absent of a row whose inner
+/// contacts carry nothing, so that nothing drives it; empty without an equilibrium.
+pub(crate) fn contact_angles(model: &Model) -> Vec<Option<f64>> {
+    let Ok(y) = positions(model) else {
+        return Vec::new();
+    };
+    let found = describe(model, &y, 0);
+    let of = |row: usize| {
+        let balls = || found.balls.iter().filter(move |ball| ball.row == row);
+        balls().any(|ball| ball.inner.load > 0.0).then(|| {
+            let contacts = balls().flat_map(|ball| [&ball.outer, &ball.inner]);
+            let (sum, loads) = contacts.fold((0.0, 0.0), |(sum, loads), contact| {
+                let angle = contact.angle.map_or(0.0, f64::abs);
+                (sum + contact.load * angle, loads + contact.load)
+            });
+            sum / loads
+        })
+    };
+    (0..model.rows.len()).map(of).collect()
+}
+
+/// An angle in (−π, π].
+fn wrapped(angle: f64) -> f64 {
+    angle - TAU * ((angle - PI) / TAU).ceil()
+}
