@@ -8,12 +8,14 @@ use std::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
+use crate::contact::Motion;
 use crate::dynamics::Dynamics;
-use crate::equilibrium::{describe, positions};
+use crate::error::Result;
 use crate::inspect;
 use crate::integrate::DenseStep;
-use crate::model::{BodyId, Model, Race};
-use crate::scene::{Drive, TimeFunction, kinematic_orders};
+use crate::model::{BodyId, Model, Race, RowModel};
+use crate::scene::{Drive, TimeFunction};
+use crate::start::{Start, start};
 
 /// Mean speeds of a row over a run \[Hz\], all in the positive sense about z.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -31,8 +33,8 @@ pub struct RowKinematics {
     /// Of a ball about its own axis against the cage: BSF, or BSF/cos α of balls that spin about the bearing's axis only. Absent
     /// where all balls of the row have a defect that tumbles.
     pub spin: Option<f64>,
-    /// What [`Self::cage`] would be of balls that roll at the contact angle of the static equilibrium, as
-    /// [`crate::equilibrium()`] has it; absent where there is none, or the speed of the shaft changes.
+    /// What [`Self::cage`] would be of balls that roll at the contact angles of the static equilibrium; absent where there is
+    /// none, where nothing loads the row at rest, or where the speed of the shaft changes.
     pub rolling: Option<f64>,
 }
 
@@ -113,11 +115,7 @@ impl Orbits {
             let motion = layout.motion(&self.y, BodyId::ball(j));
             let orbit = motion.orbit_speed();
             fastest = fastest.max(orbit.abs());
-            let along = motion.omega - orbit;
-            let spin = motion
-                .attitude
-                .is_none()
-                .then(|| along.hypot(motion.across.norm()));
+            let spin = motion.attitude.is_none().then(|| against(&motion, orbit));
             let direction = motion.direction();
             let Some(ball) = self.balls.get_mut(j) else {
                 self.balls.push(Ball {
@@ -152,11 +150,7 @@ impl Orbits {
             return Vec::new();
         }
         let steady = matches!(model.scene().drive, Drive::Speed(TimeFunction::Constant(_)));
-        let angles = if steady {
-            contact_angles(model)
-        } else {
-            Vec::new()
-        };
+        let rolling = if steady { rolling(model).ok() } else { None };
         let rows = model.rows.iter().enumerate();
         rows.filter(|(_, row)| {
             row.balls()
@@ -167,15 +161,6 @@ impl Orbits {
             let mean = |sum: f64, count: usize| rate(sum / count as f64);
             let seen = balls().filter(|ball| ball.spin.is_some());
             let of = &model.scene().rows[at];
-            let rolling = angles.get(at).copied().flatten().map(|angle| {
-                let [ftf, ..] = kinematic_orders(
-                    of.ball_count as f64,
-                    of.ball_diameter,
-                    of.pitch_diameter,
-                    angle,
-                );
-                rate(outer + ftf * (inner - outer))
-            });
             RowKinematics {
                 row: at,
                 inner: rate(inner),
@@ -183,32 +168,61 @@ impl Orbits {
                 cage: mean(balls().map(|ball| ball.advance).sum(), of.ball_count),
                 spin: (seen.clone().count() > 0)
                     .then(|| mean(seen.clone().map(|ball| ball.turned).sum(), seen.count())),
-                rolling,
+                rolling: rolling.as_ref().and_then(|all| Some(all[at]?.cage)),
             }
         })
         .collect()
     }
 }
 
-/// The contact angle of each row at rest: the mean of both races, weighted with the loads \[rad\]. Absent of a row whose inner
-/// contacts carry nothing, so that nothing drives it; empty without an equilibrium.
-pub(crate) fn contact_angles(model: &Model) -> Vec<Option<f64>> {
-    let Ok(y) = positions(model) else {
-        return Vec::new();
-    };
-    let found = describe(model, &y, 0);
-    let of = |row: usize| {
-        let balls = || found.balls.iter().filter(move |ball| ball.row == row);
-        balls().any(|ball| ball.inner.load > 0.0).then(|| {
-            let contacts = balls().flat_map(|ball| [&ball.outer, &ball.inner]);
-            let (sum, loads) = contacts.fold((0.0, 0.0), |(sum, loads), contact| {
-                let angle = contact.angle.map_or(0.0, f64::abs);
-                (sum + contact.load * angle, loads + contact.load)
-            });
-            sum / loads
-        })
-    };
-    (0..model.rows.len()).map(of).collect()
+/// How a row rolls at the contact angles of the static equilibrium, each race at its own.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RowRolling {
+    /// Mean contact angle of both races, weighted with the loads \[rad\].
+    pub angle: f64,
+    /// Orbit of the balls \[Hz\].
+    pub cage: f64,
+    /// Mean turns of the loaded balls against it \[Hz\].
+    pub spin: f64,
+}
+
+/// How each row rolls that is loaded, by the equations of section 13.5 as a run starts: balls that spin about the axis only at
+/// both contact angles, balls that spin freely about the axis to which pivoting friction brings them. Absent of a row whose inner
+/// contacts carry nothing, so that nothing drives it.
+///
+/// # Errors
+/// As [`start()`].
+pub fn rolling(model: &Model) -> Result<Vec<Option<RowRolling>>> {
+    let y = start(model, &Start::Equilibrium)?;
+    Ok(model.rows.iter().map(|row| rolls(model, row, &y)).collect())
+}
+
+fn rolls(model: &Model, row: &RowModel, y: &[f64]) -> Option<RowRolling> {
+    let (mut angle, mut spin, mut loads, mut both) = (0.0, 0.0, 0.0, 0.0);
+    let (mut orbit, mut drives) = (0.0, false);
+    for j in row.balls() {
+        let [outer, inner] = Race::BOTH.map(|race| inspect::contact(model, y, j, race));
+        for contact in [&outer, &inner].into_iter().filter(|of| of.load > 0.0) {
+            angle += contact.load * contact.angle.abs();
+            loads += contact.load;
+        }
+        let motion = model.layout().motion(y, BodyId::ball(j));
+        orbit = motion.orbit_speed();
+        let least = outer.load.min(inner.load);
+        spin += least * against(&motion, orbit);
+        both += least;
+        drives |= inner.load > 0.0;
+    }
+    (drives && both > 0.0).then(|| RowRolling {
+        angle: angle / loads,
+        cage: orbit / TAU,
+        spin: spin / (both * TAU),
+    })
+}
+
+/// How fast a ball turns against its orbit \[rad/s\].
+fn against(motion: &Motion, orbit: f64) -> f64 {
+    (motion.omega - orbit).hypot(motion.across.norm())
 }
 
 /// An angle in (−π, π].

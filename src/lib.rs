@@ -46,6 +46,7 @@
 //!   control, dense output. Knows no bearings.
 //! * `equilibrium` ([`equilibrium()`], [`stiffness()`], [`load_distribution()`]) — the static solve and what follows
 //!   from it, the places of defects among it; `start` ([`start()`]) — how a run begins.
+//! * `kinematics` ([`RowKinematics`]) — how fast the balls of a run went round and spun, and how they would roll at rest.
 //! * `touched` ([`Touched`]) — which defects balls met in a run, and what their contacts carried there.
 //! * `signals` ([`Signals`]) — probes read from the dense output on a uniform grid, through a low-pass ([`Bandwidth`]);
 //!   kept whole, or handed over in blocks ([`Block`]); reasons to look twice at them ([`Warning`]).
@@ -144,6 +145,7 @@ pub mod bindings {
     pub use crate::features::lubrication::columns as lubrication_columns;
     pub use crate::features::transform::{amplitudes, hann_weighted, squared_envelope};
     pub use crate::features::{Recorded, check as check_features, check_recorded, features_of};
+    pub use crate::kinematics::{RowRolling, rolling};
     pub use crate::memory::{available, within};
     pub use crate::model::layout_of;
     pub use crate::pool::STACK;

@@ -3,8 +3,8 @@
 Where the outer ring stands still and the balls roll, the load alone moves the frequencies from the nominal
 ones: thrust opens the contact angle, which raises BPFO and lowers BPFI. Slip makes the cage slower than rolling
 would, lowers BPFO and raises BPFI. At high speed the contact angles of both races part and balls spin about an
-axis of their own, which makes it faster by percents: negative slip. A scene tells of rolling at one angle, at
-rest; a run measures its own.
+axis of their own, which makes it faster by percents. A scene tells of rolling at both angles, about the axis to
+which pivoting friction brings the balls where they spin freely; a run measures its own.
 """
 
 from __future__ import annotations
@@ -15,13 +15,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from . import frequencies
+from . import _core, frequencies
 from ._numbers import real
 from .bearings import Bearing, catalogue
 from .errors import SceneError
 from .scene import MotionProbe, Scene, SpeedDrive
 from .signals import Signals
-from .statics import equilibrium
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -78,9 +77,10 @@ def fault_frequencies(
     ----------
     of : str, Bearing, Scene or Signals
         A designation of the catalogue or a bearing of it: at the nominal contact angle, since no load is given. A
-        scene: of balls that roll at the contact angle under its load, at rest. Signals of a run of a turn and
-        more: the means that the run measured, of the cage by all balls of the row, and of the spin where balls
-        spin freely. Of older files by a probe that records the motion of a ball of the row.
+        scene: of balls that roll at the contact angles of both races under its load and centrifugal forces, where
+        they spin freely about an axis between those of control by either race (Jones, Harris). Signals of a run of
+        a turn and more: the means that the run measured, of the cage by all balls of the row, and of the spin
+        where balls spin freely. Of older files by a probe that records the motion of a ball of the row.
     speed_rpm : float, optional
         Speed of the inner ring [rev/min]; by default that of the scene, if it is given and constant.
     row : int
@@ -128,8 +128,7 @@ def fault_frequencies(
         shaft = did["inner"] if did is not None else _constant_speed(scene)
     if not operating:
         return _rolling(scene.rows[row], scene.rows[row].contact_angle, shaft)
-    driven = replace(scene, drive=SpeedDrive(2.0 * math.pi * shaft))
-    found = _rolling(scene.rows[row], operating_angle(driven, row), shaft)
+    found = _under_load(scene, row, shaft)
     if not isinstance(of, Signals):
         return found
     if did is not None:
@@ -143,15 +142,27 @@ def operating_angle(scene: Scene, row: int = 0) -> float:
 
     Without load it is the nominal one.
     """
-    found = equilibrium(scene)
-    of_row = found.row == row
-    loads = np.concatenate([found.outer_load[of_row], found.inner_load[of_row]])
-    angles = np.abs(np.concatenate([found.outer_angle[of_row], found.inner_angle[of_row]]))
-    loaded = loads > 0.0
+    found = _core.rolling(scene._document())[row]
     # Where balls only touch the outer race, thrown there, nothing drives them.
-    if not (found.inner_load[of_row] > 0.0).any():
-        return scene.rows[row].contact_angle
-    return float(np.average(angles[loaded], weights=loads[loaded]))
+    return scene.rows[row].contact_angle if found is None else found[0]
+
+
+def _under_load(scene: Scene, row: int, shaft: float) -> FaultFrequencies:
+    """Return the frequencies of balls that roll at the contact angles of both races at a shaft's speed [Hz]."""
+    driven = replace(scene, drive=SpeedDrive(2.0 * math.pi * shaft))
+    found = _core.rolling(driven._document())[row]
+    if found is None:
+        return _rolling(scene.rows[row], scene.rows[row].contact_angle, shaft)
+    angle, cage, spin = found
+    balls = scene.rows[row].ball_count
+    return FaultFrequencies(
+        shaft=shaft,
+        ftf=cage,
+        bpfo=balls * cage,
+        bpfi=balls * (shaft - cage),
+        bsf=math.copysign(spin if scene.spin == "free" else spin * math.cos(angle), shaft),
+        contact_angle=angle,
+    )
 
 
 def cage_frequency(out: Signals, row: int = 0) -> float | None:

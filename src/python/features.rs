@@ -9,8 +9,8 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use super::errors::OrRaise;
-use ballrace::bindings::{self, Recorded, check_recorded, features_of};
 use ballrace::RowKinematics;
+use ballrace::bindings::{self, Recorded, check_recorded, features_of};
 use ballrace::scene::kinematic_orders;
 use ballrace::{Error, Feature, FeatureOptions, Scene};
 

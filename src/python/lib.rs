@@ -35,5 +35,5 @@ mod _core {
         scene_to_toml,
     };
     #[pymodule_export]
-    use super::statics::{equilibrium, load_distribution, placed, stiffness};
+    use super::statics::{equilibrium, load_distribution, placed, rolling, stiffness};
 }

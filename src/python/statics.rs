@@ -6,7 +6,7 @@ use pyo3::types::PyDict;
 
 use super::answer::answering;
 use super::errors::to_json;
-use ballrace::bindings::place;
+use ballrace::bindings::{RowRolling, place, rolling};
 use ballrace::{BallEquilibrium, EquivalentLoads};
 use ballrace::{Equilibrium, Scene};
 
@@ -77,6 +77,15 @@ pub(super) fn stiffness<'py>(py: Python<'py>, scene: &str) -> PyResult<Bound<'py
 #[pyfunction]
 pub(super) fn placed(py: Python<'_>, scene: &str) -> PyResult<String> {
     solved(py, scene, |scene| Ok(place(scene)?.0.to_json()))
+}
+
+/// How the rows of a scene roll: each with its mean contact angle \[rad\], the turns of its balls around and of a ball against that
+/// \[Hz\]; none where nothing drives a row.
+#[pyfunction]
+pub(super) fn rolling(py: Python<'_>, scene: &str) -> PyResult<Vec<Option<(f64, f64, f64)>>> {
+    let found = solved(py, scene, |scene| rolling(&ballrace::compile(scene)?))?;
+    let told = |of: RowRolling| (of.angle, of.cage, of.spin);
+    Ok(found.into_iter().map(|row| row.map(told)).collect())
 }
 
 /// Loads at so many positions of the cage per pitch.

@@ -31,7 +31,13 @@ def test_thrust_opens_the_angle_and_moves_them_as_kinematics_says() -> None:
     )
     assert math.degrees(found.contact_angle) > 10.0
     gamma = 7.94 / 39.04 * math.cos(found.contact_angle)
-    assert found.bpfo == pytest.approx(4.5 * 10.0 * (1.0 - gamma), rel=1e-9)
+    # But for the centres, which stand some micrometres outside the pitch circle.
+    assert found.bpfo == pytest.approx(4.5 * 10.0 * (1.0 - gamma), rel=3e-4)
+    outer, inner = np.mean(eq.outer_angle), np.mean(eq.inner_angle)
+    levers = [0.5 * 7.94e-3 * math.cos(angle) for angle in (outer, inner)]
+    r = float(np.mean(eq.radius))
+    rolling = (r - levers[1]) / (r * (1.0 + levers[1] / levers[0]))
+    assert found.ftf == pytest.approx(10.0 * rolling, rel=1e-6)
     nominal = br.fault_frequencies(scene, operating=False)
     assert nominal.contact_angle == 0.0
     assert found.bpfo > nominal.bpfo
@@ -80,6 +86,24 @@ def test_what_is_refused() -> None:
     with pytest.raises(br.SceneError, match="row"):
         br.fault_frequencies(scene, row=1)
     assert br.fault_frequencies(run_up, 600.0).shaft == 10.0
+
+
+def test_fast_balls_roll_at_two_angles_about_an_axis_of_their_own() -> None:
+    """Truth: Jones and Harris. A ball rolls between control by either race; one that spins about z is ahead."""
+    scene = br.bearing("7218B", radial_load=0.0, axial_load=17_800.0, speed_rpm=10_000.0)
+    free = replace(scene, spin="free")
+    eq, found = br.equilibrium(free), br.fault_frequencies(free)
+    outer, inner = float(np.mean(eq.outer_angle)), float(np.mean(eq.inner_angle))
+    gamma = scene.rows[0].ball_diameter / (2.0 * float(np.mean(eq.radius)))
+    both = 1.0 + math.cos(inner - outer)
+    by_outer = (1.0 - gamma * math.cos(inner)) / both
+    by_inner = (math.cos(inner - outer) - gamma * math.cos(outer)) / both
+    assert by_outer > 1.02 * by_inner
+    assert by_inner < found.orders.ftf < by_outer
+    angles = np.concatenate([eq.outer_angle, eq.inner_angle])
+    loads = np.concatenate([eq.outer_load, eq.inner_load])
+    assert found.contact_angle == pytest.approx(np.average(angles, weights=loads), rel=1e-3)
+    assert br.fault_frequencies(scene).orders.ftf > by_outer
 
 
 def test_of_a_fast_run_lines_are_sought_where_its_balls_pass() -> None:

@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sources::{Source, all, code, test_files, word};
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 27] = [
+const ORDER: [&str; 28] = [
     "told",
     "error",
     "memory",
@@ -34,6 +34,7 @@ const ORDER: [&str; 27] = [
     "pool",
     "residual",
     "touched",
+    "kinematics",
     "selftest",
     "signals",
     "run",
