@@ -6,7 +6,7 @@ use pyo3::types::PyDict;
 
 use super::answer::answering;
 use super::errors::to_json;
-use ballrace::bindings::{RowRolling, place, rolling};
+use ballrace::bindings::{self, RowRolling, place};
 use ballrace::{BallEquilibrium, EquivalentLoads};
 use ballrace::{Equilibrium, Scene};
 
