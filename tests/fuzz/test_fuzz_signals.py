@@ -245,7 +245,7 @@ CHAINS = st.builds(
     housing=st.booleans(),
     fs=st.sampled_from((12_000.0, 1000.0, 100.0)),
     bits=st.sampled_from((8, 16, 24)),
-    reach=st.sampled_from((1e-3, 50.0, 1e6)),
+    reach=st.sampled_from((1e-3, 50.0, 1e6, None)),
     density=st.sampled_from((0.0, 1e-3)),
 )
 

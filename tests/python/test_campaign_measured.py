@@ -64,6 +64,28 @@ def test_windows_are_cut_from_the_measurement(done: br.Campaign) -> None:
     assert np.array_equal(row["x"], first.x[64:128])
 
 
+def test_what_clips_is_told_once_and_in_the_manifest(done: br.Campaign) -> None:
+    """Limit: a range of a tenth of what the signal reaches clips, one that fits it does not."""
+    again = br.Campaign.open(done.folder)
+    assert "measured_clipped" not in again.manifest.columns
+    fitting = again.measure(m.Chain(logger=m.Logger(bits=16)))
+    assert (fitting["clipped"] == 0.0).all()
+    assert (fitting["range"] >= fitting["sensor.peak"]).all()
+    assert (again.manifest["measured_clipped"] == 0.0).all()
+    small = m.Logger(range=0.1 * float(fitting["range"].min()), bits=16)  # type: ignore[arg-type]
+    chains = {"fits": m.Chain(logger=m.Logger(bits=16)), "clips": m.Chain(logger=small)}
+    with pytest.warns(br.AccuracyWarning, match="2 of 4 measurements") as told:
+        table = again.windows(chains, 64)
+    assert len(told) == 1
+    assert set(table.filter(chain="clips")["range"]) == {small.range}
+    clipped = again.manifest["measured_clipped"]
+    assert (clipped > 1e-3).all()
+    assert (
+        clipped.to_list()
+        == table.filter(chain="clips")["clipped"].unique(maintain_order=True).to_list()
+    )
+
+
 def test_some_chains_for_each_case(done: br.Campaign) -> None:
     table = done.measure(list(CHAINS.values()), seed=3, per_case=2)
     assert table.height == 4

@@ -166,6 +166,7 @@ def test_the_table_of_columns_is_whole(tmp_path: Path) -> None:
         [{"loads.radial.force": 800.0}], tmp_path, scene=scene, duration=0.02, keep="signals",
         contact_loads=True, columns=["outer.ay"], progress=False,
     )  # fmt: skip
+    done.measure(br.measuring.Chain(logger=br.measuring.Logger()))
     names = {"t", *out.names, *done.manifest.columns} - {"loads.radial.force"}
     for name in names:
         units = {unit for pattern, unit in told if pattern.fullmatch(name)}

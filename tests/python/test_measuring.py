@@ -130,6 +130,7 @@ def test_of_a_run_it_is_that_of_the_recorded_columns() -> None:
 def test_without_a_stage_the_numbers_stay() -> None:
     x = np.random.default_rng(3).standard_normal(100)
     measured = br.measure(x, fs=FS)
+    assert measured.range is None
     assert np.array_equal(measured.x, x)
     assert measured.x is not x
     assert measured.fs == FS
@@ -140,11 +141,36 @@ def test_without_a_stage_the_numbers_stay() -> None:
 
 
 def test_clipping() -> None:
-    measured = br.measure(sine(100.0), m.Chain(logger=m.Logger(range=0.5)), fs=FS)
+    with pytest.warns(br.AccuracyWarning, match=r"67 % of the samples .* range of ±0.5 m/s²"):
+        measured = br.measure(sine(100.0), m.Chain(logger=m.Logger(range=0.5)), fs=FS)
     assert measured.x.max() == 0.5
     assert measured.x.min() == -0.5
     # The sine is above one half for two thirds of the time.
     assert measured.clipped == pytest.approx(2.0 / 3.0, abs=2e-3)
+    assert "range ±0.5 m/s^2, 67 % clipped" in repr(measured)
+    # A sample in a thousand is no reason to warn.
+    once = np.zeros(1000)
+    once[7] = 2.0
+    assert br.measure(once, fs=FS, logger=m.Logger(range=1.0)).clipped == 1e-3
+
+
+@pytest.mark.parametrize(
+    ("peak", "bits", "reach"),
+    [(0.9, None, 1.0), (1.0, 16, 2.0), (1.0, None, 1.0), (31.0, 16, 50.0), (720.0, 12, 1000.0),
+     (3e-4, 8, 5e-4), (6e5, 24, 1e6), (1e3, 2, 2000.0)],
+)  # fmt: skip
+def test_by_default_the_range_fits_the_signal(peak: float, bits: int | None, reach: float) -> None:
+    """Limit: what is measured differs from the signal by half a step, at the peaks too, and nothing is clipped."""
+    x = peak * sine(100.0)
+    measured = br.measure(x, fs=FS, logger=m.Logger(bits=bits))
+    assert (measured.range, measured.clipped) == (reach, 0.0)
+    step = 0.0 if bits is None else 2.0 * reach / 2**bits
+    assert np.abs(measured.x - x).max() <= 0.5 * step * (1.0 + 1e-9)
+    assert f"range ±{reach:g} m/s^2>" in repr(measured)
+
+
+def test_silence_has_a_range_too() -> None:
+    assert not br.measure(np.zeros(10), fs=FS, logger=m.Logger(bits=16)).x.any()
 
 
 def test_quantisation_has_its_step_and_the_noise_of_its_step() -> None:
@@ -161,7 +187,8 @@ def test_quantisation_has_its_step_and_the_noise_of_its_step() -> None:
 
 def test_the_converters_range_has_one_code_more_below() -> None:
     logger = m.Logger(range=1.0, bits=3)
-    found = br.measure(np.array([-5.0, 5.0]), m.Chain(logger=logger), fs=FS).x
+    with pytest.warns(br.AccuracyWarning):
+        found = br.measure(np.array([-5.0, 5.0]), m.Chain(logger=logger), fs=FS).x
     assert found.tolist() == [-1.0, 0.75]
 
 
@@ -328,7 +355,7 @@ def test_random_housings_differ_by_their_seeds() -> None:
         (lambda: m.Sensor(resonance=-1.0), "sensor.resonance"),
         (lambda: m.Machine(noise_density=-1.0), "machine.noise_density"),
         (lambda: m.Machine(shaft=(math.nan,)), "machine.shaft"),
-        (lambda: m.Logger(bits=16), "logger.range"),
+        (lambda: m.Logger(range=0.0), "logger.range"),
         (lambda: m.Logger(bits=1, range=1.0), "logger.bits"),
         (lambda: m.Tacho(pulses=0), "tacho.pulses"),
         (lambda: m.Chain(housing=m.Sensor()), "housing"),  # type: ignore[arg-type]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -10,8 +11,9 @@ import numpy as np
 
 from .._features import features
 from .._numbers import real
-from ..errors import SceneError
-from ..measuring import Measurement, measure
+from ..errors import AccuracyWarning, SceneError
+from ..measuring.chain import CLIPPED, Measurement
+from ..measuring.chain import measured as by_chain
 from ..measuring.tables import Chains, named_chains
 from ..scene import Scene
 from ..signals import Signals
@@ -51,6 +53,7 @@ class Measured:
             "chain": self.chain,
             "seed": found.seed,
             "sampling_rate": found.fs,
+            "range": found.range,
             "clipped": found.clipped,
         }
 
@@ -58,7 +61,7 @@ class Measured:
 def measured(
     runs: Iterator[tuple[str, Signals]], chains: Chains, *, seed: int, per_case: int | None
 ) -> Iterator[Measured]:
-    """Measure runs, each with the id of its case, with every chain or some of them.
+    """Measure runs, each with the id of its case, with every chain or some of them; warn once of those that clip.
 
     Raises
     ------
@@ -68,11 +71,21 @@ def measured(
     named = named_chains(chains)
     if per_case is not None and not 1 <= real(per_case) <= len(named):
         raise SceneError("per_case", repr(per_case), f"None, or 1 to {len(named)}, the chains")
+    count, clipped = 0, []
     for case_id, out in runs:
         for name in _drawn(list(named), per_case, f"{seed}/{case_id}"):
             own = _number(f"{seed}/{case_id}/{name}")
-            found = measure(out, named[name], seed=own)
+            found = by_chain(out, named[name], seed=own)
+            count += 1
+            clipped += [found.clipped] if found.clipped > CLIPPED else []
             yield Measured(case_id=case_id, chain=name, scene=out.scene, measurement=found)
+    if clipped:
+        text = (
+            f"{len(clipped)} of {count} measurements have more than 0.1 % of their samples clipped, up to "
+            f"{100.0 * max(clipped):.2g} %: their levels and lines are too small; leave out logger.range, and it "
+            "fits each signal"
+        )
+        warnings.warn(text, AccuracyWarning, stacklevel=2)
 
 
 def features_table(

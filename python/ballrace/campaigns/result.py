@@ -36,6 +36,7 @@ class Campaign:
     def __init__(self, store: Store) -> None:
         self._store = store
         self._cases = store.read_table("cases.parquet")
+        self._clipped: dict[str, float] = {}
 
     @classmethod
     def open(cls, folder: str | os.PathLike[str]) -> Campaign:
@@ -57,7 +58,7 @@ class Campaign:
     def _results(self) -> pl.DataFrame:
         return self._store.results()
 
-    @cached_property
+    @property
     def manifest(self) -> pl.DataFrame:
         """One row a case, in the order of the table.
 
@@ -71,8 +72,21 @@ class Campaign:
         ``signals``: the shard that holds them; the features (see :func:`ballrace.campaign`); and of every defect
         with a width, such as ``defects.spall``: ``.placed_at``, its axial place [m], ``.passes`` of balls,
         ``.touched``, the share of them in which a contact was loaded within it, and its ``.largest_load`` [N]
-        (see :class:`ballrace.Touched`).
+        (see :class:`ballrace.Touched`). Once signals have been measured (:meth:`measure`, :meth:`windows`),
+        ``measured_clipped``: the largest share of the samples of a case that was beyond the range of a logger.
         """
+        from .._polars import pl
+
+        if not self._clipped:
+            return self._finished
+        shares = {"case_id": list(self._clipped), "measured_clipped": list(self._clipped.values())}
+        return self._finished.join(
+            pl.DataFrame(shares), on="case_id", how="left", maintain_order="left"
+        )
+
+    @cached_property
+    def _finished(self) -> pl.DataFrame:
+        """The manifest as it is written."""
         from .._polars import pl
 
         results = self._results
@@ -139,7 +153,7 @@ class Campaign:
         """
         from .._polars import pl
 
-        row = self.manifest.filter(pl.col("case_id") == case_id, pl.col("signals").is_not_null())
+        row = self._finished.filter(pl.col("case_id") == case_id, pl.col("signals").is_not_null())
         if row.is_empty():
             raise KeyError(f"no case {case_id!r} with signals")
         shard = pl.scan_parquet(self._store.signals(row["signals"][0]), glob=False)
@@ -206,9 +220,12 @@ class Campaign:
         SceneError
             An argument is not usable, or a column was not recorded.
         """
-        kept = self.manifest.drop_nulls("signals")["case_id"].unique(maintain_order=True)
+        kept = self._finished.drop_nulls("signals")["case_id"].unique(maintain_order=True)
         runs = ((case_id, self.run_of(case_id)) for case_id in kept)
-        return measured(runs, chains, seed=seed, per_case=per_case)
+        for line in measured(runs, chains, seed=seed, per_case=per_case):
+            before = self._clipped.get(line.case_id, 0.0)
+            self._clipped[line.case_id] = max(before, line.measurement.clipped)
+            yield line
 
     def measure(
         self,
@@ -234,8 +251,8 @@ class Campaign:
         Returns
         -------
         DataFrame
-            ``case_id``, ``chain``, ``seed``, ``sampling_rate`` [Hz], ``clipped`` and the features
-            ``sensor.rms``, ….
+            ``case_id``, ``chain``, ``seed``, ``sampling_rate`` [Hz], ``range`` [m/s²] and ``clipped`` as of a
+            :class:`~ballrace.measuring.Measurement`, and the features ``sensor.rms``, ….
 
         Raises
         ------
@@ -266,8 +283,8 @@ class Campaign:
         Returns
         -------
         DataFrame
-            ``case_id``, ``chain``, ``seed``, ``sampling_rate`` [Hz], ``clipped`` (of the whole measurement),
-            ``start`` of the window [s] and ``x``, an array of ``length`` [m/s²].
+            ``case_id``, ``chain``, ``seed``, ``sampling_rate`` [Hz], ``range`` [m/s²] and ``clipped`` (of the
+            whole measurement), ``start`` of the window [s] and ``x``, an array of ``length`` [m/s²].
 
         Raises
         ------

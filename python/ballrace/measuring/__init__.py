@@ -9,7 +9,7 @@ seed, a stage at a time: leaving one out does not change the noise of another.
 >>> chain = br.measuring.Chain(
 ...     housing=br.measuring.Housing(modes=(mode,), direct=0.5),
 ...     machine=br.measuring.Machine(noise_density=1e-3, shaft=(0.2, 0.1)),
-...     logger=br.measuring.Logger(fs=12_000.0, range=50.0, bits=16),
+...     logger=br.measuring.Logger(fs=12_000.0, bits=16),
 ... )
 >>> out = br.simulate(br.bearing("6205", speed_rpm=1797.0), duration=0.02)
 >>> measured = br.measure(out, chain, seed=1)

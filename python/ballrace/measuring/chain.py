@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import SceneError
+from ..errors import AccuracyWarning, SceneError
 from ..signals import Signals
 from .housing import AnyHousing, Housing, ImpulseResponse, MeasuredResponse
 from .linear import passed
@@ -22,7 +23,10 @@ from .tacho import Tacho
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-__all__ = ["Chain", "Measurement", "measure"]
+__all__ = ["CLIPPED", "Chain", "Measurement", "measure", "measured"]
+
+CLIPPED = 1e-3
+"""Share of clipped samples above which there is a warning."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,8 +109,10 @@ class Measurement:
         Unit of ``x``.
     pulses : ndarray, shape (n_pulses,)
         Times of the tachometer's pulses [s]; empty without one.
+    range : float or None
+        Range of the logger [m/s²], given or chosen; None without a logger.
     clipped : float
-        Share of the samples that were beyond the range.
+        Share of the samples that were beyond it; above 0.1 % :func:`ballrace.measure` warns.
     chain : Chain
         What was applied.
     seed : int
@@ -118,13 +124,16 @@ class Measurement:
     start: float = 0.0
     unit: str = "m/s^2"
     pulses: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
+    range: float | None = None
     clipped: float = 0.0
     chain: Chain = Chain()
     seed: int = 0
 
     def __repr__(self) -> str:
         by = ", ".join(self.chain.stages) or "no stage"
-        return f"<Measurement of {self.x.size} samples at {self.fs:g} Hz by {by}>"
+        reach = "" if self.range is None else f", range ±{self.range:g} {self.unit}"
+        clipped = f", {100.0 * self.clipped:.2g} % clipped" if self.clipped > 0.0 else ""
+        return f"<Measurement of {self.x.size} samples at {self.fs:g} Hz by {by}{reach}{clipped}>"
 
     @property
     def t(self) -> NDArray[np.float64]:
@@ -175,14 +184,38 @@ def measure(
     SceneError
         An argument is not usable, or a column was not recorded.
 
+    Warns
+    -----
+    AccuracyWarning
+        More than 0.1 % of the samples lie beyond the range that the logger was given.
+
     Examples
     --------
     >>> import ballrace as br, numpy as np
-    >>> x = np.sin(2 * np.pi * 100.0 * np.arange(5000) / 50_000.0)
-    >>> measured = br.measure(x, fs=50_000.0, logger=br.measuring.Logger(range=0.5))
-    >>> measured.x.max(), round(measured.clipped, 2)
-    (np.float64(0.5), 0.67)
+    >>> x = 30.0 * np.sin(2 * np.pi * 100.0 * np.arange(5000) / 50_000.0)
+    >>> br.measure(x, fs=50_000.0, logger=br.measuring.Logger(bits=16))
+    <Measurement of 5000 samples at 50000 Hz by logger, range ±50 m/s^2>
     """
+    found = measured(of, chain, fs=fs, shaft=shaft, seed=seed, **stages)
+    if found.clipped > CLIPPED:
+        text = (
+            f"{100.0 * found.clipped:.2g} % of the samples lie beyond the logger's range of ±{found.range:g} m/s² "
+            "and are clipped: levels and lines are too small; leave out logger.range, and it fits the signal"
+        )
+        warnings.warn(text, AccuracyWarning, stacklevel=2)
+    return found
+
+
+def measured(
+    of: Signals | ArrayLike,
+    chain: Chain | None = None,
+    *,
+    fs: float | None = None,
+    shaft: ArrayLike | None = None,
+    seed: int = 0,
+    **stages: Unpack[_Stages],
+) -> Measurement:
+    """Measure as :func:`measure`, and warn of nothing."""
     chain = replace(Chain() if chain is None else chain, **stages)
     if isinstance(of, Signals):
         if fs is not None:
@@ -193,17 +226,18 @@ def measure(
     # A stream of its own for each stage.
     streams = [np.random.default_rng([stage, *_words(seed)]) for stage in range(3)]
     x, rate = _sensed(source, chain, streams[0]), source.fs
-    clipped = 0.0
+    clipped, reach = 0.0, None
     if chain.logger is not None:
         x, rate = chain.logger.sampled(x, rate)
-        x, clipped = chain.logger.digitised(x, rate, streams[1])
+        x, clipped, reach = chain.logger.digitised(x, rate, streams[1])
     pulses = np.zeros(0)
     if chain.tacho is not None:
         pulses = chain.tacho.times(source.t, source.needed_angle(), streams[2])
     start = float(source.t[0])
     return Measurement(
-        x=x, fs=rate, start=start, pulses=pulses, clipped=clipped, chain=chain, seed=seed
-    )
+        x=x, fs=rate, start=start, pulses=pulses, range=reach, clipped=clipped, chain=chain,
+        seed=seed,
+    )  # fmt: skip
 
 
 def _sensed(source: Source, chain: Chain, rng: np.random.Generator) -> NDArray[np.float64]:

@@ -21,6 +21,9 @@ __all__ = ["Logger"]
 _STOP = 80.0
 """Attenuation of the anti-aliasing filter [dB]."""
 
+_LEAST = 1e-9
+"""Range for a signal that is not there [m/s²]."""
+
 _FASTER = 100
 """A logger's rate over that of the signal, at most: above it there is nothing new, only memory spent."""
 
@@ -39,7 +42,8 @@ class Logger:
     noise_density : float
         White noise of the electronics, its one-sided power spectral density [(m/s²)²/Hz].
     range : float or None
-        What is beyond ± this is clipped [m/s²]; None: nothing.
+        What is beyond ± this is clipped [m/s²]. None: it fits the signal, as the least of 1, 2, 5, 10, 20, … m/s²
+        that all samples lie within; :attr:`Measurement.range` tells which.
     bits : int or None
         Resolution, 2 to 32 bits over the range; None: not quantised.
     """
@@ -60,13 +64,14 @@ class Logger:
             positive("logger.range", self.range)
         if self.bits is not None and not 2 <= self.bits <= 32:
             raise SceneError("logger.bits", str(self.bits), "2 to 32")
-        if self.bits is not None and self.range is None:
-            raise SceneError("logger.range", "None", "the range that the bits resolve [m/s²]")
 
     @property
     def step(self) -> float | None:
-        """Step of the quantisation [m/s²]; None without."""
-        return None if self.range is None or self.bits is None else 2.0 * self.range / 2**self.bits
+        """Step of the quantisation [m/s²]; None without one, or where the range is the signal's."""
+        return None if self.range is None else self._step(self.range)
+
+    def _step(self, reach: float) -> float | None:
+        return None if self.bits is None else 2.0 * reach / 2**self.bits
 
     def sampled(self, x: NDArray[np.float64], fs: float) -> tuple[NDArray[np.float64], float]:
         """Return the signal behind the anti-aliasing filter at the logger's rate, and that rate [Hz].
@@ -108,19 +113,26 @@ class Logger:
 
     def digitised(
         self, x: NDArray[np.float64], fs: float, rng: np.random.Generator
-    ) -> tuple[NDArray[np.float64], float]:
-        """Return the signal with noise, clipped and quantised, and the share of samples that were clipped."""
+    ) -> tuple[NDArray[np.float64], float, float]:
+        """Return it with noise, clipped and quantised; the share of clipped samples; and the range [m/s²]."""
         if self.noise_density > 0.0:
             x = x + noise(self.noise_density, fs, x.size, rng)
-        if self.range is None:
-            return x, 0.0
-        clipped = float(np.mean(np.abs(x) > self.range))
-        if self.step is None:
-            return np.clip(x, -self.range, self.range), clipped
+        reach = self._fitting(x) if self.range is None else self.range
+        clipped = float(np.mean(np.abs(x) > reach))
+        step = self._step(reach)
+        if step is None:
+            return np.clip(x, -reach, reach), clipped, reach
         # A converter has one code more below zero than above.
-        codes = np.rint(x / self.step)
-        codes = np.clip(codes, -self.range / self.step, self.range / self.step - 1.0)
-        return self.step * codes, clipped
+        codes = np.clip(np.rint(x / step), -reach / step, reach / step - 1.0)
+        return step * codes, clipped, reach
+
+    def _fitting(self, x: NDArray[np.float64]) -> float:
+        """Return the least of 1, 2, 5, 10, 20, … that holds a signal, its highest sample in the highest code."""
+        above = 0.0 if self.bits is None else 2.0 ** (1 - self.bits)
+        needed = max(float(np.abs(x).max()) / (1.0 - above), _LEAST)
+        decade = math.floor(math.log10(needed))
+        steps = (float(f"{first}e{decade + i}") for i in (0, 1) for first in (1, 2, 5))
+        return next(reach for reach in steps if reach >= needed)
 
 
 def _lowpass(flat: float, stop: float, fs: float) -> NDArray[np.float64]:
