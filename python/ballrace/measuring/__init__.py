@@ -8,7 +8,7 @@ seed, a stage at a time: leaving one out does not change the noise of another.
 >>> mode = br.measuring.Mode(frequency=2800.0, damping=0.03, residue=0.5)
 >>> chain = br.measuring.Chain(
 ...     housing=br.measuring.Housing(modes=(mode,), direct=0.5),
-...     machine=br.measuring.Machine(noise_density=1e-3, shaft=(0.2, 0.1)),
+...     machine=br.measuring.Machine(shaft=(0.2, 0.1)),
 ...     logger=br.measuring.Logger(fs=12_000.0, bits=16),
 ... )
 >>> out = br.simulate(br.bearing("6205", speed_rpm=1797.0), duration=0.02)
