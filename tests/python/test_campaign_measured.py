@@ -86,6 +86,28 @@ def test_what_clips_is_told_once_and_in_the_manifest(done: br.Campaign) -> None:
     )
 
 
+def test_windows_leave_out_the_ring_up_and_know_their_labels(done: br.Campaign) -> None:
+    """Truth: the measurement itself, from the sample behind what is left out, and the manifest's own columns."""
+    chain = m.Chain(housing=m.Housing(modes=(m.Mode(frequency=200.0, damping=0.05),)))
+    all_, later = done.windows(chain, 100), done.windows(chain, 100, skip=0.0121)
+    # Windows begin at the next sample behind what is left out: 302.5 samples of 500.
+    assert later["start"].unique().to_list() == [pytest.approx(303 / 25_000.0)]
+    first = next(iter(done.measurements(chain))).measurement
+    assert np.array_equal(later.row(0, named=True)["x"], first.x[303:403])
+    faults = ["fault_outer_race", "fault_inner_race", "fault_ball"]
+    assert all_.columns[-3:] == faults
+    assert all_["fault_inner_race"].to_list() == [False] * all_.height
+    own = done.windows(chain, 100, labels=["loads.radial.force", "wall_time"])
+    assert own.columns[-2:] == ["loads.radial.force", "wall_time"]
+    assert own["loads.radial.force"].unique().sort().to_list() == [800.0, 1200.0]
+    for labels, told in ((["start"], "windows have one"), (["no such"], "columns of the manifest")):
+        with pytest.raises(br.SceneError, match=told):
+            done.windows(chain, 100, labels=labels)
+    for skip in (-1.0, 0.02):
+        with pytest.raises(br.SceneError, match="skip"):
+            done.windows(chain, 100, skip=skip)
+
+
 def test_some_chains_for_each_case(done: br.Campaign) -> None:
     table = done.measure(list(CHAINS.values()), seed=3, per_case=2)
     assert table.height == 4

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -14,6 +15,7 @@ from .._numbers import real
 from ..errors import AccuracyWarning, SceneError
 from ..measuring.chain import CLIPPED, Measurement
 from ..measuring.chain import measured as by_chain
+from ..measuring.checks import positive
 from ..measuring.tables import Chains, named_chains
 from ..scene import Scene
 from ..signals import Signals
@@ -102,13 +104,15 @@ def features_table(
     return pl.DataFrame(rows, infer_schema_length=None)
 
 
-def windows_table(lines: Iterator[Measured], length: int, hop: int | None) -> pl.DataFrame:
+def windows_table(
+    lines: Iterator[Measured], length: int, hop: int | None, skip: float
+) -> pl.DataFrame:
     """Return a table with a line for each window of each measurement.
 
     Raises
     ------
     SceneError
-        The length or the hop is not usable.
+        The length, the hop or what is skipped is not usable.
     """
     from .._polars import pl
 
@@ -116,17 +120,19 @@ def windows_table(lines: Iterator[Measured], length: int, hop: int | None) -> pl
     for name, value in (("length", length), ("hop", hop)):
         if not (real(value) >= 1 and real(value).is_integer()):
             raise SceneError(name, repr(value), "a whole number of samples, from 1")
+    positive("skip", skip, zero=True)
     frames = []
     for line in lines:
         x = line.measurement.x
-        starts = np.arange(0, x.size - length + 1, hop)
+        first = math.ceil(skip * line.measurement.fs - 1e-9)
+        starts = np.arange(first, x.size - length + 1, hop)
         cut = np.lib.stride_tricks.sliding_window_view(x, length)[starts] if starts.size else None
         if cut is not None:
             labels = {name: [value] * starts.size for name, value in line.labels().items()}
             times = line.measurement.start + starts / line.measurement.fs
             frames.append(pl.DataFrame(labels | {"start": times, "x": cut}))
     if not frames:
-        raise SceneError("length", str(length), "at most the samples of a measurement")
+        raise SceneError("length", str(length), "at most the samples of a measurement behind skip")
     return pl.concat(frames)
 
 

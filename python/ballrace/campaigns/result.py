@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 from .._files import as_path
 from .._parquet import collected
 from .._text import printable
+from ..errors import SceneError
 from ..scene import Scene
 from .cases import apply
 from .measured import Measured, as_signals, features_table, measured, windows_table
-from .store import BASE, BUDGET, Store
+from .store import BASE, BUDGET, FAULTS, Store
 
 if TYPE_CHECKING:
     import os
@@ -270,8 +271,10 @@ class Campaign:
         *,
         seed: int = 0,
         per_case: int | None = None,
+        skip: float = 0.0,
+        labels: Sequence[str] = FAULTS,
     ) -> pl.DataFrame:
-        """Return windows of all cases as measuring chains show them, a line a window.
+        """Return windows of all cases as measuring chains show them, a line a window, with labels of their cases.
 
         Parameters
         ----------
@@ -279,20 +282,47 @@ class Campaign:
             As for :meth:`measurements`.
         length, hop : int
             Samples of a window, and from one to the next; by default they do not overlap.
+        skip : float
+            Beginning of each measurement that is left out [s]. The chain is at rest as a measurement begins: leave
+            out the time in which its housing and sensor ring up, 1/(2 ζ f) for each of their modes or more.
+        labels : sequence of str
+            Columns of the manifest that every window gets: by default whether a loaded contact met such a defect
+            in the run of its case, not in the window.
 
         Returns
         -------
         DataFrame
             ``case_id``, ``chain``, ``seed``, ``sampling_rate`` [Hz], ``range`` [m/s²] and ``clipped`` (of the
-            whole measurement), ``start`` of the window [s] and ``x``, an array of ``length`` [m/s²].
+            whole measurement), ``start`` of the window [s], ``x``, an array of ``length`` [m/s²], and the labels.
 
         Raises
         ------
         SceneError
             An argument is not usable, or no measurement is that long.
         """
+        labelled = self._labels(labels)
         lines = self.measurements(chains, seed=seed, per_case=per_case)
-        return windows_table(lines, length, hop)
+        table = windows_table(lines, length, hop, skip)
+        return table.join(labelled, on="case_id", how="left", maintain_order="left")
+
+    def _labels(self, names: Sequence[str]) -> pl.DataFrame:
+        """Return columns of the manifest beside the id of the case, a line a case.
+
+        Raises
+        ------
+        SceneError
+            There is no such column, or windows have one of that name.
+        """
+        chosen = (names,) if isinstance(names, str) else tuple(names)
+        taken = ("case_id", "chain", "seed", "sampling_rate", "range", "clipped", "start", "x")
+        for name in chosen:
+            if name in taken:
+                raise SceneError(
+                    "labels", repr(name), "another column: windows have one of that name"
+                )
+            if name not in self._finished.columns:
+                raise SceneError("labels", repr(name), "columns of the manifest")
+        return self._finished.select("case_id", *chosen).unique("case_id", maintain_order=True)
 
     @property
     def parameters(self) -> tuple[str, ...]:
