@@ -1,6 +1,7 @@
 //! Which defects balls met in a run: how often they passed, and what their contacts carried there.
 //!
-//! A *pass* is the time that a ball's contact takes over the arc of a defect. Places are looked at after accepted steps,
+//! A *pass* is the time that a ball's contact takes over the arc of a defect; it counts as soon as the contact touches
+//! the defect, or else when the ball has left it: a run that ends before tells nothing of it. Places are looked at after accepted steps,
 //! and between passes only as often as a ball may have come halfway nearer, so that a run takes no longer for it.
 
 use std::collections::BTreeMap;
@@ -28,7 +29,8 @@ pub struct Touched {
     pub axial_offset: f64,
     /// Where that number comes from.
     pub placed: Placed,
-    /// How often a ball came by: a contact of the race, or one of the ball's two contacts, passed over its arc.
+    /// How often a ball came by: a contact of the race, or one of the ball's two contacts, passed over its arc. One that
+    /// had touched nothing and was still over it when the run ended is not counted.
     pub passes: usize,
     /// In how many of these a contact was loaded within its length.
     pub touched: usize,
@@ -277,7 +279,9 @@ impl Watched {
                 self.meet(i, model, y, 0.0);
             }
             if aside.abs() > AWAY * half {
-                self.eyes[i].pass = Pass::None;
+                // One that has touched is counted; another only now, since until here it might have.
+                let pass = std::mem::replace(&mut self.eyes[i].pass, Pass::None);
+                self.passes += usize::from(pass == Pass::Untouched);
             }
             wait = wait.min((aside.abs() - half).max(0.0) / rate.abs());
         }
@@ -288,7 +292,6 @@ impl Watched {
     fn meet(&mut self, eye: usize, model: &Model, y: &[f64], aside: f64) {
         let eye = &mut self.eyes[eye];
         if eye.pass == Pass::None {
-            self.passes += 1;
             eye.pass = Pass::Untouched;
         }
         if !self.felt {
@@ -304,6 +307,7 @@ impl Watched {
         let side = &model.balls[eye.ball].side;
         let found = self.pairs[eye.race].load_within(side, &ball, &ring, &sighted);
         if found.within > 0.0 && eye.pass == Pass::Untouched {
+            self.passes += 1;
             self.touched += 1;
             eye.pass = Pass::Touched;
         }

@@ -3,7 +3,7 @@
 use ballrace::Error;
 use ballrace::contact::film::Oil;
 use ballrace::scene::{
-    Base, Drive, Lubricant, NAMED_OILS, OilLayer, OilSource, Scene, named_oil, presets,
+    Base, Drive, Lubricant, NAMED_OILS, OilLayer, OilSource, Probe, Scene, named_oil, presets,
 };
 use serde_json::{Value, json};
 
@@ -250,6 +250,28 @@ fn a_lubricant_may_be_read_alone() {
         };
         assert_eq!(path, expected);
     }
+}
+
+/// A raised slip scale is what the guide recommends where vibration alone is asked: doubted where torque is told or drives.
+#[test]
+fn a_raised_slip_floor_is_doubted_where_torque_counts() {
+    let raised = with(vg68(&json!({"slip_floor": 0.05}))).unwrap();
+    assert_eq!(raised.doubts(), []);
+    for probe in [
+        Probe::Torque {},
+        Probe::Lubrication { row: 0 },
+        Probe::Energy {},
+    ] {
+        let mut scene = raised.clone();
+        scene.probes.insert("torque".to_owned(), probe);
+        assert_eq!(scene.doubts()[0].path, "lubricant.slip_floor");
+    }
+    let mut driven = raised.clone();
+    driven.drive = Drive::Torque {
+        value: 0.1.into(),
+        initial_speed: 100.0,
+    };
+    assert_eq!(driven.doubts()[0].path, "lubricant.slip_floor");
 }
 
 /// What no oil of a bearing has is doubted, and an ordinary one is not.

@@ -364,10 +364,53 @@ fn what_no_ball_passed_is_told_apart() {
         spall(Surface::InnerRace).at_angle(FRAC_PI_2),
     );
     scene.rows[0].start_angle = FRAC_PI_2;
+    // While a ball is still over it, the pass is not over: it may yet touch.
     let out = run(&scene, &short(1e-4));
+    assert_eq!((told(&out).passes, told(&out).share()), (0, None));
+    let warnings = out.warnings();
+    assert!(
+        matches!(&warnings[..], [Warning::Unpassed { .. }]),
+        "{warnings:?}"
+    );
+    let out = run(&scene, &short(2e-3));
     assert_eq!((told(&out).passes, told(&out).touched), (1, 0));
     assert_eq!(told(&out).contact_offset, None);
     println!("{}", out.warnings()[0]);
+}
+
+/// What is advised is not what was done: of a place that was given "contact", of one that a contact had at equilibrium its
+/// number in the run. Limit: a defect at that number is touched.
+#[test]
+fn what_is_advised_was_not_done_before() {
+    let missed = run(
+        &with(angular_7208(), at(0.0, spall(Surface::InnerRace))),
+        &short(5e-3),
+    );
+    let advice = missed.warnings()[0].to_string();
+    assert!(advice.contains("give \"contact\" to place it"), "{advice}");
+    // Placed for the whole thrust, of which the run sees the beginning.
+    let mut growing = with(angular_7208(), spall(Surface::InnerRace));
+    growing.defects.get_mut(SPALL).unwrap().length = 0.5e-3;
+    growing.loads.get_mut("axial").unwrap().force = TimeFunction::Profile(Profile::Ramp {
+        from: 100.0,
+        to: 30e3,
+        start: 0.1,
+        end: 0.2,
+    });
+    let out = run(&growing, &short(5e-3));
+    let of = told(&out);
+    assert_eq!((of.placed, of.share()), (Placed::Contact, Some(0.0)));
+    let advice = out.warnings()[0].to_string();
+    println!("{advice}");
+    assert!(!advice.contains("give \"contact\""), "{advice}");
+    let place = format!(
+        "give the place in metres, {:.2e}",
+        of.contact_offset.unwrap()
+    );
+    assert!(advice.contains(&place), "{advice}");
+    let place = of.contact_offset.unwrap();
+    growing.defects.get_mut(SPALL).unwrap().axial_offset = AxialOffset::At(place);
+    assert!(told(&run(&growing, &short(5e-3))).touched > 0);
 }
 
 /// Limit: one without width is healthy, and one narrower than a step is not overlooked.

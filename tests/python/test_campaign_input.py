@@ -172,8 +172,8 @@ def test_a_new_entry_by_its_path(tmp_path: Path) -> None:
         SCENE.replace({"defects.new": 1e-3})
     with pytest.raises(br.SceneError, match="no such field"):
         SCENE.replace({"defects.new.width": 1e-3})
-    done = run([{"defects.new": spall}, {}], tmp_path, duration=1e-4, start="rolling")
-    # Contacts of a 6205 run beside it.
+    done = run([{"defects.new": spall}, {}], tmp_path, duration=5e-3, start="rolling")
+    # Contacts of a 6205 run beside it, until a pass is over.
     assert done.manifest["fault_outer_race"].to_list() == [False, False]
     assert done.manifest["defects.new.touched"].to_list() == [0.0, None]
     assert done.scene(done.manifest["case_id"][0]).defects["new"] == spall

@@ -1,7 +1,7 @@
 //! Oil, as far as no equilibrium is asked for.
 
 use super::{Doubt, millimetres};
-use crate::scene::{Lubricant, Scene};
+use crate::scene::{Drive, Lubricant, Probe, Scene};
 use crate::told::number;
 
 /// Temperatures at which greases and oils of bearings are used \[K\]: −30 to 150 °C.
@@ -10,8 +10,10 @@ const TEMPERATURE: [f64; 2] = [243.0, 424.0];
 const ROUGHNESS: [f64; 2] = [5e-9, 2e-6];
 /// Free oil in front of a contact \[m\]; what is more is flooded.
 const LAYER: f64 = 5e-3;
-/// Least slip scale \[m/s\]: it takes 8 to 19 % of the torque away.
+/// Least slip scale \[m/s\] from which a torque that is asked for is doubted: it takes 8 to 19 % of it away.
 const SLIP_FLOOR: f64 = 2e-2;
+/// Least slip scale that vibration may be computed with \[m/s\]: what is more makes no run faster.
+const LARGEST_SLIP_FLOOR: f64 = 5e-2;
 
 /// Length of a contact's ellipse over its width, to which formulas of films were fitted or reach safely.
 const ELLIPTICITY: [f64; 2] = [1.0, 12.0];
@@ -80,17 +82,29 @@ impl Doubt {
 }
 
 pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
+    let of_torque = asks_for_torque(scene);
     if let Some(own) = &scene.lubricant {
-        lubricant("lubricant", own, found);
+        lubricant("lubricant", own, of_torque, found);
     }
     for (i, row) in scene.rows.iter().enumerate() {
         if let Some(own) = &row.lubricant {
-            lubricant(&format!("rows[{i}].lubricant"), own, found);
+            lubricant(&format!("rows[{i}].lubricant"), own, of_torque, found);
         }
     }
 }
 
-fn lubricant(path: &str, lubricant: &Lubricant, found: &mut Vec<Doubt>) {
+/// Whether friction torque decides the motion, or is recorded.
+fn asks_for_torque(scene: &Scene) -> bool {
+    let torque = |probe: &Probe| {
+        matches!(
+            probe,
+            Probe::Torque {} | Probe::Lubrication { .. } | Probe::Energy {}
+        )
+    };
+    matches!(scene.drive, Drive::Torque { .. }) || scene.probes.values().any(torque)
+}
+
+fn lubricant(path: &str, lubricant: &Lubricant, of_torque: bool, found: &mut Vec<Doubt>) {
     let mut tell = |field: &str, value: String, usual: &str| {
         found.push(Doubt::new(format!("{path}.{field}"), value, usual));
     };
@@ -117,9 +131,13 @@ fn lubricant(path: &str, lubricant: &Lubricant, found: &mut Vec<Doubt>) {
         let usual = "a layer that thick is \"flooded\"; lengths are in metres";
         tell("oil_layer", millimetres(layer), usual);
     }
-    if slip_floor > SLIP_FLOOR {
-        let usual =
-            "takes more than a tenth of the friction torque away; speeds are in metres a second";
-        tell("slip_floor", format!("{} m/s", number(slip_floor)), usual);
-    }
+    let usual = if slip_floor > LARGEST_SLIP_FLOOR {
+        "above 0.05 m/s it makes no run faster, and takes up to a quarter of the friction torque away; speeds are in \
+         metres a second"
+    } else if slip_floor > SLIP_FLOOR && of_torque {
+        "takes more than a tenth of the friction torque away, which this scene records or is driven by"
+    } else {
+        return;
+    };
+    tell("slip_floor", format!("{} m/s", number(slip_floor)), usual);
 }

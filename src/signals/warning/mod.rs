@@ -4,6 +4,7 @@ mod text;
 
 use serde::Serialize;
 
+use crate::equilibrium::Placed;
 use crate::inspect;
 use crate::kinematics::RowKinematics;
 use crate::scene::Doubt;
@@ -71,6 +72,8 @@ pub enum Warning {
         axial_offset: f64,
         /// [`crate::Touched::contact_offset`].
         contact_offset: Option<f64>,
+        /// [`crate::Touched::placed`].
+        placed: Placed,
     },
     /// No ball passed a defect: of its effect the run shows nothing.
     Unpassed {
@@ -215,6 +218,7 @@ fn not_touched(of: &Touched, duration: f64) -> Option<Warning> {
             passes,
             axial_offset: of.axial_offset,
             contact_offset: of.contact_offset,
+            placed: of.placed,
         }),
         _ => None,
     }

@@ -4,6 +4,7 @@ use std::fmt::{Display, Formatter, Result};
 
 use super::Warning;
 use crate::kinematics::RowKinematics;
+use crate::equilibrium::Placed;
 use crate::simd::Distrust;
 use crate::told::duration;
 
@@ -29,8 +30,9 @@ impl Display for Warning {
                 passes,
                 axial_offset,
                 contact_offset,
+                placed,
             } => match contact_offset {
-                Some(place) => beside(f, defect, *passes, [*place, *axial_offset]),
+                Some(place) => beside(f, defect, *passes, [*place, *axial_offset], *placed),
                 None => unloaded(f, defect, *passes),
             },
             Self::Unpassed { defect, duration } => unpassed(f, defect, *duration),
@@ -104,14 +106,37 @@ fn sampling_rate(f: &mut Formatter<'_>, fs: f64, defect: &str, line: f64) -> Res
 }
 
 /// A defect that lies where no contact runs: the axial places of contacts and of its middle \[m\].
-fn beside(f: &mut Formatter<'_>, defect: &str, passes: usize, places: [f64; 2]) -> Result {
+fn beside(
+    f: &mut Formatter<'_>,
+    defect: &str,
+    passes: usize,
+    places: [f64; 2],
+    placed: Placed,
+) -> Result {
     let [contact, middle] = places.map(|place| 1e3 * place);
     write!(
         f,
         "defect {defect:?} was never touched: balls passed it {passes} times, but contacts ran at \
-         {contact:.3} mm and its middle lies at {middle:.3} mm (axial_offset); give \"contact\" to place it where \
-         they run at equilibrium, or a greater length"
-    )
+         {contact:.3} mm and its middle lies at {middle:.3} mm "
+    )?;
+    match placed {
+        Placed::Given => write!(
+            f,
+            "(axial_offset); give \"contact\" to place it where they run at equilibrium, or a greater length"
+        ),
+        Placed::Contact => write!(
+            f,
+            "(axial_offset = \"contact\": where they run at equilibrium, from which this run differs); give the place \
+             in metres, {:.2e}, or a greater length",
+            1e-3 * contact
+        ),
+        Placed::Nominal => write!(
+            f,
+            "(axial_offset = \"contact\": by the nominal contact angle, since no loaded contact tells one at \
+             equilibrium); give the place in metres, {:.2e}, or a greater length",
+            1e-3 * contact
+        ),
+    }
 }
 
 /// A defect that balls passed without load.
