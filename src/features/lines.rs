@@ -233,6 +233,37 @@ mod tests {
             .collect();
         let value = lines(&scene, &x, fs)("bpfo").unwrap();
         assert!((value / 3.0 - 1.0).abs() < 2e-3, "{value}");
+        // From rest on, and back to it: from where a turn has twenty times the samples of the fastest.
+        let rises = [(0.0, 40.0, 1.0), (0.0, 40.0, 0.5), (40.0, 0.0, 1.0)];
+        for (from, to, end) in rises {
+            let speed = Profile::Ramp {
+                from: TAU * from,
+                to: TAU * to,
+                start: 0.0,
+                end,
+            };
+            scene.drive = Drive::Speed(TimeFunction::Profile(speed));
+            let turned = |t: f64| {
+                let ramp = t.min(end);
+                from * ramp + (to - from) * ramp * ramp / (2.0 * end) + to * (t - ramp)
+            };
+            let x: Vec<f64> = (0..count)
+                .map(|i| 3.0 * (TAU * outer * turned(f64::from(i) / fs)).sin())
+                .collect();
+            let value = lines(&scene, &x, fs)("bpfo").unwrap();
+            assert!((value / 3.0 - 1.0).abs() < 1e-2, "{from} {to}: {value}");
+            let shaft = Shaft::of(&scene, 0.0, x.len(), fs).unwrap();
+            let begins = if from == 0.0 { 0.05 * end } else { 0.0 };
+            assert!((shaft.first() as f64 / fs - begins).abs() < 2.0 / fs);
+        }
+        // One that turns back has no turns.
+        scene.drive = Drive::Speed(TimeFunction::Profile(Profile::Ramp {
+            from: -TAU * 20.0,
+            to: TAU * 40.0,
+            start: 0.0,
+            end: 1.0,
+        }));
+        assert_eq!(lines(&scene, &x, fs)("bpfo"), None);
         scene.drive = Drive::Torque {
             value: 1.0.into(),
             initial_speed: 100.0,

@@ -8,6 +8,7 @@
 //! | `….bpfo_harmonics`, … | root of the sum of the squares of the line and its second and third harmonic | `lines.rs` |
 //! | `….bpfi_sidebands`, `….2bsf_sidebands` | the same of the lines a shaft's, a cage's frequency beside it | `lines.rs` |
 //! | `….bpfo_envelope`, `….bpfo_envelope_harmonics`, … | the same lines of its squared envelope | `lines.rs` |
+//! | `outer.ay.lines_from` | of a run from rest: from when on its lines are \[s\], where the shaft has a twentieth of its highest speed | `shaft.rs` |
 //! | `row0.outer.load_max`, `.load_min` | extremes of the contact loads of a row \[N\] | `loads.rs` |
 //! | `oil.outer.film_min`, `.lambda_min`, `oil.friction_torque_mean`, `.slip_power_mean`, … | least films, mean torque and losses of a probe `oil` of a row's oil | `lubrication.rs` |
 //! | `largest_pressure` | largest Hertz pressure of any contact at the start or the end of the run \[Pa\] | |

@@ -2,7 +2,7 @@
 
 use super::record::Recorded;
 use super::shaft::Shaft;
-use super::{Feature, FeatureOptions, check_record, lines, loads, lubrication, moments};
+use super::{Feature, FeatureOptions, check_record, lines, loads, lubrication, moments, named};
 use crate::error::Result;
 use crate::kinematics::RowKinematics;
 use crate::scene::Scene;
@@ -92,6 +92,8 @@ struct Analysis<'a> {
     kinematics: &'a [RowKinematics],
     shaft: Option<Shaft>,
     fs: f64,
+    /// Time of the first sample \[s\].
+    start: f64,
     band: Option<[f64; 2]>,
 }
 
@@ -103,6 +105,7 @@ impl<'a> Analysis<'a> {
             kinematics: &[],
             shaft: scene.and_then(|scene| Shaft::of(scene, options.skip, count, fs)),
             fs,
+            start: options.skip,
             band: options.band,
         }
     }
@@ -119,6 +122,10 @@ impl<'a> Analysis<'a> {
                 shaft,
                 (&scene.rows, self.kinematics),
             ));
+            if let Some(first) = shaft.map(Shaft::first).filter(|first| *first > 0) {
+                let from = self.start + first as f64 / self.fs;
+                found.push(Feature::new(named(name, "lines_from"), from));
+            }
         }
         found
     }

@@ -9,16 +9,26 @@ use crate::scene::{Drive, Scene};
 /// nominal one, by 10° at most, and the balls slip a little.
 pub(super) const SHARE: f64 = 0.02;
 
+/// Part of the highest speed below which a shaft all but stands, and no line is sought over its angle: a turn has 20 times
+/// the samples of the fastest, of which spectra over the angle keep one.
+const SLOWEST: f64 = 0.05;
+
 /// What a spectrum is taken over.
 pub(super) enum Shaft {
     /// Time: the speed changes by less than the width in which a line is sought; its frequency \[Hz\].
     Steady(f64),
-    /// The angle: turns of the shaft at every sample, from 0.
-    Varying(Vec<f64>),
+    /// The angle, as long as the shaft does not all but stand.
+    Varying {
+        /// The sample from which on.
+        first: usize,
+        /// Turns of the shaft at every sample from there, from 0.
+        turns: Vec<f64>,
+    },
 }
 
 impl Shaft {
     /// Over so many samples from a time on. Absent where the speed is not given, or the shaft stands still or turns back.
+    /// Of a run from rest, or to it, over the longest part in which it has a twentieth of its highest speed.
     pub fn of(scene: &Scene, from: f64, count: usize, fs: f64) -> Option<Self> {
         let Drive::Speed(speed) = &scene.drive else {
             return None;
@@ -34,31 +44,52 @@ impl Shaft {
         if within(SHARE) {
             return (mean != 0.0).then_some(Self::Steady(mean.abs()));
         }
-        if speeds.iter().any(|s| s * mean <= 0.0) {
+        let forwards: Vec<f64> = speeds.iter().map(|s| s * mean.signum()).collect();
+        let slowest = SLOWEST * forwards.iter().copied().fold(0.0, f64::max);
+        if mean == 0.0 || forwards.iter().any(|s| *s < -slowest) {
             return None;
         }
-        let mut turns = vec![0.0];
-        for pair in speeds.windows(2) {
-            let last = turns[turns.len() - 1];
-            turns.push(last + (pair[0] + pair[1]).abs() / (2.0 * fs));
+        let runs = || forwards.chunk_by(|a, b| (*a >= slowest) == (*b >= slowest));
+        let longest = runs().filter(|run| run[0] >= slowest).map(<[f64]>::len);
+        let longest = longest.max().filter(|count| *count > 1)?;
+        let mut first = 0;
+        for run in runs() {
+            if run[0] >= slowest && run.len() == longest {
+                break;
+            }
+            first += run.len();
         }
-        Some(Self::Varying(turns))
+        let mut turns = vec![0.0];
+        for pair in forwards[first..first + longest].windows(2) {
+            let last = turns[turns.len() - 1];
+            turns.push(last + (pair[0] + pair[1]) / (2.0 * fs));
+        }
+        Some(Self::Varying { first, turns })
+    }
+
+    /// The sample from which on the spectrum is.
+    pub fn first(&self) -> usize {
+        match self {
+            Self::Steady(_) => 0,
+            Self::Varying { first, .. } => *first,
+        }
     }
 
     /// Its frequency over the spectrum's abscissa: in Hz, or once a turn.
     pub fn frequency(&self) -> f64 {
         match self {
             Self::Steady(frequency) => *frequency,
-            Self::Varying(_) => 1.0,
+            Self::Varying { .. } => 1.0,
         }
     }
 
     /// A signal at equal distances of the spectrum's abscissa, and how many of these a unit has. What it holds between the
     /// samples is read from a cubic through the nearest four.
     pub fn by_angle<'x>(&self, x: &'x [f64], fs: f64) -> (Cow<'x, [f64]>, f64) {
-        let Self::Varying(turns) = self else {
+        let Self::Varying { first, turns } = self else {
             return (x.into(), fs);
         };
+        let x = &x[*first..*first + turns.len()];
         let (last, all) = (x.len() - 1, turns[turns.len() - 1]);
         let mut before = 0;
         let resampled = (0..x.len()).map(|i| {

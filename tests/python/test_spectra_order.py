@@ -100,3 +100,48 @@ def test_bad_arguments_are_refused() -> None:
         with pytest.raises(br.SceneError) as caught:
             call()
         assert caught.value.path == name
+
+
+def test_a_run_from_rest_has_its_line_from_a_twentieth_of_the_speed_on() -> None:
+    """Analytic: a shaft that goes from rest to 30 turns a second in 4 s has a twentieth of that after 0.2 s."""
+    turns = 3.75 * T**2
+    x, angle = 2.0 * np.cos(2.0 * np.pi * ORDER * turns), 2.0 * np.pi * turns
+    with pytest.raises(br.SceneError, match=r"turning\(angle\)"):
+        spectra.by_order(x, angle, per_turn=64)
+    part = spectra.turning(angle)
+    assert (part.start / FS, part.stop) == (pytest.approx(0.2, abs=1.0 / FS), T.size)
+    # No turn has more than twenty times the samples of the fastest.
+    assert np.diff(turns[part]).min() * 20.001 > np.diff(turns).max()
+    order, value = spectra.order_spectrum(x[part], angle[part], per_turn=64)
+    assert order[int(np.argmax(value))] == pytest.approx(ORDER, abs=order[1])
+    # To rest it is the beginning; a whole run-up stays whole, and so does one that turns back.
+    stop = spectra.turning(-angle[::-1])
+    assert (stop.start, stop.stop) == (0, T.size - part.start)
+    for whole in (ANGLE, 3.75 * (T - 1.0) ** 2, np.zeros(9)):
+        assert spectra.turning(whole) == slice(0, whole.size)
+
+
+def test_features_and_the_order_map_of_a_run_from_rest_say_from_when() -> None:
+    """Limit: the same run without its beginning has the same lines."""
+    from ballrace import plot
+
+    ramp = br.scene.Ramp(from_=0.0, to=314.0, start=0.0, end=0.2)
+    scene = br.bearing(
+        "6205", radial_load=1500.0, defects=br.defects.spall(on="outer_race", width_mm=1.0)
+    ).replace({"drive": br.scene.SpeedDrive(ramp)})
+    out = br.simulate(scene, duration=0.2, fs=25_000.0, settle=0.0)
+    found = out.features(columns=["outer.ay"])
+    assert found["outer.ay.lines_from"] == pytest.approx(0.01, abs=1e-4)
+    # The cage turns twice in five turns of the shaft: not enough for a line of it.
+    assert all(value is not None for name, value in found.items() if ".ftf" not in name)
+    again = br.features(out["outer.ay"], out.fs, name="outer.ay", scene=scene, skip=0.0101)
+    assert "outer.ay.lines_from" not in again
+    for name in ("bpfo_envelope", "bpfo_envelope_harmonics"):
+        assert again[f"outer.ay.row0.{name}"] == pytest.approx(
+            found[f"outer.ay.row0.{name}"], rel=0.02
+        )
+    # Of the outer race's fault, its line stands highest.
+    lines = {fault: found[f"outer.ay.row0.{fault}_envelope"] for fault in ("bpfo", "bpfi", "2bsf")}
+    assert max(lines, key=lambda fault: lines[fault] or 0.0) == "bpfo"
+    fig = plot.order_map(out)
+    assert "turns of the shaft from 0.01" in fig.layout.xaxis.title.text

@@ -151,8 +151,9 @@ def campaign(
         2 BSF (``.bpfi_sidebands``, ``.2bsf_sidebands``); and all of these of the squared envelope,
         ``outer.ay.row0.bpfo_envelope``, ``.bpfo_envelope_harmonics`` and so on. They are sought within 0.5 % of
         where the balls of the run passed; of a run of less than a turn, within 2 % of nominal rolling. Where the
-        given speed changes by more than 2 %, lines are taken over the shaft's angle. A line that the record is too
-        short for is empty, and so are all under a torque drive.
+        given speed changes by more than 2 %, lines are taken over the shaft's angle; of a run from rest from a
+        twentieth of its highest speed on, and ``outer.ay.lines_from`` says when [s]. A line that the record is
+        too short for is empty, and so are all under a torque drive.
     skip : float
         Beginning of each run that features leave out [s].
     band : tuple of two floats, optional

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import spectra
+from .._numbers import real_row
 from ..errors import SceneError
 from .sources import faults_of, row_of, scene_of, source, spin_of
 from .style import SYMBOLS, finished
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from ..recordings.columns import Columns
     from ..spectra import Kurtogram
     from ..spectra.bands import Fault
+    from .sources import Source
 
 __all__ = ["kurtogram", "order_map", "spectrogram"]
 
@@ -99,6 +101,9 @@ def order_map(
 ) -> go.Figure:
     """Draw orders over the turns of a shaft whose speed changes, with the orders of defects.
 
+    Of a run from rest, or to it, the longest part is drawn in which the shaft has at least a twentieth of its
+    highest speed: there no turn has more than 20 times the samples of the fastest. The axis says from when.
+
     Parameters
     ----------
     of : Signals, Recording or array_like
@@ -145,7 +150,10 @@ def order_map(
         raise SceneError("band", str(band), "None with an array, whose sampling rate is not known")
     signal = source(of, column, rate)
     x = spectra.squared_envelope(signal.x, signal.fs, band) if envelope else signal.x
-    turns = of[angle] if isinstance(angle, str) else np.asarray(angle)  # type: ignore[index,call-overload]
+    given = of[angle] if isinstance(angle, str) else angle  # type: ignore[index,call-overload]
+    turns = real_row("angle", given)
+    turning = spectra.turning(turns) if x.shape == turns.shape else slice(0, None)
+    x, turns = x[turning], turns[turning]
     turn, value = spectra.by_order(x, turns, per_turn or math.ceil(2.5 * highest))
     rate_of_turns = 1.0 / float(turn[1])
     # Windows of some turns, or the sidebands of a fault would flow into its line.
@@ -159,9 +167,17 @@ def order_map(
     )
     _fault_orders(fig, of, faults=faults, rates=rates, row=row, highest=highest)
     what = "the squared envelope" if envelope else "the signal"
-    fig.update_xaxes(title_text="turns of the shaft")
+    since = "" if turning.start == 0 else _since(turning.start, signal, rate)
+    fig.update_xaxes(title_text=f"turns of the shaft{since}")
     fig.update_yaxes(title_text=f"order of {what} / per turn")
     return finished(fig, layout, height=440, margin={"r": 64})
+
+
+def _since(first: int, signal: Source, rate: float | None) -> str:
+    """Say from when on the shaft turns: time, or a sample of an array without a rate."""
+    if rate is not None:
+        return f" from sample {first} on, where it has a twentieth of its highest speed"
+    return f" from {signal.start + first / signal.fs:.4g} s on, where it has a twentieth of its highest speed"
 
 
 def _fault_orders(

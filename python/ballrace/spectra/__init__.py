@@ -20,7 +20,7 @@ From a record to the race that is damaged:
 
 from __future__ import annotations
 
-from .angular import by_order, order_spectrum
+from .angular import by_order, order_spectrum, turning
 from .bands import FaultBand, FaultMetrics, fault_band_metrics, fault_bands
 from .densities import psd, spectrogram
 from .envelopes import envelope_spectrum, squared_envelope, squared_envelope_spectrum
@@ -45,4 +45,5 @@ __all__ = [
     "spectrum",
     "squared_envelope",
     "squared_envelope_spectrum",
+    "turning",
 ]

@@ -20,7 +20,7 @@ from .lines import spectrum
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["by_order", "order_spectrum"]
+__all__ = ["by_order", "order_spectrum", "turning"]
 
 _FINER = 4
 """Samples that a cubic spline is laid through, for each of the signal: exact to 0.2 % up to 0.4 fs."""
@@ -30,6 +30,9 @@ _FILTER = {"window": ("kaiser", 8.0), "padtype": "antireflect"}
 
 _FEWEST = 8
 """Samples over the angle, at least."""
+
+_SLOWEST = 0.05
+"""Part of the highest speed below which a shaft all but stands."""
 
 _MOST = 64
 """Samples over the angle for each over time, at most."""
@@ -87,6 +90,32 @@ def by_order(
     if filtered > 1:
         value, at = resample_poly(value, 1, filtered, **_FILTER), at[::filtered]
     return at, value
+
+
+def turning(angle: ArrayLike) -> slice:
+    """Return the longest part of a record in which the shaft has at least a twentieth of its highest speed.
+
+    Of a run from rest, what :func:`by_order` takes: no turn has more than 20 times the samples of the fastest.
+
+    Parameters
+    ----------
+    angle : array_like, shape (n,)
+        Angle of the shaft at equal steps of time [rad].
+
+    Examples
+    --------
+    >>> t = np.arange(8001) / 4000.0
+    >>> turning(2 * np.pi * 10.0 * t**2)
+    slice(400, 8001, None)
+    """
+    speed = np.diff(real_row("angle", angle), axis=0)
+    slowest = _SLOWEST * speed.max(initial=0.0)
+    if speed.ndim != 1 or not slowest > 0.0 or speed.min() < -slowest:
+        return slice(0, speed.size + 1)  # which by_order refuses
+    turns = np.concatenate(([0], (speed >= slowest).astype(np.int8), [0]))
+    begins, ends = np.flatnonzero(np.diff(turns) == 1), np.flatnonzero(np.diff(turns) == -1)
+    longest = int(np.argmax(ends - begins))
+    return slice(int(begins[longest]), int(ends[longest]) + 1)
 
 
 def order_spectrum(
@@ -151,6 +180,8 @@ def _rates(turns: NDArray[np.float64], per_turn: int | None) -> tuple[int, int]:
     if rate * filtered * turns[-1] > _MOST * turns.size:
         text = f"{needed} samples a turn where it is slowest"
         raise SceneError(
-            "angle", text, "a record without the time in which the shaft all but stands"
+            "angle",
+            text,
+            "one without the time in which the shaft all but stands, as turning(angle) cuts it",
         )
     return rate, filtered
