@@ -8,8 +8,8 @@ use super::tableau::Tableau;
 
 /// A way to take one step; the driver does the rest.
 ///
-/// Its implementations are the explicit [`Tableau`] for any system and [`Additive`] for systems with
-/// stiff velocities.
+/// Its implementations are the explicit [`Tableau`] and [`VelocityVerlet`](super::VelocityVerlet) for any system, and
+/// [`Additive`] and the multistep [`Adams`](super::Adams) for systems with stiff velocities.
 pub trait Method<S> {
     /// Weights, error weights and dense output.
     fn tableau(&self) -> &Tableau;

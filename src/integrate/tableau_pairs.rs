@@ -1,4 +1,4 @@
-//! More explicit methods as data, beside the default of `tableau.rs`.
+//! More explicit Runge–Kutta methods as data, beside Dormand–Prince of `tableau.rs`.
 
 use super::tableau::{Tableau, hermite};
 

@@ -56,8 +56,8 @@ pub enum Probe {
         body: String,
     },
     /// Films and losses of a row's oil, as points: `<probe>.outer.film`, `.inner.film` \[m\], `.outer.lambda`, `.inner.lambda`,
-    /// `.friction_torque` \[N m\], `.slip_power`, `.rolling_power`, `.damping_power` \[W\]. The torque resists: it is what the row's
-    /// balls put on the inner ring, positive whichever way the shaft turns.
+    /// `.friction_torque` \[N m\], `.slip_power`, `.rolling_power`, `.damping_power`, `.drag_power` \[W\]. The torque resists: it
+    /// is what the row's balls put on the inner ring, positive whichever way the shaft turns.
     Lubrication {
         /// Row, from 0; it has a lubricant.
         #[serde(default)]
