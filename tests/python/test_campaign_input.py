@@ -177,6 +177,9 @@ def test_a_new_entry_by_its_path(tmp_path: Path) -> None:
     assert done.manifest["fault_outer_race"].to_list() == [False, False]
     assert done.manifest["defects.new.touched"].to_list() == [0.0, None]
     assert done.scene(done.manifest["case_id"][0]).defects["new"] == spall
+    moment = br.scene.Moment(ring="inner", direction=(0.0, 0.0, 1.0), moment=0.1)
+    turned = run([{"moments.new": moment}], tmp_path / "turned", duration=1e-4, start="rolling")
+    assert turned.scene(turned.manifest["case_id"][0]).moments == {"new": moment}
 
 
 @pytest.mark.parametrize(

@@ -118,6 +118,8 @@ def test_some_chains_for_each_case(done: br.Campaign) -> None:
 def test_what_is_refused(done: br.Campaign) -> None:
     with pytest.raises(br.SceneError, match="chains"):
         done.measure({})
+    with pytest.raises(br.SceneError, match=r"at least one Chain of br\.measuring, which without"):
+        done.windows(None, 512)  # type: ignore[arg-type]
     with pytest.raises(br.SceneError, match="per_case"):
         done.measure(CHAINS, per_case=4)
     with pytest.raises(br.SceneError, match="length"):

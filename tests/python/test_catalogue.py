@@ -281,3 +281,28 @@ def test_bad_arguments_are_named(arguments: dict[str, float], field: str) -> Non
     with pytest.raises(br.SceneError) as refused:
         br.bearing("6205", **arguments)  # type: ignore[arg-type]
     assert refused.value.path == field
+
+
+SPALL = br.defects.spall(on="inner_race", width_mm=1.0)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "field", "told"),
+    [
+        ({"defects": [SPALL, SPALL]}, "defects", r"several by their names, \{\"first\""),
+        ({"defects": "inner_race"}, "defects", r"br\.defects\.spall\(on=\"inner_race\""),
+        ({"defects": {"a": "inner_race"}}, "defects", r"br\.defects\.spall"),
+        ({"speed": 1797.0}, "speed", r"speed_rpm, .* \[rev/min\]"),
+        ({"d": 25e-3}, "d", r"br\.bearing\(\"6205\"\)"),
+        ({"load": 1e3}, "load", "radial_load"),
+        ({"radial_laod": 1e3}, "radial_laod", "write radial_load"),
+    ],
+)
+def test_what_people_write_is_refused_with_what_they_meant(
+    arguments: dict[str, object], field: str, told: str
+) -> None:
+    with pytest.raises(br.SceneError, match=told) as refused:
+        br.bearing("6205", **arguments)  # type: ignore[arg-type]
+    assert refused.value.path == field
+    with pytest.raises(br.SceneError, match="first argument"):
+        br.bearing(d=25e-3)  # type: ignore[call-arg]

@@ -81,6 +81,8 @@ def test_signals_of_a_file_are_signals(tmp_path: Path) -> None:
     assert "50 samples" in repr(out)
     assert all(values.shape == (50,) for values in out.values())
     assert out.to_polars().equals(pl.read_parquet(path))
+    with pytest.raises(KeyError, match=r"near are outer\.ay'?\"?$"):
+        out["outer.AY"]
     with pytest.raises(KeyError, match=r"near are outer\.ay"):
         out["outer_ay"]
     same(pickle.loads(pickle.dumps(out)), out)

@@ -38,6 +38,21 @@ def test_cwru_keys(tmp_path: Path) -> None:
         br.read(path)
 
 
+@pytest.mark.parametrize("name", ["SampleFrequency", "sample_rate", "fs"])
+def test_a_rate_goes_by_many_names(tmp_path: Path, name: str) -> None:
+    savemat(tmp_path / "a.mat", {"ch1": X, name: 25_600})
+    assert br.read(tmp_path / "a.mat").fs == 25_600.0
+    h5py = pytest.importorskip("h5py")
+    for at in ("attribute", "data set"):
+        with h5py.File(tmp_path / "a.h5", "w") as file:
+            file.create_dataset("ch1", data=X)
+            if at == "attribute":
+                file.attrs[name] = 25_600.0
+            else:
+                file.create_dataset(name, data=25_600.0)
+        assert br.read(tmp_path / "a.h5").fs == 25_600.0, at
+
+
 def test_a_cwru_file_with_two_records(tmp_path: Path) -> None:
     content = {"X098_DE_time": X, "X099_DE_time": 2.0 * X, "X099RPM": 1750}
     for name in ("99.mat", "other.mat"):

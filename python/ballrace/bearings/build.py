@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
+from .._arguments import knows
 from .._numbers import real
 from ..errors import SceneError
 from ..scene import (
@@ -26,9 +27,6 @@ from .clearance import radial_clearance
 from .names import clearance_class
 from .rows import Bearing, catalogue
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
 __all__ = ["bearing"]
 
 _HALF_THE_BALLS = 1.22
@@ -37,7 +35,21 @@ _HALF_THE_BALLS = 1.22
 _OF_6205 = (52e-3**2 - 39.04e-3**2) * 15e-3
 """What the outer ring of a 6205 has of metal, but for a factor [m³]."""
 
+_SPEED = "speed_rpm, the speed of the inner ring [rev/min]"
+_SIZE = (
+    'a designation or a Bearing as the first argument, such as br.bearing("6205"); br.catalogue.find(bore=25e-3) '
+    "looks by size [m]"
+)
+_LOADS = "radial_load and axial_load [N]"
+_MEANT = {
+    **dict.fromkeys(("speed", "rpm", "n", "speed_hz"), _SPEED),
+    **dict.fromkeys(("d", "D", "B", "bore", "outside_diameter", "width", "ball_count"), _SIZE),
+    **dict.fromkeys(("load", "force", "Fr", "Fa"), _LOADS),
+}
+"""What to write instead of arguments that there are not."""
 
+
+@knows(_MEANT)
 def bearing(
     name: str | Bearing,
     *,
@@ -99,7 +111,7 @@ def bearing(
     axial = _thrust(made, radial, axial_load)
     if not math.isfinite(real(speed_rpm)):
         raise SceneError("speed_rpm", str(speed_rpm), "a speed [rev/min]")
-    named = {"defect": defects} if isinstance(defects, Defect) else dict(defects or {})
+    named = _named(defects)
     oil = chosen(lubricant, temperature_c)
     size = (made.outside_diameter**2 - made.pitch_diameter**2) * made.width / _OF_6205
     return Scene(
@@ -119,6 +131,18 @@ def bearing(
         defects=named,
         probes={"outer": MotionProbe(body="outer"), "inner": MotionProbe(body="inner")},
     ).validate()
+
+
+def _named(defects: Defect | Mapping[str, Defect] | None) -> dict[str, Defect]:
+    """Return defects by their names."""
+    named = {"defect": defects} if isinstance(defects, Defect) else defects or {}
+    if not isinstance(named, Mapping) or not all(isinstance(d, Defect) for d in named.values()):
+        allowed = (
+            'one of br.defects, such as br.defects.spall(on="inner_race", width_mm=1.0), or several by their '
+            'names, {"first": …, "second": …}'
+        )
+        raise SceneError("defects", repr(defects), allowed)
+    return dict(named)
 
 
 def _clearance(name: str | Bearing, made: Bearing, clearance: str | float | None) -> str | float:

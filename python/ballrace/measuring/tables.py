@@ -17,6 +17,8 @@ __all__ = ["Chains", "named_chains", "table"]
 Chains = Chain | Mapping[str, Chain] | Sequence[Chain]
 """A chain, some by their names, or some that are numbered from 0."""
 
+_ALLOWED = "at least one Chain of br.measuring, which without stages changes nothing; several by their names"
+
 
 def named_chains(chains: Chains) -> dict[str, Chain]:
     """Return chains by their names.
@@ -28,11 +30,11 @@ def named_chains(chains: Chains) -> dict[str, Chain]:
     """
     given = [chains] if isinstance(chains, Chain) else chains
     if not isinstance(given, Mapping | Sequence):
-        raise SceneError("chains", repr(chains), "at least one Chain of ballrace.measuring")
+        raise SceneError("chains", repr(chains), _ALLOWED)
     pairs = given.items() if isinstance(given, Mapping) else enumerate(given)
     named = {str(name): chain for name, chain in pairs}
     if not named or not all(isinstance(chain, Chain) for chain in named.values()):
-        raise SceneError("chains", repr(chains), "at least one Chain of ballrace.measuring")
+        raise SceneError("chains", repr(chains), _ALLOWED)
     return named
 
 

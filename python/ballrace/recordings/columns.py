@@ -210,6 +210,7 @@ class Columns(Mapping[str, NDArray[np.float64]]):
 def no_column(name: object, columns: Iterable[str]) -> KeyError:
     """Return the error for a column that is not there; it names near ones."""
     columns = list(columns)
-    near = difflib.get_close_matches(str(name), columns, n=5, cutoff=0.4)
+    near = [column for column in columns if column.casefold() == str(name).casefold()]
+    near = near or difflib.get_close_matches(str(name), columns, n=5, cutoff=0.4)
     hint = f"near are {', '.join(near)}" if near else f"there are {', '.join(columns)}"
     return KeyError(f"no column {name!r}; {hint}")

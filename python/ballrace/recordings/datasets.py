@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import FileError
-from .samples import Samples
+from .samples import RATES, Samples
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -94,9 +94,7 @@ def vectors(path: Path, variables: Mapping[str, Any]) -> Samples | None:
         array = np.asarray(value)
         if array.dtype.kind in "fiu" and array.size > 1 and max(array.shape) == array.size:
             columns[name] = _vector(array)
-        elif (
-            array.dtype.kind in "fiu" and array.size == 1 and name in ("fs", "Fs", "sampling_rate")
-        ):
+        elif array.dtype.kind in "fiu" and array.size == 1 and name in RATES:
             fs = float(array.ravel()[0])
     longest = max((x.size for x in columns.values()), default=0)
     columns = {name: x for name, x in columns.items() if x.size == longest}

@@ -8,15 +8,12 @@ import numpy as np
 
 from ..errors import FileError
 from .libraries import needed
-from .samples import Samples, from_told
+from .samples import RATES, Samples, from_told
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
-
-_RATES = ("sampling_rate", "fs", "Fs", "sample_rate")
-"""Attributes, or data sets, that may tell the rate [Hz]."""
 
 
 def write(samples: Samples, temporary: Path, path: Path) -> None:
@@ -40,7 +37,7 @@ def read(path: Path) -> Samples:
     arrays, units, told = contents(path)
     if "ballrace" in told:
         return from_told(path, str(told["ballrace"]), arrays)
-    rate = next((told[name] for name in _RATES if name in told), None)
+    rate = next((told[name] for name in RATES if name in told), None)
     sizes = [x.size for x in arrays.values() if x.size > 1]
     longest = max(sizes, key=lambda size: size * sizes.count(size), default=0)
     columns = {name: x for name, x in arrays.items() if x.size == longest and longest}

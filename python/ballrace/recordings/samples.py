@@ -15,6 +15,17 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
+RATES = (
+    "sampling_rate",
+    "fs",
+    "Fs",
+    "sample_rate",
+    "SampleFrequency",
+    "SampleRate",
+    "SamplingRate",
+)
+"""Attributes or single numbers of a file that may tell the rate [Hz]."""
+
 
 @dataclass(kw_only=True)
 class Samples:

@@ -1,0 +1,42 @@
+"""Keyword arguments that a function does not have, refused with what to write instead."""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import inspect
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
+
+from .errors import SceneError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def knows(meant: Mapping[str, str]) -> Callable[[Callable[P, T]], Callable[P, T]]:
+    """Let a function refuse an unknown keyword by an error of this package, with what was meant by it.
+
+    Parameters
+    ----------
+    meant : mapping of str to str
+        What to write instead of an argument that people expect; of others the nearest that there are is told.
+    """
+
+    def decorated(function: Callable[P, T]) -> Callable[P, T]:
+        known = list(inspect.signature(function).parameters)
+
+        @functools.wraps(function)
+        def called(*args: P.args, **kwargs: P.kwargs) -> T:
+            for name, value in kwargs.items():
+                if name not in known:
+                    near = difflib.get_close_matches(name, known, n=3) or known
+                    instead = meant.get(name, f"no argument; write {', '.join(near)}")
+                    raise SceneError(name, repr(value), instead)
+            return function(*args, **kwargs)
+
+        return called
+
+    return decorated
