@@ -6,6 +6,7 @@ use super::cost::{self, Cost};
 use crate::equilibrium::compile;
 use crate::model::Model;
 use crate::reduction::Reduction;
+use crate::run::step_limit;
 use crate::scene::{Load, Method, Scene, Slices, Surface};
 use crate::start::{Start, start};
 
@@ -31,6 +32,11 @@ const WITHOUT_OIL: &str = "without oil";
 const WITHOUT_ROLLING: &str = "without rolling resistance";
 const WITHOUT_FILM_DAMPING: &str = "without the film's damping";
 const OF_OIL: [&str; 3] = [WITHOUT_OIL, WITHOUT_ROLLING, WITHOUT_FILM_DAMPING];
+
+/// What takes longer steps where friction holds the scene's own short.
+const IMPLICIT: &str = "with solver.method = \"implicit-friction\"";
+/// Steps over the longest that contacts allow, from which on friction holds them short.
+const SHORT: f64 = 0.25;
 
 /// A change that may make a scene cheaper; nothing where it does not apply.
 type Change = fn(&Scene) -> Option<Scene>;
@@ -74,7 +80,7 @@ const CHANGES: [(&str, &str, Change); 15] = [
         },
     ),
     (
-        "with solver.method = \"implicit-friction\"",
+        IMPLICIT,
         "the same answer: stiff friction is solved for at every step",
         |scene| {
             let mut changed = scene.clone();
@@ -160,8 +166,11 @@ const CHANGES: [(&str, &str, Change); 15] = [
 
 /// All that help or are of the oil, the cheapest first. Each is started and timed as the scene itself was.
 pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Vec<Variant> {
+    let longest = step_limit::largest(model.scene().solver.method, model);
+    let is_short = SHORT * longest * cost.evaluations > 1.0;
     let mut variants: Vec<Variant> = offers(model, y0)
         .into_iter()
+        .filter(|(change, ..)| *change != IMPLICIT || is_short)
         .filter_map(|(change, note, changed)| {
             let y0 = &changed.layout().carry(y0, model.layout());
             Some(Variant {
