@@ -272,14 +272,24 @@ pub(crate) fn attitude_rates(turning: &Vector3<f64>, [w, x, y, z]: [f64; 4]) -> 
     [rates.w, rates.i, rates.j, rates.k]
 }
 
-/// How their rates change, ½ ω̇ e − ¼ ω² e.
+/// How Euler parameters e of rates ė accelerate under an angular velocity and its rate:
+///
+/// ```text
+/// ë = ½ ω̇ e − ¼ ω² e + 2 k (½ ω e − ė) − k² ½ (|e|² − 1) e
+/// ```
+///
+/// The last two vanish in every motion with ė = ½ ω e and |e| = 1. They lead e and ė back there at a rate k \[1/s\], critically
+/// damped, from where errors of steps would let them drift (J. Baumgarte, *Comput. Methods Appl. Mech. Eng.* 1, 1972).
 pub(crate) fn attitude_accelerations(
     rates: &Vector3<f64>,
     turning: &Vector3<f64>,
-    e: [f64; 4],
+    [e, changes]: [[f64; 4]; 2],
+    k: f64,
 ) -> [f64; 4] {
-    let (found, square) = (attitude_rates(rates, e), 0.25 * turning.norm_squared());
-    std::array::from_fn(|i| found[i] - square * e[i])
+    let (of_rates, of_turning) = (attitude_rates(rates, e), attitude_rates(turning, e));
+    let excess = 0.5 * (e.iter().map(|e| e * e).sum::<f64>() - 1.0);
+    let back = 0.25 * turning.norm_squared() + k * k * excess;
+    std::array::from_fn(|i| of_rates[i] - back * e[i] + 2.0 * k * (of_turning[i] - changes[i]))
 }
 
 /// Centrifugal force on a mass \[kg\] that rests in the cage's frame, over its radius \[N/m\].

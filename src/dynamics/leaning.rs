@@ -160,13 +160,17 @@ pub(crate) fn turning_accelerations(
 /// Writes how the rates of a ball's Euler parameters change, once its angular acceleration is there.
 fn tumble(model: &Model, state: &State, ball: BodyId, accelerations: &mut [f64]) {
     let layout = model.layout();
-    let motion = state.motion(ball);
-    let Some(attitude) = motion.attitude else {
+    let Some(attitude) = state.attitude(ball) else {
         return;
     };
     let turning =
         [Dof::TurnX, Dof::TurnY, Dof::Theta].map(|dof| accelerations[layout.at(ball, dof)]);
-    let found = attitude_accelerations(&turning.into(), &motion.turning(), attitude);
+    let found = attitude_accelerations(
+        &turning.into(),
+        &state.motion(ball).turning(),
+        attitude,
+        model.attitude_rate(),
+    );
     for (dof, found) in Dof::ATTITUDE.into_iter().zip(found) {
         accelerations[layout.at(ball, dof)] = found;
     }

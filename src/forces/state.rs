@@ -129,8 +129,8 @@ pub(crate) struct State {
     tilts: [[[f64; 2]; 2]; 2],
     /// Angular velocities about x and y of all bodies, padded like a table, where balls spin freely \[rad/s\].
     across: Option<[Vec<f64>; 2]>,
-    /// Euler parameters of the balls that have them.
-    attitudes: Vec<[f64; 4]>,
+    /// Euler parameters of the balls that have them, and their rates \[1/s\].
+    attitudes: Vec<[[f64; 4]; 2]>,
 }
 
 impl State {
@@ -148,7 +148,7 @@ impl State {
             across: model
                 .balls_turn()
                 .then(|| [(); 2].map(|()| vec![0.0; bodies + LANES])),
-            attitudes: vec![[0.0; 4]; model.layout().tumbling().len()],
+            attitudes: vec![[[0.0; 4]; 2]; model.layout().tumbling().len()],
         }
     }
 
@@ -172,7 +172,8 @@ impl State {
                 }
             }
             for (j, attitude) in layout.tumbling().zip(&mut self.attitudes) {
-                *attitude = Dof::ATTITUDE.map(|dof| q[layout.at(BodyId::ball(j), dof)]);
+                *attitude = [q, v]
+                    .map(|half| Dof::ATTITUDE.map(|dof| half[layout.at(BodyId::ball(j), dof)]));
             }
         }
     }
@@ -184,8 +185,8 @@ impl State {
         self.v.write(v);
     }
 
-    /// Euler parameters of a ball that has them.
-    fn attitude(&self, body: BodyId) -> Option<[f64; 4]> {
+    /// Euler parameters of a ball that has them, and their rates \[1/s\].
+    pub fn attitude(&self, body: BodyId) -> Option<[[f64; 4]; 2]> {
         let tumbling = self.layout?.tumbling();
         let ball = body.as_ball().filter(|ball| tumbling.contains(ball))?;
         Some(self.attitudes[ball - tumbling.start])
@@ -204,7 +205,7 @@ impl State {
             across: self.across.as_ref().map_or_else(V2::zeros, |[x, y]| {
                 V2::new(x[body.index()], y[body.index()])
             }),
-            attitude: self.attitude(body),
+            attitude: self.attitude(body).map(|[attitude, _]| attitude),
             seen_by: None,
         }
     }

@@ -151,7 +151,7 @@ impl<const N: usize> Solves for Newton<N> {
                 if rate > WORN {
                     self.stage.kept = None;
                 }
-                tumble(model.layout(), y, equation);
+                tumble(model, y, equation);
                 return Ok(iteration);
             }
             (anew, self.stage.secant) = (rate > SLOW, rate > DIVERGING);
@@ -191,16 +191,19 @@ pub(super) fn velocity_limit(model: &Model) -> f64 {
 }
 
 /// Writes the rates of Euler parameters, which no force depends on, once it is known how their balls turn.
-fn tumble(layout: Layout, y: &mut [f64], StageEquation { base, gamma_h }: &StageEquation<'_>) {
+fn tumble(model: &Model, y: &mut [f64], StageEquation { base, gamma_h }: &StageEquation<'_>) {
+    let (layout, k) = (model.layout(), model.attitude_rate());
     for ball in layout.tumbling().map(BodyId::ball) {
         let e = Dof::ATTITUDE.map(|dof| y[layout.at(ball, dof)]);
         let turns = [Dof::TurnX, Dof::TurnY, Dof::Theta];
         let turning = turns.map(|dof| y[layout.speed_at(ball, dof)]);
         let rates =
             turns.map(|dof| (y[layout.speed_at(ball, dof)] - base[layout.at(ball, dof)]) / gamma_h);
-        let found = attitude_accelerations(&rates.into(), &turning.into(), e);
+        // They answer to their own rates by −2 k alone.
+        let found = attitude_accelerations(&rates.into(), &turning.into(), [e, [0.0; 4]], k);
         for (dof, found) in Dof::ATTITUDE.into_iter().zip(found) {
-            y[layout.speed_at(ball, dof)] = base[layout.at(ball, dof)] + gamma_h * found;
+            let rate = (base[layout.at(ball, dof)] + gamma_h * found) / (1.0 + 2.0 * k * gamma_h);
+            y[layout.speed_at(ball, dof)] = rate;
         }
     }
 }

@@ -289,6 +289,12 @@ impl Model {
         }
     }
 
+    /// Rate at which Euler parameters are led back to length one and to the ball's angular velocity \[1/s\]: slow for steps, which
+    /// follow the highest frequency, and fast against what errors of steps add up to.
+    pub(crate) fn attitude_rate(&self) -> f64 {
+        0.02 * self.scales.frequency
+    }
+
     /// Whether sharing one evaluation among threads pays: below some 7 µs the wait for the last thread costs more
     /// (`cargo bench -p ballrace-benches --bench layers -- threads`).
     pub(crate) fn is_large(&self) -> bool {

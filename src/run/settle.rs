@@ -242,3 +242,34 @@ impl Turned {
         scene
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Defect, Lubricant, Spin, presets};
+
+    /// Analytic: a rotation has Euler parameters of length one, and they change by ½ ω e: after thousands of steps too, which let
+    /// them drift by some 1e-6 where nothing leads them back.
+    #[test]
+    fn euler_parameters_keep_their_length() {
+        let mut scene = presets::deep_groove_6205(500.0, 500.0, 1797.0);
+        scene.lubricant = Some(Lubricant::named("vg68", 50.0 + 273.15));
+        scene.spin = Some(Spin::Free);
+        let cap = Defect::cap(-1.57, 0.5e-3, 0.3e-3).on_ball(3);
+        scene.defects.insert("cap".to_owned(), cap.at_offset(0.0));
+        let run = Run {
+            settle: Some(0.03),
+            ..Run::default()
+        };
+        let settled = settle(&scene, &run, &mut |_| ControlFlow::Continue(())).unwrap();
+        let Start::State(y) = &settled.from else {
+            panic!("a state")
+        };
+        let model = compile(&scene).unwrap();
+        let ball = BodyId::ball(3);
+        let attitude = model.layout().motion(y, ball).attitude.unwrap();
+        let square: f64 = attitude.iter().map(|e| e * e).sum();
+        println!("{:e} in {} steps", square - 1.0, settled.accepted);
+        assert!((square - 1.0).abs() < 1e-8);
+    }
+}

@@ -45,7 +45,8 @@ fn held_balls_stay() {
     }
 }
 
-/// Four zeros are no attitude; and one that is changes as the ball turns, whatever the state says of its rate.
+/// Four zeros are no attitude; one that is next to length one is brought there, and changes as the ball turns, whatever the state
+/// says of its rate.
 #[test]
 fn given_attitudes_are_attitudes() {
     let model = compile(&capped()).unwrap();
@@ -58,6 +59,9 @@ fn given_attitudes_are_attitudes() {
     y0[at(&model, "row0.ball2.turn_x") + model.dim() / 2] = 40.0;
     let rates = at(&model, "row0.ball2.ve0");
     assert_eq!(given(&y0).unwrap()[rates..rates + 2], [0.0, 20.0]);
+    // Errors of the steps that led there are taken back: a state of a run is one to begin with.
+    y0[first..first + 4].copy_from_slice(&[1.0 + 1e-4, 0.0, 0.0, 0.0]);
+    assert_eq!(given(&y0).unwrap()[first], 1.0);
     y0[first] = 0.0;
     match given(&y0) {
         Err(Error::Scene { path, allowed, .. }) => {
