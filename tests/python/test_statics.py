@@ -34,6 +34,16 @@ def test_the_residual_is_told(scene: br.Scene) -> None:
     assert br.stiffness(scene).equilibrium.residual == eq.residual
 
 
+@pytest.mark.parametrize("length_mm", [2.0, 3.5, 5.0])
+def test_a_ball_that_just_touches_inside_a_spall_balances(length_mm: float) -> None:
+    """Truth: the forces themselves. Ball 0 touches with 0.6 N, over a tenth of the zone of a whole race."""
+    spall = br.defects.spall(on="outer_race", width_mm=1.0, length_mm=length_mm)
+    scene = br.bearing(
+        "6205", radial_load=500.0, axial_load=1500.0, speed_rpm=1800.0, defects=spall
+    )
+    assert br.equilibrium(scene).residual_share < 1e-9
+
+
 def test_stiffness_rises_with_load(scene: br.Scene) -> None:
     """Truth: contacts that stiffen. Thrust makes a deep-groove bearing stiffer axially."""
     loads = (100.0, 300.0, 1000.0)

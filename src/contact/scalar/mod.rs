@@ -1,6 +1,7 @@
 //! One ball on one race: finds the zone that touches, and cuts it into slices.
 
 mod coat;
+mod ends;
 mod rubbing;
 mod shape;
 mod slices;

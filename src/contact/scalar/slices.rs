@@ -171,11 +171,6 @@ struct Piece {
     sealed: [bool; 2],
 }
 
-/// Places at which a piece inside a defect is looked at for the ends of the elements' zones.
-const LOOKS: usize = 12;
-/// Ends of zones in one piece that are kept; a bed of floor circles can have more, at some loss of accuracy.
-const MOST_ENDS: usize = 16;
-
 impl Contact<'_> {
     /// Hands the forces of all slices to the sink.
     pub(super) fn slices<S: Sink + ?Sized>(&self, line: &Line, sink: &mut S) {
@@ -218,7 +213,7 @@ impl Contact<'_> {
     fn fixed<S: Sink + ?Sized>(&self, line: &Line, count: usize, sink: &mut S) {
         let radius = self.ball.radius;
         let width = line.of_slice(2.0 * radius / count as f64);
-        let ends = [line.low, line.high].map(|u| line.zeta(u).0.clamp(-radius, radius));
+        let ends = line.ends().map(|zeta| zeta.clamp(-radius, radius));
         for zeta in fixed_places(radius, count, ends) {
             let node = line
                 .u(zeta)
@@ -264,7 +259,7 @@ impl Contact<'_> {
             self.nodes(line, piece, rules, sink);
             return;
         }
-        let (ends, count) = self.zone_ends(line, piece);
+        let (ends, count) = self.zone_ends(line, [piece.low, piece.high]);
         let mut low = piece.low;
         for high in ends[..count].iter().copied().chain([piece.high]) {
             self.nodes(
@@ -301,37 +296,8 @@ impl Contact<'_> {
         }
     }
 
-    /// Where a penetration of any element changes its sign within a piece, in order.
-    fn zone_ends(&self, line: &Line, piece: Piece) -> ([f64; MOST_ENDS], usize) {
-        let mut ends = [0.0; MOST_ENDS];
-        let mut count = 0;
-        // Not quite from end to end: a defect's own end may count as outside.
-        let inset = 1e-9 * (piece.high - piece.low);
-        let low = piece.low + inset;
-        let step = (piece.high - inset - low) / LOOKS as f64;
-        let at = |u: f64| self.node(line, u, 0.0).map(|node| self.penetrations(&node));
-        let mut before = at(low);
-        for k in 1..=LOOKS {
-            let u = low + step * k as f64;
-            let now = at(u);
-            if let (Some(a), Some(b)) = (&before, &now) {
-                let shared = if a.count == b.count { a.count } else { 0 };
-                for i in 0..shared {
-                    if (a.values[i] > 0.0) != (b.values[i] > 0.0) && count < MOST_ENDS {
-                        let penetration = |u: f64| at(u).map_or(0.0, |found| found.values[i]);
-                        ends[count] = root(penetration, (u - step, a.values[i]), (u, b.values[i]));
-                        count += 1;
-                    }
-                }
-            }
-            before = now;
-        }
-        ends[..count].sort_by(f64::total_cmp);
-        (ends, count)
-    }
-
     /// The node at u that stands for a stretch of u.
-    fn node(&self, line: &Line, u: f64, stretch: f64) -> Option<Node> {
+    pub(super) fn node(&self, line: &Line, u: f64, stretch: f64) -> Option<Node> {
         let (zeta, width) = line.zeta(u);
         self.node_at(line, zeta, u, stretch * width)
     }
@@ -376,24 +342,6 @@ fn different(places: impl Iterator<Item = f64> + Clone) -> impl Iterator<Item = 
         let known = |other: f64| (other - place).abs() <= 2.0 * HAIR;
         (!all.clone().take(i).any(known)).then_some(place)
     })
-}
-
-/// A zero between two places of opposite sign, by the Illinois variant of regula falsi.
-fn root(f: impl Fn(f64) -> f64, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
-    for _ in 0..12 {
-        let x = (a.0 * b.1 - b.0 * a.1) / (b.1 - a.1);
-        let y = f(x);
-        if y == 0.0 || (b.0 - a.0).abs() < 1e-12 {
-            return x;
-        }
-        if (y > 0.0) == (b.1 > 0.0) {
-            a.1 /= 2.0;
-        } else {
-            a = b;
-        }
-        b = (x, y);
-    }
-    b.0
 }
 
 /// Middles of the fixed slices that may lie in a zone.

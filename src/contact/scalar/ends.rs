@@ -1,0 +1,90 @@
+//! Where the zones of elements end inside a defect: places at which a penetration changes its sign.
+//!
+//! A piece of a contact's zone is looked at in even steps, and between three looks of which the middle one is nearest to zero the
+//! penetration, which is nearly a parabola, is followed to where it turns. Without that a zone shorter than a step, such as that
+//! of a far edge or of what is left of the race, would begin with a jump of the force, and an equilibrium that lies there could
+//! not be found.
+
+use super::{Contact, Line};
+
+/// Places at which a piece inside a defect is looked at for the ends of the elements' zones.
+const LOOKS: usize = 12;
+/// Ends of zones in one piece that are kept; a bed of floor circles can have more, at some loss of accuracy.
+const MOST_ENDS: usize = 16;
+
+impl Contact<'_> {
+    /// Where a penetration of any element changes its sign within a piece, in order.
+    pub(super) fn zone_ends(
+        &self,
+        line: &Line,
+        [low, high]: [f64; 2],
+    ) -> ([f64; MOST_ENDS], usize) {
+        let mut ends = [0.0; MOST_ENDS];
+        let mut count = 0;
+        // Not quite from end to end: a defect's own end may count as outside.
+        let inset = 1e-9 * (high - low);
+        let low = low + inset;
+        let step = (high - inset - low) / LOOKS as f64;
+        let at = |u: f64| self.node(line, u, 0.0).map(|node| self.penetrations(&node));
+        let mut keep = |of: &dyn Fn(f64) -> f64, a: (f64, f64), b: (f64, f64)| {
+            if (a.1 > 0.0) != (b.1 > 0.0) && count < MOST_ENDS {
+                ends[count] = root(of, a, b);
+                count += 1;
+            }
+        };
+        let [mut last, mut before] = [None, at(low)];
+        for k in 1..=LOOKS {
+            let u = low + step * k as f64;
+            let now = at(u);
+            if let (Some(b), Some(c)) = (&before, &now) {
+                let shared = if b.count == c.count { b.count } else { 0 };
+                let first = last.as_ref().filter(|a| a.count == shared);
+                for i in 0..shared {
+                    let penetration = |u: f64| at(u).map_or(0.0, |found| found.values[i]);
+                    let (b, c) = ((u - step, b.values[i]), (u, c.values[i]));
+                    keep(&penetration, b, c);
+                    let Some(a) = first.map(|a| (u - 2.0 * step, a.values[i])) else {
+                        continue;
+                    };
+                    // Between looks it may touch and part again, or the reverse.
+                    if let Some(turn) = turning_point([a.1, b.1, c.1]) {
+                        let turn = b.0 + step * turn;
+                        let there = (turn, penetration(turn));
+                        keep(&penetration, a, there);
+                        keep(&penetration, there, c);
+                    }
+                }
+            }
+            (last, before) = (before, now);
+        }
+        ends[..count].sort_by(f64::total_cmp);
+        (ends, count)
+    }
+}
+
+/// Where a parabola through three values, a step apart, turns nearest to zero, in steps from the middle one; none where they
+/// differ in sign or the middle one is not the nearest.
+fn turning_point([a, b, c]: [f64; 3]) -> Option<f64> {
+    let alike = (a > 0.0) == (b > 0.0) && (b > 0.0) == (c > 0.0);
+    let nearest = b.abs() <= a.abs() && b.abs() <= c.abs();
+    let bend = a - 2.0 * b + c;
+    (alike && nearest && bend != 0.0).then(|| 0.5 * (a - c) / bend)
+}
+
+/// A zero between two places of opposite sign, by the Illinois variant of regula falsi.
+fn root(f: impl Fn(f64) -> f64, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
+    for _ in 0..12 {
+        let x = (a.0 * b.1 - b.0 * a.1) / (b.1 - a.1);
+        let y = f(x);
+        if y == 0.0 || (b.0 - a.0).abs() < 1e-12 {
+            return x;
+        }
+        if (y > 0.0) == (b.1 > 0.0) {
+            a.1 /= 2.0;
+        } else {
+            a = b;
+        }
+        b = (x, y);
+    }
+    b.0
+}
