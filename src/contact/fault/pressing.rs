@@ -124,7 +124,7 @@ impl Contact<'_> {
         let radius = self.ball.radius;
         // α of the slice, or of the gap's gradient at a ball's fault circle.
         let slope = if self.common().is_some() {
-            (node.zeta / radius, node.rho / radius)
+            ((node.zeta / radius).clamp(-1.0, 1.0), node.rho / radius)
         } else {
             let cos = 1.0 / (1.0 + tan * tan).sqrt();
             (tan * cos, cos)

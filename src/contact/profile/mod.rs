@@ -79,10 +79,12 @@ impl Torus {
         (self.centre - z) / (radius - self.a)
     }
 
-    /// Whether the race reaches to that axial place.
+    /// Whether no shoulder cuts the race off before that axial place.
     pub fn reaches(&self, z: f64) -> bool {
         let x = z - self.centre;
-        x >= self.lowest && x <= self.highest
+        // A groove without a shoulder ends where it turns back.
+        (x >= self.lowest || self.lowest <= -self.r)
+            && (x <= self.highest || self.highest >= self.r)
     }
 
     /// A ball of some radius in the groove's meridional plane, at distance `d` from the ring's axis and at axial place

@@ -92,6 +92,11 @@ impl Line {
         }
     }
 
+    /// Whether it is the common tangent.
+    fn is_tangent(&self) -> bool {
+        matches!(self.along, Along::Tangent { .. })
+    }
+
     /// Half of its length, where the penetration vanishes at both ends of a zone.
     pub(super) fn half(&self, section: &Section<f64>) -> Option<f64> {
         let whole = self.is_common(section) && self.sealed == [true; 2];
@@ -171,6 +176,9 @@ struct Piece {
     sealed: [bool; 2],
 }
 
+/// Approach over the ball's radius from which a ball is being lost rather than pressed, and its zone ends with its surface.
+const DEEPEST: f64 = 0.05;
+
 impl Contact<'_> {
     /// Hands the forces of all slices to the sink.
     pub(super) fn slices<S: Sink + ?Sized>(&self, line: &Line, sink: &mut S) {
@@ -213,7 +221,11 @@ impl Contact<'_> {
     fn fixed<S: Sink + ?Sized>(&self, line: &Line, count: usize, sink: &mut S) {
         let radius = self.ball.radius;
         let width = line.of_slice(2.0 * radius / count as f64);
-        let ends = line.ends().map(|zeta| zeta.clamp(-radius, radius));
+        let [low, high] = line.ends();
+        if line.is_tangent() && low.min(-high) < -radius {
+            sink.truncated();
+        }
+        let ends = [low, high].map(|zeta| zeta.clamp(-radius, radius));
         for zeta in fixed_places(radius, count, ends) {
             let node = line
                 .u(zeta)
@@ -289,11 +301,23 @@ impl Contact<'_> {
             product.weights::<_, false>(slip, zone, &mut rubbing);
         }
         for (k, (x, weight)) in rules.on(piece.sealed).iter().enumerate() {
-            if let Some(mut node) = self.node(line, centre + half * x, half * weight) {
-                node.rubbing = rubbing.get(k).copied().unwrap_or(1.0);
-                self.slice(&node, sink);
+            match self.node(line, centre + half * x, half * weight) {
+                Some(mut node) => {
+                    node.rubbing = rubbing.get(k).copied().unwrap_or(1.0);
+                    self.slice(&node, sink);
+                }
+                // In a defect, or on a curve through points, past a pole.
+                None if line.is_tangent() => sink.truncated(),
+                None => {}
             }
         }
+    }
+
+    /// Whether a zone goes on past the pole of the ball, ζ = R, and of the groove: that on the common tangent of whole surfaces,
+    /// which has none. Friction takes such a node to lie at the pole.
+    fn passes_poles(&self, line: &Line) -> bool {
+        let is_whole = self.surface.is_none() && !(self.ring_open || self.ball_open);
+        line.is_tangent() && is_whole && self.section.approach < DEEPEST * self.ball.radius
     }
 
     /// The node at u that stands for a stretch of u.
@@ -310,13 +334,14 @@ impl Contact<'_> {
 
     fn node_at(&self, line: &Line, zeta: f64, u: f64, width: f64) -> Option<Node> {
         let square = self.ball.radius * self.ball.radius - zeta * zeta;
-        if square <= 0.0 {
+        let goes_on = self.passes_poles(line);
+        if square <= 0.0 && !goes_on {
             return None;
         }
         let z = self.z + zeta;
         let race = &self.race;
-        let groove = self.groove(z)?;
-        let rho = square.sqrt();
+        let groove = self.groove(z).or(goes_on.then_some(0.0))?;
+        let rho = square.max(0.0).sqrt();
         let depth = match line.along {
             Along::Surface(_) => self.section.penetration(rho, groove),
             Along::Tangent { curvature, .. } => self.section.approach - curvature * u * u / 2.0,

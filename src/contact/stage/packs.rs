@@ -104,7 +104,8 @@ impl Sink for SlicePacking<'_> {
         } = pack;
         // α of the slice: that of the place on the ball (flat contact), or of the force's direction.
         let (sin, cos) = if self.flat {
-            let sin = touch.zeta / self.radius;
+            // A contact on the tangent may go on past the ball's pole.
+            let sin = (touch.zeta / self.radius).clamp(-1.0, 1.0);
             (sin, (1.0 - sin * sin).sqrt())
         } else {
             let tan = touch.share.1 / touch.share.0;
