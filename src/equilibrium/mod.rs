@@ -249,6 +249,8 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
         doubts: Vec::new(),
     };
     found.doubts = doubts(&model.scene, &found);
+    let arcs = inspect::contact_arcs(model, [y; 2]);
+    found.doubts.extend(Doubt::waves(&model.scene, arcs));
     found
 }
 

@@ -284,6 +284,7 @@ def test_ring_defects(bearing: str, race: str) -> None:
 
 
 @pytest.mark.long
+@pytest.mark.filterwarnings("ignore:defects.*on = ball")
 @pytest.mark.parametrize("bearing", ["6205", "wheel"])
 def test_ball_defects(bearing: str) -> None:
     duration = 1.0 if bearing == "6205" else 0.5

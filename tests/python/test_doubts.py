@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import warnings
 from pathlib import Path
@@ -113,3 +114,64 @@ def test_the_command_line_tells(
     assert told["warnings"][0].startswith("rows[0].start_angle")
     assert np.shape(told["stiffness"]) == (3, 3)
     assert len(told["inner_equivalent"]) == 1
+
+
+@pytest.mark.parametrize(
+    ("changes", "path"),
+    [
+        ({"defects.defect.width": 1e-6}, "defects.defect.width = 0.001 mm"),
+        ({"drive.speed": 1797.0}, "drive.speed = 1797 rad/s"),
+        ({"loads.radial.force": 1.5, "loads.axial.force": 0.0}, "loads.radial.force = 1.5 N"),
+        ({"contact.damping": 20.0}, "contact.damping = 20 s/m"),
+        ({"rows[0].clearance": -100e-6}, "rows[0].clearance = -100 µm"),
+        ({"rows[0].axial_preload": 10e-6}, "rows[0].axial_preload = 0.01 mm"),
+        ({"loads.radial.at": (0.0, 0.0, -0.06)}, "loads.radial.at = "),
+        (
+            {
+                "defects.defect.on": "ball",
+                "defects.defect.ball": 0,
+                "loads.axial.force": 2000.0,
+            },
+            "defects.defect.on = ball",
+        ),
+        ({"rows[0].outer_waviness": [br.scene.Waviness(order=600, amplitude=1e-7)]}, None),
+    ],
+)
+def test_what_misleads_is_told_by_its_field(changes: dict[str, object], path: str | None) -> None:
+    """Truth: each was simulated without a word. Waves are judged by their contacts, at equilibrium."""
+    spall = br.defects.spall(on="outer_race", width_mm=1.0)
+    scene = br.bearing("6205", radial_load=500.0, axial_load=50.0, defects=spall)
+    assert scene.doubts() == ()
+    changed = scene.replace(changes)
+    if path is not None:
+        assert [text for text in changed.doubts() if text.startswith(path)], changed.doubts()
+        return
+    with pytest.warns(br.SceneWarning, match=r"outer_waviness\[0\]\.order = 600: waves 0\.2"):
+        br.equilibrium(changed)
+
+
+def test_units_of_the_arguments_are_told() -> None:
+    """Truth: 29.95 turns a second are 1797 a minute, and a spall of a micrometre is none."""
+    slow = br.bearing("6205", radial_load=500.0, speed_rpm=29.95)
+    assert [text.split(" =")[0] for text in slow.doubts()] == ["drive.speed"]
+    light = br.bearing("6205", radial_load=1.5)
+    assert [text.split(" =")[0] for text in light.doubts()] == ["loads.radial.force"]
+
+
+def test_thrust_away_from_the_contacts_is_told() -> None:
+    """Truth: an angular contact bearing takes thrust one way; `br.bearing` refuses what `replace` lets by."""
+    scene = br.bearing("7205B", radial_load=100.0, axial_load=500.0)
+    assert scene.doubts() == ()
+    (told,) = scene.replace({"loads.axial.force": -500.0}).doubts()
+    assert told.startswith("thrust on the inner ring = -500 N: ")
+
+
+def test_other_rings_without_other_rows_are_told() -> None:
+    """Truth: 60 and 130 mm put the balls near 95 mm; rows of the catalogue lie in the middle of their own."""
+    other = dataclasses.replace(
+        br.catalogue["6310"], bore=60e-3, outside_diameter=130e-3, width=31e-3
+    )
+    (told,) = br.bearing(other).doubts()
+    assert told.startswith("rows[0].pitch_diameter = 80 mm: ")
+    for name in br.catalogue:
+        assert br.bearing(name).doubts() == ()

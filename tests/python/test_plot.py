@@ -140,6 +140,7 @@ def test_impacts_stand_where_blows_are() -> None:
     assert len(plot.impacts(x, fs=fs).data) == 1  # nothing is known of the bearing
 
 
+@pytest.mark.filterwarnings("ignore:defects.*on = ball")
 def test_fault_lines_stand_at_the_operating_angle() -> None:
     scene = br.bearing("6205", radial_load=300.0, axial_load=300.0)
     defect = br.defects.spall(on="ball", width_mm=0.5)
@@ -156,6 +157,7 @@ def test_fault_lines_stand_at_the_operating_angle() -> None:
     assert [a.text for a in fig.layout.annotations][1::3] == ["BSF/cos α", "2·BSF/cos α"]
 
 
+@pytest.mark.filterwarnings("ignore:defects.*on = ball")
 @pytest.mark.parametrize(("length_mm", "hits"), [(1.0, 1), (5.0, 2)])
 def test_the_lines_of_a_ball_are_those_the_model_has(length_mm: float, hits: int) -> None:
     """Truth: the rate at which a ball of the run turned, once or twice of which its defect speaks."""

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Doubt, angle, length};
+use super::{Doubt, angle, length, millimetres};
 use crate::scene::{Material, Ring, Row, Scene, Waviness};
 use crate::told::number;
 
@@ -15,6 +15,12 @@ const LARGEST: f64 = 1.0;
 const BALL_SHARE: [f64; 2] = [0.01, 0.6];
 /// Groove radius over ball diameter: 0.51 to 0.54 for most, up to 0.57 for miniature bearings.
 const CONFORMITY: [f64; 2] = [0.505, 0.6];
+/// Largest clearance and interference over ball diameter.
+const LARGEST_GAP: f64 = 0.02;
+const INTERFERENCE: f64 = 0.01;
+/// How far the pitch circle may lie from the middle of a bearing's section, over the section's height. In the catalogue by less
+/// than a tenth; in thrust bearings and wheel hubs with flanges further.
+const ASIDE: f64 = 0.25;
 /// Density \[kg/m³\] from plastics to hard metal, Young's modulus \[Pa\] from plastics to diamond.
 const DENSITY: [f64; 2] = [500.0, 25e3];
 const MODULUS: [f64; 2] = [1e9, 1.5e12];
@@ -30,6 +36,7 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
             material(&format!("{path}.ball_material"), own, found);
         }
     }
+    boundary(scene, found);
     let (rings, first) = (&scene.materials.rings, &scene.rows[0]);
     ring("outer_ring", &scene.outer_ring, rings, first, found);
     ring("inner_ring", &scene.inner_ring, rings, first, found);
@@ -62,7 +69,7 @@ fn diameters(path: &str, row: &Row, found: &mut Vec<Doubt>) {
 fn gaps(path: &str, row: &Row, found: &mut Vec<Doubt>) {
     let worst = |errors: &[f64]| errors.iter().fold(0.0_f64, |w, e| w.max(e.abs()));
     let smallest = [
-        ("clearance", row.clearance, 50e-6, 0.02),
+        ("clearance", row.clearance, 50e-6, LARGEST_GAP),
         ("axial_preload", row.axial_preload, 0.2e-3, 0.05),
         ("diameter_errors", worst(&row.diameter_errors), 10e-6, 0.005),
     ];
@@ -70,6 +77,52 @@ fn gaps(path: &str, row: &Row, found: &mut Vec<Doubt>) {
         let most = (share * row.ball_diameter).max(least);
         length(format!("{path}.{field}"), value, most, found);
     }
+    interference(path, row, found);
+}
+
+/// Fits and heat take a clearance of 5 to 40 µm away and rarely more.
+fn interference(path: &str, row: &Row, found: &mut Vec<Doubt>) {
+    let most = (INTERFERENCE * row.ball_diameter).max(20e-6);
+    let told = (LARGEST_GAP * row.ball_diameter).max(50e-6);
+    if row.clearance < -most && -row.clearance <= told {
+        let usual = format!(
+            "an interference that presses every ball as heavy loads do; fits and heat leave at most {} of a bearing of this              size; lengths are in metres",
+            micrometres(most)
+        );
+        let value = micrometres(row.clearance);
+        found.push(Doubt::new(format!("{path}.clearance"), value, usual));
+    }
+}
+
+/// A pitch diameter that lies beside the middle of bore and outside diameter.
+fn boundary(scene: &Scene, found: &mut Vec<Doubt>) {
+    let rings = [&scene.inner_ring, &scene.outer_ring].map(|ring| ring.diameter);
+    let [Some(bore), Some(outside)] = rings else {
+        return;
+    };
+    let (middle, height) = (f64::midpoint(bore, outside), (outside - bore) / 2.0);
+    for (i, row) in scene.rows.iter().enumerate() {
+        // Beyond any ring they are told already, or stand for a housing and a shaft.
+        let is_off = (row.pitch_diameter - middle).abs() > ASIDE * height;
+        if is_off && height > row.ball_diameter && height < 6.0 * row.ball_diameter {
+            let usual = format!(
+                "bore and outside diameter, {} and {}, put the balls near {}: a bearing that was given other rings keeps its                  old rows",
+                millimetres(bore),
+                millimetres(outside),
+                millimetres(middle)
+            );
+            let value = millimetres(row.pitch_diameter);
+            found.push(Doubt::new(
+                format!("rows[{i}].pitch_diameter"),
+                value,
+                usual,
+            ));
+        }
+    }
+}
+
+fn micrometres(x: f64) -> String {
+    format!("{} µm", number(1e6 * x))
 }
 
 fn waves(path: &str, row: &Row, found: &mut Vec<Doubt>) {

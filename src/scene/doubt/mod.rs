@@ -5,10 +5,13 @@
 //! (`tests/reliability/doubts.rs`), and what lies outside is told, not refused: research may well look there.
 
 mod geometry;
+mod idle;
 mod lubricant;
 mod motion;
 mod probes;
 mod tilt;
+mod units;
+mod waves;
 
 use std::fmt;
 
@@ -68,7 +71,8 @@ impl Doubt {
 }
 
 impl Scene {
-    /// What is unusual about the scene's numbers and probes, in the order of its fields; of an ordinary bearing nothing.
+    /// What is unusual about the scene's numbers, what of them nothing feels, and probes of what cannot change; of an ordinary
+    /// bearing nothing.
     /// For a scene that [`Scene::validate`] accepts.
     ///
     /// ```
@@ -85,6 +89,8 @@ impl Scene {
         lubricant::look(self, &mut found);
         motion::look(self, &mut found);
         tilt::look(self, &mut found);
+        units::look(self, &mut found);
+        idle::look(self, &mut found);
         probes::look(self, &mut found);
         found
     }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{Doubt, angle, length, phase};
 use crate::scene::contact::extreme_slip;
-use crate::scene::{Drive, Friction, Scene};
+use crate::scene::{Contact, Drive, Friction, Scene};
 use crate::told::number;
 
 /// Speed times pitch diameter, n d_m \[mm/min\]: bearings of aircraft engines come near it, and one of 120 mm bore on a
@@ -16,6 +16,9 @@ const FRICTION: f64 = 1.0;
 const SLIP: f64 = 10.0;
 /// Acceleration of gravity \[m/s²\]: a hundred times the earth's.
 const GRAVITY: f64 = 1e3;
+/// Hunt–Crossley damping \[s/m\]: K. H. Hunt, F. R. E. Crossley, *J. Appl. Mech.* 42 (1975) 440, have 0.08 to 0.32 of steel,
+/// bronze and ivory.
+const DAMPING: f64 = 5.0;
 /// Unbalance \[kg m\]; that of a machine is balanced to some µm times its mass (ISO 21940-11).
 const UNBALANCE: f64 = 1.0;
 
@@ -24,6 +27,12 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
     for (i, row) in scene.rows.iter().enumerate() {
         if let Some(own) = &row.friction {
             friction(&format!("rows[{i}].friction"), own, found);
+        }
+    }
+    damping("contact", &scene.contact, found);
+    for (i, row) in scene.rows.iter().enumerate() {
+        if let Some(own) = &row.contact {
+            damping(&format!("rows[{i}].contact"), own, found);
         }
     }
     if let Some(cage) = &scene.cage {
@@ -56,6 +65,15 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
                 usual,
             ));
         }
+    }
+}
+
+fn damping(path: &str, contact: &Contact, found: &mut Vec<Doubt>) {
+    if contact.damping > DAMPING {
+        let usual = "impacts of steel balls say 0.08 to 0.32 s/m (Hunt and Crossley 1975); with so much a ball that meets a race at \
+                     0.1 m/s hardly springs back";
+        let value = format!("{} s/m", number(contact.damping));
+        found.push(Doubt::new(format!("{path}.damping"), value, usual));
     }
 }
 
