@@ -3,8 +3,8 @@
 use std::fmt::{Display, Formatter, Result};
 
 use super::Warning;
-use crate::kinematics::RowKinematics;
 use crate::equilibrium::Placed;
+use crate::kinematics::RowKinematics;
 use crate::simd::Distrust;
 use crate::told::duration;
 
