@@ -83,7 +83,9 @@ pub(super) fn placed(py: Python<'_>, scene: &str) -> PyResult<String> {
 /// \[Hz\]; none where nothing drives a row.
 #[pyfunction]
 pub(super) fn rolling(py: Python<'_>, scene: &str) -> PyResult<Vec<Option<(f64, f64, f64)>>> {
-    let found = solved(py, scene, |scene| rolling(&ballrace::compile(scene)?))?;
+    let found = solved(py, scene, |scene| {
+        bindings::rolling(&ballrace::compile(scene)?)
+    })?;
     let told = |of: RowRolling| (of.angle, of.cage, of.spin);
     Ok(found.into_iter().map(|row| row.map(told)).collect())
 }
