@@ -146,7 +146,7 @@ impl Orbits {
         let rate = |angle: f64| angle / (TAU * (last - first));
         let [before, after] = self.rings;
         let [outer, inner] = Race::BOTH.map(|race| after[race] - before[race]);
-        if inner.abs().is_nan() || inner.abs() < TURNS * TAU {
+        if inner.abs() < TURNS * TAU {
             return Vec::new();
         }
         let steady = matches!(model.scene().drive, Drive::Speed(TimeFunction::Constant(_)));
