@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import ballrace as br
-from ballrace.scene import MotionProbe, Ramp, SpeedDrive, Surface, WidthProfile
+from ballrace.scene import Coulomb, MotionProbe, Ramp, SpeedDrive, Surface, WidthProfile
 
 
 def test_of_a_name_they_are_the_published_ones() -> None:
@@ -116,7 +116,7 @@ def test_of_a_fast_run_lines_are_sought_where_its_balls_pass() -> None:
         f"ball{k}": MotionProbe(body=f"row0.ball{k}", components=("x", "y")) for k in range(12)
     }
     scene = replace(
-        scene, spin="free", friction=replace(scene.friction, slip_speed=0.02),
+        scene, spin="free", friction=Coulomb(coefficient=0.05, slip_speed=0.02),
         probes={**scene.probes, **balls},
     )  # fmt: skip
     with pytest.warns(br.SceneWarning, match="its balls went round at"):
