@@ -133,11 +133,18 @@ impl<'de> Deserializer<'de> for Reader<'de> {
     }
 
     fn deserialize_tuple<V: Visitor<'de>>(self, length: usize, visitor: V) -> Read<V::Value> {
-        match self.0 {
-            Value::Array(items) if items.len() != length => {
-                Err(Misread::invalid_length(items.len(), &visitor))
+        let Value::Array(items) = self.0 else {
+            return self.deserialize_seq(visitor);
+        };
+        let mut left = Items(items.iter().enumerate());
+        let read = visitor.visit_seq(&mut left)?;
+        // Of too few items the visitor tells, after it has read them.
+        match left.0.len() {
+            0 => Ok(read),
+            _ => {
+                let allowed = format!("an array of length {length}");
+                Err(Misread::invalid_length(items.len(), &&*allowed))
             }
-            _ => self.deserialize_seq(visitor),
         }
     }
 

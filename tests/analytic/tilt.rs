@@ -489,7 +489,7 @@ fn rings_that_lean_far_are_doubted() {
     let mut scene = leaning();
     scene.friction = Friction::None;
     assert_eq!(doubts(&scene), [0, 0]);
-    scene.rows[0].clearance = 0.6e-3;
+    (scene.rows[0].clearance, scene.rows[0].ball_diameter) = (0.8e-3, 10e-3);
     scene.moments.insert(
         "bend".to_owned(),
         Moment::new(RingName::Inner, [1.0, 0.0, 0.0], 60.0),

@@ -57,7 +57,7 @@ def test_features_are_those_of_the_signals(tmp_path: Path) -> None:
     kurtosis = np.mean(centred**4) / np.mean(centred**2) ** 2
     assert row["outer.ay.kurtosis"] == pytest.approx(kurtosis, rel=1e-9)
 
-    orders = br.frequencies.of_row(scene.rows[0]).at(30.0)
+    orders = br.fault_frequencies(br.simulate(scene, duration=0.035))
     envelope = br.spectra.squared_envelope(x, 50e3, (500.0, 20e3))
     width = 1.0 / 0.03
     for name, near in (("bpfo", orders.bpfo), ("bpfi", orders.bpfi), ("2bsf", 2.0 * orders.bsf)):

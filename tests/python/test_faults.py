@@ -22,6 +22,8 @@ import ballrace as br
 from ballrace.campaigns import Progress
 from sweeps import SCENE, finished, run, same, table
 
+pytestmark = pytest.mark.serial
+
 posix = pytest.mark.skipif(sys.platform == "win32", reason="signals are sent in another way there")
 SHORT: dict[str, Any] = {"duration": 5e-4, "fs": 2e4, "start": "rolling", "settle": 0.0}
 

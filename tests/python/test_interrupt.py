@@ -14,11 +14,14 @@ import pytest
 
 import ballrace as br
 
+pytestmark = pytest.mark.serial
+
 LONG = 100.0
 """Simulated time that takes far longer than any test [s]."""
 
 PROGRAM = """
 import ballrace as br
+
 scene = br.presets.wheel_bearing()
 started = []
 def callback(share):

@@ -10,6 +10,8 @@ import pytest
 
 import ballrace as br
 
+pytestmark = pytest.mark.serial
+
 if sys.platform != "linux":
     pytest.skip("only Linux tells what there is", allow_module_level=True)
 
@@ -18,6 +20,7 @@ import os, resource
 import numpy as np
 from dataclasses import replace
 import ballrace as br
+
 scene = br.presets.deep_groove_6205()
 br.simulate(scene, duration=1e-3, settle=0.0)
 # The threads of polars must be there before the limit is.
@@ -64,7 +67,7 @@ LISTS = {
     "positions": ("br.load_distribution(scene, positions=10**9)", "lower positions"),
     "toml": ("""br.Scene.from_toml("gravity = [" + "1.0," * 10**7 + "]")""", "characters"),
     "json": ("""br.Scene.from_json('{"name": "' + "x" * 10**8 + '"}')""", "characters"),
-    "defects": (MANY.format(count=100_000), "100000 defects"),
+    "defects": (MANY.format(count=100_000), "a scene of 16696550 characters"),
 }
 """What is as long as one likes, and what the refusal names."""
 
