@@ -139,13 +139,11 @@ impl<'de> Deserializer<'de> for Reader<'de> {
         let mut left = Items(items.iter().enumerate());
         let read = visitor.visit_seq(&mut left)?;
         // Of too few items the visitor tells, after it has read them.
-        match left.0.len() {
-            0 => Ok(read),
-            _ => {
-                let allowed = format!("an array of length {length}");
-                Err(Misread::invalid_length(items.len(), &&*allowed))
-            }
+        if left.0.len() == 0 {
+            return Ok(read);
         }
+        let allowed = format!("an array of length {length}");
+        Err(Misread::invalid_length(items.len(), &&*allowed))
     }
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Read<V::Value> {
