@@ -181,8 +181,8 @@ fn steps(path: &str) -> Result<Vec<Step<'_>>> {
     }
     Ok(steps)
 }
+
 /// How to give a new entry, of which a path names but a field.
-/// What names a part has, in words.
 fn a_new_one(path: &str, key: &str) -> Option<String> {
     let (part, rest) = path.split_once('.')?;
     let field = rest.strip_prefix(key)?;
