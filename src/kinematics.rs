@@ -10,12 +10,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::Motion;
 use crate::dynamics::Dynamics;
+use crate::equilibrium::{RaceControl, in_motion, steady::keep};
 use crate::error::Result;
 use crate::inspect;
 use crate::integrate::DenseStep;
 use crate::model::{BodyId, Model, Race, RowModel};
 use crate::scene::{Drive, TimeFunction};
-use crate::start::{Start, start};
 
 /// Mean speeds of a row over a run \[Hz\], all in the positive sense about z.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -150,7 +150,11 @@ impl Orbits {
             return Vec::new();
         }
         let steady = matches!(model.scene().drive, Drive::Speed(TimeFunction::Constant(_)));
-        let rolling = if steady { rolling(model).ok() } else { None };
+        let rolling = if steady {
+            rolling(model, RaceControl::Friction).ok()
+        } else {
+            None
+        };
         let rows = model.rows.iter().enumerate();
         rows.filter(|(_, row)| {
             row.balls()
@@ -186,14 +190,17 @@ pub struct RowRolling {
     pub spin: f64,
 }
 
-/// How each row rolls that is loaded, by the equations of section 13.5 as a run starts: balls that spin about the axis only at
-/// both contact angles, balls that spin freely about the axis to which pivoting friction brings them. Absent of a row whose inner
+/// How each row rolls that is loaded, as a run starts: where friction, drag and gyroscopic moments balance; or, without friction or under
+/// a race's control, by the equations of section 13.5. Absent of a row whose inner
 /// contacts carry nothing, so that nothing drives it.
 ///
 /// # Errors
-/// As [`start()`].
-pub fn rolling(model: &Model) -> Result<Vec<Option<RowRolling>>> {
-    let y = start(model, &Start::Equilibrium)?;
+/// As [`crate::start()`] from [`crate::Start::Equilibrium`].
+pub fn rolling(model: &Model, control: RaceControl) -> Result<Vec<Option<RowRolling>>> {
+    let mut y = in_motion(model, control)?;
+    if control == RaceControl::Friction {
+        keep(model, &mut y);
+    }
     Ok(model.rows.iter().map(|row| rolls(model, row, &y)).collect())
 }
 

@@ -118,7 +118,7 @@ mod touched;
 pub use campaign::{Case, Finished, Outcome, campaign, stream};
 pub use equilibrium::{
     BallEquilibrium, ContactEquilibrium, Equilibrium, EquivalentLoads, LoadDistribution, Placed,
-    Stiffness, compile, equilibrium, load_distribution, stiffness,
+    RaceControl, Stiffness, compile, equilibrium, equilibrium_under, load_distribution, stiffness,
 };
 pub use error::{Error, Result};
 pub use explain::{

@@ -3,8 +3,8 @@
 Where the outer ring stands still and the balls roll, the load alone moves the frequencies from the nominal
 ones: thrust opens the contact angle, which raises BPFO and lowers BPFI. Slip makes the cage slower than rolling
 would, lowers BPFO and raises BPFI. At high speed the contact angles of both races part and balls spin about an
-axis of their own, which makes it faster by percents. A scene tells of rolling at both angles, about the axis to
-which pivoting friction brings the balls where they spin freely; a run measures its own.
+axis of their own, which makes it faster by percents. A scene tells of the speeds at which friction at both races,
+the oil's drag and gyroscopic moments balance; a run measures its own.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from .scene import Row
+    from .statics import RaceControl
 
 __all__ = ["FaultFrequencies", "fault_frequencies"]
 
@@ -70,6 +71,7 @@ def fault_frequencies(
     *,
     row: int = 0,
     operating: bool = True,
+    race_control: RaceControl = "friction",
 ) -> FaultFrequencies:
     """Return the fault frequencies of a bearing.
 
@@ -77,16 +79,18 @@ def fault_frequencies(
     ----------
     of : str, Bearing, Scene or Signals
         A designation of the catalogue or a bearing of it: at the nominal contact angle, since no load is given. A
-        scene: of balls that roll at the contact angles of both races under its load and centrifugal forces, where
-        they spin freely about an axis between those of control by either race (Jones, Harris). Signals of a run of
-        a turn and more: the means that the run measured, of the cage by all balls of the row, and of the spin
-        where balls spin freely. Of older files by a probe that records the motion of a ball of the row.
+        scene: at the speeds of cage and balls at which friction at both races under its load, the oil's drag and
+        gyroscopic moments balance; without friction of balls that roll at the contact angles of both races. Signals
+        of a run of a turn and more: the means that the run measured, of the cage by all balls of the row, and of the
+        spin where balls spin freely. Of older files by a probe that records the motion of a ball of the row.
     speed_rpm : float, optional
         Speed of the inner ring [rev/min]; by default that of the scene, if it is given and constant.
     row : int
         Row of balls, from 0.
     operating : bool
         False: at the nominal contact angle and without slip.
+    race_control : {"friction", "outer"}
+        Of a scene whose balls spin freely, as in :func:`ballrace.equilibrium`.
 
     Returns
     -------
@@ -128,7 +132,7 @@ def fault_frequencies(
         shaft = did["inner"] if did is not None else _constant_speed(scene)
     if not operating:
         return _rolling(scene.rows[row], scene.rows[row].contact_angle, shaft)
-    found = _under_load(scene, row, shaft)
+    found = _under_load(scene, row, shaft, race_control)
     if not isinstance(of, Signals):
         return found
     if did is not None:
@@ -142,15 +146,17 @@ def operating_angle(scene: Scene, row: int = 0) -> float:
 
     Without load it is the nominal one.
     """
-    found = _core.rolling(scene._document())[row]
+    found = _core.rolling(scene._document(), "friction")[row]
     # Where balls only touch the outer race, thrown there, nothing drives them.
     return scene.rows[row].contact_angle if found is None else found[0]
 
 
-def _under_load(scene: Scene, row: int, shaft: float) -> FaultFrequencies:
-    """Return the frequencies of balls that roll at the contact angles of both races at a shaft's speed [Hz]."""
+def _under_load(
+    scene: Scene, row: int, shaft: float, race_control: RaceControl
+) -> FaultFrequencies:
+    """Return the frequencies of balls under load at a shaft's speed [Hz]."""
     driven = replace(scene, drive=SpeedDrive(2.0 * math.pi * shaft))
-    found = _core.rolling(driven._document())[row]
+    found = _core.rolling(driven._document(), race_control)[row]
     if found is None:
         return _rolling(scene.rows[row], scene.rows[row].contact_angle, shaft)
     angle, cage, spin = found

@@ -169,13 +169,24 @@ class Equilibrium:
         return pl.DataFrame({name: getattr(self, name) for name in names})
 
 
-def equilibrium(scene: Scene) -> Equilibrium:
+RaceControl = Literal["friction", "outer"]
+"""What decides about which axis a ball spins that spins freely."""
+
+
+def equilibrium(scene: Scene, *, race_control: RaceControl = "friction") -> Equilibrium:
     """Solve a scene at rest in the cage's frame, with all loads, gravity and centrifugal forces.
+
+    Centrifugal forces are those of the speed at which the balls go round at the contact angles found; friction carries the
+    gyroscopic moments of balls that spin freely (``spin="free"``).
 
     Parameters
     ----------
     scene : Scene
         The scene.
+    race_control : {"friction", "outer"}
+        What decides about which axis a ball spins that spins freely: friction at both races, as in a run, or the
+        outer race, on which it then does not pivot (Jones' hypothesis, which suits fast bearings under light
+        loads).
 
     Returns
     -------
@@ -196,7 +207,7 @@ def equilibrium(scene: Scene) -> Equilibrium:
         A number of the scene is one that no bearing is likely to have, or a contact's pressure exceeds the static
         rating.
     """
-    return _equilibrium(_core.equilibrium(checked_scene(scene)._document()))
+    return _equilibrium(_core.equilibrium(checked_scene(scene)._document(), race_control))
 
 
 def _equilibrium(told: Mapping[str, Any]) -> Equilibrium:

@@ -73,7 +73,8 @@ impl Problem<'_> {
         let (mut forces, mut stiffness) = (OnRing::zeros(), OfRing::zeros());
         let (frame, turning) = (self.frame(rings, race), self.turning(rings, race));
         let moment = load::moment(self.model, 0.0, race, |arm| frame.to_scene(arm))
-            + frame.to_scene(&self.unbalanced[race]);
+            + frame.to_scene(&self.unbalanced[race])
+            + self.couples[race];
         let on_tilts = turning.tr_mul(&moment);
         forces.fixed_rows_mut::<2>(3).copy_from(&on_tilts);
         for push in self.pushes.iter().filter(|push| push.race == race) {

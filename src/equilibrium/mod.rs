@@ -17,6 +17,7 @@ mod ball;
 mod cage;
 mod distribution;
 mod guess;
+mod gyroscopic;
 mod leaning;
 mod oil;
 mod place;
@@ -24,8 +25,10 @@ mod polish;
 mod problem;
 mod residual;
 mod rings;
+pub(crate) mod rolling;
 mod search;
 mod springs;
+pub(crate) mod steady;
 mod stiffness;
 mod unknowns;
 
@@ -42,6 +45,7 @@ pub(crate) use place::Meeting;
 pub use place::{Placed, compile, place};
 use problem::Problem;
 use residual::Residual;
+pub use rolling::RaceControl;
 pub use stiffness::{Stiffness, stiffness};
 use unknowns::{RingStiffness, Rings};
 
@@ -53,9 +57,11 @@ const ON_THE_WAY: f64 = 1e-5;
 const FINE: f64 = 1e-2;
 /// Residual that is still accepted where a slice that enters a defect makes the force jump.
 const STALLED: f64 = 1e-3;
-/// Solves with the cage's pull renewed, at most: three or four do. Where balls that hang on the cage by next to no load of
+/// Solves with the cage's pull and the balls' speeds renewed, at most: three or four do. Where balls that hang on the cage by next to no load of
 /// their own, or a cage stiffer than the contacts, would take many, Newton's method on all bodies ends it.
-const CAGE_ROUNDS: usize = 30;
+const ROUNDS: usize = 30;
+/// Change of what carries balls round, likewise, at which it counts as found: it closes in by a half a round.
+const CARRIED: f64 = 1e-9;
 /// Change of the cage's pull on any ball, over the sum of the acting forces, at which the cage counts as engaged.
 const ENGAGED: f64 = 1e-7;
 
@@ -151,17 +157,45 @@ pub struct ContactEquilibrium {
 /// where more than 1e-4 of the largest load is left unbalanced on a body; [`crate::Error::Interrupted`] under a
 /// [`crate::Interrupt`].
 pub fn equilibrium(scene: &Scene) -> Result<Equilibrium> {
+    equilibrium_under(scene, RaceControl::Friction)
+}
+
+/// The same with a say in how balls spin that spin freely; for others it makes no difference.
+///
+/// # Errors
+/// As [`equilibrium()`].
+pub fn equilibrium_under(scene: &Scene, control: RaceControl) -> Result<Equilibrium> {
     let model = compile(scene)?;
-    Ok(solve(&model)?.describe(&model))
+    Ok(solve(&model, control)?.describe(&model))
 }
 
 /// Positions of the equilibrium in a state vector with zero velocities. Where rings and rows are to keep their axial
 /// places, those of the equilibrium with balls that move along z tell which, and the rest balances anew: balls that
 /// share one place would else be pressed more or less than they bear.
 pub(crate) fn positions(model: &Model) -> Result<Vec<f64>> {
-    let solved = solve(model)?;
+    in_place(model, RaceControl::Friction).map(|solved| solved.y)
+}
+
+/// The same with the speeds of all bodies: of balls that run fast those at which they go on as they stand there, of others those at which
+/// they roll at their contact angles, which are next to them.
+pub(crate) fn in_motion(model: &Model, control: RaceControl) -> Result<Vec<f64>> {
+    let Solved { mut y, speeds, .. } = in_place(model, control)?;
+    if speeds.is_empty() {
+        rolling::at_contacts(model, control, &mut y);
+    } else {
+        let half = y.len() / 2;
+        y[half..].copy_from_slice(&speeds);
+        if control == RaceControl::Friction {
+            steady::keep(model, &mut y);
+        }
+    }
+    Ok(y)
+}
+
+fn in_place(model: &Model, control: RaceControl) -> Result<Solved> {
+    let solved = solve(model, control)?;
     let Some(axial_places) = axial_places(model, &solved.y) else {
-        return Ok(solved.y);
+        return Ok(solved);
     };
     let layout = model.layout();
     let mut rings = Rings::zeros();
@@ -173,13 +207,16 @@ pub(crate) fn positions(model: &Model) -> Result<Vec<f64>> {
             _ => solved.y[layout.at(race.ring(), dof)],
         };
     }
-    solve_from(Problem::in_planes(model, axial_places), rings).map(|solved| solved.y)
+    let problem = Problem::in_planes(model, axial_places).controlled(control);
+    solve_from(problem, rings)
 }
 
 /// What the solver found.
 struct Solved {
     /// State vector with zero velocities.
     y: Vec<f64>,
+    /// Speeds of all bodies, where centrifugal forces were worth finding them.
+    speeds: Vec<f64>,
     iterations: usize,
     /// Stiffness of the bearing between its rings: x, y, z and, where it was asked for, tilts of outer and inner ring, as lengths.
     bearing: RingStiffness,
@@ -274,8 +311,8 @@ fn doubts(scene: &Scene, found: &Equilibrium) -> Vec<Doubt> {
 
 /// Solves from the first guess; from the nominal places where there is none, or where it leads to no stable place, such
 /// as one on top of a single ball.
-fn solve(model: &Model) -> Result<Solved> {
-    solve_with(|| Problem::new(model))
+fn solve(model: &Model, control: RaceControl) -> Result<Solved> {
+    solve_with(|| Problem::new(model).controlled(control))
 }
 
 fn solve_with<'m>(problem: impl Fn() -> Problem<'m>) -> Result<Solved> {
@@ -292,7 +329,8 @@ fn solve_with<'m>(problem: impl Fn() -> Problem<'m>) -> Result<Solved> {
     solve_from(again, relaxed)
 }
 
-/// Solves with the balls at their nominal angles; then lets the cage shift them and pull, and solves again.
+/// Solves with the balls at their nominal angles and nominal speeds; then with those at which they roll where they stand, lets the
+/// cage shift them and pull, and solves again.
 fn solve_from(mut problem: Problem, mut rings: Rings) -> Result<Solved> {
     let model = problem.model;
     let seeds: Vec<_> = (0..model.balls.len())
@@ -300,32 +338,40 @@ fn solve_from(mut problem: Problem, mut rings: Rings) -> Result<Solved> {
         .collect();
     let (mut state, mut iterations) = problem.balance(&mut rings, &seeds, 1.0, ON_THE_WAY)?;
     let mut unbalanced = ON_THE_WAY;
-    if let Some(cage) = &model.scene.cage {
-        let mut last = f64::INFINITY;
-        for _ in 0..CAGE_ROUNDS {
-            interrupt::check()?;
-            let left = problem.engage(cage, &rings, &mut state.balls, &state.holds);
-            unbalanced = left / problem.magnitude;
-            if unbalanced <= ENGAGED {
-                break;
-            }
-            // Where a stiff cage makes it worse, with a firmer hold.
-            if left > last {
-                problem.cage_share = (4.0 * problem.cage_share).clamp(0.25, 1.0);
-            }
-            last = left;
-            let (found, more) =
-                problem.balance(&mut rings, &state.balls, unbalanced, ON_THE_WAY)?;
-            state = found;
-            iterations += more;
+    let mut last = f64::INFINITY;
+    for _ in 0..ROUNDS {
+        interrupt::check()?;
+        let turned = problem.carry_round(&rings, &state.balls);
+        let left = match &model.scene.cage {
+            Some(cage) => problem.engage(cage, &rings, &mut state.balls, &state.holds),
+            None => 0.0,
+        };
+        unbalanced = left.max(turned) / problem.magnitude;
+        if left <= ENGAGED * problem.magnitude && turned <= CARRIED * problem.magnitude {
+            break;
         }
+        // Where a stiff cage makes it worse, with a firmer hold.
+        if left > last {
+            problem.cage_share = (4.0 * problem.cage_share).clamp(0.25, 1.0);
+        }
+        last = left;
+        // Rough places would look like speeds that have been found.
+        let tolerance = if turned > 0.0 { TOLERANCE } else { ON_THE_WAY };
+        let (found, more) = problem.balance(&mut rings, &state.balls, unbalanced, tolerance)?;
+        state = found;
+        iterations += more;
     }
     let (mut state, more) = problem.balance(&mut rings, &state.balls, unbalanced, TOLERANCE)?;
     iterations += more;
     let mut residual = problem.residual(&rings, &state.balls)?;
     if model.scene.cage.is_some() && residual.is_off() {
         let mut places = state.balls.clone();
-        problem.polish(&mut rings, &mut places)?;
+        for _ in 0..ROUNDS {
+            problem.polish(&mut rings, &mut places)?;
+            if problem.carry_round(&rings, &places) <= CARRIED * problem.magnitude {
+                break;
+            }
+        }
         state = problem.rings(&rings, &places, 0.0, FINE * TOLERANCE)?;
         residual = problem.residual(&rings, &state.balls)?;
     }
@@ -336,5 +382,6 @@ fn solve_from(mut problem: Problem, mut rings: Rings) -> Result<Solved> {
         y: problem.state(&rings, &state.balls),
         iterations,
         bearing: state.bearing,
+        speeds: problem.speeds,
     })
 }

@@ -3,6 +3,7 @@
 use nalgebra::{DVector, Matrix2, Matrix3, SMatrix, Vector2, Vector3};
 
 use super::arms::{Arm, Push};
+use super::rolling::RaceControl;
 use super::springs::{CageSpring, RowSpring};
 use super::unknowns::{self, OF_A_RING, OF_RINGS, RingStiffness, Rings};
 use crate::contact::{Tangent, V2, centrifugal};
@@ -13,7 +14,14 @@ use crate::reduction::AxialPlaces;
 pub(super) struct Problem<'m> {
     pub(super) model: &'m Model,
     /// m ω_c² of each ball: its centrifugal force over its radius \[N/m\].
-    outwards: Vec<f64>,
+    pub(super) outwards: Vec<f64>,
+    /// Friction of both races on each ball that turns the axis about which it spins freely \[N\].
+    pub(super) friction: Vec<[Vector3<f64>; 2]>,
+    /// What it turns each ring beside its arm to the balls' centres \[N m\].
+    pub(super) couples: [Vector3<f64>; 2],
+    /// Speeds of all bodies, once friction has told them.
+    pub(super) speeds: Vec<f64>,
+    pub(super) control: RaceControl,
     pub(super) directions: Vec<V2>,
     /// The cage's hold on each ball.
     pub(super) cage_spring: Vec<CageSpring>,
@@ -82,6 +90,10 @@ impl<'m> Problem<'m> {
         Self {
             model,
             outwards,
+            friction: vec![[Vector3::zeros(); 2]; directions.len()],
+            couples: [Vector3::zeros(); 2],
+            speeds: Vec::new(),
+            control: RaceControl::Friction,
             cage_spring: vec![CageSpring::default(); directions.len()],
             cage_share: 0.0,
             directions,
@@ -112,6 +124,11 @@ impl<'m> Problem<'m> {
             spatial: true,
             ..self
         }
+    }
+
+    /// The same where a race controls how balls spin.
+    pub(super) fn controlled(self, control: RaceControl) -> Self {
+        Self { control, ..self }
     }
 
     /// The same where rings and rows keep their axial places.
@@ -163,12 +180,12 @@ impl<'m> Problem<'m> {
         let from_rings = Race::BOTH.map(|race| self.seen(rings, race, &centre));
         let contacts = Race::BOTH.map(|race| {
             let pair = &self.model.rows[ball.row].pairs[race];
-            let found = pair.tangent(&ball.side, &from_rings[race]);
+            let mut found = pair.tangent(&ball.side, &from_rings[race]);
             if self.model.leans() {
-                found.turned(&self.frame(rings, race))
-            } else {
-                found
+                found = found.turned(&self.frame(rings, race));
             }
+            found.force += self.friction[j][race];
+            found
         });
         let arms = self
             .spatial

@@ -137,7 +137,7 @@ impl Problem<'_> {
 mod tests {
     use super::*;
     use crate::equilibrium::compile;
-    use crate::equilibrium::solve;
+    use crate::equilibrium::{RaceControl, solve};
     use crate::model::Dof;
     use crate::scene::presets;
 
@@ -148,7 +148,7 @@ mod tests {
         scene.cage = None;
         let model = compile(&scene).unwrap();
         let problem = Problem::new(&model);
-        let solved = solve(&model).unwrap();
+        let solved = solve(&model, RaceControl::Friction).unwrap();
         assert!(solved.residual.share() < 1e-8);
         let centre = |body| model.layout().centre(&solved.y, body);
         let balls: Vec<_> = (0..model.balls.len())

@@ -18,12 +18,17 @@ pub(crate) fn add(model: &Model, rows: Range<usize>, state: &State, forces: &mut
         for ball in row.balls() {
             let body = BodyId::ball(ball);
             let velocity = Dof::TRANSLATIONS.map(|dof| state.v.get(body, dof));
-            let speed = velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
-            for (dof, v) in Dof::TRANSLATIONS.into_iter().zip(velocity) {
-                *forces.get_mut(body, dof) -= row.drag * speed * v;
+            for (dof, force) in Dof::TRANSLATIONS.into_iter().zip(on(row.drag, velocity)) {
+                *forces.get_mut(body, dof) += force;
             }
         }
     }
+}
+
+/// On a ball with a velocity \[N\].
+pub(crate) fn on(drag: f64, velocity: [f64; 3]) -> [f64; 3] {
+    let speed = velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
+    velocity.map(|v| -(drag * speed * v))
 }
 
 /// Power that it takes out of the balls of a row \[W\].

@@ -192,7 +192,7 @@ pub fn slice_forces(model: &Model, y: &[f64], j: usize, race: Race) -> Vec<Slice
 }
 
 /// Hands the forces of a contact to a sink; returns the sense of the nominal contact angle.
-pub(super) fn visit(model: &Model, y: &[f64], j: usize, race: Race, sink: &mut dyn Sink) -> f64 {
+pub(crate) fn visit(model: &Model, y: &[f64], j: usize, race: Race, sink: &mut dyn Sink) -> f64 {
     let ball = &model.balls[j];
     let row = &model.rows[ball.row];
     let [at, ring] = model.facing(y, j, race);

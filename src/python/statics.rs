@@ -5,10 +5,12 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::answer::answering;
-use super::errors::to_json;
+use super::errors::{OrRaise, to_json};
 use ballrace::bindings::{self, RowRolling, place};
-use ballrace::{BallEquilibrium, EquivalentLoads};
-use ballrace::{Equilibrium, Scene};
+use ballrace::{
+    BallEquilibrium, Equilibrium, EquivalentLoads, Error, RaceControl, Result, Scene,
+    equilibrium_under,
+};
 
 /// A column of a table of balls: its name, and its value of a ball.
 type Column = (&'static str, fn(&BallEquilibrium) -> f64);
@@ -48,10 +50,27 @@ const OF_RINGS: [OfRing; 4] = [
     ("inner_moment", |found| found.inner_moment),
 ];
 
+/// What decides how balls spin, by its name.
+fn control(name: &str) -> Result<RaceControl> {
+    match name {
+        "friction" => Ok(RaceControl::Friction),
+        "outer" => Ok(RaceControl::Outer),
+        other => {
+            let allowed = "\"friction\" or \"outer\"";
+            Err(Error::scene("race_control", format!("{other:?}"), allowed))
+        }
+    }
+}
+
 /// Static equilibrium.
 #[pyfunction]
-pub(super) fn equilibrium<'py>(py: Python<'py>, scene: &str) -> PyResult<Bound<'py, PyDict>> {
-    let found = solved(py, scene, ballrace::equilibrium)?;
+pub(super) fn equilibrium<'py>(
+    py: Python<'py>,
+    scene: &str,
+    race_control: &str,
+) -> PyResult<Bound<'py, PyDict>> {
+    let control = control(race_control).or_raise(py)?;
+    let found = solved(py, scene, move |scene| equilibrium_under(scene, control))?;
     arrays(py, &found)
 }
 
@@ -82,9 +101,14 @@ pub(super) fn placed(py: Python<'_>, scene: &str) -> PyResult<String> {
 /// How the rows of a scene roll: each with its mean contact angle \[rad\], the turns of its balls around and of a ball against that
 /// \[Hz\]; none where nothing drives a row.
 #[pyfunction]
-pub(super) fn rolling(py: Python<'_>, scene: &str) -> PyResult<Vec<Option<(f64, f64, f64)>>> {
-    let found = solved(py, scene, |scene| {
-        bindings::rolling(&ballrace::compile(scene)?)
+pub(super) fn rolling(
+    py: Python<'_>,
+    scene: &str,
+    race_control: &str,
+) -> PyResult<Vec<Option<(f64, f64, f64)>>> {
+    let control = control(race_control).or_raise(py)?;
+    let found = solved(py, scene, move |scene| {
+        bindings::rolling(&ballrace::compile(scene)?, control)
     })?;
     let told = |of: RowRolling| (of.angle, of.cage, of.spin);
     Ok(found.into_iter().map(|row| row.map(told)).collect())

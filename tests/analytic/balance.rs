@@ -86,6 +86,9 @@ fn left(scene: &Scene, found: &Equilibrium) -> (f64, f64) {
     let model = compile(scene).unwrap();
     let mut y = start(&model, &Start::Equilibrium).unwrap();
     let half = y.len() / 2;
+    let orbits: Vec<f64> = (0..found.balls.len())
+        .map(|j| common::orbit(&y, 2 + j))
+        .collect();
     y[half..].fill(0.0);
     let mut sum = vec![0.0; half];
     for (name, part) in contributions(&model, 0.0, &y) {
@@ -103,7 +106,7 @@ fn left(scene: &Scene, found: &Equilibrium) -> (f64, f64) {
     for (j, ball) in found.balls.iter().enumerate() {
         let q = 4 * (2 + j);
         largest = largest.max(ball.outer.load).max(ball.inner.load);
-        let orbit = model.rolling_speeds(ball.row).0;
+        let orbit = orbits[j];
         let mass =
             Material::default().density * PI / 6.0 * scene.rows[ball.row].ball_diameter.powi(3);
         let radius = y[q].hypot(y[q + 1]);

@@ -163,3 +163,9 @@ pub fn effects(of: &mut Lubricant, effect: &str) {
     (of.film, of.damping, of.traction, of.rolling) =
         (is("film"), is("damping"), is("traction"), is("rolling"));
 }
+
+/// How fast a body of a state goes round the axis \[rad/s\].
+pub fn orbit(y: &[f64], body: usize) -> f64 {
+    let (q, v) = (4 * body, y.len() / 2 + 4 * body);
+    (y[q] * y[v + 1] - y[q + 1] * y[v]) / y[q].hypot(y[q + 1]).powi(2)
+}
