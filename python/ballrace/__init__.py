@@ -37,7 +37,7 @@ from .scene.lubricant import lubricants
 if TYPE_CHECKING:
     from . import measuring, plot, spectra
     from ._features import features
-    from .bearings import Bearing, Catalogue, bearing, catalogue
+    from .bearings import Bearing, Catalogue, Pedestal, bearing, catalogue
     from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
     from .explanation import Explanation, explain
     from .friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf
@@ -65,7 +65,7 @@ else:
         __name__,
         {
             "_features": ("features",),
-            "bearings": ("Bearing", "Catalogue", "bearing", "catalogue"),
+            "bearings": ("Bearing", "Catalogue", "Pedestal", "bearing", "catalogue"),
             "campaigns": ("Campaign", "campaign", "grid", "latin_hypercube", "scatter", "sobol"),
             "explanation": ("Explanation", "explain"),
             "friction": ("FrictionTorque", "friction_torque_palmgren", "friction_torque_skf"),
@@ -112,6 +112,7 @@ __all__ = [
     "LoadDistribution",
     "MemoryLimitError",
     "Model",
+    "Pedestal",
     "RaceFilm",
     "RatingLife",
     "Record",

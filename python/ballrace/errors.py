@@ -161,7 +161,8 @@ class AccuracyWarning(UserWarning):
 
     Given where the recorded accelerations of a ring differ by more than 5 % from the derivative of its
     velocities (``out.stats.acceleration_residual``), so that the steps do not resolve the contacts, and
-    where contacts rode over a shoulder (``out.stats.truncated_contacts``). ``out.warnings`` keeps the texts.
+    where contacts rode over a shoulder or past the pole of ball and groove
+    (``out.stats.truncated_contacts``). ``out.warnings`` keeps the texts.
     Also given by a measuring chain whose logger clips more than 0.1 % of the samples.
     ``warnings.simplefilter("error", ballrace.AccuracyWarning)`` makes it an error.
     """

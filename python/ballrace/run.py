@@ -162,7 +162,8 @@ def simulate(
     Warns
     -----
     AccuracyWarning
-        The steps do not resolve the contacts, or contacts rode over a shoulder.
+        The steps do not resolve the contacts, or contacts rode over a shoulder or past the pole of ball
+        and groove.
     SceneWarning
         The scene is not what it seems to say: a number that no bearing is likely to have, contacts beyond the
         static load rating (``out.stats.largest_pressure``), columns that cannot change, `fs` below

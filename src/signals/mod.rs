@@ -94,7 +94,8 @@ pub struct Statistics {
     pub capped_share: f64,
     /// Slices at accepted steps whose damping wanted to pull and was clamped.
     pub clamped_pulls: usize,
-    /// Contacts at accepted steps that reached beyond a shoulder.
+    /// Contacts at accepted steps that were cut where the race ends: at a shoulder, or at the pole of ball and groove where a
+    /// zone ends there (in a defect, on a curve through points, with fixed slices, pressed in by a twentieth of the ball's radius).
     pub truncated_contacts: usize,
     /// Relative difference (root mean square over the samples) between the recorded accelerations of the outer ring,
     /// or of the inner one where that is held, and the derivative of its recorded velocities; absent without

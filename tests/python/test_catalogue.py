@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import pickle
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -208,8 +209,9 @@ def test_the_rating_is_that_of_the_model() -> None:
     assert pressure == pytest.approx(4.2e9 * (4.37 / 5.0) ** (1.0 / 3.0), rel=0.01)
 
 
-def test_it_is_built_as_the_preset() -> None:
-    made, preset = br.bearing("6205", radial_load=500.0), br.presets.deep_groove_6205()
+def test_its_bare_ring_is_built_as_the_preset() -> None:
+    made = br.bearing("6205", radial_load=500.0, housing=None)
+    preset = br.presets.deep_groove_6205()
     assert (made.cage, made.friction, made.contact) == (
         preset.cage,
         preset.friction,
@@ -223,6 +225,39 @@ def test_it_is_built_as_the_preset() -> None:
         assert ours.support.x == theirs.support.x
     row = replace(made.rows[0], outer_conformity=0.525, inner_conformity=0.515, clearance=10e-6)
     assert replace(row, start_angle=0.0) == replace(preset.rows[0], start_angle=0.0)
+
+
+def test_by_default_it_sits_in_a_pillow_block() -> None:
+    """Literature: a unit UCP205 has 0.8 kg. Analytic: 1 kHz and 3 % of one mass on its mount, of any size."""
+    assert br.bearing("6205").outer_ring.mass == pytest.approx(0.8)
+    for name in br.catalogue:
+        ring = br.bearing(name).outer_ring
+        mount = ring.support.y
+        assert isinstance(mount, br.scene.Spring)
+        assert ring.mass is not None
+        assert ring.support == br.scene.Support(x=mount, y=mount, z=mount)
+        assert ring.mass / br.catalogue[name].outside_diameter ** 3 == pytest.approx(0.8 / 52e-3**3)
+        omega = math.sqrt(mount.stiffness / ring.mass)
+        assert omega == pytest.approx(2000.0 * math.pi)
+        assert mount.damping / (2.0 * ring.mass * omega) == pytest.approx(0.03)
+
+
+def test_a_housing_of_its_own_is_the_ring_of_the_scene() -> None:
+    ring = br.bearing("6205", housing=br.Pedestal(mass=3.0, stiffness=2e8, damping=0.0)).outer_ring
+    assert (ring.mass, ring.support.z) == (3.0, br.scene.Spring(stiffness=2e8, damping=0.0))
+
+
+def test_load_decides_whether_damage_is_heard() -> None:
+    """Limit: no ball carries load over a spall at the top; balls strike a bare ring, but a housing is heavy."""
+
+    def rms(angle: float, housing: Literal["pedestal"] | None) -> float:
+        spall = replace(br.defects.spall(on="outer_race", width_mm=1.0), angle=angle)
+        scene = br.bearing("6205", radial_load=1500.0, defects=spall, housing=housing)
+        return float(br.simulate(scene, duration=0.1)["outer.ay"].std())
+
+    below, above = -math.pi / 2.0, math.pi / 2.0
+    assert rms(below, "pedestal") > 15.0 * rms(above, "pedestal")
+    assert rms(below, None) < 5.0 * rms(above, None)
 
 
 @pytest.mark.parametrize("name", ["6000", "6310", "7205C", "7310B"])
@@ -275,12 +310,24 @@ def test_angular_contact_bearings_want_thrust_their_way() -> None:
         ({"axial_load": math.nan}, "axial_load"),
         ({"speed_rpm": math.inf}, "speed_rpm"),
         ({"clearance": math.nan}, "clearance"),
+        ({"housing": 3.0}, "housing"),
     ],
 )
 def test_bad_arguments_are_named(arguments: dict[str, float], field: str) -> None:
     with pytest.raises(br.SceneError) as refused:
         br.bearing("6205", **arguments)  # type: ignore[arg-type]
     assert refused.value.path == field
+
+
+@pytest.mark.parametrize("field", ["mass", "stiffness", "damping"])
+def test_a_pedestal_names_what_is_wrong(field: str) -> None:
+    good: dict[str, object] = {"mass": 1.0, "stiffness": 1e7, "damping": 1.0}
+    for bad in (-1.0, math.nan, math.inf, "1", True):
+        with pytest.raises(
+            br.SceneError, match="from 0" if field == "damping" else "above 0"
+        ) as refused:
+            br.Pedestal(**(good | {field: bad}))  # type: ignore[arg-type]
+        assert refused.value.path == f"housing.{field}"
 
 
 SPALL = br.defects.spall(on="inner_race", width_mm=1.0)
@@ -296,6 +343,8 @@ SPALL = br.defects.spall(on="inner_race", width_mm=1.0)
         ({"d": 25e-3}, "d", r"br\.bearing\(\"6205\"\)"),
         ({"load": 1e3}, "load", "radial_load"),
         ({"radial_laod": 1e3}, "radial_laod", "write radial_load"),
+        ({"housing": "none"}, "housing", r"\"pedestal\", None \(the bare ring\)"),
+        ({"housing": br.measuring.random_housing(1)}, "housing", r"br\.measuring\.Chain"),
     ],
 )
 def test_what_people_write_is_refused_with_what_they_meant(

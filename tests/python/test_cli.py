@@ -105,6 +105,12 @@ def test_scene_prints_a_bearing_of_the_catalogue(capsys: pytest.CaptureFixture[s
     assert "near are" in refused(capsys, "scene", "620")
     told = refused(capsys, "scene", "wheel-bearing", "--rpm", "100")
     assert "speed_rpm = 100: absent beside wheel-bearing" in told
+    scenes = {"pedestal": br.bearing("6309"), "none": br.bearing("6309", housing=None)}
+    for housing, scene in scenes.items():
+        assert main(["scene", "6309", "--housing", housing]) == 0
+        assert br.Scene.from_toml(capsys.readouterr().out) == scene
+    told = refused(capsys, "scene", "wheel-bearing", "--housing", "pedestal")
+    assert "housing = pedestal: absent beside wheel-bearing" in told
 
 
 def test_scene_prints_a_preset(capsys: pytest.CaptureFixture[str]) -> None:

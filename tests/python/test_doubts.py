@@ -120,7 +120,7 @@ def test_the_command_line_tells(
     ("changes", "path"),
     [
         ({"defects.defect.width": 1e-6}, "defects.defect.width = 0.001 mm"),
-        ({"drive.speed": 1797.0}, "drive.speed = 1797 rad/s"),
+        ({"drive.speed": 3500.0}, "drive.speed = 3500 rad/s"),
         ({"loads.radial.force": 1.5, "loads.axial.force": 0.0}, "loads.radial.force = 1.5 N"),
         ({"contact.damping": 20.0}, "contact.damping = 20 s/m"),
         ({"rows[0].clearance": -100e-6}, "rows[0].clearance = -100 µm"),

@@ -276,7 +276,8 @@ def test_a_ball_dips_into_the_spall(faulty: br.Signals) -> None:
     fig = plot.ball_path(faulty)
     x, y = (np.asarray(values) for values in (fig.data[0].x, fig.data[0].y))
     inside = np.abs(x) < 0.5
-    assert y[inside].max() > 2.0 > 2.0 * np.abs(y[x < -1.0]).max()
+    # It sinks by 11 µm; before, the housing's swing moves the race by 1.3.
+    assert y[inside].max() > 8.0 > 4.0 * np.abs(y[x < -1.0]).max()
     with pytest.raises(br.SceneError, match="defect"):
         plot.ball_path(faulty, "scratch")
 

@@ -350,18 +350,31 @@ const SLIPS: &[Slip] = &[
     ("drive.speed", |s| {
         s.drive = Drive::Speed((29.95 * PI / 30.0).into());
     }),
-    ("drive.speed", |s| s.drive = Drive::Speed(1797.0.into())),
+    // A 6205 at 3500.5 and a 6310 at 1797 and 1797.5 turns a minute, given as radians a second.
+    ("drive.speed", |s| s.drive = Drive::Speed(3500.5.into())),
+    ("drive.speed", |s| {
+        of_a_6310(s);
+        s.drive = Drive::Speed(1797.0.into());
+    }),
+    ("drive.speed", |s| {
+        of_a_6310(s);
+        s.drive = Drive::Speed(1797.5.into());
+    }),
     ("loads.radial.force", |s| {
         s.unbalances.clear();
         s.loads.get_mut("radial").unwrap().force = 1.5.into();
     }),
     // A 6310 that was given the rings of a bearing of 60 × 130 mm.
     ("rows[0].pitch_diameter", |s| {
-        let row = &mut s.rows[0];
-        (row.ball_count, row.ball_diameter, row.pitch_diameter) = (8, 19.05e-3, 80e-3);
+        of_a_6310(s);
         (s.inner_ring.diameter, s.outer_ring.diameter) = (Some(60e-3), Some(130e-3));
     }),
 ];
+
+fn of_a_6310(scene: &mut Scene) {
+    let row = &mut scene.rows[0];
+    (row.ball_count, row.ball_diameter, row.pitch_diameter) = (8, 19.05e-3, 80e-3);
+}
 
 /// What a scene says and nothing feels, one each.
 const LOST: &[Slip] = &[
@@ -439,12 +452,36 @@ fn scenes_drawn_within_the_usual_raise_no_doubt() {
         row.start_angle = noise.between(-2.0 * PI, 2.0 * PI);
         scene.outer_ring.mass = Some(noise.between(0.02, 2.0) * scale.powi(3));
         scene.inner_ring.mass = Some(noise.between(0.02, 2.0) * scale.powi(3));
-        scene.drive = Drive::Speed((noise.between(10.0, 7.5e3) / scale).into());
+        // Up to 2.8 million mm/min; from where deep groove bearings end on with a contact angle.
+        let speed = noise.between(10.0, 7.5e3);
+        row.contact_angle = if speed < 3.2e3 { 0.0 } else { 0.3 };
+        scene.drive = Drive::Speed((speed / scale).into());
         scene.materials.balls = Material::default();
         let material = &mut scene.materials.balls;
         material.density = noise.between(3200.0, 7850.0);
         material.youngs_modulus = noise.between(200e9, 315e9);
         assert_eq!(scene.doubts(), []);
+    }
+}
+
+/// Literature: a maker's limiting speed of a 6205 is 18 000 rev/min. 1797 rad/s are 17 160, whole number or not, and no doubt
+/// follows; the doubt of a faster one says both ways to read its number.
+#[test]
+fn speeds_that_bearings_run_at_are_not_taken_for_turns_a_minute() {
+    let at = |speed: f64| {
+        let mut scene = with_everything();
+        scene.drive = Drive::Speed(speed.into());
+        scene.doubts()
+    };
+    for speed in [1797.0, 1797.5, 18e3 * PI / 30.0] {
+        assert_eq!(at(speed), [], "{speed}");
+    }
+    let told = at(3500.0)[0].to_string();
+    for part in [
+        "drive.speed = 3500 rad/s: 33420 rev/min",
+        "3500 rev/min would be 366.5 rad/s",
+    ] {
+        assert!(told.contains(part), "{told}");
     }
 }
 

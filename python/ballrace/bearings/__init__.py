@@ -10,6 +10,7 @@
 ``names``      which designations mean a row: makers, seals, clearances
 ``sources``    where each number of a row comes from
 ``clearance``  the classes of ISO 5753
+``pedestal``   the housing that the outer ring sits in
 ``build``      a scene of a row: clearance, cage, friction, supports
 =============  ====================================================================
 
@@ -24,6 +25,7 @@ BPFO by less than 0.4 %.
 from __future__ import annotations
 
 from .build import bearing
+from .pedestal import Pedestal
 from .rows import Bearing, Catalogue, catalogue
 
-__all__ = ["Bearing", "Catalogue", "bearing", "catalogue"]
+__all__ = ["Bearing", "Catalogue", "Pedestal", "bearing", "catalogue"]

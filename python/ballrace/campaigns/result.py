@@ -73,17 +73,17 @@ class Campaign:
         ``signals``: the shard that holds them; the features (see :func:`ballrace.campaign`); and of every defect
         with a width, such as ``defects.spall``: ``.placed_at``, its axial place [m], ``.passes`` of balls,
         ``.touched``, the share of them in which a contact was loaded within it, and its ``.largest_load`` [N]
-        (see :class:`ballrace.Touched`). Once signals have been measured (:meth:`measure`, :meth:`windows`),
-        ``measured_clipped``: the largest share of the samples of a case that was beyond the range of a logger.
+        (see :class:`ballrace.Touched`); last ``measured_clipped``: the largest share of the samples of a case that
+        was beyond the range of a logger in what this object has measured (:meth:`measurements`, :meth:`measure`,
+        :meth:`windows`), empty until then. The file ``manifest.parquet`` has all but that column.
         """
         from .._polars import pl
 
-        if not self._clipped:
-            return self._finished
-        shares = {"case_id": list(self._clipped), "measured_clipped": list(self._clipped.values())}
-        return self._finished.join(
-            pl.DataFrame(shares), on="case_id", how="left", maintain_order="left"
+        shares = pl.DataFrame(
+            {"case_id": list(self._clipped), "measured_clipped": list(self._clipped.values())},
+            schema={"case_id": pl.String, "measured_clipped": pl.Float64},
         )
+        return self._finished.join(shares, on="case_id", how="left", maintain_order="left")
 
     @cached_property
     def _finished(self) -> pl.DataFrame:

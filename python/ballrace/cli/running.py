@@ -82,6 +82,11 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
         scene.add_argument(
             f"--{name}", type=float, metavar=unit, help=f"{told}; of a bearing of the catalogue"
         )
+    scene.add_argument(
+        "--housing", choices=("pedestal", "none"),
+        help="what the outer ring of a bearing of the catalogue sits in: a pillow block of its size on a mount of "
+        "1 kHz, or nothing, the bare ring near 5 kHz (default: pedestal); any other is outer_ring of the scene",
+    )  # fmt: skip
 
 
 def _run(options: argparse.Namespace) -> None:
@@ -105,14 +110,16 @@ def _run(options: argparse.Namespace) -> None:
 
 
 def _scene(options: argparse.Namespace) -> None:
-    given = {
-        "radial_load": options.radial_load, "axial_load": options.axial_load, "speed_rpm": options.rpm
+    asked: dict[str, Any] = {
+        "radial_load": options.radial_load, "axial_load": options.axial_load, "speed_rpm": options.rpm,
+        "housing": options.housing,
     }  # fmt: skip
-    given = {name: value for name, value in given.items() if value is not None}
+    given = {name: value for name, value in asked.items() if value is not None}
     name = options.name.replace("-", "_")
     if name not in presets.names():
         try:
-            scene = bearing(options.name, **given)
+            bare = {"housing": None} if options.housing == "none" else {}
+            scene = bearing(options.name, **(given | bare))
         except SceneError as error:
             if error.path != "designation":
                 raise
@@ -120,8 +127,9 @@ def _scene(options: argparse.Namespace) -> None:
         what = f"{scene.name} of ballrace's catalogue"
     elif given:
         argument, value = next(iter(given.items()))
-        allowed = f"absent beside {options.name}, which has loads and a speed of its own"
-        raise SceneError(argument, f"{value:g}", allowed)
+        allowed = f"absent beside {options.name}, which has loads, a speed and a housing of its own"
+        shown = value if isinstance(value, str) else f"{value:g}"
+        raise SceneError(argument, shown, allowed)
     else:
         scene, what = getattr(presets, name)(), f"The preset {name} of ballrace"
     print(f"# {what}; SI units. Fields that are left out: help(ballrace.scene).")

@@ -59,6 +59,9 @@ class Mode:
 class Housing:
     """A housing by its modes, whose transfer is ``direct + Σ r_k / (1 - s_k² + 2 i ζ_k s_k)`` with s_k = f/f_k.
 
+    A path from the ring to the sensor, applied to a signal. The mass that the ring sits in, which takes part in
+    a run, is a :class:`ballrace.Pedestal` of the scene; modes of its mount do not belong here as well.
+
     Attributes
     ----------
     modes : tuple of Mode
@@ -185,7 +188,8 @@ def random_housing(
     modes : int
         Number of modes.
     band : tuple of two floats
-        Lowest and highest frequency of a mode [Hz].
+        Lowest and highest frequency of a mode [Hz]. A scene of :func:`ballrace.bearing` has the mount of its
+        housing near 1 kHz already: begin above, at 3 kHz or so, or give it ``housing=None``.
     damping : tuple of two floats
         Lowest and highest damping ratio.
 

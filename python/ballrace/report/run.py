@@ -117,7 +117,8 @@ _PROVENANCE = {
 }  # fmt: skip
 _STATISTICS = {
     "accepted": "Steps", "rejected": "Steps rejected", "nfev": "Evaluations of the equations",
-    "acceleration_residual": "Residual of accelerations", "truncated_contacts": "Contacts beyond a shoulder",
+    "acceleration_residual": "Residual of accelerations",
+    "truncated_contacts": "Contacts beyond a shoulder or pole",
     "wall_time": "Wall time, s",
 }  # fmt: skip
 

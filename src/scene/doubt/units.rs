@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::{Doubt, millimetres};
-use crate::scene::{Drive, Scene, TimeFunction};
+use crate::scene::{Drive, Scene};
 use crate::told::number;
 
 /// Width of a defect \[m\]: contacts are some tenths of a millimetre wide, and roughness is flattened in them.
@@ -11,8 +11,6 @@ const WIDTH: f64 = 20e-6;
 /// Speed times pitch diameter, n d_m \[mm/min\], below that of the slowest bearings, some ten thousand in wind turbines, and above
 /// that of trials that all but stand still: where turns a second were taken for turns a minute.
 const SLOW: std::ops::Range<f64> = 1e2..2e3;
-/// The same from which a whole number of radians a second is more likely one of turns a minute: where lubrication by grease ends.
-const FAST: f64 = 5e5;
 /// Load over ISO 76's static rating C₀, and load \[N\]: makers ask for a hundredth of the dynamic rating at least.
 const LOAD_SHARE: f64 = 1e-3;
 const LOAD: f64 = 50.0;
@@ -37,7 +35,7 @@ fn speed(scene: &Scene, found: &mut Vec<Doubt>) {
     let Drive::Speed(speed) = &scene.drive else {
         return;
     };
-    let (peak, turns) = (speed.peak(), speed.peak() * 60.0 / TAU);
+    let turns = speed.peak() * 60.0 / TAU;
     let pitches = scene.rows.iter().map(|row| row.pitch_diameter);
     let factor = turns * 1e3 * pitches.fold(0.0, f64::max);
     if SLOW.contains(&factor) {
@@ -47,21 +45,6 @@ fn speed(scene: &Scene, found: &mut Vec<Doubt>) {
             number(factor)
         );
         let value = format!("{} rev/min", number(turns));
-        found.push(Doubt::new("drive.speed", value, usual));
-    }
-    if let TimeFunction::Constant(speed) = speed
-        && factor > FAST
-        && speed.fract() == 0.0
-        && speed % 100.0 != 0.0
-    {
-        let usual = format!(
-            "that is {} rev/min; a whole number looks like turns a minute, and speeds are in radians a second: {} rev/min \
-             are {} rad/s",
-            number(turns),
-            number(peak),
-            number(peak * TAU / 60.0)
-        );
-        let value = format!("{} rad/s", number(peak));
         found.push(Doubt::new("drive.speed", value, usual));
     }
 }

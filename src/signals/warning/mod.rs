@@ -42,7 +42,7 @@ pub enum Warning {
         /// The step of a method of fixed steps, which has no tolerance \[s\].
         fixed_step: Option<f64>,
     },
-    /// Contacts reached beyond a shoulder, where the model has no race.
+    /// Contacts reached beyond a shoulder, or beyond the pole of ball and groove where a zone ends there: the model has no race there.
     Shoulders {
         /// [`crate::Statistics::truncated_contacts`].
         contacts: usize,

@@ -77,9 +77,9 @@ fn fixed_step(f: &mut Formatter<'_>, step: f64, limit: f64) -> Result {
 fn shoulders(f: &mut Formatter<'_>, contacts: usize, steps: usize) -> Result {
     write!(
         f,
-        "contacts rode over a shoulder {contacts} times in {steps} steps: the part beyond it carries \
-         nothing, and the pressure at the edge is not modelled. Lower the axial load, raise the \
-         shoulders, or look at the truncated contacts"
+        "contacts rode over a shoulder or past the pole of ball and groove {contacts} times in {steps} steps: the part \
+         beyond it carries nothing, and the pressure at the edge is not modelled. Lower the load, raise shoulders where \
+         there are any, or look at the truncated contacts"
     )
 }
 
