@@ -32,9 +32,11 @@ pub(super) struct Whole<T> {
 /// An element: a slice, or a quadrature node.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Element<T> {
-    /// ζ/R and ρ/R on the ball, sin α and cos α of the meridional slope.
+    /// ζ/R on the ball.
     pub sin: T,
-    pub cos: T,
+    /// sin α and cos α of the direction along the meridian in which it slides: of the ball's surface; on the common tangent, along
+    /// whose normal bodies approach, that of the tangent, or else approaching would rub.
+    pub slope: (T, T),
     /// Height of the groove over its centre there \[m\].
     pub groove: T,
     /// Penetration that the law sees, at least 0 \[m\].
@@ -152,7 +154,7 @@ pub(super) fn as_one<T: Number>(contact: &Whole<T>, stiffness: f64) -> Element<T
     let (zero, one) = (pressed.same(0.0), pressed.same(1.0));
     Element {
         sin: zero,
-        cos: zero,
+        slope: (zero, one),
         groove: zero,
         depth: pressed,
         length: one,
@@ -206,7 +208,7 @@ impl<T: Number> Whole<T> {
             .or_zero();
         Element {
             sin,
-            cos,
+            slope: (sin, cos),
             groove,
             depth,
             length: width,
@@ -221,11 +223,10 @@ impl<T: Number> Whole<T> {
     pub(super) fn on_tangent<L: Load, const FMA: bool>(&self, u: T, length: T) -> Element<T> {
         let (normal_cos, normal_sin) = self.section.normal;
         let sin = (u * self.inverse).mul_add::<FMA>(normal_cos, normal_sin);
-        let cos = (-sin).mul_add::<FMA>(sin, u.same(1.0)).sqrt();
         let depth = (self.section.approach - u * u * self.half_curvature).or_zero();
         Element {
             sin,
-            cos,
+            slope: (normal_sin, normal_cos),
             groove: self.section.groove::<FMA>(sin),
             depth,
             length,

@@ -205,6 +205,15 @@ impl<T: Number> Slip<T> {
         let turning = moves.spin * sigma;
         let across = moves.v_z * cos - moves.v_e * sin;
         let middle = (groove - section.e) * sigma;
+        // The common tangent is straight, the ball's surface is not.
+        let falls = if law.cut().is_flat() {
+            [cos.same(0.0); 2]
+        } else {
+            [
+                -((moves.v_z * sin + moves.v_e * cos) * inverse),
+                across * bent,
+            ]
+        };
         Some(Self {
             along: [
                 moves.spin.mul_add::<FMA>(middle, moves.slide),
@@ -213,11 +222,7 @@ impl<T: Number> Slip<T> {
                 turning * heights[1],
                 turning * heights[2],
             ],
-            across: [
-                across,
-                -((moves.v_z * sin + moves.v_e * cos) * inverse),
-                across * bent,
-            ],
+            across: [across, falls[0], falls[1]],
             width,
             bend,
             over: over * over,
@@ -226,7 +231,8 @@ impl<T: Number> Slip<T> {
     }
 
     /// The same of a ball that turns across its ring's axis, with w_n and w_t along n_e and t_e \[rad/s\]: less w_n ζ along the race, and
-    /// less w_t times the distance of the race from the ball's centre across it, which grows by u² (1/R − 1/r)/2.
+    /// less w_t times the distance of the race from the ball's centre across it: along the ball's surface it grows by u² (1/R − 1/r)/2,
+    /// along the common tangent it falls by u²/2r.
     #[inline(always)]
     pub fn turning_across<const FMA: bool>(
         mut self,
@@ -246,7 +252,12 @@ impl<T: Number> Slip<T> {
         let h = section.groove::<FMA>(sin) - section.e;
         let lever = middle.mul_add::<FMA>(sin, h * cos);
         self.across[0] = self.across[0] - w_t * lever;
-        self.across[2] = self.across[2] - w_t * (inverse - over) * 0.5;
+        let bends = if law.cut().is_flat() {
+            -over
+        } else {
+            inverse - over
+        };
+        self.across[2] = self.across[2] - w_t * bends * 0.5;
         self
     }
 }

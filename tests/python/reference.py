@@ -857,7 +857,8 @@ class Contact:
         else:
             cos_n, sin_n = self.direction
             v_n = approach * cos_n + v_pz * sin_n
-            sin, cos = part.zeta / self.R_b, self.rho(part.zeta) / self.R_b
+            # Along the common tangent: bodies that approach along its normal do not rub.
+            sin, cos = sin_n, cos_n
         # Hunt–Crossley (2), (4).
         factor = 1.0 + 1.5 * model.damping * v_n
         F = E * factor

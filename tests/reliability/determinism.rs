@@ -39,7 +39,7 @@ fn effort_is_pinned() {
     };
     for (scene, steps) in [
         (presets::wheel_bearing(3000.0), (234, 5)),
-        (presets::deep_groove_6205(500.0, 0.0, 1800.0), (433, 5)),
+        (presets::deep_groove_6205(500.0, 0.0, 1800.0), (434, 5)),
     ] {
         let out = simulate(&scene, &run).unwrap();
         let stats = out.stats;

@@ -261,7 +261,7 @@ impl Sums<'_> {
             elastic,
             share: element.share,
             rubbing: element.rubbing,
-            slope: (element.sin, element.cos),
+            slope: element.slope,
             velocity: [
                 moves.v_e,
                 moves.spin.mul_add::<FMA>(arm, moves.slide),

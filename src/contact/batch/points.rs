@@ -391,7 +391,7 @@ impl<R, const FMA: bool> Elements<'_, R, FMA> {
         let depth = cos.mul_add::<FMA>(self.curve.radius, before).or_zero();
         Element {
             sin,
-            cos,
+            slope: (sin, cos),
             groove: height,
             depth,
             length: width,
@@ -405,12 +405,12 @@ impl<R, const FMA: bool> Elements<'_, R, FMA> {
     #[inline(always)]
     fn on_tangent<L: Load>(&self, u: Lanes, length: Lanes) -> Element<Lanes> {
         let whole = self.whole;
-        let (cos, sin) = whole.section.normal;
-        let sin = (u * whole.inverse).mul_add::<FMA>(cos, sin);
+        let (normal_cos, normal_sin) = whole.section.normal;
+        let sin = (u * whole.inverse).mul_add::<FMA>(normal_cos, normal_sin);
         let depth = (whole.section.approach - u * u * whole.half_curvature).or_zero();
         Element {
             sin,
-            cos: (-sin).mul_add::<FMA>(sin, Lanes::all(1.0)).sqrt(),
+            slope: (normal_sin, normal_cos),
             groove: self.height(sin),
             depth,
             length,

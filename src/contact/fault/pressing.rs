@@ -122,9 +122,9 @@ impl Contact<'_> {
         let v_p = b.velocity - r.velocity + turned(arm_ball) * b.omega
             - turned(feature.arm_ring) * r.omega;
         let radius = self.ball.radius;
-        // α of the slice, or of the gap's gradient at a ball's fault circle.
-        let slope = if self.common().is_some() {
-            ((node.zeta / radius).clamp(-1.0, 1.0), node.rho / radius)
+        // Along the common tangent, or α of the slice or of the gap's gradient at a ball's fault circle.
+        let slope = if let Some((cos, sin)) = self.common() {
+            (sin, cos)
         } else {
             let cos = 1.0 / (1.0 + tan * tan).sqrt();
             (tan * cos, cos)

@@ -346,7 +346,7 @@ impl Receiver<Lanes> for Holding<'_> {
             elastic,
             share: element.share,
             rubbing: element.rubbing,
-            slope: (element.sin, element.cos),
+            slope: element.slope,
             levers: [Lanes::ZERO, arm * sigma],
             place: element.sin * self.radius,
         });
