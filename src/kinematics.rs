@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::Motion;
 use crate::dynamics::Dynamics;
-use crate::equilibrium::{RaceControl, in_motion, steady::keep};
+use crate::equilibrium::{RaceControl, in_motion, steady::keep, steady::orbit};
 use crate::error::Result;
 use crate::inspect;
 use crate::integrate::DenseStep;
@@ -206,7 +206,7 @@ pub fn rolling(model: &Model, control: RaceControl) -> Result<Vec<Option<RowRoll
 
 fn rolls(model: &Model, row: &RowModel, y: &[f64]) -> Option<RowRolling> {
     let (mut angle, mut spin, mut loads, mut both) = (0.0, 0.0, 0.0, 0.0);
-    let (mut orbit, mut drives) = (0.0, false);
+    let (mut around, mut drives) = (0.0, false);
     for j in row.balls() {
         let [outer, inner] = Race::BOTH.map(|race| inspect::contact(model, y, j, race));
         for contact in [&outer, &inner].into_iter().filter(|of| of.load > 0.0) {
@@ -214,15 +214,15 @@ fn rolls(model: &Model, row: &RowModel, y: &[f64]) -> Option<RowRolling> {
             loads += contact.load;
         }
         let motion = model.layout().motion(y, BodyId::ball(j));
-        orbit = motion.orbit_speed();
+        around = orbit(model.layout(), y, BodyId::ball(j));
         let least = outer.load.min(inner.load);
-        spin += least * against(&motion, orbit);
+        spin += least * against(&motion, around);
         both += least;
         drives |= inner.load > 0.0;
     }
     (drives && both > 0.0).then(|| RowRolling {
         angle: angle / loads,
-        cage: orbit / TAU,
+        cage: around / TAU,
         spin: spin / (both * TAU),
     })
 }

@@ -68,7 +68,7 @@ pub(super) fn set_turning(
 }
 
 /// Lets a ball turn about the axis.
-pub(super) fn set_orbit(layout: Layout, y: &mut [f64], ball: BodyId, orbit: f64) {
+fn set_orbit(layout: Layout, y: &mut [f64], ball: BodyId, orbit: f64) {
     let [x, y_, _] = layout.centre(y, ball);
     y[layout.speed_at(ball, Dof::X)] = -orbit * y_;
     y[layout.speed_at(ball, Dof::Y)] = orbit * x;

@@ -15,17 +15,32 @@
 
 use nalgebra::{SMatrix, SVector, Vector3};
 
-use super::rolling::{set_orbit, set_turning};
-use crate::contact::{OilTouch, Sink, Touch, Wrench};
+use super::rolling::set_turning;
+use crate::contact::{OilTouch, Sink, Touch, Wrench, cross};
 use crate::forces::drag;
 use crate::inspect;
-use crate::model::{BodyId, Dof, Model, Race, RowModel};
+use crate::model::{BodyId, Dof, Layout, Model, Race, RowModel};
 
 /// Steps, at most, and the change of speeds, over that of the shaft, that ends them.
 const STEPS: usize = 60;
 const FOUND: f64 = 1e-10;
 /// Differences, over the speed of the shaft.
 const ASIDE: f64 = 1e-6;
+
+/// How fast a ball goes round the centre of the outer ring \[rad/s\]: where that gives way, a ball under load is nearer to the ring's
+/// centre than to the scene's, and slower by that about the latter.
+pub(crate) fn orbit(layout: Layout, y: &[f64], ball: BodyId) -> f64 {
+    let motion = layout.motion(y, ball);
+    let from = motion.centre - layout.motion(y, BodyId::OUTER).centre;
+    cross(from, motion.velocity) / from.norm_squared()
+}
+
+/// Lets a ball go round the centre of the outer ring.
+fn carry(layout: Layout, y: &mut [f64], ball: BodyId, orbit: f64) {
+    let from = layout.motion(y, ball).centre - layout.motion(y, BodyId::OUTER).centre;
+    y[layout.speed_at(ball, Dof::X)] = -orbit * from.y;
+    y[layout.speed_at(ball, Dof::Y)] = orbit * from.x;
+}
 
 /// Friction of both races on a ball in a state, in the scene's frame: forces, and moments about its centre.
 pub(super) fn friction(model: &Model, y: &[f64], j: usize) -> [Wrench; 2] {
@@ -70,7 +85,7 @@ pub(crate) fn keep(model: &Model, y: &mut [f64]) -> Vec<usize> {
         };
         let Some(orbit) = orbit else { continue };
         for j in row.balls().filter(|j| !pressed.contains(j)) {
-            set_orbit(model.layout(), y, BodyId::ball(j), orbit);
+            carry(model.layout(), y, BodyId::ball(j), orbit);
         }
         kept.extend(pressed);
     }
@@ -108,11 +123,7 @@ impl<'a, const N: usize> Row<'a, N> {
         let spins = balls.iter().map(|&j| {
             let motion = layout.motion(y, BodyId::ball(j));
             let n = motion.centre.normalize();
-            let all = [
-                motion.omega,
-                motion.across.dot(&n),
-                crate::contact::cross(n, motion.across),
-            ];
+            let all = [motion.omega, motion.across.dot(&n), cross(n, motion.across)];
             SVector::from_fn(|i, _| all[i])
         });
         let body = &model.bodies[first];
@@ -121,7 +132,7 @@ impl<'a, const N: usize> Row<'a, N> {
             balls,
             inertia: body.mass[Dof::Theta],
             carried: balls.len() as f64 * body.mass[Dof::X] * layout.motion(y, first).centre.norm(),
-            orbit: layout.motion(y, first).orbit_speed(),
+            orbit: orbit(layout, y, first),
             spins: spins.collect(),
             speed,
             drag: row.drag,
@@ -131,7 +142,7 @@ impl<'a, const N: usize> Row<'a, N> {
     /// What a ball leaves at speeds.
     fn left(&self, j: usize, orbit: f64, spin: &SVector<f64, N>, y: &mut [f64]) -> Left<N> {
         let (model, layout, body) = (self.model, self.model.layout(), BodyId::ball(j));
-        set_orbit(layout, y, body, orbit);
+        carry(layout, y, body, orbit);
         let at = |i: usize| if i < N { spin[i] } else { 0.0 };
         set_turning(model, y, body, [at(0), at(1), at(2)]);
         let mut both = Wrench::default();

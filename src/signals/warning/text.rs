@@ -170,8 +170,8 @@ fn kinematics(f: &mut Formatter<'_>, of: &RowKinematics) -> Result {
     let ahead = of.ahead().unwrap_or(0.0);
     write!(
         f,
-        "row {}: its balls went round at {:.3} Hz, {:.1} % {} than rolling at the contact angles at rest tells, {:.3} Hz, and \
-         fault frequencies moved with them, as they do where balls run fast or slip, or fall behind unloaded. Take \
+        "row {}: its balls went round at {:.3} Hz, {:.1} % {} than predicted from the scene at rest, {:.3} Hz, and \
+         fault frequencies moved with them, as they do where balls slip, run fast under combined loads, or fall behind unloaded. Take \
          fault_frequencies of the signals, as features do, not of the scene",
         of.row,
         of.cage,
