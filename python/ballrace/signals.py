@@ -244,8 +244,9 @@ class Signals(Columns):
         """What a requested accuracy chose and what error it expects of that; None where none was asked for.
 
         ``requested``, ``rtol``, ``nodes`` on outer and inner race; the errors of the accelerations that pilot
-        runs of the first 3 ms showed, ``integration_error`` and ``node_error`` (None with fixed slices); and
-        the ``pilot_evaluations`` that this took, which ``stats`` does not count.
+        runs of the first 3 ms showed, ``integration_error`` and ``node_error`` (None with fixed slices), whose sum
+        is above ``requested`` where the motion is chance, which an AccuracyWarning tells; and the
+        ``pilot_evaluations`` that this took, which ``stats`` does not count.
         """
         chosen = self._provenance.to_dict()["accuracy"]
         return None if chosen is None else Record(chosen)

@@ -194,7 +194,7 @@ def test_errors_are_what_records_of_another_start_differ_by(tmp_path: Path) -> N
 
 
 def test_a_record_that_is_too_short_says_so(tmp_path: Path) -> None:
-    """20 ms are 0.6 turns and 2.1 passes: features are there, errors are not, and the manifest drops their columns."""
+    """20 ms are 0.6 turns and 2.1 passes: there are no errors, and the manifest drops their columns."""
     scene = spalled(0.0)
     found = br.simulate(scene, duration=0.02, settle=0.0).features(columns="outer.ay")
     assert found["turns"] == pytest.approx(0.6)

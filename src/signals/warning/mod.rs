@@ -8,7 +8,7 @@ use crate::equilibrium::Placed;
 use crate::inspect;
 use crate::kinematics::RowKinematics;
 use crate::scene::Doubt;
-use crate::signals::Signals;
+use crate::signals::{Accuracy, Signals};
 use crate::simd::Distrust;
 use crate::touched::Touched;
 
@@ -42,6 +42,9 @@ pub enum Warning {
         /// The step of a method of fixed steps, which has no tolerance \[s\].
         fixed_step: Option<f64>,
     },
+    /// The accuracy that was asked for cannot be had: pilot runs differ by more however fine they are, since the motion is
+    /// chance.
+    Unforetold(Accuracy),
     /// Contacts reached beyond a shoulder, where the model has no race.
     Shoulders {
         /// [`crate::Statistics::truncated_contacts`].
@@ -103,6 +106,7 @@ impl Warning {
     pub fn category(&self) -> &'static str {
         match self {
             Self::Accelerations { .. }
+            | Self::Unforetold(_)
             | Self::Shoulders { .. }
             | Self::Instructions(_)
             | Self::FixedStep { .. } => "accuracy",
@@ -143,6 +147,7 @@ impl Signals {
         let untouched = defects.filter_map(|of| not_touched(of, self.provenance.duration));
         [
             self.accelerations(),
+            self.unforetold(),
             self.shoulders(),
             self.too_long_a_step(),
             self.provenance.distrust.map(Warning::Instructions),
@@ -171,6 +176,12 @@ impl Signals {
             rtol: self.provenance.rtol,
             fixed_step: self.fixed_step(),
         })
+    }
+
+    fn unforetold(&self) -> Option<Warning> {
+        let of = self.provenance.accuracy?;
+        let error = of.integration_error + of.node_error.unwrap_or(0.0);
+        (error > of.requested).then_some(Warning::Unforetold(of))
     }
 
     fn shoulders(&self) -> Option<Warning> {
