@@ -240,4 +240,5 @@ def test_an_accuracy_that_cannot_be_had_is_warned_of() -> None:
     assert off(other, truth, "outer.ax") > 0.01
     with pytest.warns(br.AccuracyWarning, match="accuracy = 0.001 was asked for, but pilot runs"):
         out = br.simulate(scene, accuracy=1e-3, **run)
+    assert out.accuracy is not None
     assert out.accuracy.integration_error + out.accuracy.node_error > 1e-3
