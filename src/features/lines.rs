@@ -179,6 +179,7 @@ impl Lines {
 mod tests {
     use std::f64::consts::TAU;
 
+    use super::super::noise::uniform;
     use super::*;
     use crate::scene::{Drive, Profile, Scene, TimeFunction, presets};
 
@@ -258,13 +259,7 @@ mod tests {
     fn a_line_in_noise_is_as_uncertain_as_it_is_told() {
         let (scene, fs, count) = (scene(), 20e3, 10_000);
         let outer = faults(&scene.rows[0], None)[1].order * 30.0;
-        let mut state = 11_u64;
-        let mut uniform = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            ((state >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
-        };
+        let mut uniform = uniform(11);
         let mut record = |sigma: f64| -> Vec<f64> {
             (0..count)
                 .map(|i| {

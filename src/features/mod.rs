@@ -27,6 +27,8 @@ mod lines;
 pub(crate) mod loads;
 pub(crate) mod lubrication;
 mod moments;
+#[cfg(test)]
+mod noise;
 mod record;
 mod recorded;
 mod shaft;

@@ -115,6 +115,7 @@ pub(super) fn sum(x: &[f64], of: &impl Fn(f64) -> f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::noise::uniform;
     use super::*;
 
     /// Analytic: a sine has peak A, rms A/√2, crest factor √2 and kurtosis 3/2, whatever it stands on for the
@@ -149,13 +150,7 @@ mod tests {
     #[test]
     fn noise_is_as_uncertain_as_it_is_told() {
         let (records, count) = (300, 16_000);
-        let mut state = 7_u64;
-        let mut uniform = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            ((state >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
-        };
+        let mut uniform = uniform(7);
         let mut gauss =
             || (-2.0 * uniform().ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos();
         for rho in [0.0, 0.9_f64] {
