@@ -48,7 +48,8 @@ def features(
         Name of the column that the features are of: ``"outer.ay"`` gives ``outer.ay.rms``, no name ``rms``.
     scene : Scene, optional
         The bearing and its speed, for the lines at the fault frequencies of its rows; its loads and defects do not
-        matter. Without it there are only the moments: ``rms``, ``peak``, ``crest_factor`` and ``kurtosis``.
+        matter. Without it there are only the moments, ``rms``, ``peak``, ``crest_factor`` and ``kurtosis``, and no
+        standard errors, since nothing tells how long a turn of the shaft is.
     skip : float
         Beginning of the signal that is left out [s].
     band : tuple of two floats, optional
@@ -58,7 +59,9 @@ def features(
     -------
     dict of str to float or None
         In the unit of ``x``, squared for an envelope; which there are, :func:`ballrace.campaign` tells at
-        ``columns``. None where the signal cannot give a feature: a line for which it is too short.
+        ``columns``. None where the signal cannot give a feature: a line for which it is too short. With a scene
+        their standard errors, such as ``rms_se``, and ``turns``, ``row0.passes`` and ``batches``, as
+        :meth:`ballrace.Signals.features` tells them.
 
     Raises
     ------

@@ -160,9 +160,10 @@ class AccuracyWarning(UserWarning):
     """A run came to its end, but its signals want a second look; the message has the numbers and what to do.
 
     Given where the recorded accelerations of a ring differ by more than 5 % from the derivative of its
-    velocities (``out.stats.acceleration_residual``), so that the steps do not resolve the contacts, and
+    velocities (``out.stats.acceleration_residual``), so that the steps do not resolve the contacts,
     where contacts rode over a shoulder or past the pole of ball and groove
-    (``out.stats.truncated_contacts``). ``out.warnings`` keeps the texts.
+    (``out.stats.truncated_contacts``), and where a run was asked for an ``accuracy`` that its pilot runs did
+    not reach. ``out.warnings`` keeps the texts.
     Also given by a measuring chain whose logger clips more than 0.1 % of the samples.
     ``warnings.simplefilter("error", ballrace.AccuracyWarning)`` makes it an error.
     """

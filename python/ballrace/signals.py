@@ -244,8 +244,9 @@ class Signals(Columns):
         """What a requested accuracy chose and what error it expects of that; None where none was asked for.
 
         ``requested``, ``rtol``, ``nodes`` on outer and inner race; the errors of the accelerations that pilot
-        runs of the first 3 ms showed, ``integration_error`` and ``node_error`` (None with fixed slices); and
-        the ``pilot_evaluations`` that this took, which ``stats`` does not count.
+        runs of the first 3 ms showed, ``integration_error`` and ``node_error`` (None with fixed slices), whose sum
+        is above ``requested`` where the motion is chance, which an AccuracyWarning tells; and the
+        ``pilot_evaluations`` that this took, which ``stats`` does not count.
         """
         chosen = self._provenance.to_dict()["accuracy"]
         return None if chosen is None else Record(chosen)
@@ -294,6 +295,12 @@ class Signals(Columns):
             ``LubricationProbe`` the least film and λ, ``oil.inner.film_min``, and the mean torque and powers,
             ``oil.friction_torque_mean``. None where the run cannot give one: a line for which it is too short.
 
+            Beside each, but for ``largest_pressure`` and ``lines_from``, its standard error, ``outer.ay.rms_se``:
+            what a run would differ by whose start nobody can tell from this one, but not what a longer one would
+            tell. None where the record has fewer than 8 turns of the shaft and fewer than 8 passes of balls over a
+            place of the outer race, or its speed changes by more than 2 % or is not given. ``turns`` and
+            ``row0.passes`` tell how many there are, ``batches`` of how many parts the errors come; 0 without.
+
         Raises
         ------
         SceneError
@@ -304,7 +311,7 @@ class Signals(Columns):
         >>> import ballrace as br
         >>> out = br.simulate(br.presets.deep_groove_6205(), duration=0.001)
         >>> list(out.features(columns=["outer.ay"]))[:2]
-        ['outer.ay.rms', 'outer.ay.peak']
+        ['outer.ay.rms', 'outer.ay.rms_se']
         """
         options = json.dumps(feature_options(columns, skip, band, contact_loads))
         pressure = self._stats.get("largest_pressure")

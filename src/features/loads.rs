@@ -1,6 +1,9 @@
 //! Extremes of the contact loads; those of a campaign are read by probes of their own that leave no columns behind.
 
+use std::ops::Range;
+
 use super::Feature;
+use super::batches::Batches;
 use super::record::Recorded;
 use crate::error::{Error, Result};
 use crate::scene::{ContactQuantity, Probe, RingName, Scene};
@@ -100,22 +103,34 @@ pub fn columns(scene: &Scene) -> Result<Vec<String>> {
 }
 
 /// Largest and smallest load of any ball of a row on each race, from a sample on; nothing of what is not recorded.
-pub(super) fn extremes(recorded: &Recorded<'_>, first: usize) -> Vec<Feature> {
+pub(super) fn extremes(recorded: &Recorded<'_>, first: usize, batches: &Batches) -> Vec<Feature> {
     let mut found = Vec::new();
     for row in 0..recorded.scene.rows.len() {
         for race in RACES {
             let names = columns_of(recorded.scene, row, race).unwrap_or_default();
             let columns = names.iter().filter_map(|name| recorded.get(name));
-            let loads = columns.flat_map(|values| &values[first..]).copied();
-            let range = loads.fold(None, |range: Option<(f64, f64)>, load| {
-                let (low, high) = range.unwrap_or((load, load));
-                Some((low.min(load), high.max(load)))
-            });
-            if let Some((low, high)) = range {
-                let name = |what: &str| format!("row{row}.{}.{what}", label(race));
-                found.push(Feature::new(name("load_max"), high));
-                found.push(Feature::new(name("load_min"), low));
+            let columns: Vec<&[f64]> = columns.map(|values| &values[first..]).collect();
+            if columns.is_empty() {
+                continue;
             }
+            let range = |within: Range<usize>| {
+                let loads = columns.iter().flat_map(|values| &values[within.clone()]);
+                loads.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], load| {
+                    [low.min(*load), high.max(*load)]
+                })
+            };
+            let [low, high] = range(0..columns[0].len());
+            let parts = batches.map(range);
+            let error = |i: usize| {
+                let parts = parts.as_ref().map(|parts| {
+                    let extremes: Vec<f64> = parts.iter().map(|part| part[i]).collect();
+                    Batches::of_extreme(&extremes)
+                });
+                Some(parts.unwrap_or(f64::NAN))
+            };
+            let name = |what: &str| format!("row{row}.{}.{what}", label(race));
+            found.extend(Feature::with_error(name("load_max"), high, error(1)));
+            found.extend(Feature::with_error(name("load_min"), low, error(0)));
         }
     }
     found

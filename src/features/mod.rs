@@ -11,15 +11,24 @@
 //! | `outer.ay.lines_from` | of a run from rest: from when on its lines are \[s\], where the shaft has a twentieth of its highest speed | `shaft.rs` |
 //! | `row0.outer.load_max`, `.load_min` | extremes of the contact loads of a row \[N\] | `loads.rs` |
 //! | `oil.outer.film_min`, `.lambda_min`, `oil.friction_torque_mean`, `.slip_power_mean`, … | least films, mean torque and losses of a probe `oil` of a row's oil | `lubrication.rs` |
+//! | `turns`, `row0.passes` | turns of the shaft over the record, and balls that passed a place of the outer race | `recorded.rs` |
+//! | `batches` | parts of the record that standard errors come from; 0: too short, or the speed changes | `batches.rs` |
 //! | `largest_pressure` | largest Hertz pressure of any contact at the start or the end of the run \[Pa\] | |
+//!
+//! Beside every feature of a signal stands its standard error, `outer.ay.rms_se` (`batches.rs`), without a value where the
+//! record has fewer than 8 turns of the shaft and fewer than 8 passes, or its speed changes. Without a scene nothing tells how
+//! long a turn is, and there are none.
 //!
 //! A feature that a run cannot give (a line below the resolution of its record, a crest factor of silence) is
 //! there without a value, so that a table of cases has the same columns throughout.
 
+mod batches;
 mod lines;
 pub(crate) mod loads;
 pub(crate) mod lubrication;
 mod moments;
+#[cfg(test)]
+mod noise;
 mod record;
 mod recorded;
 mod shaft;
@@ -66,6 +75,17 @@ impl Feature {
     fn new(name: String, value: f64) -> Self {
         let value = Some(value).filter(|x| x.is_finite());
         Self { name, value }
+    }
+
+    /// A feature and, where there is to be one, its standard error beside it.
+    fn with_error(name: String, value: f64, error: Option<f64>) -> Vec<Self> {
+        let error = error.map(|error| {
+            let known = value.is_finite().then_some(error);
+            Self::new(format!("{name}_se"), known.unwrap_or(f64::NAN))
+        });
+        std::iter::once(Self::new(name, value))
+            .chain(error)
+            .collect()
     }
 }
 

@@ -1,5 +1,6 @@
 //! Features of what is recorded: of a run's columns, or of one signal.
 
+use super::batches::Batches;
 use super::record::Recorded;
 use super::shaft::Shaft;
 use super::{Feature, FeatureOptions, check_record, lines, loads, lubrication, moments, named};
@@ -27,15 +28,13 @@ pub fn features_of(
     options: &FeatureOptions,
 ) -> Vec<Feature> {
     let first = first_sample(options.skip, recorded.fs, recorded.count());
-    let of = Analysis {
-        kinematics: recorded.kinematics,
-        ..Analysis::new(
-            Some(recorded.scene),
-            recorded.fs,
-            recorded.count() - first,
-            options,
-        )
-    };
+    let count = recorded.count() - first;
+    let of = Analysis::new(
+        Some((recorded.scene, recorded.kinematics)),
+        recorded.fs,
+        count,
+        options,
+    );
     let mut found = Vec::new();
     for name in columns {
         if let Some(values) = recorded.get(name) {
@@ -43,16 +42,17 @@ pub fn features_of(
         }
     }
     if options.contact_loads {
-        found.extend(loads::extremes(recorded, first));
+        found.extend(loads::extremes(recorded, first, &of.batches));
     }
-    found.extend(lubrication::of(recorded, first));
+    found.extend(lubrication::of(recorded, first, &of.batches));
+    found.extend(of.extent());
     let pressure = recorded.largest_pressure;
     found.push(Feature::new("largest_pressure".to_owned(), pressure));
     found
 }
 
 /// The features of one signal, whoever recorded it: its moments, and with a scene, which tells the rows of balls and the
-/// speed of the shaft, the lines at their fault frequencies.
+/// speed of the shaft, the lines at their fault frequencies, standard errors, and how many turns and passes the signal has.
 ///
 /// `fs` is the sampling rate \[Hz\]; features are called by the name of the column they are of, `outer.ay.rms`, and without a
 /// name by their own, `rms`. Of the options `columns` and `contact_loads` do not count.
@@ -77,7 +77,10 @@ pub fn signal_features(
 ) -> Result<Vec<Feature>> {
     check_record(options, x.len() as f64 / fs, fs)?;
     let x = &x[first_sample(options.skip, fs, x.len())..];
-    Ok(Analysis::new(scene, fs, x.len(), options).column(name, x))
+    let of = Analysis::new(scene.map(|scene| (scene, &[][..])), fs, x.len(), options);
+    let mut found = of.column(name, x);
+    found.extend(of.extent());
+    Ok(found)
 }
 
 /// The first sample that is not left out: samples stand at k / fs.
@@ -91,6 +94,9 @@ struct Analysis<'a> {
     scene: Option<&'a Scene>,
     kinematics: &'a [RowKinematics],
     shaft: Option<Shaft>,
+    /// Turns of the shaft, where its speed is known.
+    turns: Option<f64>,
+    batches: Batches,
     fs: f64,
     /// Time of the first sample \[s\].
     start: f64,
@@ -98,34 +104,81 @@ struct Analysis<'a> {
 }
 
 impl<'a> Analysis<'a> {
-    /// Of so many samples.
-    fn new(scene: Option<&'a Scene>, fs: f64, count: usize, options: &FeatureOptions) -> Self {
-        Self {
+    /// Of so many samples of a bearing, and of what its rows did.
+    fn new(
+        bearing: Option<(&'a Scene, &'a [RowKinematics])>,
+        fs: f64,
+        count: usize,
+        options: &FeatureOptions,
+    ) -> Self {
+        let (scene, kinematics) = bearing.unzip();
+        let shaft = scene.and_then(|scene| Shaft::of(scene, options.skip, count, fs));
+        let turns = shaft.as_ref().map(|shaft| shaft.turns(count, fs));
+        let mut of = Self {
             scene,
-            kinematics: &[],
-            shaft: scene.and_then(|scene| Shaft::of(scene, options.skip, count, fs)),
+            kinematics: kinematics.unwrap_or_default(),
+            shaft,
+            turns,
+            batches: Batches::none(),
             fs,
             start: options.skip,
             band: options.band,
+        };
+        if let Some(turns) = of.turns.filter(|_| of.is_steady()) {
+            // Those of the row whose balls come by least often.
+            let passes = of.passes().flatten().fold(f64::INFINITY, f64::min);
+            of.batches = Batches::new(count, [turns, passes]);
         }
+        of
+    }
+
+    /// Whether the record has statistics of its own: where the speed changes, so do they.
+    fn is_steady(&self) -> bool {
+        self.shaft.as_ref().is_some_and(Shaft::is_steady)
+    }
+
+    /// Balls of every row that passed a place of the outer race.
+    fn passes(&self) -> impl Iterator<Item = Option<f64>> {
+        let rows = self.scene.iter().flat_map(|scene| &scene.rows).enumerate();
+        rows.map(|(at, row)| {
+            let did = self.kinematics.iter().find(|did| did.row == at);
+            let [_, outer, ..] = lines::faults(row, did);
+            self.turns.map(|turns| turns * outer.order)
+        })
+    }
+
+    /// How long the record is, by what passes in it.
+    fn extent(&self) -> Vec<Feature> {
+        if self.scene.is_none() {
+            return Vec::new();
+        }
+        let feature = |what: &str, value: Option<f64>| {
+            Feature::new(what.to_owned(), value.unwrap_or(f64::NAN))
+        };
+        let mut found = vec![feature("turns", self.turns)];
+        let rows = self.passes().enumerate();
+        found.extend(rows.map(|(row, passes)| feature(&format!("row{row}.passes"), passes)));
+        found.push(feature("batches", Some(self.batches.count() as f64)));
+        found
     }
 
     fn column(&self, name: &str, x: &[f64]) -> Vec<Feature> {
-        let mut found = Vec::from(moments::of(name, x));
-        if let Some(scene) = self.scene {
-            let course = (self.fs, self.band);
-            let shaft = self.shaft.as_ref();
-            found.extend(lines::of(
-                name,
-                x,
-                course,
-                shaft,
-                (&scene.rows, self.kinematics),
-            ));
-            if let Some(first) = shaft.map(Shaft::first).filter(|first| *first > 0) {
-                let from = self.start + first as f64 / self.fs;
-                found.push(Feature::new(named(name, "lines_from"), from));
-            }
+        let Some(scene) = self.scene else {
+            return moments::of(name, x, None);
+        };
+        let mut found = moments::of(name, x, Some(&self.batches));
+        let shaft = self.shaft.as_ref();
+        found.extend(lines::of(
+            name,
+            x,
+            (self.fs, self.band),
+            shaft,
+            (&scene.rows, self.kinematics),
+            self.batches.count() > 0,
+        ));
+        if let Some(first) = shaft.map(Shaft::first).filter(|first| *first > 0) {
+            let from = self.start + first as f64 / self.fs;
+            found.push(Feature::new(named(name, "lines_from"), from));
         }
         found
     }

@@ -75,6 +75,19 @@ impl Shaft {
         }
     }
 
+    /// How many turns the spectrum is over, of so many samples.
+    pub fn turns(&self, count: usize, fs: f64) -> f64 {
+        match self {
+            Self::Steady(frequency) => frequency * count as f64 / fs,
+            Self::Varying { turns, .. } => turns[turns.len() - 1],
+        }
+    }
+
+    /// Whether the speed is the same all the time, within the width in which a line is sought.
+    pub fn is_steady(&self) -> bool {
+        matches!(self, Self::Steady(_))
+    }
+
     /// Its frequency over the spectrum's abscissa: in Hz, or once a turn.
     pub fn frequency(&self) -> f64 {
         match self {

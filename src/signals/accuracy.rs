@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// What a run with a requested accuracy chose, and what it expects of that.
+/// What a run with a requested accuracy chose, and what it expects of that; errors that are larger together are warned of.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Accuracy {

@@ -121,7 +121,8 @@ impl<'s> Recorder<'s> {
         let zeros = vec![0.0; dynamics.dim()];
         self.own = (zeros.clone(), zeros);
         (self.y, self.dy) = (start.to_vec(), vec![0.0; start.len()]);
-        self.residual = Residual::new(dynamics);
+        let filtered = self.grid.as_ref().map(|_| self.sampling.fs);
+        self.residual = Residual::new(dynamics, filtered);
         self.watch.prepare(dynamics, start);
         self.orbits.prepare(start);
         self.open(0.0);

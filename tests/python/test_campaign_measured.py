@@ -51,7 +51,9 @@ def test_a_line_is_the_measurement_of_the_run(done: br.Campaign) -> None:
     out = br.simulate(done.scene(line["case_id"]), duration=0.02, fs=25_000.0, settle=0.0)
     alone = br.measure(out, CHAINS[line["chain"]], seed=line["seed"])
     wanted = br.features(alone.x, alone.fs, name="sensor", scene=out.scene)
-    assert {name: line[name] for name in wanted} == wanted
+    # 20 ms are too short for standard errors: the table leaves their columns out.
+    assert {name: line.get(name) for name in wanted} == wanted
+    assert wanted["batches"] == 0
 
 
 def test_windows_are_cut_from_the_measurement(done: br.Campaign) -> None:

@@ -108,6 +108,10 @@ def test_a_run_an_array_and_a_campaign_say_the_same(tmp_path: Path) -> None:
     (row,) = done.manifest.to_dicts()
     assert "row0.inner.load_min" in found
     assert found["outer.ay.row0.bpfo_envelope_harmonics"] is not None
+    # 2.7 turns are 9.7 passes, so that errors are of 9 batches.
+    assert found["batches"] == 9.0
+    assert found["turns"] == pytest.approx(2.7, rel=1e-3)
+    assert found["row0.passes"] == pytest.approx(9.7, rel=0.01)
     assert found == {name: row[name] for name in found}
     loads = [out[f"all.ball{i}.outer.load"][120:] for i in range(9)]
     assert found["row0.outer.load_max"] == np.max(loads)
@@ -115,15 +119,20 @@ def test_a_run_an_array_and_a_campaign_say_the_same(tmp_path: Path) -> None:
     # An array knows nothing of how the balls went round, and takes them to roll at the nominal angle.
     alone = br.features(out["outer.ay"], FS, name="outer.ay", scene=scene, **chosen)
     of_column = {name: value for name, value in found.items() if name.startswith("outer.ay.")}
-    assert list(alone) == list(of_column)
-    own = [name for name in alone if "row0." not in name]
+    extent = ["turns", "row0.passes", "batches"]
+    assert list(alone) == [*of_column, *extent]
+    # Its batches are cut by other passes, too.
+    own = [name for name in of_column if "row0." not in name and not name.endswith("_se")]
     assert [alone[name] for name in own] == [of_column[name] for name in own]
     short = br.simulate(scene, duration=0.03, fs=FS, settle=0.0)
     column = short.features(columns="outer.ay")
     column.pop("largest_pressure")
+    assert column["batches"] == 0
     assert br.features(short["outer.ay"], FS, name="outer.ay", scene=scene) == column
     unnamed = br.features(out["outer.ay"], FS, scene=scene, **chosen)
-    assert list(unnamed)[:5] == ["rms", "peak", "crest_factor", "kurtosis", "row0.ftf"]
+    assert [name for name in unnamed if not name.endswith("_se")][:5] == [
+        "rms", "peak", "crest_factor", "kurtosis", "row0.ftf",
+    ]  # fmt: skip
     out.write_parquet(tmp_path / "out.parquet")
     again = br.Signals.read_parquet(tmp_path / "out.parquet")
     assert again.features(contact_loads=True, **chosen) == found
@@ -158,3 +167,60 @@ def test_bad_arguments_are_refused() -> None:
         with pytest.raises(br.SceneError) as caught:
             call()
         assert caught.value.path == path
+
+
+def spalled(start_angle: float) -> br.Scene:
+    """Return a 6205 with a spall of 1 mm, which is met by balls that all start a little later."""
+    scene = br.bearing(
+        "6205", radial_load=1500.0, speed_rpm=1800.0,
+        defects=br.defects.spall(on="outer_race", width_mm=1.0, length_mm=2.0),
+    )  # fmt: skip
+    return scene.replace({"rows[0].start_angle": start_angle})
+
+
+def test_errors_are_what_records_of_another_start_differ_by(tmp_path: Path) -> None:
+    """Statistical: of 20 starts 1e-13 rad apart, records of 10 passes share nothing but their statistics."""
+    table = [{"rows[0].start_angle": 1e-13 * k} for k in range(20)]
+    done = br.campaign(
+        table, tmp_path / "c", scene=spalled(0.0), duration=0.1, columns="outer.ay", progress=False
+    )
+    manifest = done.manifest
+    assert (manifest["batches"] == 10).all()
+    for name in ("rms", "peak", "kurtosis", "row0.bpfo_envelope", "row0.bpfo_envelope_harmonics"):
+        values = manifest[f"outer.ay.{name}"].to_numpy()
+        told = manifest[f"outer.ay.{name}_se"].to_numpy()
+        ratio = np.median(told) / np.std(values, ddof=1)
+        assert 0.5 < ratio < 2.0, (name, ratio)
+
+
+def test_a_record_that_is_too_short_says_so(tmp_path: Path) -> None:
+    """20 ms are 0.6 turns and 2.1 passes: there are no errors, and the manifest drops their columns."""
+    scene = spalled(0.0)
+    found = br.simulate(scene, duration=0.02, settle=0.0).features(columns="outer.ay")
+    assert found["turns"] == pytest.approx(0.6)
+    assert found["row0.passes"] == pytest.approx(2.15, abs=0.02)
+    assert found["batches"] == 0
+    assert found["outer.ay.rms_se"] is found["outer.ay.row0.bpfo_envelope_se"] is None
+    run: Any = {"scene": scene, "columns": "outer.ay", "settle": 0.0, "progress": False}
+    short = br.campaign([{"duration": 0.02}], tmp_path / "short", **run).manifest
+    assert short["batches"].to_list() == [0]
+    assert not [name for name in short.columns if name.endswith("_se")]
+    # One longer case is enough for the columns; of the others they stay empty.
+    mixed = br.campaign([{"duration": 0.02}, {"duration": 0.08}], tmp_path / "m", **run).manifest
+    assert mixed["batches"].to_list() == [0, 8]
+    assert mixed["outer.ay.rms_se"].is_null().to_list() == [True, False]
+
+
+def test_a_speed_that_changes_leaves_no_errors() -> None:
+    """A run-up has lines over the angle, but no statistics of its own."""
+    drive = br.scene.SpeedDrive(br.scene.Ramp(from_=100.0, to=200.0, start=0.0, end=1.0))
+    x = noise(12_000)
+    scene = br.presets.deep_groove_6205()
+    found = br.features(x, FS, scene=scene.replace({"drive": drive}))
+    assert found["turns"] == pytest.approx(150.0 / math.tau, rel=1e-3)
+    assert found["batches"] == 0
+    assert found["row0.bpfo"] is not None
+    assert found["row0.bpfo_se"] is None
+    turned = br.features(x, FS, scene=scene.replace({"drive": TorqueDrive(value=1.0)}))
+    assert (turned["turns"], turned["row0.passes"], turned["batches"]) == (None, None, 0)
+    assert "rms_se" not in br.features(x, FS)

@@ -136,7 +136,7 @@ def told_columns() -> list[tuple[re.Pattern[str], str]]:
     anything, word = r".+", r"[^.]+"
     parts = {
         "probe": word, "defect": word, "column": anything, "row": r"row\d+", "race": "(outer|inner)",
-        "k": r"\d+", "origin": r"(?!outer|inner)[^.]+", "fault": "(ftf|bpfo|bpfi|2bsf)",
+        "k": r"\d+", "origin": r"(?!outer|inner)[^.]+", "fault": "(ftf|bpfo|bpfi|2bsf)", "feature": anything,
     }  # fmt: skip
     found = []
     for line in (GUIDE / "columns.md").read_text(encoding="utf-8").splitlines():
@@ -170,7 +170,8 @@ def test_the_table_of_columns_is_whole(tmp_path: Path) -> None:
     scene, told = everything(), told_columns()
     out = br.simulate(scene, duration=0.002)
     done = br.campaign(
-        [{"loads.radial.force": 800.0}], tmp_path, scene=scene, duration=0.02, keep="signals",
+        # Standard errors want eight passes of balls.
+        [{"loads.radial.force": 800.0}], tmp_path, scene=scene, duration=0.08, keep="signals",
         contact_loads=True, columns=["outer.ay"], progress=False,
     )  # fmt: skip
     done.measure(br.measuring.Chain(logger=br.measuring.Logger()))

@@ -12,6 +12,7 @@ import sys
 import warnings
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 import pytest
@@ -197,3 +198,49 @@ def test_nowhere_on_the_map_a_run_lies() -> None:
     module = stability_map()
     points = module.survey(module.QUICK, ["default"], workers=2)
     assert {point.mark for point in points} <= {"works", "slowly", "warns"}
+
+
+def off(out: br.Signals, truth: br.Signals, column: str) -> float:
+    """Return the relative error of a column."""
+    return apart(out[column], truth[column])
+
+
+def test_records_that_are_right_in_their_band_are_not_warned_of() -> None:
+    """Failure: noise of stiff friction beyond the band counted as 12 % of uncertainty; truth: rtol 1e-10."""
+    friction = br.scene.Stribeck(
+        static_coefficient=0.088, kinetic_coefficient=0.031, stribeck_speed=0.099, slip_speed=1e-3
+    )
+    scene = br.presets.deep_groove_6205(2886.0, 329.0, 515.0).replace({"friction": friction})
+    run: Any = {"duration": 3e-3, "settle": 0.0}
+    out = br.simulate(scene, **run)  # warnings are errors here
+    truth = br.simulate(scene, rtol=1e-10, **run)
+    assert max(off(out, truth, f"outer.a{axis}") for axis in "xyz") < 0.02
+    assert 0.0 < out.stats.acceleration_residual < 0.05
+    # The model's own accelerations have that noise in them.
+    with pytest.warns(br.AccuracyWarning, match="accelerations are uncertain"):
+        br.simulate(scene, bandwidth=None, **run)
+
+
+def test_an_accuracy_that_cannot_be_had_is_warned_of() -> None:
+    """Failure: motion that is chance was given as right to 0.1 %; truth: rtol 1e-10, from starts 1e-9 rad apart.
+
+    A 6000 whose balls hit a spall at 6760 rev/min. The default run is off by 45 % along x within 3 ms and says
+    nothing: no step is wrong, the motion multiplies what the tolerance leaves, and a moved start as well.
+    """
+    friction = br.scene.Stribeck(
+        static_coefficient=0.086, kinetic_coefficient=0.038, stribeck_speed=0.08, slip_speed=0.044
+    )
+    spall = br.defects.spall(on="outer_race", width_mm=0.8, length_mm=3.0)
+    scene = br.bearing(
+        "6000", radial_load=120.0, axial_load=30.0, speed_rpm=6760.0, clearance=13e-6, defects=spall
+    ).replace({"friction": friction})
+    run: Any = {"duration": 3e-3, "settle": 0.0}
+    truth = br.simulate(scene, rtol=1e-10, **run)
+    assert off(br.simulate(scene, **run), truth, "outer.ax") > 0.05
+    angle = scene.rows[0].start_angle
+    other = br.simulate(scene.replace({"rows[0].start_angle": angle + 1e-9}), rtol=1e-10, **run)
+    assert off(other, truth, "outer.ax") > 0.01
+    with pytest.warns(br.AccuracyWarning, match="accuracy = 0.001 was asked for, but pilot runs"):
+        out = br.simulate(scene, accuracy=1e-3, **run)
+    assert out.accuracy is not None
+    assert out.accuracy.integration_error + out.accuracy.node_error > 1e-3

@@ -21,7 +21,7 @@ from .store import BASE
 if TYPE_CHECKING:
     import polars as pl
 
-RESULTS = (*BASE, "changes", "measured_clipped")
+RESULTS = (*BASE, "changes", "measured_clipped", "turns", "batches")
 """Columns of the manifest that a table may not have."""
 
 _FIELDS = frozenset(field.name for field in fields(Scene))

@@ -19,6 +19,7 @@ from ..measuring.checks import positive
 from ..measuring.tables import Chains, named_chains
 from ..scene import Scene
 from ..signals import Signals
+from .store import without_empty_errors
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -101,7 +102,7 @@ def features_table(
         x, fs = line.measurement.x, line.measurement.fs
         found = features(x, fs, name="sensor", scene=line.scene, skip=skip, band=band)
         rows.append(line.labels() | found)
-    return pl.DataFrame(rows, infer_schema_length=None)
+    return without_empty_errors(pl.DataFrame(rows, infer_schema_length=None))
 
 
 def windows_table(

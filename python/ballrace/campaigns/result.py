@@ -13,7 +13,7 @@ from ..errors import SceneError
 from ..scene import Scene
 from .cases import apply
 from .measured import Measured, as_signals, features_table, measured, windows_table
-from .store import BASE, BUDGET, FAULTS, Store
+from .store import BASE, BUDGET, FAULTS, Store, without_empty_errors
 
 if TYPE_CHECKING:
     import os
@@ -70,7 +70,8 @@ class Campaign:
         :class:`ballrace.SceneWarning`, joined by semicolons); ``version`` of the solver; ``accepted``,
         ``rejected``, ``nfev``: its effort; ``wall_time`` [s]; ``acceleration_residual``, ``truncated_contacts``:
         what accuracy is judged by, as in ``out.stats``; ``simd``: the vector instructions it ran on;
-        ``signals``: the shard that holds them; the features (see :func:`ballrace.campaign`); and of every defect
+        ``signals``: the shard that holds them; the features with their standard errors, and ``turns``,
+        ``row0.passes`` and ``batches`` that these come from (see :func:`ballrace.campaign`); and of every defect
         with a width, such as ``defects.spall``: ``.placed_at``, its axial place [m], ``.passes`` of balls,
         ``.touched``, the share of them in which a contact was loaded within it, and its ``.largest_load`` [N]
         (see :class:`ballrace.Touched`); last ``measured_clipped``: the largest share of the samples of a case that
@@ -90,7 +91,7 @@ class Campaign:
         """The manifest as it is written."""
         from .._polars import pl
 
-        results = self._results
+        results = without_empty_errors(self._results)
         features = sorted(name for name in results.columns if name not in (*BASE, *BUDGET))
         return (
             self._cases.drop("changes")
@@ -253,7 +254,8 @@ class Campaign:
         -------
         DataFrame
             ``case_id``, ``chain``, ``seed``, ``sampling_rate`` [Hz], ``range`` [m/s²] and ``clipped`` as of a
-            :class:`~ballrace.measuring.Measurement`, and the features ``sensor.rms``, ….
+            :class:`~ballrace.measuring.Measurement`, and the features ``sensor.rms``, … with standard errors where
+            measurements are long enough for any, ``turns``, ``row0.passes`` and ``batches``.
 
         Raises
         ------

@@ -153,7 +153,10 @@ def campaign(
         where the balls of the run passed; of a run of less than a turn, within 2 % of nominal rolling. Where the
         given speed changes by more than 2 %, lines are taken over the shaft's angle; of a run from rest from a
         twentieth of its highest speed on, and ``outer.ay.lines_from`` says when [s]. A line that the record is
-        too short for is empty, and so are all under a torque drive.
+        too short for is empty, and so are all under a torque drive. Beside every feature stands its standard
+        error, ``outer.ay.rms_se``, and ``turns``, ``row0.passes`` and ``batches`` say what these come from (see
+        :meth:`ballrace.Signals.features`): records of fewer than 8 turns and 8 passes have none, ``batches`` is 0,
+        and where no case has any the manifest leaves their columns out.
     skip : float
         Beginning of each run that features leave out [s].
     band : tuple of two floats, optional

@@ -305,6 +305,14 @@ def schema() -> dict[str, Any]:
     return {name: getattr(pl, types.get(name, "String")) for name in (*BASE, *BUDGET)}
 
 
+def without_empty_errors(table: pl.DataFrame) -> pl.DataFrame:
+    """Leave out standard errors of features where no record is long enough for any."""
+    if "batches" not in table.columns or table["batches"].max():
+        return table
+    features = {name for name in table.columns if f"{name}_se" in table.columns}
+    return table.drop(f"{name}_se" for name in features)
+
+
 def _joined(frames: list[pl.DataFrame]) -> pl.DataFrame:
     """Join tables in parts, between which Ctrl-C is heard: polars takes more than a second for 5000 at once."""
     from .._polars import pl

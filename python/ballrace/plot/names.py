@@ -54,7 +54,11 @@ def feature(column: str) -> str:
     'envelope line at BPFO, row 0, vertical acceleration, outer ring / (m/s²)²'
     >>> feature("largest_pressure")
     'largest pressure / Pa'
+    >>> feature("outer.ay.rms_se")
+    'standard error of root mean square, vertical acceleration, outer ring / m/s²'
     """
+    if column.endswith("_se"):
+        return f"standard error of {feature(column.removesuffix('_se'))}"
     if column == "largest_pressure":
         return "largest pressure / Pa"
     signal, _, name = column.rpartition(".")

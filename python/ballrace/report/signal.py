@@ -10,7 +10,7 @@ from ..scene import SpeedDrive
 from . import words
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from ..signals import Signals
     from .page import Page
@@ -112,9 +112,7 @@ def add_features(page: Page, out: Signals, names: Sequence[str]) -> None:
     page.section("Features")
     found = out.features(columns=accelerations)
     for name in accelerations:
-        shape = [
-            (what, words.number(found.get(f"{name}.{key}"))) for key, what in _FEATURES.items()
-        ]
+        shape = [(what, _told(found, f"{name}.{key}")) for key, what in _FEATURES.items()]
         page.told([("column", f"{name}, {unit(out.units[name])}"), *shape])
         rows = []
         for row in range(len(out.scene.rows)):
@@ -123,8 +121,18 @@ def add_features(page: Page, out: Signals, names: Sequence[str]) -> None:
                 tails = ("", "_harmonics", "_envelope", "_envelope_harmonics")
                 if any(stem + tail in found for tail in tails):
                     rows.append(
-                        [f"row {row}, {what}", *(words.number(found.get(stem + t)) for t in tails)]
+                        [f"row {row}, {what}", *(_told(found, stem + tail) for tail in tails)]
                     )
         header = ["line at", "signal", "with harmonics", "squared envelope", "with harmonics"]
         if rows:
             page.table(header, rows)
+    if found["batches"]:
+        page.text(
+            "Behind ± stands the standard error: what another run of the same length may give."
+        )
+
+
+def _told(found: Mapping[str, float | None], name: str) -> str:
+    """Return a feature, with its standard error where there is one."""
+    error = found.get(f"{name}_se")
+    return words.number(found.get(name)) + ("" if error is None else f" ± {words.number(error, 2)}")

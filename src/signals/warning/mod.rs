@@ -10,7 +10,7 @@ use crate::equilibrium::Placed;
 use crate::inspect;
 use crate::kinematics::RowKinematics;
 use crate::scene::Doubt;
-use crate::signals::Signals;
+use crate::signals::{Accuracy, Signals};
 use crate::simd::Distrust;
 use crate::touched::Touched;
 
@@ -44,6 +44,9 @@ pub enum Warning {
         /// The step of a method of fixed steps, which has no tolerance \[s\].
         fixed_step: Option<f64>,
     },
+    /// The accuracy that was asked for cannot be had: pilot runs differ by more however fine they are, since the motion is
+    /// chance.
+    Unforetold(Accuracy),
     /// Contacts reached beyond a shoulder, or beyond the pole of ball and groove where a zone ends there: the model has no race there.
     Shoulders {
         /// [`crate::Statistics::truncated_contacts`].
@@ -105,6 +108,7 @@ impl Warning {
     pub fn category(&self) -> &'static str {
         match self {
             Self::Accelerations { .. }
+            | Self::Unforetold(_)
             | Self::Shoulders { .. }
             | Self::Instructions(_)
             | Self::FixedStep { .. } => "accuracy",
@@ -145,6 +149,7 @@ impl Signals {
         let untouched = defects.filter_map(|of| not_touched(of, self.provenance.duration));
         [
             self.accelerations(),
+            self.unforetold(),
             self.shoulders(),
             self.too_long_a_step(),
             self.provenance.distrust.map(Warning::Instructions),
@@ -173,6 +178,12 @@ impl Signals {
             rtol: self.provenance.rtol,
             fixed_step: self.fixed_step(),
         })
+    }
+
+    fn unforetold(&self) -> Option<Warning> {
+        let of = self.provenance.accuracy?;
+        let error = of.integration_error + of.node_error.unwrap_or(0.0);
+        (error > of.requested).then_some(Warning::Unforetold(of))
     }
 
     fn shoulders(&self) -> Option<Warning> {

@@ -5,6 +5,7 @@ use std::fmt::{Display, Formatter, Result};
 use super::Warning;
 use crate::equilibrium::Placed;
 use crate::kinematics::RowKinematics;
+use crate::signals::Accuracy;
 use crate::simd::Distrust;
 use crate::told::duration;
 
@@ -20,6 +21,7 @@ impl Display for Warning {
                 None => accelerations(f, *residual, *stiff_share, *rtol),
                 Some(step) => accelerations_of_fixed_steps(f, *residual, *step),
             },
+            Self::Unforetold(of) => unforetold(f, of),
             Self::FixedStep { step, limit } => fixed_step(f, *step, *limit),
             Self::Shoulders { contacts, steps } => shoulders(f, *contacts, *steps),
             Self::Instructions(distrust) => instructions(f, distrust),
@@ -61,6 +63,29 @@ fn accelerations_of_fixed_steps(f: &mut Formatter<'_>, residual: f64, step: f64)
          velocities. Use a max_step smaller than {}, or raise the friction's slip_speed",
         100.0 * residual,
         duration(step)
+    )
+}
+
+fn unforetold(f: &mut Formatter<'_>, of: &Accuracy) -> Result {
+    write!(
+        f,
+        "accuracy = {} was asked for, but pilot runs still differ by {:.2} % at rtol = {:.0e}",
+        of.requested,
+        100.0 * of.integration_error,
+        of.rtol
+    )?;
+    if let Some(error) = of.node_error {
+        let nodes = of.nodes[0].max(of.nodes[1]);
+        write!(f, " and by {:.2} % at {nodes} nodes", 100.0 * error)?;
+    }
+    let why = if of.integration_error > of.requested {
+        "this motion multiplies the least difference, and its samples are chance, however fine the steps"
+    } else {
+        "contacts that an edge cuts depend on their nodes by more, or this motion multiplies what they leave"
+    };
+    write!(
+        f,
+        ": {why}. Compare features, with their standard errors, not samples"
     )
 }
 
