@@ -170,9 +170,7 @@ impl<const N: usize> Side<N> {
         let mut packing = SlicePacking {
             lane,
             packs: &mut self.packs,
-            radius: compiled.side.radius,
             outwards: at.seen_from(&view.ring).centre.normalize(),
-            flat: pair.law.cut().is_flat(),
             aside: [0.0; FREE],
             count: 0,
             contacts: &mut self.singles,

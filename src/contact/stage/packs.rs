@@ -65,12 +65,8 @@ pub(crate) struct SlicePacking<'a> {
     /// The contacts, of which a gothic arch has two: their lane, and what their slices share.
     pub contacts: &'a mut Vec<(usize, Around)>,
     pub lane: usize,
-    /// Ball radius \[m\].
-    pub radius: f64,
     /// From the ring's centre to the ball's, of length 1.
     pub outwards: V2,
-    /// Whether all slices press along the common normal.
-    pub flat: bool,
     /// Sum of forces beside those of slices: x, y, z, and about z, x and y of the ball's centre.
     pub aside: [f64; FREE],
     /// Slices so far.
@@ -102,16 +98,10 @@ impl Sink for SlicePacking<'_> {
             rolling,
             swing,
         } = pack;
-        // α of the slice: that of the place on the ball (flat contact), or of the force's direction.
-        let (sin, cos) = if self.flat {
-            // A contact on the tangent may go on past the ball's pole.
-            let sin = (touch.zeta / self.radius).clamp(-1.0, 1.0);
-            (sin, (1.0 - sin * sin).sqrt())
-        } else {
-            let tan = touch.share.1 / touch.share.0;
-            let cos = 1.0 / (1.0 + tan * tan).sqrt();
-            (tan * cos, cos)
-        };
+        // Friction lies across the force's direction, whose share on the common normal is of length 1.
+        let (in_plane, axial) = touch.share;
+        let over = in_plane.hypot(axial).recip();
+        let (sin, cos) = (axial * over, in_plane * over);
         let (out, arm) = (touch.n_e, touch.arm_ball);
         (n_e[0][lane], n_e[1][lane]) = (out.x, out.y);
         element.elastic[lane] = touch.elastic;
