@@ -80,9 +80,9 @@ def fault_frequencies(
     of : str, Bearing, Scene or Signals
         A designation of the catalogue or a bearing of it: at the nominal contact angle, since no load is given. A
         scene: at the speeds of cage and balls at which friction at both races under its load, the oil's drag and
-        gyroscopic moments balance; without friction of balls that roll at the contact angles of both races. Signals
-        of a run of a turn and more: the means that the run measured, of the cage by all balls of the row, and of the
-        spin where balls spin freely. Of older files by a probe that records the motion of a ball of the row.
+        gyroscopic moments balance; without friction of balls that roll at the contact angles of both races.
+        Signals of a run of a turn and more: the means that the run measured, of the cage by all balls of the row,
+        and of the spin where balls spin freely. Of older files by a probe that records the motion of a ball.
     speed_rpm : float, optional
         Speed of the inner ring [rev/min]; by default that of the scene, if it is given and constant.
     row : int

@@ -176,8 +176,8 @@ RaceControl = Literal["friction", "outer"]
 def equilibrium(scene: Scene, *, race_control: RaceControl = "friction") -> Equilibrium:
     """Solve a scene at rest in the cage's frame, with all loads, gravity and centrifugal forces.
 
-    Centrifugal forces are those of the speed at which the balls go round at the contact angles found; friction carries the
-    gyroscopic moments of balls that spin freely (``spin="free"``).
+    Centrifugal forces are those of the speed at which the balls go round at the contact angles found; friction
+    carries the gyroscopic moments of balls that spin freely (``spin="free"``).
 
     Parameters
     ----------

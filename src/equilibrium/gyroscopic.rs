@@ -29,7 +29,7 @@ impl Problem<'_> {
         }
         let mut y = self.state(rings, places);
         let speeds = y.len() / 2;
-        if self.speeds.is_empty() {
+        if self.speeds.is_empty() || self.control != RaceControl::Friction {
             rolling::at_contacts(model, self.control, &mut y);
         } else {
             y[speeds..].copy_from_slice(&self.speeds);
