@@ -197,6 +197,7 @@ pub struct RowRolling {
 /// # Errors
 /// As [`crate::start()`] from [`crate::Start::Equilibrium`].
 pub fn rolling(model: &Model, control: RaceControl) -> Result<Vec<Option<RowRolling>>> {
+    let control = control.on(model);
     let mut y = in_motion(model, control)?;
     if control == RaceControl::Friction {
         keep(model, &mut y);

@@ -13,13 +13,13 @@
 //! 7208 under 3 kN of thrust has 0.036 m/s², right to 0.1 % in the record, with 0.02 m/s² of noise beyond the record's band.
 //!
 //! A *filtered* record takes accelerations from the velocities, and noise beyond its band is not in it. Where the tolerance holds
-//! velocities, a − v̇ is noise that is new in every step of length h, of which a record at fs hears the share h fs. Above a
+//! velocities, a − v̇ is noise that is new in every step of length h, of which the share h fs lies in the band of a record at fs. Above a
 //! tolerance of 1e-6 friction that the steps do not resolve drags the velocities, too, and all of it counts. Measured in 60
 //! random scenes over 3 ms, slip speeds of 0.1 to 100 mm/s, against rtol 1e-10: at 1e-7 and 1e-6 42 of 113 records that
-//! were right within 1 % were above 0.05 by all of it, 7 by what is heard, and none was off by 5 % as a whole.
+//! were right within 1 % were above 0.05 by all of it, 7 by what lies in the band, and none was off by 5 % as a whole.
 //!
 //! It judges steps, not runs: an error that builds up over undamped oscillations, or that a motion multiplies which is chance,
-//! does not show ([`crate::Warning::Unforetold`]).
+//! does not show ([`crate::Warning::AccuracyMissed`]).
 
 use crate::dynamics::Dynamics;
 use crate::integrate::DenseStep;
@@ -45,7 +45,7 @@ pub(crate) struct Residual {
     after: Vec<f64>,
     apart: f64,
     size: f64,
-    /// Sampling rate of a record that does not hear all of it \[Hz\].
+    /// Sampling rate of a record whose band does not hold all of it \[Hz\].
     band: Option<f64>,
 }
 
@@ -86,11 +86,11 @@ impl Residual {
         let (from, to) = ((t - reach).max(step.t0()), (t + reach).min(step.t1()));
         step.interpolate(from, &mut self.before);
         step.interpolate(to, &mut self.after);
-        let heard = self.band.map_or(1.0, |fs| (step.h() * fs).min(1.0));
+        let share = self.band.map_or(1.0, |fs| (step.h() * fs).min(1.0));
         let mut size: f64 = 0.0;
         for i in self.velocities.iter().copied() {
             let rate = (self.after[i] - self.before[i]) / (to - from);
-            self.apart += heard * (dy[i] - rate).powi(2);
+            self.apart += share * (dy[i] - rate).powi(2);
             size += dy[i].powi(2);
         }
         self.size += size.max(QUIET * QUIET);

@@ -166,7 +166,7 @@ pub fn equilibrium(scene: &Scene) -> Result<Equilibrium> {
 /// As [`equilibrium()`].
 pub fn equilibrium_under(scene: &Scene, control: RaceControl) -> Result<Equilibrium> {
     let model = compile(scene)?;
-    Ok(solve(&model, control)?.describe(&model))
+    Ok(solve(&model, control.on(&model))?.describe(&model))
 }
 
 /// Positions of the equilibrium in a state vector with zero velocities. Where rings and rows are to keep their axial

@@ -16,6 +16,17 @@ pub enum RaceControl {
     Outer,
 }
 
+impl RaceControl {
+    /// The same on a model: where balls do not spin freely there is nothing to control.
+    pub(crate) fn on(self, model: &Model) -> Self {
+        if model.balls_turn() {
+            self
+        } else {
+            Self::Friction
+        }
+    }
+}
+
 /// Sets the speeds at which the balls roll at the contact angles of a state; those of nominal angles where a row carries nothing.
 pub(crate) fn at_contacts(model: &Model, control: RaceControl, y: &mut [f64]) {
     nominally(model, y);

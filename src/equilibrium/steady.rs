@@ -45,7 +45,7 @@ fn carry(layout: Layout, y: &mut [f64], ball: BodyId, orbit: f64) {
 /// Friction of both races on a ball in a state, in the scene's frame: forces, and moments about its centre.
 pub(super) fn friction(model: &Model, y: &[f64], j: usize) -> [Wrench; 2] {
     Race::BOTH.map(|race| {
-        let mut sum = Friction::default();
+        let mut sum = Rubbed::default();
         inspect::visit(model, y, j, race, &mut sum);
         if !model.is_spatial() {
             return sum.0;
@@ -56,9 +56,9 @@ pub(super) fn friction(model: &Model, y: &[f64], j: usize) -> [Wrench; 2] {
 }
 
 #[derive(Default)]
-struct Friction(Wrench);
+struct Rubbed(Wrench);
 
-impl Sink for Friction {
+impl Sink for Rubbed {
     fn touch(&mut self, touch: &Touch) {
         self.0.add(&touch.on_ball(0.0, 1.0));
     }
@@ -79,9 +79,9 @@ pub(crate) fn keep(model: &Model, y: &mut [f64]) -> Vec<usize> {
             .filter(|&j| Race::BOTH.into_iter().all(|race| loaded(j, race)));
         let pressed: Vec<usize> = pressed.collect();
         let orbit = if model.balls_turn() {
-            Row::<3>::of(model, row, &pressed, y).and_then(|mut row| row.settle(y))
+            SteadyRow::<3>::of(model, row, &pressed, y).and_then(|mut row| row.settle(y))
         } else {
-            Row::<1>::of(model, row, &pressed, y).and_then(|mut row| row.settle(y))
+            SteadyRow::<1>::of(model, row, &pressed, y).and_then(|mut row| row.settle(y))
         };
         let Some(orbit) = orbit else { continue };
         for j in row.balls().filter(|j| !pressed.contains(j)) {
@@ -93,7 +93,7 @@ pub(crate) fn keep(model: &Model, y: &mut [f64]) -> Vec<usize> {
 }
 
 /// A row whose balls turn about the axis (N = 1), or about all axes: ω along z, outwards, and along the orbit.
-struct Row<'a, const N: usize> {
+struct SteadyRow<'a, const N: usize> {
     model: &'a Model,
     balls: &'a [usize],
     inertia: f64,
@@ -111,7 +111,7 @@ struct Row<'a, const N: usize> {
 /// What a ball leaves: moments along its directions of turning \[N m\], and the force along the orbit \[N\].
 type Left<const N: usize> = (SVector<f64, N>, f64);
 
-impl<'a, const N: usize> Row<'a, N> {
+impl<'a, const N: usize> SteadyRow<'a, N> {
     fn of(model: &'a Model, row: &RowModel, balls: &'a [usize], y: &[f64]) -> Option<Self> {
         let rubs = Race::BOTH.map(|race| row.pairs[race].law.traction.is_some());
         let first = BodyId::ball(*balls.first()?);

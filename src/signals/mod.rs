@@ -99,7 +99,7 @@ pub struct Statistics {
     pub truncated_contacts: usize,
     /// Relative difference (root mean square over the samples) between the recorded accelerations of the outer ring,
     /// or of the inner one where that is held, and the derivative of its recorded velocities; absent without
-    /// accelerations. Of a filtered record at a tolerance of 1e-6 and below, what its band hears of the difference. A measure of their
+    /// accelerations. Of a filtered record at a tolerance of 1e-6 and below, the part of the difference within its band. A measure of their
     /// error: above 0.05 is warned of. Below 0.5 m/s² relative to that.
     pub acceleration_residual: Option<f64>,
     /// Wall time of the integration \[s\].

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import ballrace as br
-from ballrace.scene import Coulomb, MotionProbe, Ramp, SpeedDrive, Surface, WidthProfile
+from ballrace.scene import Coulomb, MotionProbe, Ramp, SpeedDrive, Spin, Surface, WidthProfile
 
 
 def test_of_a_name_they_are_the_published_ones() -> None:
@@ -102,7 +102,7 @@ FAST = [
 @pytest.mark.parametrize(("case", "off"), FAST)
 @pytest.mark.filterwarnings("ignore:row 0. its balls went round")
 def test_fast_balls_go_round_as_their_scene_tells(
-    case: tuple[str, float, float, float], off: float, spin: str
+    case: tuple[str, float, float, float], off: float, spin: Spin
 ) -> None:
     """Truth: the run. Gyroscopic moments put it 1 to 6 % ahead of rolling without them."""
     name, radial, axial, speed = case
@@ -112,6 +112,32 @@ def test_fast_balls_go_round_as_their_scene_tells(
     told, found = br.fault_frequencies(scene), br.fault_frequencies(out)
     assert found.ftf == pytest.approx(told.ftf, rel=off)
     assert found.bpfo == pytest.approx(told.bpfo, rel=off)
+
+
+@pytest.mark.parametrize("spin", ["free", "axial"])
+@pytest.mark.parametrize("name", ["7205C", "7218B"])
+def test_fast_balls_start_as_they_go_on(name: str, spin: Spin) -> None:
+    """Truth: the right-hand side. In the cage's frame nothing accelerates under pure thrust."""
+    axial, speed = {"7205C": (300.0, 25_000.0), "7218B": (17_800.0, 10_000.0)}[name]
+    scene = br.bearing(name, radial_load=0.0, axial_load=axial, speed_rpm=speed)
+    scene = replace(scene, spin=spin, gravity=(0.0, 0.0, 0.0))
+    model = br.Model(scene)
+    y = np.asarray(model.start("equilibrium"))
+    dy, half = np.asarray(model.rhs(0.0, y)), len(y) // 2
+    at = {str(state): i for i, state in enumerate(model.names[:half])}
+    place, velocity, acceleration = y[:half], y[half:], dy[half:]
+    x, y_, z = (at[f"row0.ball0.{k}"] for k in "xyz")
+    radius = math.hypot(place[x], place[y_])
+    orbit = (place[x] * velocity[y_] - place[y_] * velocity[x]) / radius**2
+    towards = orbit**2 * radius
+    for i in (x, y_):
+        assert acceleration[i] + orbit**2 * place[i] == pytest.approx(0.0, abs=1e-6 * towards)
+    assert acceleration[z] == pytest.approx(0.0, abs=1e-6 * towards)
+    turns = ["theta"] if spin == "axial" else ["turn_x", "turn_y", "theta"]
+    spins = np.array([velocity[at[f"row0.ball0.{k}"]] for k in turns])
+    changes = np.array([acceleration[at[f"row0.ball0.{k}"]] for k in turns])
+    carried = np.zeros(1) if spin == "axial" else orbit * np.array([-spins[1], spins[0], 0.0])
+    assert np.abs(changes - carried).max() < 1e-6 * orbit * np.linalg.norm(spins)
 
 
 def test_a_race_that_controls_its_balls() -> None:
@@ -126,6 +152,9 @@ def test_a_race_that_controls_its_balls() -> None:
     assert found.orders.ftf == pytest.approx(by_outer, rel=1e-3)
     # Friction lets the balls pivot on both races.
     assert br.fault_frequencies(free).orders.ftf == pytest.approx(by_outer, rel=0.02)
+    # Where balls spin about z there is nothing to control.
+    axial = br.fault_frequencies(scene)
+    assert br.fault_frequencies(scene, race_control="outer") == axial
     with pytest.raises(br.SceneError, match="race_control"):
         br.equilibrium(free, race_control="inner")  # type: ignore[arg-type]
 

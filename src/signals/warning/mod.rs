@@ -46,7 +46,7 @@ pub enum Warning {
     },
     /// The accuracy that was asked for cannot be had: pilot runs differ by more however fine they are, since the motion is
     /// chance.
-    Unforetold(Accuracy),
+    AccuracyMissed(Accuracy),
     /// Contacts reached beyond a shoulder, or beyond the pole of ball and groove where a zone ends there: the model has no race there.
     Shoulders {
         /// [`crate::Statistics::truncated_contacts`].
@@ -108,7 +108,7 @@ impl Warning {
     pub fn category(&self) -> &'static str {
         match self {
             Self::Accelerations { .. }
-            | Self::Unforetold(_)
+            | Self::AccuracyMissed(_)
             | Self::Shoulders { .. }
             | Self::Instructions(_)
             | Self::FixedStep { .. } => "accuracy",
@@ -149,7 +149,7 @@ impl Signals {
         let untouched = defects.filter_map(|of| not_touched(of, self.provenance.duration));
         [
             self.accelerations(),
-            self.unforetold(),
+            self.accuracy_missed(),
             self.shoulders(),
             self.too_long_a_step(),
             self.provenance.distrust.map(Warning::Instructions),
@@ -180,10 +180,10 @@ impl Signals {
         })
     }
 
-    fn unforetold(&self) -> Option<Warning> {
+    fn accuracy_missed(&self) -> Option<Warning> {
         let of = self.provenance.accuracy?;
         let error = of.integration_error + of.node_error.unwrap_or(0.0);
-        (error > of.requested).then_some(Warning::Unforetold(of))
+        (error > of.requested).then_some(Warning::AccuracyMissed(of))
     }
 
     fn shoulders(&self) -> Option<Warning> {

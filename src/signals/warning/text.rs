@@ -21,7 +21,7 @@ impl Display for Warning {
                 None => accelerations(f, *residual, *stiff_share, *rtol),
                 Some(step) => accelerations_of_fixed_steps(f, *residual, *step),
             },
-            Self::Unforetold(of) => unforetold(f, of),
+            Self::AccuracyMissed(of) => accuracy_missed(f, of),
             Self::FixedStep { step, limit } => fixed_step(f, *step, *limit),
             Self::Shoulders { contacts, steps } => shoulders(f, *contacts, *steps),
             Self::Instructions(distrust) => instructions(f, distrust),
@@ -66,7 +66,7 @@ fn accelerations_of_fixed_steps(f: &mut Formatter<'_>, residual: f64, step: f64)
     )
 }
 
-fn unforetold(f: &mut Formatter<'_>, of: &Accuracy) -> Result {
+fn accuracy_missed(f: &mut Formatter<'_>, of: &Accuracy) -> Result {
     write!(
         f,
         "accuracy = {} was asked for, but pilot runs still differ by {:.2} % at rtol = {:.0e}",
