@@ -1,7 +1,7 @@
 //! The five scenes by which a change of the code is judged for speed: a line each with its name, the seconds that a simulated second takes
 //! (median of the runs), evaluations of the right-hand side, and a number that changes with any bit of the signals.
 //!
-//! `cargo run --release -p ballrace-benches --bin scenes -- 9`. To compare two builds, run their programs in turn, once a time.
+//! `cargo run --release -p ballrace-benches --bin scenes -- 9`, and behind it a part of a name for some of them. To compare two builds, run their programs in turn, once a time.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::time::Instant;
@@ -33,7 +33,11 @@ fn main() {
         settle: Some(0.0),
         ..Run::default()
     };
+    let only = std::env::args().nth(2).unwrap_or_default();
     for (name, scene) in scenes() {
+        if !name.contains(&only) {
+            continue;
+        }
         let mut seconds = Vec::new();
         let mut told = (0, 0);
         for _ in 0..runs {

@@ -51,8 +51,8 @@ pub use quadrature::{Rules, Slices};
 pub use scalar::{BallSide, Pair, Shape};
 pub(crate) use spatial::Wrench;
 pub(crate) use stage::{
-    AXIAL, Around, FREE, PlaneVector, SlicePack, SlicePacking, StageContacts, StageElements,
-    StageWrench, in_contact,
+    AXIAL, Around, FREE, PlaneVector, SlicePack, SlicePacking, Slopes, StageContacts,
+    StageElements, StageWrench, in_contact,
 };
 pub(crate) use stiffness::Tangent;
 

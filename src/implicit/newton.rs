@@ -73,7 +73,7 @@ impl<const N: usize> Newton<N> {
     pub fn find_elements(&mut self, dynamics: &mut Dynamics<'_>, t: f64, y: &[f64]) {
         dynamics.look(t, y);
         self.stage.find_elements(dynamics, &dynamics.views());
-        self.stage.secant = false;
+        self.stage.slopes.secant = false;
     }
 
     /// The residual base + γh a − v with the last reactions of the contacts.
@@ -154,7 +154,7 @@ impl<const N: usize> Solves for Newton<N> {
                 tumble(model, y, equation);
                 return Ok(iteration);
             }
-            (anew, self.stage.secant) = (rate > SLOW, rate > DIVERGING);
+            (anew, self.stage.slopes.secant) = (rate > SLOW, rate > DIVERGING);
             before = size;
         }
         self.stage.kept = None;

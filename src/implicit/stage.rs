@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::arrow::{Arrow, Contacts};
 use super::carrier::{Carrier, Turn};
 use super::stage_batch::{Meeting, StageBatch};
-use crate::contact::AXIAL;
+use crate::contact::{AXIAL, Slopes};
 use crate::dynamics::{Batch, Dynamics, HeldContacts, Kind, OnRings, View};
 use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Dof, Layout, Model, Race};
@@ -32,8 +32,8 @@ pub(super) struct Stage<const N: usize> {
     pub residual: Vec<[f64; N]>,
     /// Radii that make speeds of rotation comparable, by body.
     radii: Vec<f64>,
-    /// Whether slopes are secants, since tangents led astray.
-    pub secant: bool,
+    /// Which slopes are wanted; secants, once tangents led astray.
+    pub slopes: Slopes,
     /// γh of the matrix, as long as it serves.
     pub kept: Option<f64>,
     /// Which rings every ball met when it was made.
@@ -57,7 +57,7 @@ impl<const N: usize> Stage<N> {
             arrow: Arrow::new(eights),
             residual: vec![[0.0; N]; model.bodies.len()],
             radii: model.layout().bodies().map(|id| model.radius(id)).collect(),
-            secant: false,
+            slopes: Slopes::default(),
             kept: None,
             kept_meetings: vec![[false; 2]; balls],
         }
@@ -122,10 +122,10 @@ impl<const N: usize> Stage<N> {
 
     /// Finds what the contacts do at the velocities that are seen, with slopes or without.
     pub fn forces(&mut self, dynamics: &Dynamics<'_>, views: &[View<'_>; 2], slopes: bool) {
-        let (model, secant) = (dynamics.coated(), self.secant);
+        let (model, wanted) = (dynamics.coated(), self.slopes);
         let find = |batch: &mut StageBatch<N>| {
             if slopes {
-                batch.forces_and_slopes(model, views, secant);
+                batch.forces_and_slopes(model, views, wanted);
             } else {
                 batch.forces(model, views);
             }

@@ -5,8 +5,8 @@ use std::array::from_fn;
 use nalgebra::Vector3;
 
 use crate::contact::{
-    AXIAL, Around, EightContacts, FREE, PlaneVector, Raise, SlicePack, SlicePacking, StageContacts,
-    StageElements, StageWrench, V2, Wrench, in_contact,
+    AXIAL, Around, EightContacts, FREE, PlaneVector, Raise, SlicePack, SlicePacking, Slopes,
+    StageContacts, StageElements, StageWrench, V2, Wrench, in_contact,
 };
 use crate::dynamics::{SideConstants, Touching, View};
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
@@ -146,17 +146,17 @@ impl<const N: usize> StageBatch<N> {
             batch: self,
             model,
             views,
-            secant: false,
+            slopes: Slopes::default(),
         });
     }
 
     /// The same with the slopes; see [`crate::contact::Pair::force`].
-    pub fn forces_and_slopes(&mut self, model: &Model, views: &[View<'_>; 2], secant: bool) {
+    pub fn forces_and_slopes(&mut self, model: &Model, views: &[View<'_>; 2], slopes: Slopes) {
         model.instructions.run(StageForces::<N, true> {
             batch: self,
             model,
             views,
-            secant,
+            slopes,
         });
     }
 }
@@ -172,6 +172,7 @@ impl<const N: usize> Side<N> {
             packs: &mut self.packs,
             outwards: at.seen_from(&view.ring).centre.normalize(),
             aside: [0.0; FREE],
+            exponent: pair.law.elastic.exponent(),
             count: 0,
             contacts: &mut self.singles,
             around: self.held.around.of(lane),
@@ -222,7 +223,7 @@ struct StageForces<'a, const N: usize, const SLOPE: bool> {
     batch: &'a mut StageBatch<N>,
     model: &'a Model,
     views: &'a [View<'a>; 2],
-    secant: bool,
+    slopes: Slopes,
 }
 
 impl<const N: usize, const SLOPE: bool> Task for StageForces<'_, N, SLOPE> {
@@ -236,7 +237,7 @@ impl<const N: usize, const SLOPE: bool> Task for StageForces<'_, N, SLOPE> {
             batch,
             model,
             views,
-            secant,
+            slopes,
         } = self;
         for race in Race::BOTH {
             let side = &mut batch.sides[race];
@@ -268,7 +269,7 @@ impl<const N: usize, const SLOPE: bool> Task for StageForces<'_, N, SLOPE> {
             let local = in_contact(&twist, n_e);
             let held = (&mut side.nodes, &side.held);
             let found =
-                pair.stage_forces::<FMA, SLOPE, N>(held, &local, secant, model.instructions);
+                pair.stage_forces::<FMA, SLOPE, N>(held, &local, slopes, model.instructions);
             let sum = &mut side.wrenches;
             sum.wrench = found.wrench;
             if SLOPE {
@@ -289,7 +290,7 @@ impl<const N: usize, const SLOPE: bool> Task for StageForces<'_, N, SLOPE> {
                 let mut local = in_contact(&all, pack.n_e);
                 pack.approach(&mut local);
                 let element = (&pack.element, Some(&pack.rolling));
-                pair.force::<FMA, SLOPE, N>(element, around, &local, secant, &mut part);
+                pair.force::<FMA, SLOPE, N>(element, around, &local, slopes, &mut part);
                 let [along, across] = pack.swing(&mut part.wrench);
                 let [n_x, n_y] = pack.n_e;
                 side.on_caps[0][*lane] += (along * n_x - across * n_y).sum();

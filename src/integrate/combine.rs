@@ -1,4 +1,6 @@
-//! The one inner loop: a base plus a weighted sum of stages.
+//! The inner loops: a base plus a weighted sum of stages, and what else several vectors make of each other in one pass.
+
+use std::ops::Range;
 
 use crate::simd::{InstructionSet, Simd, Vector, Wide};
 
@@ -133,6 +135,88 @@ impl<K: AsRef<[f64]>> Fused<'_, K> {
             }
             let base = if BASE { base[i] } else { 0.0 };
             self.out[i] = h.mul_add(sum, Vector::all(simd, base)).first();
+        }
+    }
+}
+
+/// What numbers of several vectors become at each place.
+pub(super) trait Each<const IN: usize, const OUT: usize> {
+    /// From what stands there and further numbers, what is to stand there. Wants `#[inline(always)]`.
+    fn of<S: Simd>(&self, there: [Vector<S>; OUT], from: [Vector<S>; IN]) -> [Vector<S>; OUT];
+}
+
+/// Does it at every place of vectors as long as the first.
+///
+/// # Panics
+/// With vectors shorter than that.
+pub(super) fn pass<E: Each<IN, OUT>, const IN: usize, const OUT: usize>(
+    each: &E,
+    to: [&mut [f64]; OUT],
+    from: [&[f64]; IN],
+) {
+    InstructionSet::current().run_wide(Pass { each, to, from });
+}
+
+struct Pass<'a, E, const IN: usize, const OUT: usize> {
+    each: &'a E,
+    to: [&'a mut [f64]; OUT],
+    from: [&'a [f64]; IN],
+}
+
+impl<E: Each<IN, OUT>, const IN: usize, const OUT: usize> Wide for Pass<'_, E, IN, OUT> {
+    type Output = ();
+
+    // Compiled for the instruction set that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        let len = self.to[0].len();
+        let whole = len / Vector::<S>::LANES;
+        self.registers(simd, whole);
+        self.numbers(simd, whole * Vector::<S>::LANES..len);
+    }
+}
+
+// Loops, not closures: those would be calls, compiled for the baseline.
+#[allow(clippy::inline_always, clippy::needless_range_loop)]
+impl<E: Each<IN, OUT>, const IN: usize, const OUT: usize> Pass<'_, E, IN, OUT> {
+    #[inline(always)]
+    fn registers<S: Simd>(&mut self, simd: S, count: usize) {
+        let zero = Vector::all(simd, 0.0);
+        let (mut there, mut from) = ([zero; OUT], [zero; IN]);
+        let mut sources: [&[S::f64s]; IN] = [&[]; IN];
+        for j in 0..IN {
+            sources[j] = Vector::<S>::registers(self.from[j], count);
+        }
+        for i in 0..count {
+            for j in 0..OUT {
+                there[j] = Vector::of(simd, Vector::<S>::registers(self.to[j], count)[i]);
+            }
+            for j in 0..IN {
+                from[j] = Vector::of(simd, sources[j][i]);
+            }
+            let found = self.each.of(there, from);
+            for j in 0..OUT {
+                found[j].put(&mut Vector::<S>::registers_mut(self.to[j], count)[i]);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn numbers<S: Simd>(&mut self, simd: S, at: Range<usize>) {
+        let zero = Vector::all(simd, 0.0);
+        let (mut there, mut from) = ([zero; OUT], [zero; IN]);
+        for i in at {
+            for j in 0..OUT {
+                there[j] = Vector::all(simd, self.to[j][i]);
+            }
+            for j in 0..IN {
+                from[j] = Vector::all(simd, self.from[j][i]);
+            }
+            let found = self.each.of(there, from);
+            for j in 0..OUT {
+                self.to[j][i] = found[j].first();
+            }
         }
     }
 }

@@ -24,6 +24,8 @@ pub struct Controller {
     pub min_factor: f64,
     /// Largest factor. Default 10.
     pub max_factor: f64,
+    /// A step that could grow by a smaller factor stays as it is: for methods that keep something of steps alike. Default 1.
+    pub least_growth: f64,
     /// Errors below this are remembered as this. Default 1e-4.
     pub memory_floor: f64,
 }
@@ -37,6 +39,7 @@ impl Default for Controller {
             rejection_exponent: 0.2,
             min_factor: 0.2,
             max_factor: 10.0,
+            least_growth: 1.0,
             memory_floor: 1e-4,
         }
     }
@@ -91,6 +94,9 @@ impl<'a> Control<'a> {
         if !shortened {
             self.memory = error.max(s.memory_floor);
         }
+        if (1.0..s.least_growth).contains(&factor) {
+            return 1.0;
+        }
         factor.max(s.min_factor).min(most)
     }
 
@@ -141,6 +147,20 @@ mod tests {
         control.rejected(3.0);
         assert_eq!(control.accepted(1e-9, false), 1.0);
         assert!(control.accepted(1e-9, false) > 1.0);
+    }
+
+    #[test]
+    fn steps_stay_that_could_grow_by_little() {
+        let settings = Controller {
+            least_growth: 1.2,
+            memory_exponent: 0.0,
+            ..Controller::default()
+        };
+        let mut control = Control::new(&settings);
+        let error = |factor: f64| (0.9 / factor).powf(1.0 / 0.14);
+        assert_eq!(control.accepted(error(1.19), false), 1.0);
+        assert!((control.accepted(error(1.21), false) - 1.21).abs() < 1e-12);
+        assert!((control.accepted(error(0.95), false) - 0.95).abs() < 1e-12);
     }
 
     #[test]

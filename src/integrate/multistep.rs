@@ -8,16 +8,19 @@ pub(super) const NODES: usize = 4;
 /// Weights of accelerations in a velocity, as polynomials in the share θ of the step: d₀θ + d₁θ² + d₂θ³ + d₃θ⁴.
 pub(super) type Weights = [[f64; NODES]; NODES];
 
+/// What the accelerations weigh that are known at the beginning of a step.
+pub(super) type Known = [f64; NODES - 1];
+
 /// The steps behind, as far as they are known.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct History {
     /// Accelerations known at the beginning of a step: 1 after a start, at most 3.
-    pub(super) known: usize,
+    known: usize,
     /// How far before the beginning of the step the second and the third of them are.
     before: [f64; 2],
-    /// Length of the last attempt, and its weights in the order of the derivatives.
+    /// Length of the last attempt, and what it was made of.
     h: f64,
-    pub(super) weights: Weights,
+    pub(super) formulae: Formulae,
 }
 
 impl History {
@@ -27,16 +30,16 @@ impl History {
             known: 1,
             before: [0.0; 2],
             h: 0.0,
-            weights: [[0.0; NODES]; NODES],
+            formulae: Formulae::default(),
         }
     }
 
-    /// The same with an attempt of a length, by weights of the accelerations with the new one first.
-    pub(super) fn tried(self, h: f64, [new, first, second, third]: Weights) -> Self {
-        Self {
-            h,
-            weights: [first, second, third, new],
-            ..self
+    /// For an attempt of a length: the formulae of the last one serve where its times are the same.
+    pub(super) fn attempt(&mut self, h: f64) {
+        self.h = h;
+        let times = [1.0, 0.0, -self.before[0] / h, -self.before[1] / h];
+        if self.formulae.known != self.known || self.formulae.times != times {
+            self.formulae = Formulae::new(times, self.known);
         }
     }
 
@@ -45,11 +48,61 @@ impl History {
         self.before = [self.h, self.h + self.before[0]];
         self.known = (self.known + 1).min(NODES - 1);
     }
+}
 
-    /// The times of the known accelerations in steps of `h` from its beginning, the end of the step first.
-    pub(super) fn times(&self, h: f64) -> [f64; NODES] {
-        [1.0, 0.0, -self.before[0] / h, -self.before[1] / h]
+/// A step by polynomials through accelerations, for a length of 1; those not known weigh nothing.
+///
+/// The polynomial through the known accelerations predicts velocity, position and acceleration at the step's end. That through the new
+/// acceleration as well differs from it by a multiple of what the new one differs from the predicted; so does that of one order less,
+/// which is without the oldest. So the correction of the velocity says everything: that of the position, and both errors.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Formulae {
+    known: usize,
+    /// Of the accelerations, that at the end of the step first.
+    times: [f64; NODES],
+    /// Of the known accelerations in the predicted position, velocity and acceleration.
+    pub predicted: [Known; 3],
+    /// γ, of the new acceleration in the velocity.
+    pub gamma: f64,
+    /// Correction of the position over that of the velocity, and the errors of both over it.
+    pub reach: f64,
+    pub errors: [f64; 2],
+    /// Of all accelerations within the step, in the order of the derivatives: the new one last.
+    pub weights: Weights,
+}
+
+impl Formulae {
+    fn new(times: [f64; NODES], known: usize) -> Self {
+        let before = integrals(&times[1..=known]);
+        let (velocity, position) = at(1.0, &before);
+        let all = integrals(&times[..=known]);
+        let (of_velocity, of_position) = at(1.0, &all);
+        let (less_velocity, less_position) = at(1.0, &integrals(&times[..known]));
+        let gamma = of_velocity[0];
+        let first = |of: [f64; NODES]| [of[0], of[1], of[2]];
+        let [new, rest @ ..] = all;
+        Self {
+            known,
+            times,
+            predicted: [first(position), first(velocity), first(before.map(slope))],
+            gamma,
+            reach: of_position[0] / gamma,
+            errors: [
+                (of_position[0] - less_position[0]) / gamma,
+                1.0 - less_velocity[0] / gamma,
+            ],
+            weights: [rest[0], rest[1], rest[2], new],
+        }
     }
+}
+
+/// The polynomial whose integral has these coefficients, at the end of the step.
+fn slope(integral: [f64; NODES]) -> f64 {
+    let powers = integral
+        .iter()
+        .zip(1..)
+        .map(|(d, power)| d * f64::from(power));
+    powers.sum()
 }
 
 /// Integrals from 0 to θ of Lagrange's polynomials over some times.
@@ -111,26 +164,26 @@ mod tests {
     #[test]
     fn cubics_are_integrated_exactly_over_steps_of_any_length() {
         let (h, before) = (0.3, [0.2, 0.7]);
-        let history = History {
-            known: 3,
-            before,
-            ..History::new()
-        };
         let acceleration = |t: f64| 1.0 - 2.0 * t + 3.0 * t * t - 4.0 * t.powi(3);
         let of_v = |t: f64| 0.5 + t - t * t + t.powi(3) - t.powi(4);
         let of_q = |t: f64| {
             2.0 + t / 2.0 + t * t / 2.0 - t.powi(3) / 3.0 + t.powi(4) / 4.0 - t.powi(5) / 5.0
         };
-        let known = [h, 0.0, -before[0], -before[1]].map(|t| [acceleration(t)]);
+        let mut history = History {
+            known: 3,
+            before,
+            ..History::new()
+        };
+        history.attempt(h);
+        let known = [0.0, -before[0], -before[1], h].map(|t| [acceleration(t)]);
         let known = known.each_ref().map(|a| &a[..]);
-        let weights = integrals(&history.times(h));
         for theta in [0.0, 0.4, 1.0] {
             let (mut q, mut v) = ([0.0], [0.0]);
             advance(
                 (&mut q, &mut v),
                 &[of_q(0.0), of_v(0.0)],
                 h,
-                (theta, &weights),
+                (theta, &history.formulae.weights),
                 &known,
             );
             assert!((q[0] - of_q(theta * h)).abs() < 1e-14);
@@ -138,23 +191,47 @@ mod tests {
         }
     }
 
+    /// Truth: the polynomials themselves. A correction of the velocity gives that of the position and the errors.
+    #[test]
+    fn the_correction_of_the_velocity_says_the_rest() {
+        let times = [1.0, 0.0, -0.6, -1.7];
+        let accelerations = [0.3, -1.2, 0.7, 2.1];
+        for known in 1..NODES {
+            let formulae = Formulae::new(times, known);
+            let sum = |weights: &[f64], of: &[f64]| -> f64 {
+                weights.iter().zip(of).map(|(w, a)| w * a).sum()
+            };
+            let before = &accelerations[1..=known];
+            let [q, v, a] = formulae.predicted.map(|weights| sum(&weights, before));
+            let x = formulae.gamma * (accelerations[0] - a);
+            let by = |times: &[f64]| {
+                let (velocity, position) = at(1.0, &integrals(times));
+                let known = &accelerations[..times.len()];
+                [sum(&position, known), sum(&velocity, known)]
+            };
+            let (full, less) = (by(&times[..=known]), by(&times[..known]));
+            let corrected = [q + formulae.reach * x, v + x];
+            for i in 0..2 {
+                assert!((corrected[i] - full[i]).abs() < 1e-14, "{known} {i}");
+                let error = formulae.errors[i] * x;
+                assert!((error - (full[i] - less[i])).abs() < 1e-14, "{known} {i}");
+            }
+        }
+    }
+
     /// Truth: with steps alike, Adams' and Störmer's own numbers.
     #[test]
     fn equal_steps_have_the_numbers_in_the_book() {
-        let history = History {
-            known: 3,
-            before: [1.0, 2.0],
-            ..History::new()
-        };
-        let (velocity, position) = at(1.0, &integrals(&history.times(1.0)));
+        let formulae = Formulae::new([1.0, 0.0, -1.0, -2.0], 3);
+        let (velocity, position) = at(1.0, &integrals(&formulae.times));
         for (found, book) in velocity.iter().zip([9.0, 19.0, -5.0, 1.0]) {
             assert!((found - book / 24.0).abs() < 1e-15);
         }
         for (found, book) in position.iter().zip([38.0, 171.0, -36.0, 7.0]) {
             assert!((found - book / 360.0).abs() < 1e-15);
         }
-        let foretold = at(1.0, &integrals(&history.times(1.0)[1..])).0;
-        for (found, book) in foretold.iter().zip([23.0, -16.0, 5.0]) {
+        let [_, predicted, _] = formulae.predicted;
+        for (found, book) in predicted.iter().zip([23.0, -16.0, 5.0]) {
             assert!((found - book / 12.0).abs() < 1e-14);
         }
     }

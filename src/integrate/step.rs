@@ -106,7 +106,7 @@ impl<'a> Stepper<'a> {
     /// The last attempt as a polynomial from `t0` to `t1`.
     pub(super) fn dense(&self, t0: f64, t1: f64, h: f64) -> DenseStep<'_> {
         let weights = match &self.history {
-            Some(history) => Weights::OfAccelerations(&history.weights),
+            Some(history) => Weights::OfAccelerations(&history.formulae.weights),
             None => Weights::OfDerivatives(self.tableau.dense),
         };
         DenseStep::new(weights, (t0, t1), h, &self.y, &self.y1, &self.k)

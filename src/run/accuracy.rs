@@ -24,7 +24,7 @@ const SHARE: f64 = 1.0 / 3.0;
 /// First tolerance tried over the request: for 1 % the default, so that an impact after the pilot is met well.
 const FIRST: f64 = 1e-5;
 /// The tightest.
-const TIGHTEST: f64 = 1e-10;
+const TIGHTEST: f64 = 1e-11;
 /// Numbers of nodes tried: the default, then each about half as many again as the one before.
 const NODES: [usize; 7] = [6, 8, 12, 18, 26, 38, 64];
 

@@ -15,7 +15,7 @@ use crate::error::{Error, Result};
 use crate::inspect;
 use crate::integrate::{self, DenseStep, Options, Tolerance};
 use crate::model::{BodyId, DOFS, Model};
-use crate::scene::Drive;
+use crate::scene::{Drive, Method};
 use crate::signals::{Recorder, Statistics};
 
 /// How often progress is told, and after how many steps the clock is asked: of a small model's step that would take a
@@ -307,6 +307,12 @@ pub(crate) fn options(model: &Model) -> Result<Options> {
     })
 }
 
+/// How much the error estimate of Adams' method exceeds what a step leaves: it is that of the corrector of order three, the step is of
+/// order four (1/24 against 19/720 ωh; motions that matter have an ωh of some 0.3). With it 42 random bearings err by 0.13 % in the median,
+/// nine in ten by 0.56 %, and take a fifth fewer evaluations. Not under films, whose forces follow speeds so closely that accelerations of
+/// a run-up would err by 3.7 instead of 1.2 % (`tests/analytic/oil_run.rs`), for steps that they hold short anyway.
+const OVERESTIMATED: f64 = 5.0;
+
 /// Every body is a group; lengths are measured by the contact's approach δ, speeds by δ ω of the highest
 /// contact frequency, angles by the arc on a ball. A position itself (36 mm) says nothing about what error
 /// of it matters.
@@ -322,7 +328,9 @@ pub(crate) fn tolerance(dynamics: &Dynamics<'_>) -> Result<Tolerance> {
         let degrees = degrees.iter();
         degrees.map(move |&(body, dof)| (body, length / model.lever(body, dof)))
     };
-    let length = rtol * scales.approach;
+    let overestimates = model.scene.solver.method == Method::Adams && !model.has_films();
+    let slack = if overestimates { OVERESTIMATED } else { 1.0 };
+    let length = slack * rtol * scales.approach;
     let atol = half(length)
         .chain(half(length * scales.frequency))
         // What is left out has no error: it counts in a body's mean as if it were there.

@@ -77,8 +77,9 @@ impl ImplicitVelocity for Rubbed {
 }
 
 impl LinearlyImplicit for Rubbed {
-    fn damp(&mut self, t: f64, y: &[f64], gamma_h: f64, r: &mut [f64]) {
-        r[0] /= 1.0 - gamma_h * self.acceleration(t, y[0], y[1]).1;
+    fn correct(&mut self, t: f64, y: &[f64], gamma_h: f64, reach: f64, r: &mut [f64]) {
+        // A spring of 1 pulls back.
+        r[0] /= 1.0 - gamma_h * (self.acceleration(t, y[0], y[1]).1 - reach);
     }
 }
 
@@ -288,6 +289,66 @@ fn adams_bears_friction_five_times_as_fast() {
     let (_, _, explicit) = follow(&DORMAND_PRINCE, 1e5, 0.1, &Options::default(), |_| 0.0);
     assert!(error < 1e-8, "{error:e}");
     assert!(explicit.nfev > 4 * stats.nfev, "{explicit:?} {stats:?}");
+}
+
+/// An oscillator of frequency 1, with so much damping, of which the matrix knows the spring or not.
+struct Oscillator {
+    damping: f64,
+    stiff: bool,
+}
+
+impl System for Oscillator {
+    fn dim(&self) -> usize {
+        2
+    }
+
+    fn rhs(&mut self, _: f64, y: &[f64], dy: &mut [f64]) {
+        (dy[0], dy[1]) = (y[1], -y[0] - 2.0 * self.damping * y[1]);
+    }
+}
+
+impl LinearlyImplicit for Oscillator {
+    fn correct(&mut self, _: f64, _: &[f64], gamma_h: f64, reach: f64, r: &mut [f64]) {
+        let stiffness = if self.stiff { reach } else { 0.0 };
+        r[0] /= 1.0 + gamma_h * (2.0 * self.damping + stiffness);
+    }
+}
+
+/// Computed: where an eigenvalue of a step's matrix over position, velocity and three accelerations leaves the unit circle, with the
+/// stiffness in the method's matrix and without.
+#[test]
+fn adams_is_stable_as_far_as_its_step_says() {
+    // Damping ratio, and ωh without and with stiffness.
+    for (damping, limits) in [
+        (0.005, [0.675, 0.886]),
+        (0.01, [0.849, 1.033]),
+        (0.05, [1.024, 1.529]),
+        (0.2, [0.972, 2.473]),
+    ] {
+        for (stiff, limit) in [false, true].into_iter().zip(limits) {
+            let size_after = |h: f64| {
+                let tolerance = Tolerance::uniform(2, 1e-9, 1e-9).unwrap();
+                let system = &mut Oscillator { damping, stiff };
+                let (end, options) = (2e5 * h, fixed(h));
+                let of = (0.0, end);
+                let found = integrate(
+                    system,
+                    &Adams,
+                    of,
+                    &[1.0, 0.0],
+                    &tolerance,
+                    &options,
+                    &mut (),
+                );
+                found.map_or(f64::INFINITY, |found| found.y[0].hypot(found.y[1]))
+            };
+            let (inside, outside) = (size_after(limit - 5e-3), size_after(limit + 5e-3));
+            assert!(
+                inside < 1e-3 && outside > 1e3,
+                "{damping} {stiff}: {inside:e} {outside:e}"
+            );
+        }
+    }
 }
 
 /// The amplification of y' = λy over a step, |R(hλ)|, run through the method's own coefficients.

@@ -42,6 +42,8 @@ fn sticking_is_a_creep_that_falls_with_the_slip_speed() {
                 duration: 2e-3,
                 start: Start::State(y0),
                 bandwidth: Bandwidth::Raw,
+                // The slowest creep is 2 µm/s.
+                rtol: Some(2e-8),
                 ..Run::default()
             },
         );

@@ -3,7 +3,7 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::{AXIAL, Around, StageContacts, StageElements, StageWrench};
+use super::{AXIAL, Around, Slopes, StageContacts, StageElements, StageWrench};
 use crate::contact::Pair;
 use crate::contact::slip::Moves;
 use crate::simd::{InstructionSet, Lanes};
@@ -21,13 +21,13 @@ impl Pair {
         &self,
         (nodes, held): (&mut StageElements, &StageContacts),
         twist: &[Lanes; N],
-        secant: bool,
+        slopes: Slopes,
         instructions: InstructionSet,
     ) -> StageWrench<N> {
         let mut sum = StageWrench::default();
         if !self.law.traction.is_some_and(|law| law.is_film()) {
             for node in nodes.iter() {
-                self.force::<FMA, SLOPE, N>(node, &held.around, twist, secant, &mut sum);
+                self.force::<FMA, SLOPE, N>(node, &held.around, twist, slopes, &mut sum);
             }
             return sum;
         }
@@ -49,10 +49,21 @@ impl Pair {
             self.weigh::<FMA, N>(nodes, held, &beside, instructions);
             let mut found = StageWrench::default();
             for node in nodes.iter() {
-                self.force::<FMA, false, N>(node, &held.around, &beside, false, &mut found);
+                self.force::<FMA, false, N>(
+                    node,
+                    &held.around,
+                    &beside,
+                    Slopes::default(),
+                    &mut found,
+                );
             }
             if k == 0 {
                 sum.wrench = found.wrench;
+                if SLOPE && slopes.reach != 0.0 {
+                    for (element, _) in nodes.iter() {
+                        element.stiffen::<FMA, N>(slopes.reach, &mut sum);
+                    }
+                }
                 continue;
             }
             for i in 0..N {

@@ -29,6 +29,8 @@ use wrench::Slope;
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct StageElement {
     elastic: Lanes,
+    /// Relative growth of the elastic force with the penetration \[1/m\].
+    hardening: Lanes,
     share: (Lanes, Lanes),
     /// That of the velocities at which the stage was found.
     rubbing: Lanes,
@@ -37,6 +39,16 @@ pub(crate) struct StageElement {
     levers: PlaneVector,
     /// ζ, from the ball's centre along the axis.
     place: Lanes,
+}
+
+/// Which slopes of forces by velocities are wanted.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Slopes {
+    /// Whether friction's slope is the steeper one through rest, φ for φ + φ'(u) u: from far away, where Newton's tangent leads across
+    /// to the other side, iterations by it do not overshoot.
+    pub secant: bool,
+    /// By how much a place moves with its velocity \[s\]: so much of the elastic stiffness adds to damping. 0 at fixed places.
+    pub reach: f64,
 }
 
 /// What traction laws read of an element beside its slip, where they do ([`super::Traction::reads_rolling`]).
@@ -154,6 +166,7 @@ impl Pair {
             elements,
             rolling,
             reads_rolling: self.reads_rolling(),
+            exponent: self.law.elastic.exponent(),
             moves: &moves,
             sigma,
             radius: contact.section.radius,
@@ -183,15 +196,13 @@ impl Pair {
 
     /// Adds what a node does at a relative twist in the frame (n_e, t_e, z, about z), with its slope or without.
     ///
-    /// With `secant`, friction's slope is the steeper one through rest, φ for φ + φ'(u) u: from far away, where
-    /// Newton's tangent leads across to the other side, iterations by it do not overshoot.
     #[inline(always)]
     pub(crate) fn force<const FMA: bool, const SLOPE: bool, const N: usize>(
         &self,
         (element, rolling): (&StageElement, Option<&StageRolling>),
         around: &Around,
         twist: &[Lanes; N],
-        secant: bool,
+        slopes: Slopes,
         to: &mut StageWrench<N>,
     ) {
         let levers = element.levers;
@@ -242,7 +253,7 @@ impl Pair {
             to.wrench[AXIAL] = beside.mul_add::<FMA>(along[1], to.wrench[AXIAL]);
         }
         if SLOPE {
-            let slope = self.slope::<FMA>(&state, &force, secant);
+            let slope = self.slope::<FMA>(&state, &force, element.hardening, slopes);
             to.subtract_slope::<FMA>(&slope.force, levers);
             if N > AXIAL {
                 to.subtract_turning::<FMA>(&slope, levers, turns, element.slope);
@@ -257,7 +268,8 @@ impl Pair {
         &self,
         state: &State<Lanes>,
         force: &Force<Lanes>,
-        secant: bool,
+        hardening: Lanes,
+        Slopes { secant, reach }: Slopes,
     ) -> Slope {
         let ((in_plane, axial), (sin, cos)) = (state.share, state.slope);
         let zero = Lanes::ZERO;
@@ -267,6 +279,7 @@ impl Pair {
             None => state.elastic * rate,
             Some(_) => state.elastic * (state.oil.damping + rate),
         };
+        let stiff = (force.damped * hardening).mul_add::<FMA>(Lanes::all(reach), stiff);
         let rubs = zero.above(force.damped).choose(zero, stiff);
         let stiff = if self.law.damping.clamp_pull {
             rubs
@@ -316,11 +329,30 @@ impl Pair {
     }
 }
 
+impl StageElement {
+    /// Adds the slope of the elastic force alone, where places move with velocities: −(dN/dδ) n nᵀ times their reach.
+    #[inline(always)]
+    fn stiffen<const FMA: bool, const N: usize>(&self, reach: f64, to: &mut StageWrench<N>) {
+        let stiff = self.elastic * self.hardening * reach;
+        let (in_plane, axial) = self.share;
+        let zero = Lanes::ZERO;
+        let mixed = stiff * in_plane * axial;
+        let slope = [
+            [stiff * in_plane * in_plane, zero, mixed],
+            [zero; 3],
+            [mixed, zero, stiff * axial * axial],
+        ];
+        to.subtract_slope::<FMA>(&slope, self.levers);
+    }
+}
+
 /// Collects the elements of eight contacts, of those that are whole.
 struct Holding<'a> {
     elements: &'a mut Vec<StageElement>,
     rolling: &'a mut Vec<StageRolling>,
     reads_rolling: bool,
+    /// Of the elastic law for an element.
+    exponent: f64,
     moves: &'a Moves<Lanes>,
     sigma: f64,
     /// Of the balls.
@@ -344,6 +376,10 @@ impl Receiver<Lanes> for Holding<'_> {
         self.radial += elastic * element.share.0;
         self.elements.push(StageElement {
             elastic,
+            hardening: element
+                .depth
+                .above(Lanes::ZERO)
+                .choose(Lanes::all(self.exponent) / element.depth, Lanes::ZERO),
             share: element.share,
             rubbing: element.rubbing,
             slope: element.slope,

@@ -69,6 +69,8 @@ pub(crate) struct SlicePacking<'a> {
     pub outwards: V2,
     /// Sum of forces beside those of slices: x, y, z, and about z, x and y of the ball's centre.
     pub aside: [f64; FREE],
+    /// Of the elastic law for a slice.
+    pub exponent: f64,
     /// Slices so far.
     pub count: usize,
     /// What slices share beside their film.
@@ -105,6 +107,11 @@ impl Sink for SlicePacking<'_> {
         let (out, arm) = (touch.n_e, touch.arm_ball);
         (n_e[0][lane], n_e[1][lane]) = (out.x, out.y);
         element.elastic[lane] = touch.elastic;
+        element.hardening[lane] = if touch.depth > 0.0 {
+            self.exponent / touch.depth
+        } else {
+            0.0
+        };
         (element.share.0[lane], element.share.1[lane]) = touch.share;
         element.rubbing[lane] = touch.rubbing;
         (element.slope.0[lane], element.slope.1[lane]) = (sin, cos);

@@ -62,10 +62,21 @@ fn the_slope_is_the_kernels() {
             };
             let lanes = state(Lanes::all, velocity.map(Lanes::all));
             let force = kernel::force::<_, false, false, true, false>(&law, &lanes, Lanes::ZERO);
-            let written = pair.slope::<false>(&lanes, &force, false).force;
+            let (hardening, reach) = (1.1 / 1e-5, 1e-6);
+            let slopes = Slopes {
+                secant: false,
+                reach,
+            };
+            let written = pair
+                .slope::<false>(&lanes, &force, Lanes::all(hardening), slopes)
+                .force;
             let of = Dual::<f64, 3>::constant;
             let variables = [0, 1, 2].map(|i| Dual::variable(velocity[i], i));
-            let dual = state(of, variables);
+            let mut dual = state(of, variables);
+            // Places move with velocities.
+            let [v_n, _, v_z] = dual.velocity;
+            let approach = v_n * dual.share.0 + v_z * dual.share.1;
+            dual.elastic.slopes = (approach * (dual.elastic.value * hardening * reach)).slopes;
             let told =
                 kernel::force::<_, false, false, false, false>(&law, &dual, dual.elastic * 0.0)
                     .on_ring;
