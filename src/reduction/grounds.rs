@@ -1,4 +1,4 @@
-//! Which directions are left out, for which reason, and how they move all the same.
+//! Which directions are left out, why, and how they move nevertheless.
 
 use super::AxialPlaces;
 use super::course::{Course, Prescribed};
@@ -140,7 +140,7 @@ pub(super) fn is_felt(model: &Model, motion: &Prescribed, reason: Reason) -> boo
             let inner = model.rows.iter().any(|row| told(&row.pairs[Race::Inner]));
             inner || !model.unbalances.is_empty()
         }
-        // Only a defect tells how far a ball has turned.
+        // Only a defect makes the angle of a ball matter.
         Reason::Rolling => {
             let ball = motion.body.as_ball().map(|j| &model.balls[j].side);
             ball.is_some_and(|side| !side.faults.is_empty())

@@ -1,4 +1,4 @@
-//! Turning about x and y, where it never happens.
+//! Rotations about x and y, where they do not occur.
 
 use super::course::Course;
 use super::{Obstacle, Omission, Prescribed, Reduction, symmetry};
@@ -7,7 +7,7 @@ use crate::model::{Dof, Model};
 impl Reduction {
     /// Of rings that may tilt and balls that may spin freely, and do not, since the motion is its own mirror image: that is then left
     /// out with all that moves along z, rings are those that stay parallel and balls spin about the axis. Else all states are
-    /// integrated, and what stands against that is told.
+    /// integrated, and the obstacles are reported.
     ///
     /// # Errors
     /// What stands against it.

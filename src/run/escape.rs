@@ -1,4 +1,4 @@
-//! How a ball left its groove, in words.
+//! Text of the error of a ball that left its groove.
 
 use super::orbit;
 use crate::contact::{Section, Torus};

@@ -230,7 +230,7 @@ pub struct Ring {
     /// How the ring hangs on the inertial frame.
     #[serde(default)]
     pub support: Support,
-    /// Nominal tilt (τ_x, τ_y) \[rad\], at most 0.5: how far the ring leans where its tilts are held or their springs relaxed, as a
+    /// Nominal tilt (τ_x, τ_y) \[rad\], at most 0.5: how far the ring tilts where its tilts are held or their springs relaxed, as a
     /// right-handed rotation about x and y; absent: not at all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tilt: Option<[f64; 2]>,
@@ -238,7 +238,7 @@ pub struct Ring {
     /// hollow cylinder as long as `width`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub transverse_inertia: Option<f64>,
-    /// Axial place of the centre of mass in the ring's frame \[m\], of which x, y and z of the ring tell the displacement; absent: 0.
+    /// Axial place of the centre of mass in the ring's frame \[m\], whose displacement are x, y and z of the ring; absent: 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub centre_of_mass: Option<f64>,
 }

@@ -16,7 +16,7 @@ pub struct Load {
     pub direction: [f64; 3],
     /// Force along the direction \[N\].
     pub force: TimeFunction,
-    /// The point in the ring's frame, which leans but does not turn with the ring \[m\]; absent: the ring's origin.
+    /// The point in the ring's frame, which tilts but does not turn with the ring \[m\]; absent: the ring's origin.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<[f64; 3]>,
 }
@@ -117,7 +117,7 @@ pub enum Drive {
 }
 
 impl Drive {
-    /// Largest speed of the inner ring that the drive tells of \[rad/s\].
+    /// Largest speed of the inner ring that is known from the drive \[rad/s\].
     pub(crate) fn peak_speed(&self) -> f64 {
         match self {
             Self::Speed(speed) => speed.peak(),

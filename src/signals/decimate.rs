@@ -1,5 +1,5 @@
-//! Columns decimated as a run goes on: every point of the grid is added at once to the samples it counts for, so
-//! that nothing of the grid is kept but what the ends need.
+//! Columns decimated during a run: every point of the grid is added at once to the samples that it contributes to, so
+//! that only the points for the ends of the record are kept.
 
 use std::collections::VecDeque;
 

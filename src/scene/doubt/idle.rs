@@ -1,4 +1,4 @@
-//! What a scene says and nothing feels: the model lacks it, or what is held takes it.
+//! Fields without effect: the model lacks it, or a support that is held carries it.
 
 use super::{Doubt, millimetres};
 use crate::scene::{
@@ -12,7 +12,7 @@ const NO_MOMENT: f64 = 1e-9;
 const MODULUS: f64 = 0.03;
 /// Contact angle from which a bearing takes thrust one way \[rad\]; deep groove bearings are given 0.
 const ANGULAR: f64 = 0.1;
-/// Thrust over radial load from which contacts of a deep groove bearing lean by some 10°.
+/// Thrust over radial load from which contact angles of a deep groove bearing are some 10°.
 const THRUST: f64 = 0.5;
 
 /// What a moment is about.
@@ -154,7 +154,7 @@ fn thrust(scene: &Scene, found: &mut Vec<Doubt>) {
     }
 }
 
-/// Moduli that the law in slices does not know.
+/// Moduli that the law in slices does not include.
 fn moduli(scene: &Scene, found: &mut Vec<Doubt>) {
     let paper = NormalLaw::iso16281();
     let steel = Material::default().youngs_modulus;
@@ -189,7 +189,7 @@ fn moduli(scene: &Scene, found: &mut Vec<Doubt>) {
     }
 }
 
-/// Defects of balls that spin about z though their contacts lean.
+/// Defects of balls that spin about z at a contact angle.
 fn balls(scene: &Scene, found: &mut Vec<Doubt>) {
     if scene.spin == Some(Spin::Free) {
         return;

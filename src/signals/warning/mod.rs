@@ -1,4 +1,4 @@
-//! What a run that came to its end still has to say.
+//! Warnings of a run that was completed.
 
 mod text;
 
@@ -99,7 +99,7 @@ pub enum Warning {
         /// [`crate::Statistics::orbit_slowed`].
         slowed: f64,
     },
-    /// The balls of a row went round at another rate than rolling at the contact angle at rest tells.
+    /// The orbit speed of a row differs from rolling at the contact angle at rest.
     Kinematics(RowKinematics),
 }
 
@@ -207,7 +207,7 @@ impl Signals {
         })
     }
 
-    /// Rows that went round otherwise than told; where nothing drives the balls that is said already.
+    /// Rows whose orbit speed differs from the prediction; where nothing drives the balls another warning says so.
     fn other_than_told(&self) -> impl Iterator<Item = Warning> {
         let play = self.scene.cage.as_ref().map_or(0.0, |cage| cage.play);
         let is_off = move |of: &RowKinematics| {
