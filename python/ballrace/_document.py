@@ -1,6 +1,6 @@
 """Frozen dataclasses to and from plain documents, by their type hints alone.
 
-A part is a dataclass and a document is what JSON can say. A variant is a part with a tag: ``{tag: {…}}``,
+A part is a dataclass and a document is JSON. A variant is a part with a tag: ``{tag: {…}}``,
 or ``{tag: value}`` when it only wraps one value. A field whose name is a Python keyword ends in ``_``.
 """
 
@@ -54,7 +54,7 @@ class Part:
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Variant(Part):
-    """One choice of several, told apart by its tag."""
+    """One choice of several, identified by its tag."""
 
     tag: ClassVar[str]
     wraps: ClassVar[bool]

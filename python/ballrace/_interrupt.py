@@ -1,7 +1,7 @@
 """Long calls that answer Ctrl-C, and answer it once.
 
-Python hears it between two calls, and one of numpy may take half a minute. Polars hears it by itself, raises
-``KeyboardInterrupt``, and Python then another in the midst of what follows.
+Python handles it between two calls, and one of numpy may take half a minute. Polars handles it itself and raises
+``KeyboardInterrupt``; Python then raises a second one in the middle of what follows.
 """
 
 from __future__ import annotations

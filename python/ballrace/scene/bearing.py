@@ -180,7 +180,7 @@ class Ring(Part):
     support : Support
         How the ring hangs on the inertial frame.
     tilt : tuple of two floats, or None
-        Nominal tilt about x and y [rad], together at most 0.5: how far the ring leans where its tilts are held
+        Nominal tilt about x and y [rad], together at most 0.5: how far the ring tilts where its tilts are held
         or their
         springs relaxed; None: not at all.
     transverse_inertia : float or None
@@ -188,8 +188,8 @@ class Ring(Part):
         ``inertia`` comes
         from, of a hollow cylinder as long as ``width``.
     centre_of_mass : float or None
-        Axial place of the centre of mass in the ring's frame [m], of which x, y and z of the ring tell the
-        displacement; None: 0.
+        Axial place of the centre of mass in the ring's frame [m], whose displacement are x, y and z of the
+        ring; None: 0.
     """
 
     mass: float | None = None

@@ -1,4 +1,4 @@
-"""How bodies hang on the inertial frame."""
+"""Supports of bodies on the inertial frame."""
 
 from __future__ import annotations
 
