@@ -35,7 +35,7 @@ LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)(#[^)\s]*)?\)")
 
 
 def _linked(file: Path, text: str) -> str:
-    """Return a file's text with links that lead from a page of the guide; what is no page is told by its name."""
+    """Return a file's text with links from a page of the guide; a file that is no page is given by its name."""
 
     def turned(found: re.Match[str]) -> str:
         picture, words, target, anchor = found[1], found[2], found[3], found[4] or ""

@@ -191,7 +191,7 @@ def _decode_part(kind: type[Part], value: Any, path: str) -> Part:
 
 
 def _no_such_field(name: str, known: Iterable[str]) -> str:
-    """Say of a field that nobody knows which one may be meant, and which there are."""
+    """Name the field that an unknown one may be meant for, and those that there are."""
     near = difflib.get_close_matches(name, known, n=1, cutoff=0.7)
     perhaps = f", perhaps {near[0]}" if near else ""
     return f"no such field{perhaps}; there are: {', '.join(known)}"

@@ -27,7 +27,7 @@ _ATTENTION = 0.05
 def answers_ctrl_c(function: Callable[P, T]) -> Callable[P, T]:
     """Let a function of a signal ``x`` work on a thread of its own where the signal is long.
 
-    After Ctrl-C the thread goes on to the end of its call, and what it gives goes to nobody.
+    After Ctrl-C the thread goes on to the end of its call, and its result is dropped.
     """
 
     @functools.wraps(function)

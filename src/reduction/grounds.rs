@@ -132,7 +132,7 @@ impl Grounds {
 pub(super) fn is_felt(model: &Model, motion: &Prescribed, reason: Reason) -> bool {
     match reason {
         Reason::NoMoment | Reason::Idle => false,
-        // A smooth, round and balanced ring may turn as it likes.
+        // The angle of a smooth, round and balanced ring has no effect.
         Reason::Driven => {
             let told = |pair: &Pair| {
                 pair.law.turns_balls() || !pair.faults.is_empty() || !pair.waves.is_round()

@@ -13,7 +13,7 @@ impl Reduction {
     /// What stands against it.
     pub(crate) fn in_space(model: &Model, start: &[f64]) -> Result<Self, Vec<Obstacle>> {
         let mut found = Self::leaving_out(model, start, true);
-        // Balls of two rows that are images of each other spin as each likes.
+        // Balls of two rows that are images of each other may spin differently.
         let is_flat = found.plane || found.mirrored && !model.balls_turn();
         let against = against(model, start, found.mirrored);
         if !is_flat || !against.is_empty() {

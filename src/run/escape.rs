@@ -5,7 +5,7 @@ use crate::contact::{Section, Torus};
 use crate::model::{Model, Race};
 use crate::told::length;
 
-/// Which race a ball has left in a state of all bodies, which way and how far, and what may be to blame; `finer` says how the
+/// Which race a ball has left in a state of all bodies, which way and how far, and the possible cause; `finer` says how the
 /// run is made more accurate.
 pub(crate) fn reason(model: &Model, y: &[f64], j: usize, finer: &str) -> String {
     let ball = &model.balls[j];

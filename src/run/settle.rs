@@ -27,7 +27,7 @@ use crate::start::{Start, face, start};
 /// Decay times of the slowest ring to wait for. Measured on a 6205 under thrust: what the start leaves is 3000 times
 /// the later signal, e⁸, and contacts and the other ring damp too.
 const DECAYS: f64 = 7.0;
-/// The longest time that is chosen \[s\]: what has not settled by then hardly does.
+/// The longest time that is chosen \[s\]: what has not settled by then rarely does.
 const LONGEST: f64 = 0.1;
 /// Turn of the cage in which its play is taken up \[rad\].
 const TAKE_UP: f64 = 0.75 * TAU;

@@ -70,7 +70,7 @@ impl Moment {
 /// A mass off the axis of a ring that turns with it: in-plane force m e (ω² r̂ − ω̇ t̂).
 ///
 /// It is part of the ring's mass and of its inertia about its own centre, which x and y are of: the centre of mass stands
-/// m e / (mass of the ring) off. A ring whose rotation is free feels the reaction, about z −m e r̂ × (ẍ, ÿ), and its weight.
+/// m e / (mass of the ring) off. On a ring whose rotation is free acts the reaction, about z −m e r̂ × (ẍ, ÿ), and its weight.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]

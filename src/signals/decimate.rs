@@ -163,7 +163,7 @@ mod tests {
     }
 
     /// Analytic: where a record ends, a signal that is odd about its ends comes out as if it went on, and a ramp with it;
-    /// samples further from an end than the filter reaches do not feel it.
+    /// samples further from an end than the filter reaches do not depend on it.
     #[test]
     fn ends_are_continued_oddly() {
         let last = signed((COUNT - 1) * OVER);

@@ -169,7 +169,7 @@ def counted_cases(n: object) -> int:
 
 
 def check_cases(name: str, count: int) -> None:
-    """Refuse a table of more cases than anybody means; ``name`` is what asks for them."""
+    """Refuse a table of improbably many cases; ``name`` is what asks for them."""
     if count > MOST_CASES:
         raise SceneError(name, f"{count:,} cases", f"at most {MOST_CASES:,}")
 

@@ -120,7 +120,7 @@ class Row(Part):
     ball_inertia : float or None
         Moment of inertia of a ball about z [kg m²]; None: 2/5 m R².
     ball_support : Support
-        How every ball of the row hangs on the inertial frame; by default free.
+        How every ball of the row is supported; by default free.
     ball_material : Material or None
         Material of the row's balls; None: the scene's ``materials.balls``.
     contact : Contact or None
@@ -178,7 +178,7 @@ class Ring(Part):
     width : float or None
         Axial width [m].
     support : Support
-        How the ring hangs on the inertial frame.
+        How the ring is supported.
     tilt : tuple of two floats, or None
         Nominal tilt about x and y [rad], together at most 0.5: how far the ring tilts where its tilts are held
         or their

@@ -54,7 +54,7 @@ class CoupledSupport(Part):
 
 @dataclass(frozen=True, kw_only=True)
 class Support(Part):
-    """How a body hangs on the inertial frame, a direction each.
+    """How a body is supported on the inertial frame, a direction each.
 
     An absent direction is fixed for the outer ring, free for the inner ring and the balls; an absent tilt is
     fixed.

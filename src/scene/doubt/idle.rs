@@ -28,7 +28,7 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
 
 /// Moments, and loads off the centre, about directions in which their ring is held.
 fn moments(scene: &Scene, found: &mut Vec<Doubt>) {
-    // Held as they are at equilibrium, which feels them.
+    // Held as they are at equilibrium, on which the field has an effect.
     if scene.approximations.tilt {
         return;
     }
@@ -122,7 +122,7 @@ fn preload(scene: &Scene, found: &mut Vec<Doubt>) {
     }
 }
 
-/// Thrust of the inner ring towards +z at t = 0, as the balls feel it \[N\]; none where both rings are held along z.
+/// Thrust of the inner ring towards +z at t = 0, as it acts on the balls \[N\]; none where both rings are held along z.
 fn thrust_of(scene: &Scene) -> Option<f64> {
     let on = |name: RingName| {
         let loads = scene.loads.values().filter(|load| load.ring == name);

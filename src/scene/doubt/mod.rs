@@ -71,7 +71,7 @@ impl Doubt {
 }
 
 impl Scene {
-    /// What is unusual about the scene's numbers, what of them nothing feels, and probes of what cannot change; of an ordinary
+    /// Improbable numbers of the scene, fields without effect, and probes of what cannot change; of an ordinary
     /// bearing nothing.
     /// For a scene that [`Scene::validate`] accepts.
     ///
