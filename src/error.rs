@@ -1,4 +1,4 @@
-//! Everything that can go wrong, each with the place, the value and what to try next.
+//! All errors, each with the place, the value and what to try next.
 
 use thiserror::Error;
 
@@ -101,7 +101,7 @@ impl Error {
     }
 }
 
-/// A number with more digits than people write, as they would write it; other text as it is.
+/// A number with more digits than usual, in the usual form; other text as it is.
 fn readable(text: String) -> String {
     if text.len() < 16 {
         return text;

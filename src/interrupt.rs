@@ -1,7 +1,7 @@
 //! Stopping work from outside: a handle that another thread sets, and a time to be done by.
 //!
-//! A static solve is many small ones, deep within each other. They ask here, at every iteration of a ball, whether they are
-//! still wanted: what they heed belongs to the thread that works, so that no function on the way has to hand it on.
+//! A static solve is many small ones, deeply nested. They check here, at every iteration of a ball, whether to go on: the handle
+//! belongs to the working thread, so that no function has to pass it on.
 
 use std::cell::RefCell;
 use std::sync::Arc;

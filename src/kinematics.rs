@@ -1,8 +1,8 @@
-//! How fast the rows of a run went round and their balls turned, beside what rolling at the contact angles at rest tells.
+//! How fast the rows of a run orbited and their balls turned, compared with rolling at the contact angles at rest.
 //!
-//! Lines of faults stand where balls really pass. Where balls run fast their contact angles part, they slip, and without
-//! race control they spin about an axis of their own: rolling at one mean angle, which is what tables of frequencies take,
-//! is then off by percents. A run knows better.
+//! Lines of faults lie at the passing frequencies of the balls. At high speed the contact angles of both races differ, balls slip, and
+//! without race control they spin about an axis of their own: the error of rolling at one mean angle, as in tables of frequencies, is
+//! then several percent. A run measures it.
 
 use std::f64::consts::{PI, TAU};
 
@@ -54,7 +54,7 @@ impl RowKinematics {
         )
     }
 
-    /// How much faster the balls went round than rolling tells, as a share of that.
+    /// How much faster the balls went round than by rolling, as a share of that.
     pub fn ahead(&self) -> Option<f64> {
         self.rolling.map(|rolling| self.cage / rolling - 1.0)
     }
@@ -63,7 +63,7 @@ impl RowKinematics {
 /// How far balls may go between two looks \[rad\], and the longest time between them, since speeds change \[s\].
 const APART: f64 = 0.3;
 const LONGEST: f64 = 1e-3;
-/// Turns of the inner ring from which a run tells means.
+/// Turns of the inner ring from which a run has means.
 const TURNS: f64 = 1.0;
 
 /// Follows the balls of a run.

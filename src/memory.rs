@@ -1,7 +1,7 @@
-//! How much memory there is to take, and the refusal of what would take more.
+//! How much memory is available, and the refusal of runs that would need more.
 //!
-//! An allocation that fails ends the process, and one that Linux grants beyond what there is ends it later. So what a run
-//! sets aside is counted before it is: against the machine's free memory, the limit of the process (`ulimit -v`,
+//! An allocation that fails ends the process, and one that Linux grants beyond its memory ends it later. So what a run
+//! allocates is computed beforehand and compared with the machine's free memory, the limit of the process (`ulimit -v`,
 //! RLIMIT_AS) and those of its control groups (containers, batch systems), the smallest of which counts.
 
 use std::cell::Cell;
@@ -11,9 +11,9 @@ use std::path::Path;
 use crate::error::{Error, Result};
 use crate::told::GIB;
 
-/// What a run may take where the system does not tell \[bytes\].
+/// What a run may take where the system does not report its memory \[bytes\].
 const UNTOLD: f64 = 8.0 * GIB;
-/// Share of what there is that a run may set aside: the rest is for stacks, the solver and whoever asked.
+/// Share of what there is that a run may set aside: the rest is for stacks, the solver and the caller.
 const SHARE: f64 = 0.9;
 /// Less than the stack of a thread: not worth asking the system, which takes as long as compiling a bearing \[bytes\].
 const SMALL: f64 = 1e6;

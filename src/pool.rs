@@ -1,7 +1,7 @@
 //! Thread pools of our own, one per process and size; never rayon's global one.
 //!
-//! A forked child inherits the memory of its parent's pool but not its threads, and would wait for ever;
-//! keyed by process, it builds its own.
+//! A forked child inherits the memory of its parent's pool but not its threads, and would wait for them without end;
+//! the process id is part of the key, so that it builds its own.
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -50,7 +50,7 @@ fn pool(threads: usize) -> Result<Arc<ThreadPool>> {
     Ok(pool)
 }
 
-/// Works on the balls of a model with as many threads as told.
+/// Works on the balls of a model with the given number of threads.
 pub(crate) fn on<'m, T: Send>(
     threads: usize,
     dynamics: Dynamics<'m>,

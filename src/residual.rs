@@ -9,7 +9,7 @@
 //! residual² = Σ |a − v̇|² / Σ max(|a|², a₀²)     over samples, along x, y, z of one ring
 //! ```
 //!
-//! A bearing that makes no sound is not judged by the noise that the tolerance leaves: a₀ = 0.5 m/s², a twentieth of g. A healthy
+//! A bearing without vibration is not judged by the noise that the tolerance leaves: a₀ = 0.5 m/s², a twentieth of g. A healthy
 //! 7208 under 3 kN of thrust has 0.036 m/s², right to 0.1 % in the record, with 0.02 m/s² of noise beyond the record's band.
 //!
 //! A *filtered* record takes accelerations from the velocities, and noise beyond its band is not in it. Where the tolerance holds
@@ -18,7 +18,7 @@
 //! random scenes over 3 ms, slip speeds of 0.1 to 100 mm/s, against rtol 1e-10: at 1e-7 and 1e-6 42 of 113 records that
 //! were right within 1 % were above 0.05 by all of it, 7 by what lies in the band, and none was off by 5 % as a whole.
 //!
-//! It judges steps, not runs: an error that builds up over undamped oscillations, or that a motion multiplies which is chance,
+//! It judges steps, not runs: an error that accumulates over undamped oscillations, or that a chaotic motion amplifies,
 //! does not show ([`crate::Warning::AccuracyMissed`]).
 
 use crate::dynamics::Dynamics;

@@ -1,5 +1,4 @@
-//! Whether contacts evaluated at an instruction set agree with the same contacts one by one, on numbers that a
-//! processor has not been seen to compute before.
+//! Checks once in a process that contacts evaluated at an instruction set agree with the same contacts one by one.
 
 use std::sync::OnceLock;
 

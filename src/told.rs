@@ -1,11 +1,11 @@
-//! Numbers as readers write them, in units of their size: 61 µm rather than 6.1e-5 m.
+//! Numbers for messages, in units of their magnitude: 61 µm rather than 6.1e-5 m.
 
 use std::ops::Range;
 
 /// Units by their size, the largest first.
 type Units = [(f64, &'static str)];
 
-/// What memory is told in \[bytes\].
+/// Units of memory in messages \[bytes\].
 pub(crate) const GIB: f64 = (1u64 << 30) as f64;
 
 const LENGTHS: &Units = &[(1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")];
@@ -38,7 +38,7 @@ pub(crate) fn force(x: f64) -> String {
     in_units(x, FORCES, "N")
 }
 
-/// A duration \[s\], as when a limit is told.
+/// A duration \[s\], as for a limit.
 pub(crate) fn duration(x: f64) -> String {
     in_units(x, TIMES, "s")
 }

@@ -1,8 +1,8 @@
-//! Which defects balls met in a run: how often they passed, and what their contacts carried there.
+//! Which defects balls met in a run: how often they passed, and the loads of their contacts there.
 //!
 //! A *pass* is the time that a ball's contact takes over the arc of a defect; it counts as soon as the contact touches
-//! the defect, or else when the ball has left it: a run that ends before tells nothing of it. Places are looked at after accepted steps,
-//! and between passes only as often as a ball may have come halfway nearer, so that a run takes no longer for it.
+//! the defect, or else when the ball has left it: a run that ends earlier does not count it. Positions are checked after accepted steps,
+//! and between passes only when a ball may have covered half of its distance, so that this takes no time.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -61,7 +61,7 @@ impl Touched {
     }
 }
 
-/// Whether a defect has any width; one without is healthy, and nothing is told of it.
+/// Whether a defect has any width; one without is healthy, and is not reported.
 pub(crate) fn is_there(defect: &Defect) -> bool {
     defect.width.largest() > 0.0
 }
@@ -97,7 +97,7 @@ struct Watched {
     origin: f64,
     /// Whether its contacts are evaluated in the run.
     felt: bool,
-    /// Outer and inner race, to be looked at with few slices; they know all defects of the row, which share them.
+    /// Outer and inner race, to be looked at with few slices; they have all defects of the row, which share them.
     pairs: Arc<[Pair; 2]>,
     eyes: Vec<Eye>,
     passes: usize,
@@ -173,7 +173,7 @@ impl Watch {
         self.next = t + (HALFWAY * waits.fold(f64::INFINITY, f64::min)).min(LONGEST);
     }
 
-    /// What became of the defects, which were placed as told.
+    /// What became of the defects, given where they were placed.
     pub fn told(&self, model: &Model, placed: &BTreeMap<String, Placed>) -> Vec<Touched> {
         let of = |watched: &Watched| {
             let defect = &model.scene().defects[&watched.name];

@@ -29,7 +29,7 @@ LITERATURE = [
     "tilt",
 ]
 # Python tests that print rows of the same form.
-MEASURED = ["test_defects_speak.py", "test_cwru.py", "test_exudyn.py"]
+MEASURED = ["test_defect_frequencies.py", "test_cwru.py", "test_exudyn.py"]
 HEADER = "| case | published | ours | deviation | tolerance |\n|---|---|---|---|---|\n"
 # case, published, ours, deviation, tolerance, behind whatever the test runner has printed on the line.
 ROW = re.compile(
@@ -138,51 +138,51 @@ def main() -> None:
     )
 
 
-LIMITS = """## Misfits, explained
+LIMITS = """## Deviations, explained
 
-- *209 and MASTA, 0.05 to 0.1 %*: the books let both forces on a ball lie on one radius; here each points to the
-  centre of its own ring, and a radial load moves the two apart.
+- *209 and MASTA, 0.05 to 0.1 %*: in the sources both forces on a ball lie on one radius; here each points to the
+  centre of its own ring, and a radial load moves the two centres apart.
 - *Orbit of the balls, +0.1 to +0.2 %*: a contact of finite length rolls on a diameter a little below the
   ball's (Heathcote), and friction acts slice by slice; a point contact, Exudyn's, rolls on the full diameter.
-  Friction has its share: a slip speed of 0.1, 0.01, 0.003 m/s gives an orbit of 0.39908, 0.39880, 0.39848 of
+  Friction contributes: a slip speed of 0.1, 0.01, 0.003 m/s gives an orbit of 0.39908, 0.39880, 0.39848 of
   the shaft's rate (kinematic: 0.39831). Ball defects are compared with the rate of that rolling diameter;
   plain BSF/cos α is 0.4 % lower.
-- *Time to impact*: the published formula knows no race curvature and no load. The race's curvature makes a
+- *Time to impact*: the published formula does not include race curvature and load. The race's curvature makes a
   slot 0.84 times (outer) or 1.23 times (inner) as deep as a plane one; a heavily loaded ball meets the far
-  edge early, a fast or lightly loaded one flies on and lands late. Within 15 % only for the loads chosen here
-  (900 N for 0.8 mm, as the cube of the width).
+  edge early, a fast or lightly loaded one late, after a free flight. It agrees within 15 % only for the loads
+  chosen here (900 N for 0.8 mm, as the cube of the width).
 - *CWRU*: rig load and clearance are not published; 300 N and 5 µm are assumed, the thrust is fitted to the
-  order of the outer race's record and predicts that of the inner race's to 0.1 %, which plane kinematics
-  (0.25 %) and this model without thrust miss. It does not prove the thrust: cage play and rolling diameter
-  also raise BPFO, and the fitted thrust opens 7.4° at rest where the records' orders, taken as an angle
-  alone, say 9.6°.
+  order of the outer race's record and predicts that of the inner race's to 0.1 %; plane kinematics (0.25 %) and
+  this model without thrust do not. This does not prove the thrust: cage play and rolling diameter also raise
+  BPFO, and the fitted thrust gives a contact angle of 7.4° at rest, where the records' orders, explained by an
+  angle alone, give 9.6°.
 - *Paper*: "zone" is the middle of force. 0.1° of the start phase moves the dynamic zone shift by 0.06 mm,
   0.01 mm of the defect's place the impacts by 1.3 points; pitch diameters from 54 to 70 mm are equally good
-  at rest. On 50, 100 and 200 fixed slices the impacts grow by 56, 23 and 32 %: fixed slices are a model of
-  their own.
-- *Paper, figure 11*: at -3 kN the preset is as quiet as published, but not without structure: its impacts are
-  regular (scatter 5 %) and their line stands some 30 dB over its surroundings. Tried, at -3 kN: 50 and 100
+  at rest. With 50, 100 and 200 fixed slices the impacts grow by 56, 23 and 32 %: fixed slices change the
+  model.
+- *Paper, figure 11*: at -3 kN the preset vibrates as little as published, but not without structure: its impacts
+  are regular (scatter 5 %) and their line is some 30 dB above its surroundings. Tried, at -3 kN: 50 and 100
   fixed slices (30 and 25 dB), clearance of -10, 10 and 30 µm (35, 33, 26 dB), no contact damping (24 dB), a
-  tenth of the support's damping (18 dB), no friction (15 dB, scatter 19 %). What makes the structure go is
-  freedom of the lightly loaded balls: half a millimetre of play in the cage (6 dB, 34 %; impacts at +3 kN
+  tenth of the support's damping (18 dB), no friction (15 dB, scatter 19 %). The structure disappears if the
+  lightly loaded balls can move: half a millimetre of play in the cage (6 dB, 34 %; impacts at +3 kN
   still grow by 35 %), no cage (5 dB, 44 %), or an axial gap of 50 µm a row (8 dB, 49 %, but +125 % at +3 kN).
   With play, though, the transient takes 38 ms instead of the published 20. The paper's cage has springs
   without play; its gap is not published.
-- *Bounds of our own*: where the paper gives no number ("about 0.02 s", "next to none") the bounds 0.01 to
-  0.03 s and 2 % are ours, and the unknowns of the preset were fitted to the very targets of this table: it
+- *Our own bounds*: where the paper gives no number ("about 0.02 s", "next to none") the bounds 0.01 to
+  0.03 s and 2 % are ours, and the unknowns of the preset were fitted to the targets of this table: it
   shows that one set of plausible values meets them together, not that the model predicted them.
 - *Transient*: cold starts are chaotic. Its first measure, the last sample above a twentieth of the impact,
   gave 0.033 s here and 0.020 to 0.033 s on 13 starts 1e-9 m or some nodes apart; the end of the moving rms,
-  which took its place when it failed, gives 0.013 to 0.019 s on the same starts.
+  which replaced it, gives 0.013 to 0.019 s on the same starts.
 - *Impacts over width* stop growing once the ball loses its load within the defect.
 
 ## Not validated
 
 - Sjövall's ratio at working load (1.192 and 1.134 in the reference list): the source names no bearing.
-- Temperature: oil keeps its own. Films and friction torque are compared with formulas (`docs/lubrication.md`,
-  `docs/tilt.md`), not with measurements.
+- Temperature: that of oil is constant. Films and friction torque are compared with formulas
+  (`docs/lubrication.md`, `docs/tilt.md`), not with measurements.
 - Ball defects of a real bearing: unless a scene lets balls spin freely, a ball spins about z, and a short defect
-  meets one race at a contact angle; a real ball tumbles.
+  meets one race at a contact angle; the axis of a real ball changes direction.
 - Lines are taken from runs of 0.5 to 1 s by a fit, not from 2 s.
 """
 

@@ -1,7 +1,7 @@
 """Pages whose text stands elsewhere in the project: a line ``% from: NAME`` of a page is replaced by it.
 
 NAME is a Markdown file of the project, whose links are turned to the pages of the guide, or one of the texts made
-here: the reference of scenes, the catalogue, and the table of what to touch to add something.
+here: the reference of scenes and the catalogue.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)(#[^)\s]*)?\)")
 
 
 def _linked(file: Path, text: str) -> str:
-    """Return a file's text with links that lead from a page of the guide; what is no page is told by its name."""
+    """Return a file's text with links from a page of the guide; a file that is no page is given by its name."""
 
     def turned(found: re.Match[str]) -> str:
         picture, words, target, anchor = found[1], found[2], found[3], found[4] or ""
@@ -71,19 +71,9 @@ def _catalogue() -> str:
     return "\n".join([*lines, "", "Where number and diameter of the balls come from:", "", *told])
 
 
-def _to_add() -> str:
-    """Return the table of the crate's map that says what to touch to add something."""
-    text = (ROOT / "src" / "lib.rs").read_text(encoding="utf-8")
-    lines = [line[3:].strip() for line in text.splitlines() if line.startswith("//!")]
-    first = lines.index("# To add") + 1
-    last = next(i for i in range(first, len(lines)) if lines[i].startswith("# "))
-    return "\n".join(lines[first:last]).strip()
-
-
 MADE: dict[str, Callable[[], str]] = {
     "scene": scene_reference.markdown,
     "catalogue": _catalogue,
-    "to add": _to_add,
 }
 
 

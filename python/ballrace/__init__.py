@@ -7,9 +7,9 @@
 (26,)
 
 A :class:`Scene` says what there is, :func:`simulate` runs it and returns :class:`Signals`,
-:func:`equilibrium` solves it at rest, :func:`stiffness` and :func:`load_distribution` tell what follows from
+:func:`equilibrium` solves it at rest, :func:`stiffness` and :func:`load_distribution` compute what follows from
 that, :class:`Model` gives its equations to anyone's integrator, and :func:`campaign` runs thousands of them.
-All numbers are in SI units, at every face.
+All numbers are in SI units.
 """
 
 from __future__ import annotations
@@ -155,5 +155,5 @@ __all__ = [
 
 
 def __dir__() -> list[str]:
-    """Tell also what is not imported yet."""
+    """List also what is not imported yet."""
     return sorted({*globals(), *__all__})

@@ -1,6 +1,6 @@
 """Frozen dataclasses to and from plain documents, by their type hints alone.
 
-A part is a dataclass and a document is what JSON can say. A variant is a part with a tag: ``{tag: {…}}``,
+A part is a dataclass and a document is JSON. A variant is a part with a tag: ``{tag: {…}}``,
 or ``{tag: value}`` when it only wraps one value. A field whose name is a Python keyword ends in ``_``.
 """
 
@@ -54,7 +54,7 @@ class Part:
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Variant(Part):
-    """One choice of several, told apart by its tag."""
+    """One choice of several, identified by its tag."""
 
     tag: ClassVar[str]
     wraps: ClassVar[bool]
@@ -191,7 +191,7 @@ def _decode_part(kind: type[Part], value: Any, path: str) -> Part:
 
 
 def _no_such_field(name: str, known: Iterable[str]) -> str:
-    """Say of a field that nobody knows which one may be meant, and which there are."""
+    """Name the field that an unknown one may be meant for, and those that there are."""
     near = difflib.get_close_matches(name, known, n=1, cutoff=0.7)
     perhaps = f", perhaps {near[0]}" if near else ""
     return f"no such field{perhaps}; there are: {', '.join(known)}"

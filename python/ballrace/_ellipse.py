@@ -1,4 +1,4 @@
-"""Size of the ellipse in which a ball touches a race, after Hertz."""
+"""Size of the contact ellipse of ball and race, after Hertz."""
 
 from __future__ import annotations
 

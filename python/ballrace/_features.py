@@ -1,4 +1,4 @@
-"""The few numbers that a signal is known by, as in the table of a campaign."""
+"""The few numbers that characterise a signal, as in the table of a campaign."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ def features(
     skip: float = 0.0,
     band: tuple[float, float] | None = None,
 ) -> dict[str, float | None]:
-    """Return the features of a signal, whoever recorded it, by the names of a campaign's columns.
+    """Return the features of a signal, simulated or measured, by the names of a campaign's columns.
 
-    What is told here of a measurement is comparable, name by name, with the manifest of a campaign;
-    :meth:`ballrace.Signals.features` tells it of a run.
+    Features of a measurement are comparable, name by name, with the manifest of a campaign;
+    :meth:`ballrace.Signals.features` returns those of a run.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def features(
     scene : Scene, optional
         The bearing and its speed, for the lines at the fault frequencies of its rows; its loads and defects do not
         matter. Without it there are only the moments, ``rms``, ``peak``, ``crest_factor`` and ``kurtosis``, and no
-        standard errors, since nothing tells how long a turn of the shaft is.
+        standard errors, since the duration of a turn of the shaft is unknown.
     skip : float
         Beginning of the signal that is left out [s].
     band : tuple of two floats, optional
@@ -58,10 +58,10 @@ def features(
     Returns
     -------
     dict of str to float or None
-        In the unit of ``x``, squared for an envelope; which there are, :func:`ballrace.campaign` tells at
+        In the unit of ``x``, squared for an envelope; :func:`ballrace.campaign` lists them at
         ``columns``. None where the signal cannot give a feature: a line for which it is too short. With a scene
         their standard errors, such as ``rms_se``, and ``turns``, ``row0.passes`` and ``batches``, as
-        :meth:`ballrace.Signals.features` tells them.
+        described for :meth:`ballrace.Signals.features`.
 
     Raises
     ------

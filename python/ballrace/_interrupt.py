@@ -1,7 +1,7 @@
 """Long calls that answer Ctrl-C, and answer it once.
 
-Python hears it between two calls, and one of numpy may take half a minute. Polars hears it by itself, raises
-``KeyboardInterrupt``, and Python then another in the midst of what follows.
+Python handles it between two calls, and one of numpy may take half a minute. Polars handles it itself and raises
+``KeyboardInterrupt``; Python then raises a second one in the middle of what follows.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _ATTENTION = 0.05
 def answers_ctrl_c(function: Callable[P, T]) -> Callable[P, T]:
     """Let a function of a signal ``x`` work on a thread of its own where the signal is long.
 
-    After Ctrl-C the thread goes on to the end of its call, and what it gives goes to nobody.
+    After Ctrl-C the thread goes on to the end of its call, and its result is dropped.
     """
 
     @functools.wraps(function)

@@ -1,4 +1,4 @@
-"""Names of a package that are imported when they are first asked for, so that it is there at once."""
+"""Names of a package that are imported at first use, so that importing the package is fast."""
 
 from __future__ import annotations
 

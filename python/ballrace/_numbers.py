@@ -1,4 +1,4 @@
-"""Arguments that ought to be numbers."""
+"""Checks of numeric arguments."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Parquet files that know whether they are what was written.
+"""Parquet files with a check of their content.
 
-The format has no checksum that is always there, and a damaged file may even end the process that reads it: a
-flipped length asks for exabytes. It does allow a gap before the footer, and there stands a hash of all the rest,
-which other readers of Parquet pass over::
+The format has no mandatory checksum, and a damaged file may even end the process that reads it: a
+damaged length requests exabytes. It allows a gap before the footer, which holds a hash of all the rest;
+other readers of Parquet skip it::
 
     PAR1  columns …  [mark  hash]  footer  length of the footer  PAR1
 """

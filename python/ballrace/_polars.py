@@ -1,7 +1,7 @@
 """polars, imported and started where it is first needed: ``from ._polars import pl``.
 
 It reserves address space for its library and for its threads. Where a limit (``ulimit -v``, RLIMIT_AS) leaves too
-little of it, polars panics in the midst of its start, or ends the process. So what it takes is counted before.
+little of it, polars panics during its start, or ends the process. So its need is compared with the limit before.
 """
 
 from __future__ import annotations

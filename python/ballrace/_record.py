@@ -1,7 +1,7 @@
 """The record of a run as a Parquet file: its metadata, and columns that are written and read in parts.
 
-A record that is written while it is made comes in blocks. What ends a Parquet file, its metadata, is known
-when the run is over; so each block goes into a file of its own in a folder beside, and at the end polars copies
+A record that is written during a run comes in blocks. The end of a Parquet file, its metadata, is known
+when the run is over; so each block is written to its own file in a folder beside, and at the end polars copies
 these, some blocks at a time, into one. The run itself takes memory for a few blocks; of copying 5 GB polars held
 0.2 GB more than of 0.7 GB. The disk holds the samples twice for that while.
 """
@@ -132,7 +132,7 @@ def metadata(signals: Signals) -> dict[str, str]:
 
 
 def unless_damaged(path: Path, read: Callable[[], Any]) -> Any:
-    """Read a file; what makes it none of ours is told with its name."""
+    """Read a file; an error names the file and why it is not one of ours."""
     try:
         return read()
     except ValueError as error:

@@ -1,4 +1,4 @@
-"""Text for people: what others wrote must not steer their terminal."""
+"""Text for terminals, without control characters from names that others wrote."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Defects as they are spoken of: a spall, a dent, a line, a cap of a ball, with sizes in millimetres.
+"""Defects by their usual names: a spall, a dent, a line, a cap of a ball, with sizes in millimetres.
 
 Each is a :class:`ballrace.scene.Defect`, placed where the contact runs unless ``axial_offset`` says otherwise; put
 them into a scene by name: ``br.bearing("6205", defects={"spall": spall(on="inner_race", width_mm=1.0)})``.

@@ -1,7 +1,7 @@
-"""The duty cycle of a scene: which steady loads and speeds it sees, each for which share of the time.
+"""The duty cycle of a scene: its steady loads and speeds, each with its share of the time.
 
 Where loads, moments or the speed follow sines or tables, a life is a sum over one period of theirs: the whole
-tables, one after the other for ever, or the shortest time in which every sine makes a whole number of turns.
+tables, repeated without end, or the shortest time in which every sine has a whole number of periods.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What ballrace refuses, fails at or warns of."""
+"""Errors and warnings of ballrace."""
 
 from __future__ import annotations
 
@@ -187,7 +187,7 @@ class CampaignWarning(UserWarning):
 
 
 def from_record(record: Mapping[str, Any]) -> BallraceError:
-    """Return the exception that a record of the core tells of: its ``class`` here, and its ``arguments``."""
+    """Return the exception that a record of the core describes: its ``class`` here, and its ``arguments``."""
     made = globals()[record["class"]](*record["arguments"])
     assert isinstance(made, BallraceError)
     return made

@@ -67,7 +67,7 @@ class Explanation(Record):
 
 
 def explain(scene: Scene) -> Explanation:
-    """Tell what a run of a scene integrates and leaves out, what it costs, and what would make it cheaper.
+    """Report what a run of a scene integrates and leaves out, what it costs, and what would make it cheaper.
 
     The scene is compiled and started from equilibrium, and some steps are timed: a fraction of a second; with oil
     up to some seconds.

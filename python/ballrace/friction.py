@@ -1,7 +1,7 @@
-"""Friction torque of a bearing by the formulas of engineers, beside which to hold that of a run.
+"""Friction torque of a bearing by the formulas of makers, for comparison with that of a run.
 
-SKF's model and Palmgren's know a bearing by its size, load, speed and oil. They were fitted to measured bearings,
-one of which differs from another by some 20 %, and count what a scene leaves out: sliding cages, grease, spin.
+SKF's model and Palmgren's take size, load, speed and oil of a bearing. They were fitted to measured bearings,
+one of which differs from another by some 20 %, and include what a scene leaves out: sliding cages, grease, spin.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ def friction_torque_skf(
     speed_rpm : float
         Speed n of one ring against the other [rev/min].
     viscosity : float
-        Kinematic viscosity ν of the oil at its temperature [m²/s], as ``Lubricant.properties()`` tells it.
+        Kinematic viscosity ν of the oil at its temperature [m²/s], as ``Lubricant.properties()`` has it.
     radial_load, axial_load : float
         Loads [N].
     static_rating : float, optional

@@ -1,7 +1,7 @@
 """Rating life: how many turns nine bearings of ten survive, after ISO 281 and ISO/TS 16281.
 
 ISO 281 takes one equivalent load of the whole bearing. ISO/TS 16281 takes the loads of all balls instead, as
-:func:`ballrace.load_distribution` has them, and so knows of clearance, contact angles and rows that share
+:func:`ballrace.load_distribution` has them, and so includes clearance, contact angles and rows that share
 unevenly.
 Both are of a healthy bearing, well lubricated and clean. Where a scene has an oil, its film and a class of
 contamination give the factor a_ISO by which the second is modified. Loads that come again and again are summed
@@ -160,7 +160,7 @@ def rating_life(
     ]
     cycle = _by_turns(duty_cycle(healthy))
     with warnings.catch_warnings():
-        # What belongs to the hardest state is told below, once.
+        # What belongs to the hardest state is reported below, once.
         warnings.simplefilter("ignore", SceneWarning)
         peak = max(_force(each) for _, each in cycle)
         states = [

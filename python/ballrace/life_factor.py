@@ -1,4 +1,4 @@
-"""The life modification factor a_ISO of ISO 281:2007: what oil and dirt make of a rating life."""
+"""The life modification factor a_ISO of ISO 281:2007: the effect of oil and contamination on a rating life."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The equations of a scene, for anyone's integrator."""
+"""The equations of a scene, for an integrator of one's own."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Model:
         return self._bodies
 
     def summary(self) -> Explanation:
-        """Tell what a run integrates and leaves out, what it costs, and what would make it cheaper.
+        """Report what a run integrates and leaves out, what it costs, and what would make it cheaper.
 
         Returns
         -------

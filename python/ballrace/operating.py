@@ -2,9 +2,9 @@
 
 Where the outer ring stands still and the balls roll, the load alone moves the frequencies from the nominal
 ones: thrust opens the contact angle, which raises BPFO and lowers BPFI. Slip makes the cage slower than rolling
-would, lowers BPFO and raises BPFI. At high speed the contact angles of both races part and balls spin about an
-axis of their own, which makes it faster by percents. A scene tells of the speeds at which friction at both races,
-the oil's drag and gyroscopic moments balance; a run measures its own.
+would, lowers BPFO and raises BPFI. At high speed the contact angles of both races differ and balls spin about an
+axis of their own, which makes the cage faster by percents. Of a scene, speeds are those at which friction at both
+races, the oil's drag and gyroscopic moments balance; of a run they are measured.
 """
 
 from __future__ import annotations
@@ -232,7 +232,7 @@ def _rolling(of: Bearing | Row, angle: float, shaft: float) -> FaultFrequencies:
 
 
 def _measured(out: Signals, row: int) -> Mapping[str, float] | None:
-    """Return the mean speeds that a run tells of a row [Hz]."""
+    """Return the mean speeds of a row that a run measured [Hz]."""
     return next((did for did in out.provenance.get("kinematics", ()) if did["row"] == row), None)
 
 

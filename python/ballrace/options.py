@@ -1,4 +1,4 @@
-"""What a run is asked for: one table of arguments that runs, campaigns and the command line share."""
+"""The options of a run: one table of arguments that runs, campaigns and the command line share."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Start = Literal["equilibrium", "rolling"]
 class Run(Part):
     """The arguments of a run as one document, which mirrors the core's.
 
-    What each means, and what is allowed, :func:`ballrace.simulate` tells: its arguments and those of
+    :func:`ballrace.simulate` says what each means and what is allowed: its arguments and those of
     :func:`ballrace.campaign` are these, with these defaults.
 
     Attributes

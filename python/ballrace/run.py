@@ -38,7 +38,7 @@ P = ParamSpec("P")
 
 
 def _of_a_scene(function: Callable[P, Signals]) -> Callable[P, Signals]:
-    """Look at the scene before Python misses arguments: ``simulate("file.toml")`` is told how to read a file."""
+    """Check the scene before Python misses arguments: ``simulate("file.toml")`` says how to read a file."""
 
     @functools.wraps(function)
     def called(*args: P.args, **kwargs: P.kwargs) -> Signals:
@@ -89,13 +89,13 @@ def simulate(
     accuracy : float, optional
         Relative error of the accelerations to stay below, 1e-4 to 0.1, over the first milliseconds from a
         given state; chooses nodes, tolerance and step cap, and goes without `rtol`. It does so by pilot runs
-        of the first 3 ms, which take as long as 10 to 20 ms of the run itself. ``out.accuracy`` tells what was
+        of the first 3 ms, which take as long as 10 to 20 ms of the run itself. ``out.accuracy`` has what was
         chosen and what errors the pilots showed; ``out.scene`` holds the choice. Fixed slices are kept as they
         are; the method must be the default, ``"adams"``, on which the choice is measured.
     method : str, optional
         Method of integration; by default ``scene.solver.method``.
     reduce : bool, optional
-        Whether to leave out what does not change the motion (:meth:`Model.summary` tells what); by default
+        Whether to leave out what does not change the motion (:meth:`Model.summary` lists it); by default
         ``scene.solver.reduce``, which is true.
     threads : int
         Threads of the run; 0 chooses. The result is the same, bit by bit, for any number.
@@ -108,21 +108,21 @@ def simulate(
         delay. Accelerations are the filtered derivatives of the velocities. Where something jumps, the samples
         around it ring. For its last samples a run goes on for 14 samples past its end, by a tenth of its
         duration at most; beyond that, and before t = 0, signals are continued by their odd reflection.
-        Contacts, energies, forces by origin and slices tell a state and are always points.
+        Contacts, energies, forces by origin and slices are values of a state and always points.
 
         None takes point samples of the dense output for all columns, for those who study the integrator. What
         lies above half the sampling rate is then folded into the band below: of a faulted 6205's acceleration
         four fifths of the power at 12 kHz.
 
-        ``out.provenance`` tells: ``bandwidth`` [Hz] is 0.4 `fs`, or `fs`/2 where `fs` is so high that no filter
-        was needed, or None; ``oversampling`` is the number of points read a sample.
+        In ``out.provenance``, ``bandwidth`` [Hz] is 0.4 `fs`, or `fs`/2 where `fs` is so high that no filter
+        was needed, or None; ``oversampling`` is the number of points read for each sample.
     settle : float, optional
-        Time before t = 0 in which what the start leaves may die down [s], at most 1000; 0 switches it off. By
-        default it is as long as the scene needs from equilibrium, at most 0.1 s, and 0 from any other start: a
-        given state is given. ``out.provenance.settled`` tells how long it was, ``out.stats.settling_nfev`` what it
+        Time before t = 0 in which the transient of the start decays [s], at most 1000; 0 switches it off. By
+        default it is as long as the scene needs from equilibrium, at most 0.1 s, and 0 from any other
+        start. ``out.provenance.settled`` is its length, ``out.stats.settling_nfev`` what it
         cost. Meanwhile loads and drive are as at t = 0 (a driving torque: the initial speed), and rings and cage
-        are wound back, so that at t = 0 they stand where the scene says but for what the balls have slipped. From
-        a given state nothing is wound back.
+        are turned back, so that at t = 0 they are where the scene says except for the slip of the balls; not so
+        from a given state.
     time_limit : float, optional
         Wall time that the run may take, equilibrium and pilot runs included [s], looked at about every 20 ms; by
         default any.
@@ -150,14 +150,14 @@ def simulate(
     EquilibriumError
         There is no stable equilibrium to start from.
     IntegrationError
-        The integration could not go on; it names the contacts that held it up.
+        The integration could not go on; the error names the contacts that caused it.
     BudgetError
         The run cost more than `time_limit` or `max_steps` allows; an IntegrationError that has the time reached.
     MemoryLimitError
         The signals would take more memory than there is, a MemoryError; nothing was computed. With `out` that is
         a block of them, of at most 65 536 samples.
     OSError
-        `out` cannot be written; what is known of that before is told before anything is computed.
+        `out` cannot be written; if possible this is reported before anything is computed.
 
     Warns
     -----
@@ -211,7 +211,7 @@ def _target(out: str | os.PathLike[str]) -> Path:
 
 
 def _written(path: Path, run: Callable[[_Sink], _Signals]) -> tuple[_Signals, Scanned]:
-    """Have a run write its samples to a file; return what else it tells, and the file's columns."""
+    """Have a run write its samples to a file; return its other results, and the file's columns."""
     with writing(path) as writer:
         raw = run(writer.take)
         writer.finish(metadata(Signals._from_core(raw)))

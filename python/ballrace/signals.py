@@ -1,4 +1,4 @@
-"""What a run gives back."""
+"""Results of a run."""
 
 from __future__ import annotations
 
@@ -245,7 +245,7 @@ class Signals(Columns):
 
         ``requested``, ``rtol``, ``nodes`` on outer and inner race; the errors of the accelerations that pilot
         runs of the first 3 ms showed, ``integration_error`` and ``node_error`` (None with fixed slices), whose sum
-        is above ``requested`` where the motion is chance, which an AccuracyWarning tells; and the
+        is above ``requested`` where the motion is chaotic, which an AccuracyWarning reports; and the
         ``pilot_evaluations`` that this took, which ``stats`` does not count.
         """
         chosen = self._provenance.to_dict()["accuracy"]
@@ -253,7 +253,7 @@ class Signals(Columns):
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Reasons to look twice, as :class:`AccuracyWarning` and :class:`SceneWarning` told them; usually none."""
+        """Reasons to check the results: texts of AccuracyWarning and SceneWarning; usually none."""
         return self._warnings
 
     @property
@@ -278,7 +278,7 @@ class Signals(Columns):
         Parameters
         ----------
         columns : sequence of str, optional
-            Columns whose features are computed; by default all accelerations. :func:`ballrace.campaign` tells at
+            Columns whose features are computed; by default all accelerations. :func:`ballrace.campaign` lists at
             ``columns`` which features there are.
         skip : float
             Beginning of the run that is left out [s].
@@ -296,10 +296,10 @@ class Signals(Columns):
             ``oil.friction_torque_mean``. None where the run cannot give one: a line for which it is too short.
 
             Beside each, but for ``largest_pressure`` and ``lines_from``, its standard error, ``outer.ay.rms_se``:
-            what a run would differ by whose start nobody can tell from this one, but not what a longer one would
-            tell. None where the record has fewer than 8 turns of the shaft and fewer than 8 passes of balls over a
+            the scatter over runs whose starts differ by less than can be measured, not the difference to a longer
+            run. None where the record has fewer than 8 turns of the shaft and fewer than 8 passes of balls over a
             place of the outer race, or its speed changes by more than 2 % or is not given. ``turns`` and
-            ``row0.passes`` tell how many there are, ``batches`` of how many parts the errors come; 0 without.
+            ``row0.passes`` count them, ``batches`` is the number of parts that errors come from, 0 without.
 
         Raises
         ------

@@ -211,7 +211,7 @@ def equilibrium(scene: Scene, *, race_control: RaceControl = "friction") -> Equi
 
 
 def _equilibrium(told: Mapping[str, Any]) -> Equilibrium:
-    """Return the equilibrium that the core tells; warn the caller of a public function."""
+    """Return the equilibrium of the core's result; warn the caller of a public function."""
     films = tuple(RaceFilm(**film) for film in json.loads(told["films"]))
     return Equilibrium(**{**_warned(dict(told), stacklevel=4), "films": films})
 

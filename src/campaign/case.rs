@@ -1,4 +1,4 @@
-//! One case: a run and its features, with everything that may go wrong caught.
+//! One case: a run and its features; all errors become its outcome.
 
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -113,7 +113,7 @@ mod tests {
         assert_eq!(found, Err(Error::Internal { message }));
     }
 
-    /// The static solve itself hears it: it would have told that the load cannot be carried.
+    /// The static solve itself is stopped: otherwise it would have reported that the load cannot be carried.
     #[test]
     fn a_stop_reaches_the_static_solve_of_a_case() {
         let case = Case {

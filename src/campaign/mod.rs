@@ -1,5 +1,5 @@
-//! Many cases on all cores: each runs alone on one thread, so its bits do not depend on how many there are,
-//! and a case that fails is an outcome like any other.
+//! Many cases on all cores: each runs on one thread, so that its bits do not depend on their number,
+//! and a failed case is an outcome like any other.
 //!
 //! ```
 //! use std::ops::ControlFlow;

@@ -1,7 +1,7 @@
-//! Cases in, outcomes out, with a bounded number on the way.
+//! Runs cases on threads of its own and returns their outcomes, with a bounded number in progress.
 //!
-//! The threads are the campaign's own. A shared pool would let campaigns in one process (a Dask worker has several)
-//! wait for each other, and a forked child would inherit one without its threads. A stop reaches a case in its static
+//! With a shared pool, campaigns in one process (a Dask worker has several) would
+//! wait for each other, and a forked child would inherit a pool without its threads. A stop reaches a case in its static
 //! solves and between its steps; where one evaluation takes long, its thread ends by itself after it.
 
 use std::ops::ControlFlow;
@@ -172,7 +172,7 @@ fn gather(outcomes: &Receiver<Outcome>) -> Vec<Outcome> {
 mod tests {
     use super::*;
 
-    /// As of a thread in a very long evaluation, which does not hear the stop before its end.
+    /// As of a thread in a very long evaluation, which the stop does not reach before its end.
     #[test]
     fn a_stop_does_not_wait_for_the_deaf() {
         let (deaf, outcomes) = channel::<Outcome>();

@@ -1,11 +1,11 @@
-//! Frames of reference, and what changes from one to the other.
+//! Frames of reference, and transformations between them.
 //!
 //! * The **scene's** frame is inertial: x to the right, y up, z along the bearing's axis.
 //! * A **ring's** frame has its origin at the ring's centre and moves with it. A contact is evaluated in it. Its axes keep the
-//!   directions of the scene's, unless the ring leans: then z is the ring's axis, and x and y are turned with it by the shortest
+//!   directions of the scene's, unless the ring tilts: then z is the ring's axis, and x and y are turned with it by the shortest
 //!   way ([`LeaningRing`]). What is fixed to the ring, defects and waves, stands at angles from a mark that has turned by θ.
-//! * The **cage's** frame turns about the bearing's axis at the orbit speed of the balls. A bearing that rolls evenly rests
-//!   in it, under the centrifugal force.
+//! * The **cage's** frame turns about the bearing's axis at the orbit speed of the balls. A bearing that rolls steadily is at
+//!   rest in it, under the centrifugal force.
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
@@ -36,7 +36,7 @@ pub struct Motion {
     /// Euler parameters of a ball that spins freely and has a cap, of any length: how it has turned from its own frame into the
     /// scene's.
     pub(crate) attitude: Option<[f64; 4]>,
-    /// Tilt of the ring that sees it so, where that leans.
+    /// Tilt of the ring in whose frame it is, if that is tilted.
     pub(crate) seen_by: Option<[f64; 2]>,
 }
 
@@ -140,7 +140,7 @@ impl Motion {
     }
 }
 
-/// A ring that may lean, as its contacts meet it.
+/// A ring that may tilt, for its contacts.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LeaningRing {
     pub rotation: Rotation,
@@ -158,7 +158,7 @@ pub(crate) struct LeaningRing {
 }
 
 impl LeaningRing {
-    /// Of a ring whose places x, y and z tell how far its centre of mass is from where it nominally is, an axial place of the
+    /// Of a ring whose x, y and z are the displacement of its centre of mass, an axial place of the
     /// ring's frame \[m\]; its balls spin freely, or about its axis.
     pub fn new(motion: &Motion, rotation: Rotation, offset: f64, balls_turn: bool) -> Self {
         Self {
@@ -182,7 +182,7 @@ impl LeaningRing {
         ball.place() - self.centre
     }
 
-    /// A ball and this ring, both as [`Self::see`] tells them; the ring's mark stands at θ.
+    /// A ball and this ring, both as [`Self::see`] returns them; the ring's mark stands at θ.
     pub fn facing(&self, ball: &Motion) -> [Motion; 2] {
         let place = [ball.centre.x, ball.centre.y, ball.z];
         let velocity = [ball.velocity.x, ball.velocity.y, ball.vz];

@@ -1,4 +1,4 @@
-//! The kernel: forces of an element of a contact, and elements of a whole contact. The only coding of both.
+//! The kernel: forces of an element of a contact, and elements of a whole contact. The only implementation of both.
 //!
 //! Everything that evaluates contacts drives it: `scalar` one contact at a time, with everything that may cut it;
 //! `batch` eight whole contacts side by side; `stage` holds contacts at one place for any velocities; `stiffness`

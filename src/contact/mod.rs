@@ -1,12 +1,12 @@
-//! Laws of one ball on one race: numbers in, numbers out; no indices, no state of a run.
+//! Laws of one ball on one race, without indices and without the state of a run.
 //!
-//! `profile` has the races and the zone where a ball touches one (model sections 2 and 3), `laws` what an element of
-//! the zone bears (sections 4 and 5), `quadrature` where the elements lie (section 10), `kernel` puts these together:
-//! the force of an element, and the elements of a whole contact; `frames` says where a ball is as its ring sees it, `spatial`
-//! what a contact does to its ball in space, `slip` how
-//! ball and race slide on each other along a zone, from which `quadrature` has what friction weighs there. The kernel's drivers:
+//! `profile` has the races and the zone where a ball touches one (model sections 2 and 3), `laws` the forces of an element of
+//! the zone (sections 4 and 5), `quadrature` where the elements lie (section 10), `kernel` combines these:
+//! the force of an element, and the elements of a whole contact; `frames` has the ball in the frame of its ring, `spatial`
+//! the wrench of a contact on its ball, `slip` the slip along a zone, from which `quadrature` computes the weights of
+//! friction. The kernel's callers:
 //!
-//! * `scalar` — [`Pair::evaluate`]: one contact with whatever cuts its zone, every single force to a [`Sink`];
+//! * `scalar` — [`Pair::evaluate`]: one contact with defects and ends of its zone, every single force to a [`Sink`];
 //! * `batch` — eight whole contacts at once;
 //! * `stage` — contacts held at one place for any velocities, with slopes by these: what implicit methods need;
 //! * `stiffness` — force at rest and its derivative by the place: what statics need;

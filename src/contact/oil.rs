@@ -1,4 +1,4 @@
-//! What an oil film does in a contact as a whole, and rolling resistance, which acts beside its nodes (model section 12).
+//! The effect of an oil film on a whole contact, and rolling resistance, which acts in addition to its nodes (model section 12).
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
@@ -37,7 +37,7 @@ impl<T: Number> RollingResistance<T> {
     }
 }
 
-/// What a sink is told of the oil in a contact.
+/// What a sink receives of the oil in a contact.
 #[derive(Debug, Clone, Copy)]
 pub struct OilTouch {
     pub(crate) oil: FilmEffect<f64>,

@@ -1,4 +1,4 @@
-//! How ball and race slide on each other along a zone, as a formula of the place: what friction is hard to integrate by.
+//! Slip of ball and race along a zone as a formula of the position, from which friction is integrated.
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]

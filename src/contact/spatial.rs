@@ -1,8 +1,8 @@
-//! What a contact does to its ball in space: a force through the ball's centre and a moment about it.
+//! The wrench of a contact on its ball: a force through the ball's centre and a moment about it.
 //!
-//! Normal forces act through the ball's centre: at their own point, which lies in the race, that of a slice would turn the
-//! ball about the direction of rolling, and no potential knows of such a work. Friction acts where it rubs. What is left
-//! beside, of waves and of the ends of defects, turns the ball about the ring's axis alone, as patches of a ball do; caps of a
+//! Normal forces act through the ball's centre: at its own point, which lies in the race, that of a slice would turn the
+//! ball about the direction of rolling, and no potential includes such a work. Friction acts at the contact. The remaining
+//! forces, of waves and of the ends of defects, turn the ball about the ring's axis alone, as patches of a ball do; caps of a
 //! ball turn it about all axes.
 
 use nalgebra::Vector3;
@@ -41,7 +41,7 @@ impl Wrench {
         }
     }
 
-    /// The same in the scene's frame, on a ball before a ring that may lean: force, and moment about the ball's centre. Balls that do not
+    /// The same in the scene's frame, on a ball before a ring that may tilt: force, and moment about the ball's centre. Balls that do not
     /// spin freely turn about the ring's axis; what acts on their caps across it, in the ring's frame, turns with them about z of the
     /// scene.
     pub fn on_ball(&self, ring: &LeaningRing, on_caps: &V2) -> [Vector3<f64>; 2] {
@@ -62,7 +62,7 @@ impl Wrench {
 }
 
 impl Tangent {
-    /// The same in the scene's frame, of a ring that leans.
+    /// The same in the scene's frame, of a ring that tilts.
     pub(crate) fn turned(&self, frame: &Frame) -> Self {
         Self {
             force: frame.to_scene(&self.force),

@@ -17,7 +17,7 @@ use super::profile::{SHALLOW, Section, Zone};
 use super::{Aside, BallSide, Motion, Pair, Rules, Sink, Slices, Touch, Toward, V2};
 
 /// Elastic force on the ball along x, y, z \[N\], and the stiffness −∂force/∂place of the ball against the ring
-/// \[N/m\]; a stiffness that only differences can tell is left out.
+/// \[N/m\]; a stiffness that only differences can give is left out.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Tangent {
     pub force: Vector3<f64>,

@@ -1,4 +1,4 @@
-//! The forces on all bodies apart by origin.
+//! The forces on all bodies, by origin.
 
 use nalgebra::Vector3;
 
@@ -107,7 +107,7 @@ pub(crate) fn contributions_coated(
     names.into_iter().zip(parts).collect()
 }
 
-/// A force in the frame of a ring that leans, in the scene's; the moment is about the ring's axis in both.
+/// A force in the frame of a ring that tilts, in the scene's; the moment is about the ring's axis in both.
 fn turned(ring: &LeaningRing, [x, y, z, about]: [f64; DOFS]) -> [f64; DOFS] {
     let [x, y, z] = ring.rotation.frame.to_scene(&Vector3::new(x, y, z)).into();
     [x, y, z, about]

@@ -1,4 +1,4 @@
-//! Which code an evaluation runs, in words.
+//! Names of the code that an evaluation runs.
 
 use std::ops::Range;
 
@@ -26,7 +26,7 @@ impl Dynamics<'_> {
             .is_lubricated()
             .then_some(("oil film", Use::Evaluated));
         let forces = forces::ALL.map(|force| (force.name, (force.used)(model)));
-        // Dry bearings are not told of what only oil does.
+        // The report of a dry bearing leaves out what only oil does.
         let told =
             |(name, used): &(&str, Use)| *name != forces::drag::FORCE.name || *used != Use::Absent;
         contacts

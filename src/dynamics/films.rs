@@ -1,4 +1,4 @@
-//! Films of rings whose speed changes: races whose coats, traction and damping are those of the state.
+//! Films of rings whose speed changes: coats, traction and damping of the races follow the state.
 
 use super::batch::Batch;
 use crate::forces::State;
@@ -35,7 +35,7 @@ impl Films {
         &self.model
     }
 
-    /// The model with the films of a state, after the contacts were told.
+    /// The model with the films of a state, after the contacts were given them.
     pub fn follow(&mut self, state: &State, contacts: &mut Batch) -> &Model {
         if self.coat(state) {
             contacts.coat(&self.model);

@@ -1,4 +1,4 @@
-//! States of a run that leaves some out: from their vector to all bodies, and from forces to their rates.
+//! The integrated states of a reduced run: from their vector to all bodies, and from forces to their rates.
 
 use super::planar::{Planar, Rates};
 use super::rolling::Rolling;

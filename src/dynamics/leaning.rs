@@ -16,7 +16,7 @@ pub(crate) trait HeldContacts {
     /// Adds their forces to those on all bodies, where rings stand parallel.
     fn add_to(&self, forces: &mut Table);
 
-    /// The same where rings may lean: on balls in the scene's frame, with moments about x and y on those that spin freely; returns what
+    /// The same where rings may tilt: on balls in the scene's frame, with moments about x and y on those that spin freely; returns what
     /// acts on the rings.
     fn add_leaning(
         &self,
@@ -26,7 +26,7 @@ pub(crate) trait HeldContacts {
     ) -> OnRings;
 }
 
-/// What an evaluation knows of what turns about x and y.
+/// Data of an evaluation for rotations about x and y.
 #[derive(Debug)]
 pub(super) struct Leaning {
     rings: [RingView; 2],

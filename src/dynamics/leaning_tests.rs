@@ -1,5 +1,5 @@
-//! Analytic: rings that tilt keep what a conservative system keeps, lose what is told, and are the rings that do not where they
-//! stand parallel.
+//! Analytic: rings that tilt conserve energy and momentum, lose the reported power, and equal parallel rings where they stand
+//! parallel.
 
 use std::sync::Arc;
 
@@ -50,7 +50,7 @@ pub(super) fn free_rings(law: &NormalLaw) -> Scene {
     scene
 }
 
-/// A state in which everything moves and leans.
+/// A state in which everything moves and is tilted.
 pub(super) fn stirred(model: &Model) -> Vec<f64> {
     let mut y = start(model, &Start::Rolling).unwrap();
     let layout = model.layout();
@@ -152,7 +152,7 @@ fn free_rings_keep_energy_and_momenta() {
     }
 }
 
-/// Truth: the energy, differentiated along the motion. What is told to be lost is lost, with friction, damping, waves, defects,
+/// Truth: the energy, differentiated along the motion. Its loss is the reported power, with friction, damping, waves, defects,
 /// springs of tilts and coupled supports; nothing else is.
 #[test]
 fn powers_balance() {

@@ -1,4 +1,4 @@
-//! A ball that has left its groove is noticed, whatever path an evaluation takes and by whatever instructions.
+//! Detects a ball that has left its groove, on every path of an evaluation and at every instruction set.
 
 use std::f64::consts::FRAC_PI_2;
 

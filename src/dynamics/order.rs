@@ -1,4 +1,4 @@
-//! What the states of a run are: from those of all bodies, and back.
+//! From the states of all bodies to those of a run, and back.
 
 use super::Dynamics;
 use super::kept::Kept;

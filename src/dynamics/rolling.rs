@@ -1,4 +1,4 @@
-//! Rows that turn as one: from radii to places, and from forces to what accelerates the radii.
+//! Rows that turn as one body: from radii to positions, and from forces to accelerations of the radii.
 
 use crate::forces::{State, Table};
 use crate::model::Dof;

@@ -1,4 +1,4 @@
-//! Analytic: balls that spin about any axis keep what a conservative system keeps, lose what is told, and in the plane are those
+//! Analytic: balls that spin about any axis conserve energy and momentum, lose the reported power, and in the plane equal those
 //! that spin about the axis alone.
 
 use super::leaning_tests::{free_rings, laws, momenta, stirred};
@@ -35,7 +35,7 @@ fn capped(law: &NormalLaw) -> Scene {
     scene
 }
 
-/// A state in which everything moves, leans and spins.
+/// A state in which everything moves, is tilted and spins.
 fn spun(model: &Model) -> Vec<f64> {
     let mut y = stirred(model);
     let layout = model.layout();
@@ -162,7 +162,7 @@ fn a_cap_on_the_axis_of_spin_is_carried_by_theta() {
     }
 }
 
-/// Truth: the energy, differentiated along the motion. What is told to be lost is lost, and nothing else.
+/// Truth: the energy, differentiated along the motion. Its loss is the reported power.
 #[test]
 fn powers_of_free_balls_balance() {
     for law in laws() {

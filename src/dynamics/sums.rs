@@ -40,7 +40,7 @@ impl Sink for Sum {
     }
 }
 
-/// What a contact does to its ball in space, in the frame of a ring that may lean.
+/// What a contact does to its ball in space, in the frame of a ring that may tilt.
 #[derive(Debug, Default)]
 pub(super) struct Spatial {
     wrench: Wrench,

@@ -1,7 +1,7 @@
-//! How uncertain features are: what another record of the same length, of a start that nobody can tell from this one, would
-//! give instead.
+//! Standard errors of features: their scatter over records of the same length from starts that differ by less than can be
+//! measured.
 //!
-//! Signals of impacts are chance: a start that is moved by 1e-13 rad leaves their statistics and changes every sample after
+//! Signals of impacts are random: a start that is moved by 1e-13 rad keeps their statistics and changes every sample after
 //! some milliseconds. The record is cut into m batches of a whole number of shaft turns or, where there are fewer than 8 of
 //! these, of passes of balls over a place of the outer race, so that what is periodic is the same in all of them:
 //!

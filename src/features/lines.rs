@@ -31,7 +31,7 @@ pub(super) struct Fault {
 
 /// The faults of a row by their orders: the cage's, those of balls that pass a place of the outer and of the inner race, and
 /// of places of a ball that pass a race: it meets both in a turn, so twice the ball's spin. They are what the row did, or, of a
-/// record whose balls nobody watched, those of pure rolling at the nominal contact angle.
+/// record without measured kinematics, those of pure rolling at the nominal contact angle.
 pub(super) fn faults(row: &Row, did: Option<&RowKinematics>) -> [Fault; 4] {
     let [ftf, bpfo, bpfi, bsf] = row.orders();
     let measured = did.map(|did| did.orders(row.ball_count));
@@ -112,7 +112,7 @@ struct Lines {
 type Line = (f64, f64);
 
 /// Times its standard error that a line stands out of the noise, so that its place is known, and with it those of its harmonics
-/// and sidebands: of another they are read where chance has put it, which no error of theirs tells.
+/// and sidebands: of another they are read at a random place, which their error does not include.
 const STANDS_OUT: f64 = 3.0;
 
 /// Root of the sum of the squares of some lines. Pulses that vary in height change all their harmonics together.
@@ -253,8 +253,8 @@ mod tests {
     }
 
     /// Analytic: in white noise of variance σ² an amplitude under the Hann window has a variance of 2σ²/n · 3/2, both in the record and
-    /// as told, of the line and of its family. Of that more is told, (2 + 1 + 0.5)/√5.25 times, since lines of amplitudes 2, 1
-    /// and 0.5 are taken to vary together. A clean line is certain, and of one that is lost in the noise no family is told.
+    /// as reported, of the line and of its family. For the family more is reported, (2 + 1 + 0.5)/√5.25 times, since lines of amplitudes
+    /// 2, 1 and 0.5 are taken to vary together. A line without noise has no error, and one below the noise no family.
     #[test]
     fn a_line_in_noise_is_as_uncertain_as_it_is_told() {
         let (scene, fs, count) = (scene(), 20e3, 10_000);

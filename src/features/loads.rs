@@ -1,4 +1,4 @@
-//! Extremes of the contact loads; those of a campaign are read by probes of their own that leave no columns behind.
+//! Extremes of the contact loads; in a campaign additional probes read them, which add no columns.
 
 use std::ops::Range;
 

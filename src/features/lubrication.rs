@@ -1,4 +1,4 @@
-//! Least films, mean friction torque and mean losses, of what probes of a row's oil have recorded.
+//! Least films, mean friction torque and mean losses, from the probes of a row's oil.
 
 use super::Feature;
 use super::batches::Batches;

@@ -1,4 +1,4 @@
-//! Features of signals: the few numbers a case of a campaign, a run or a measurement is known by.
+//! Features of signals: the few numbers that characterise a case of a campaign, a run or a measurement.
 //!
 //! | name | what | source |
 //! |---|---|---|
@@ -16,11 +16,11 @@
 //! | `largest_pressure` | largest Hertz pressure of any contact at the start or the end of the run \[Pa\] | |
 //!
 //! Beside every feature of a signal stands its standard error, `outer.ay.rms_se` (`batches.rs`), without a value where the
-//! record has fewer than 8 turns of the shaft and fewer than 8 passes, or its speed changes. Without a scene nothing tells how
-//! long a turn is, and there are none.
+//! record has fewer than 8 turns of the shaft and fewer than 8 passes, or its speed changes. Without a scene the duration of a
+//! turn is unknown, and there are none.
 //!
-//! A feature that a run cannot give (a line below the resolution of its record, a crest factor of silence) is
-//! there without a value, so that a table of cases has the same columns throughout.
+//! A feature that a run cannot give (a line below the resolution of its record, a crest factor of zeros) is
+//! present without a value, so that all cases of a table have the same columns.
 
 mod batches;
 mod lines;

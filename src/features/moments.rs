@@ -4,7 +4,7 @@ use super::batches::Batches;
 use super::{Feature, named};
 
 /// rms √⟨x²⟩, peak max |x|, crest factor peak/rms, and kurtosis ⟨(x − ⟨x⟩)⁴⟩ / ⟨(x − ⟨x⟩)²⟩², which is 3 for
-/// Gaussian noise and 1.5 for a sine; with standard errors where there are batches to tell them.
+/// Gaussian noise and 1.5 for a sine; with standard errors where there are batches.
 pub(super) fn of(name: &str, x: &[f64], batches: Option<&Batches>) -> Vec<Feature> {
     let count = x.len() as f64;
     let mean = sum(x, &|x| x) / count;
@@ -136,7 +136,7 @@ mod tests {
         assert!((of("x", &raised, None)[3].value.unwrap() - 1.5).abs() < 1e-9);
     }
 
-    /// Analytic: silence has no crest factor and no kurtosis.
+    /// Analytic: a signal of zeros has no crest factor and no kurtosis.
     #[test]
     fn silence_has_no_shape() {
         let found = of("x", &[0.0; 10], None);
@@ -145,7 +145,7 @@ mod tests {
     }
 
     /// Analytic: Gaussian samples, alone or each with 0.9 of the one before (AR(1)), give rms², the mean of squares, a variance of
-    /// 2σ⁴/n (1 + ρ²)/(1 − ρ²). Told over 300 records of 32 turns: the mean error and the share of records within two of
+    /// 2σ⁴/n (1 + ρ²)/(1 − ρ²). Over 300 records of 32 turns: the mean error and the share of records within two of
     /// them of the truth (0.95 of Gauss's law, 0.945 of Student's). The kurtosis of the first has √(24/n).
     #[test]
     fn noise_is_as_uncertain_as_it_is_told() {
@@ -193,7 +193,7 @@ mod tests {
         }
     }
 
-    /// What repeats turn by turn is certain; without batches nothing is told, and nothing stands beside silence.
+    /// What repeats turn by turn has no error; without batches there are no errors, nor for a signal of zeros.
     #[test]
     fn errors_of_what_repeats_and_of_nothing() {
         let sine: Vec<f64> = (0..1600)

@@ -1,4 +1,4 @@
-//! What is recorded, wherever it is kept: signals of a run, arrays of another program.
+//! A record: signals of a run, or arrays of another program.
 
 use crate::kinematics::RowKinematics;
 use crate::scene::Scene;
@@ -12,7 +12,7 @@ pub struct Recorded<'a> {
     pub fs: f64,
     /// Names and samples.
     pub columns: Vec<(&'a str, &'a [f64])>,
-    /// What the rows did; of those that it tells nothing of, lines are sought where balls would roll.
+    /// Measured kinematics of the rows; for the others, lines are searched where balls would roll.
     pub kinematics: &'a [RowKinematics],
     /// Largest Hertz pressure of any contact at the start or the end of the run \[Pa\].
     pub largest_pressure: f64,

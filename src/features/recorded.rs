@@ -1,4 +1,4 @@
-//! Features of what is recorded: of a run's columns, or of one signal.
+//! Features of a record: of a run's columns, or of one signal.
 
 use super::batches::Batches;
 use super::record::Recorded;
@@ -51,7 +51,7 @@ pub fn features_of(
     found
 }
 
-/// The features of one signal, whoever recorded it: its moments, and with a scene, which tells the rows of balls and the
+/// The features of one signal, simulated or measured: its moments, and with a scene, which has the rows of balls and the
 /// speed of the shaft, the lines at their fault frequencies, standard errors, and how many turns and passes the signal has.
 ///
 /// `fs` is the sampling rate \[Hz\]; features are called by the name of the column they are of, `outer.ay.rms`, and without a

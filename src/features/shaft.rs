@@ -1,4 +1,4 @@
-//! The shaft's course over a record: its frequency, or the angle over which a run-up is resampled.
+//! The motion of the shaft over a record: its frequency, or the angle over which a run-up is resampled.
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;

@@ -110,7 +110,7 @@ mod tests {
     }
 
     /// Analytic: the squared envelope of (1 + m cos Ωt) sin ωt is (1 + m cos Ωt)²; with lines of 2m at Ω and
-    /// m²/2 at 2Ω. A band without the carrier is silent.
+    /// m²/2 at 2Ω. A band without the carrier has none.
     #[test]
     fn the_envelope_drops_the_carrier() {
         let burst: Vec<f64> = sine(1.0, 200.0, 1000.0, 1000)

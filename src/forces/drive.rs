@@ -1,4 +1,4 @@
-//! What turns the inner ring: a torque, or a prescribed speed, whose motion needs no force to be known.
+//! The drive of the inner ring: a torque, or a prescribed speed, whose motion is known without a force.
 
 use super::{Force, Table, Use};
 use crate::model::{BodyId, Dof, Model};

@@ -1,4 +1,4 @@
-//! What acts on a ring that leans, beside forces on its centre of mass: moments, and supports of its tilts.
+//! Moments on a ring that tilts, and supports of its tilts.
 //!
 //! ```text
 //! Q_x = −k τ_x − c τ̇_x …        coupled: ξ = (c + F p − F₀ p, τ_x − τ_x₀, τ_y − τ_y₀, θ),  Q = −(K ξ + C ξ̇),  energy ½ ξ·K ξ
@@ -119,7 +119,7 @@ pub(crate) fn account(model: &Model, y: &[f64]) -> Account {
     account
 }
 
-/// Adds all that acts on rings that lean, beside contacts and supports of single directions: forces to those on all bodies,
+/// Adds all that acts on rings that tilt, beside contacts and supports of single directions: forces to those on all bodies,
 /// moments about the rings' centres of mass to theirs.
 pub(crate) fn add(
     model: &Model,

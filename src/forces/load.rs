@@ -1,6 +1,6 @@
 //! Loads: forces of fixed direction and a size that may change in time, at points of rings, and moments likewise.
 //!
-//! They do work on the bearing and store nothing.
+//! They do work on the bearing and store no energy.
 
 use nalgebra::Vector3;
 

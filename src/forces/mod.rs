@@ -1,4 +1,4 @@
-//! Forces that are not contacts, one file each: force, energy or power, rate for step control, and what becomes of it in a run.
+//! Forces that are not contacts, one file each: force, energy or power, rate for step control, and its part in a run.
 //!
 //! [`ALL`] lists them; contributions by origin, explanations and energies go through that list and these files.
 
@@ -20,7 +20,7 @@ use crate::model::Model;
 pub(crate) use rates::Rates;
 pub(crate) use state::{State, Table};
 
-/// A force as the lists know it.
+/// A force as an entry of the lists.
 pub(crate) struct Force {
     /// Its name in an explanation.
     pub name: &'static str,

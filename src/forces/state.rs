@@ -1,4 +1,4 @@
-//! All bodies side by side, direction by direction: what an evaluation reads and what it adds up.
+//! States and sums of forces of all bodies, one array for each direction.
 
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
@@ -123,7 +123,7 @@ impl Table {
 pub(crate) struct State {
     pub q: Table,
     pub v: Table,
-    /// Where the tilts of rings that lean and the turning of balls that spin freely stand; none where nothing does either.
+    /// Offsets of the tilts of rings and of the rotations of balls that spin freely; none without either.
     layout: Option<Layout>,
     /// Tilt of each ring \[rad\] and its rates \[rad/s\].
     tilts: [[[f64; 2]; 2]; 2],
@@ -216,7 +216,7 @@ impl State {
         self.across.as_ref()
     }
 
-    /// A ring that may lean.
+    /// A ring that may tilt.
     pub fn leaning(&self, model: &Model, race: Race) -> LeaningRing {
         model.leaning_as(race, &self.motion(race.ring()), self.tilts[race])
     }

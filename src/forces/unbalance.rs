@@ -8,7 +8,7 @@
 //! I ω̇ = T + u × g − u × (ẍ, ÿ)
 //! ```
 //!
-//! A driven speed tells ω̇. Else the first two in the third give it, over 1 − (u_x²/m_y + u_y²/m_x)/I, which is above 0
+//! With a driven speed ω̇ is known. Else the first two in the third give it, over 1 − (u_x²/m_y + u_y²/m_x)/I, which is above 0
 //! where the ring's inertia about its centre of mass is.
 
 use nalgebra::Vector3;
@@ -70,7 +70,7 @@ pub(crate) fn on(
     sum
 }
 
-/// What those of a ring do that leans, whose rotation is driven or held: the force of a ring that does not, turned with it, and its
+/// The same for a ring that tilts, whose rotation is driven or held: the force of a ring that does not, turned with it, and its
 /// moment about the centre of mass.
 pub(crate) fn on_leaning(
     model: &Model,

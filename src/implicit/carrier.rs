@@ -1,6 +1,6 @@
-//! How rings carry their contacts: what these see of a ring's velocities, and what their wrenches do to it.
+//! The rings' part in their contacts: velocities of a ring in its frame, and wrenches of the contacts on it.
 //!
-//! Contacts are held in the frames of their rings, with wrenches and twists about the frame's origin. Where rings stand parallel those
+//! Contacts are held in the frames of their rings, with wrenches and twists about the frame's origin. Where rings are parallel those
 //! are the scene's own, and nothing is turned.
 
 // Everything in lanes must be compiled for the instructions of its caller.
@@ -68,7 +68,7 @@ impl<const N: usize> Carrier<N> {
         })
     }
 
-    /// The same of a ring that may lean.
+    /// The same of a ring that may tilt.
     fn lean(&mut self, model: &Model, race: Race, view: &RingView, gamma_h: f64) {
         let (ring, frame) = (&view.ring, view.frame());
         let turns = |rates: [f64; 3]| {
@@ -115,7 +115,7 @@ pub(super) struct Turn<'a> {
 }
 
 impl<'a> Turn<'a> {
-    /// Of a ring that may lean.
+    /// Of a ring that may tilt.
     pub fn new(view: &'a RingView) -> Self {
         Self {
             frame: view.frame(),

@@ -1,4 +1,4 @@
-//! Velocities corrected by friction's matrix, once a step: what [`Adams`](crate::integrate::Adams) asks for.
+//! Velocities corrected by friction's matrix, once a step: what [`Adams`](crate::integrate::Adams) needs.
 
 use super::stage::{Stage, Velocity};
 use crate::contact::{AXIAL, FREE};
@@ -79,7 +79,7 @@ impl<'d, 'm> Damped<'d, 'm> {
     }
 }
 
-/// Whether contacts let velocities die down faster than steps up to a longest one bear by themselves.
+/// Whether velocities decay by contacts faster than explicit steps up to the longest one can follow.
 fn is_stiff(dynamics: &Dynamics<'_>, longest: f64) -> bool {
     let model = dynamics.model();
     let has_traction = |row: &RowModel| row.pairs.iter().any(|pair| pair.law.traction.is_some());

@@ -3,7 +3,7 @@
 //! Friction is the stiffest part of the model, and linearising it once a step is not enough: within a step
 //! slices go over from sticking to sliding. So the nodes of every contact are found once a stage
 //! (`stage.rs`), and their forces are iterated on velocities alone (`newton.rs`). The matrix is an arrow
-//! (`arrow.rs`) of a 4×4 block a ball and 8×8 for the rings, or 6×6 and 12×12 where rings lean or balls spin freely; cage links and
+//! (`arrow.rs`) of a 4×4 block a ball and 8×8 for the rings, or 6×6 and 12×12 where rings tilt or balls spin freely; cage links and
 //! coupled supports are in the residual, not in the matrix: their damping is slow and converges by itself. So are gyroscopic moments of
 //! the rings. A matrix serves as many stages and steps as corrections by it shrink fast, which at a steady roll are many.
 
@@ -270,7 +270,7 @@ mod tests {
         matrix_is_the_derivative::<AXIAL>(&[oiled_wheel()]);
     }
 
-    /// Those scenes with rings that lean and rock, with balls that spin freely, and with both.
+    /// Those scenes with rings that tilt and rock, with balls that spin freely, and with both.
     fn spatial() -> Vec<Scene> {
         let all = || scenes().into_iter().chain([oiled_wheel(), rolling()]);
         let mut found: Vec<Scene> = all().map(|scene| spinning(&scene)).collect();

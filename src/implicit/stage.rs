@@ -1,4 +1,4 @@
-//! What an implicit stage needs to know of the contacts: held at its places, and the matrix of their slopes.
+//! The contacts of an implicit stage, held at its positions, and the matrix of their slopes.
 
 use std::ops::Range;
 
@@ -168,7 +168,7 @@ impl<const N: usize> Stage<N> {
                 .all(|(kept, meetings)| *kept == meetings.map(meets))
     }
 
-    /// Adds the corrections to the velocities of all bodies, and tells the largest; `across` are those beside the directions that every
+    /// Adds the corrections to the velocities of all bodies, and returns the largest; `across` are those beside the directions that every
     /// body has.
     pub fn apply(&self, velocities: &mut [f64], across: &[Velocity]) -> Largest {
         let mut largest = Largest::default();

@@ -118,7 +118,7 @@ pub fn energy(model: &Model, y: &[f64]) -> Energy {
     energy
 }
 
-/// What the rotations of rings that lean have beside those about z \[J\].
+/// What the rotations of rings that tilt have beside those about z \[J\].
 fn leaning(model: &Model, y: &[f64]) -> f64 {
     let of = |race: Race| {
         let inertia = &model.rings[race].inertia;

@@ -1,4 +1,4 @@
-//! The films of a scene's oil, at the load and the speed that they are computed for.
+//! The films of a scene's oil, at their reference load and speed.
 
 use serde::Serialize;
 
@@ -79,7 +79,7 @@ fn film(model: &Model, (row, race): (usize, Race)) -> Option<RaceFilm> {
 }
 
 /// What is doubtful in contacts of a largest Hertz pressure \[Pa\] and in their films. A pressure that no steel bears is not
-/// told once more as one that formulas of films do not reach.
+/// reported once more as one outside the range of the formulas of films.
 pub(crate) fn doubts(largest_pressure: f64, films: &[RaceFilm]) -> Vec<Doubt> {
     let mut found: Vec<Doubt> = Doubt::pressure(largest_pressure).into_iter().collect();
     let is_crushed = !found.is_empty();

@@ -1,5 +1,5 @@
-//! Questions about a state: what its contacts carry, what energy it holds, what its oil does, what moments its
-//! rings carry, which elements are stiffest.
+//! Questions about a state: loads of its contacts, its energy, its films, the moments of its
+//! rings, its stiffest elements.
 
 mod contacts;
 mod energy;

@@ -1,4 +1,4 @@
-//! Moments on the rings about x and y: what holds a ring parallel has to carry them.
+//! Moments on the rings about x and y, which the constraint of a ring that is held parallel carries.
 
 use nalgebra::Vector3;
 
@@ -69,7 +69,7 @@ impl<'m> MomentOnRing<'m> {
         self.sum += on_ball.moment_on_ring(&self.ring.arm(&ball));
     }
 
-    /// Adds a ball, whose contact it tells in a few numbers.
+    /// Adds a ball, given the few numbers of its contact.
     pub fn add_and_tell(&mut self, y: &[f64], j: usize) -> ContactSummary {
         let mut both = Both::default();
         let side = visit(self.model, y, j, self.race, &mut both);

@@ -1,4 +1,4 @@
-//! What contacts lose, by cause.
+//! Losses of contacts, by cause.
 
 use crate::contact::{OilTouch, Touch};
 

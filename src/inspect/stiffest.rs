@@ -1,4 +1,4 @@
-//! The elements that hold an explicit step down: contacts, cages and supports with the highest rates.
+//! The elements that limit an explicit step: contacts, cages and supports with the highest rates.
 
 use crate::forces;
 use crate::inspect::contact;

@@ -258,7 +258,7 @@ fn whole(scene: &Scene, row: &Row, race: Race, (torus, hertz): (Torus, Hertz)) -
     }
 }
 
-/// Hertz's law knows one curvature and one contact: its races must be hollow all along, and wider than balls.
+/// Hertz's law has one curvature and one contact: its races must be hollow all along, and wider than balls.
 fn check_hollow(path: &str, pair: &Pair, race: Race) -> Result<()> {
     if pair.law.cut().is_flat() && !pair.shape.is_hollow() {
         return Err(Error::scene(

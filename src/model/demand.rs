@@ -1,4 +1,4 @@
-//! What a scene takes once it is compiled and settled, counted before anything of it is there.
+//! Memory that a scene needs once it is compiled and settled, computed before any of it is allocated.
 
 use crate::error::Result;
 use crate::memory;

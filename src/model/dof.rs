@@ -42,7 +42,7 @@ impl Dof {
     pub const TRANSLATIONS: [Self; 3] = [Self::X, Self::Y, Self::Z];
     /// Those in the plane of rotation.
     pub const SYMMETRIC: [Self; 2] = [Self::X, Self::Y];
-    /// Those by which rings lean.
+    /// Those by which rings tilt.
     pub const TILTS: [Self; 2] = [Self::TiltX, Self::TiltY];
     /// Those in which balls spin freely, beside that about the bearing's axis.
     pub const TURNS: [Self; 2] = [Self::TurnX, Self::TurnY];

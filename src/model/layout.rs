@@ -1,8 +1,8 @@
-//! Bodies, races and directions, and the one place that says where they stand in a state vector.
+//! Bodies, races and directions, and the one place that gives their offsets in a state vector.
 //!
 //! A state vector holds the places of all bodies, then their speeds in the same order. Tilts of rings, as far as they move,
-//! stand behind all bodies in each half, and behind them how balls that spin freely turn about x and y. Nobody else computes with the number of a body's directions or with the bodies before
-//! the balls: a direction more is a change of this file.
+//! stand behind all bodies in each half, and behind them the rotations of freely spinning balls about x and y. No other file computes with the number of a body's directions or with the bodies before
+//! the balls: another direction is a change of this file.
 
 use std::ops::{Index, IndexMut, Range};
 

@@ -1,4 +1,4 @@
-//! The scene compiled: indices, arrays and constants that a run only reads.
+//! The compiled scene: indices, arrays and constants that a run only reads.
 //!
 //! Bodies stand in one order everywhere: outer ring, inner ring, balls row by row. The state vector holds
 //! (x, y, z, θ) of every body, then (vx, vy, vz, ω) of every body; [`Layout`] says where, also of what tilts and spins freely.
@@ -55,7 +55,7 @@ pub struct Model {
     /// One over the mass of every body's free directions, 0 for the others.
     pub(crate) mobility: Vec<[f64; DOFS]>,
     pub(crate) rings: [RingModel; 2],
-    /// Whether a ring may lean.
+    /// Whether a ring is tilted or may tilt.
     leans: bool,
     layout: Layout,
     /// Moments that act on the rings.

@@ -1,4 +1,4 @@
-//! As many nodes as a contact needs for a requested accuracy of its force.
+//! The number of nodes that a contact needs for a requested accuracy of its force.
 
 use super::{Between, Model, Race, Scales};
 use crate::contact::{BallSide, Motion, Pair, Rules, Sink, Slices, Touch, V2, Waves};
@@ -122,12 +122,12 @@ fn rolling(
     let Scales { approach, .. } = model.scales;
     let race = &pair.race;
     let l = race.r - radius + share * approach;
-    // The outer contact leans to the row's side, the inner one away from it.
+    // The outer contact is inclined to the row's side, the inner one away from it.
     let nominal = pair.nominal_angle();
     let towards = if nominal == 0.0 {
         race.sigma * model.rows[row].side
     } else {
-        // A flank of a gothic arch knows itself.
+        // A flank of a gothic arch has its own angle.
         nominal.signum()
     };
     let (sin, cos) = (towards * angle).sin_cos();

@@ -44,7 +44,7 @@ pub(super) fn geometry(path: &str, row: &Row, race: Race) -> Result<RaceGeometry
     })
 }
 
-/// A groove of a radius whose contact leans by an angle at zero clearance, to a side of the outer contact.
+/// A groove of a radius whose contact is inclined by an angle at zero clearance, to a side of the outer contact.
 fn torus(row: &Row, race: Race, r: f64, (angle, side): (f64, f64)) -> Torus {
     let (radius, sigma) = (row.ball_diameter / 2.0, race.sigma());
     let (sin, cos) = angle.sin_cos();
@@ -71,7 +71,7 @@ fn preload(row: &Row, race: Race) -> f64 {
     }
 }
 
-/// How far the nominal normal out of a ball leans towards +z at a race \[rad\].
+/// Angle of the nominal normal out of a ball towards +z at a race \[rad\].
 fn lean(row: &Row, race: Race) -> f64 {
     race.sigma() * f64::from(row.side) * row.contact_angle
 }

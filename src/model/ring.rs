@@ -1,4 +1,4 @@
-//! What a ring that may tilt has beside the four directions of every body.
+//! What a ring that may tilt has in addition to the four directions of every body.
 
 use nalgebra::{Matrix6, Vector3};
 
@@ -69,7 +69,7 @@ pub fn layout_of(scene: &Scene) -> Layout {
 }
 
 impl Model {
-    /// Whether a ring may tilt, or leans from the start.
+    /// Whether a ring may tilt, or is tilted from the start.
     #[inline]
     pub(crate) fn leans(&self) -> bool {
         self.leans
@@ -121,7 +121,7 @@ impl Model {
         found
     }
 
-    /// By how much a ring that may tilt leans most in a state \[rad\].
+    /// Largest tilt in a state of the rings that may tilt \[rad\].
     pub(crate) fn largest_tilt(&self, y: &[f64]) -> f64 {
         let may = |race: &Race| {
             Dof::TILTS
@@ -137,7 +137,7 @@ impl Model {
             .fold(0.0, f64::max)
     }
 
-    /// A ring that may lean, in a state.
+    /// A ring that may tilt, in a state.
     pub(crate) fn leaning(&self, y: &[f64], race: Race) -> LeaningRing {
         let motion = self.layout.motion(y, race.ring());
         self.leaning_as(race, &motion, self.tilt(y, race))
@@ -155,7 +155,7 @@ impl Model {
         LeaningRing::new(motion, rotation, offset, self.balls_turn())
     }
 
-    /// A ball and a ring in a state as their contact sees them: in the scene's frame, or in that of a ring that leans.
+    /// A ball and a ring in a state as their contact sees them: in the scene's frame, or in that of a ring that tilts.
     pub(crate) fn facing(&self, y: &[f64], ball: usize, race: Race) -> [Motion; 2] {
         let at = self.layout.motion(y, BodyId::ball(ball));
         if self.is_spatial() {

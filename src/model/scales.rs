@@ -1,4 +1,4 @@
-//! The scene's own scales: a typical approach, the highest contact frequency, and what follows from them.
+//! Typical magnitudes of a scene: an approach, the highest contact frequency, and what follows from them.
 
 use nalgebra::Vector3;
 

@@ -17,13 +17,13 @@ use ballrace::{Block, Column, Interrupt, Result};
 /// Longest time between two looks at signals, and least time between two calls of a callback.
 const ATTENTION: Duration = Duration::from_millis(50);
 
-/// What work tells the share done to, and is stopped by.
+/// What work reports the share done to, and is stopped by.
 pub(super) type Progress<'a> = &'a mut dyn FnMut(f64) -> ControlFlow<()>;
 
 /// What work hands blocks of a record to.
 pub(super) type Sink<'a> = &'a mut (dyn FnMut(Block) -> ControlFlow<()> + Send);
 
-/// What the waiting thread is told.
+/// Messages to the waiting thread.
 enum Told {
     Share(f64),
     Block(Block),
@@ -112,7 +112,7 @@ fn wait(listen: &Receiver<Told>, callbacks: Callbacks<'_>) -> PyResult<()> {
     }
 }
 
-/// Lets Ctrl-C and the callback speak.
+/// Checks for Ctrl-C and calls the callback.
 fn attend(py: Python<'_>, progress: Option<&Py<PyAny>>, told: Option<f64>) -> PyResult<()> {
     py.check_signals()?;
     match (progress, told) {

@@ -95,7 +95,7 @@ fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<
     Ok(Some(Case { scene, run }))
 }
 
-/// Lets Ctrl-C speak, and hands the outcomes over.
+/// Checks for Ctrl-C, and hands the outcomes over.
 fn tell(
     py: Python<'_>,
     done: &Py<PyAny>,

@@ -1,7 +1,7 @@
-//! The module `ballrace._core`: thin, and the only place that says `pyo3`.
+//! The module `ballrace._core`: thin, and the only code that uses `pyo3`.
 //!
-//! A scene crosses as JSON, an array as a numpy array that takes over the vector's memory, an error as
-//! an exception of `ballrace.errors`. Everything with a docstring for people lives in `python/ballrace`.
+//! A scene is passed as JSON, an array as a numpy array that takes over the vector's memory, an error as
+//! an exception of `ballrace.errors`. Everything that users call is in `python/ballrace`.
 
 mod answer;
 mod campaign;

@@ -1,4 +1,4 @@
-//! Oils as JSON text: those with names, and what a lubricant is at its temperature.
+//! Oils as JSON text: the named ones, and the properties of a lubricant at its temperature.
 
 use pyo3::prelude::*;
 use serde_json::json;

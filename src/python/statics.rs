@@ -1,4 +1,4 @@
-//! Equilibria, and what follows from them; each crosses as a dict of the arrays of its class in `ballrace.statics`.
+//! Equilibria, and what follows from them; each is passed as a dict of the arrays of its class in `ballrace.statics`.
 
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
@@ -15,7 +15,7 @@ use ballrace::{
 /// A column of a table of balls: its name, and its value of a ball.
 type Column = (&'static str, fn(&BallEquilibrium) -> f64);
 
-/// What is told of the balls at every position of the cage.
+/// Results for the balls at every position of the cage.
 const TURNING: [Column; 5] = [
     ("angle", |ball| ball.angle),
     ("outer_load", |ball| ball.outer.load),
@@ -23,7 +23,7 @@ const TURNING: [Column; 5] = [
     ("inner_load", |ball| ball.inner.load),
     ("inner_angle", |ball| ball.inner.angle.unwrap_or(f64::NAN)),
 ];
-/// What is told besides at one.
+/// Further results at one position.
 const STANDING: [Column; 8] = [
     ("radius", |ball| ball.radius),
     ("z", |ball| ball.z),
@@ -39,7 +39,7 @@ const STANDING: [Column; 8] = [
     ("inner_pressure", |ball| ball.inner.pressure),
 ];
 
-/// What is told of a ring about x and y: its name, and both values.
+/// Results of a ring about x and y: name, and both values.
 type OfRing = (&'static str, fn(&Equilibrium) -> [f64; 2]);
 
 /// Tilts and moments.

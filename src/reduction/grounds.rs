@@ -1,4 +1,4 @@
-//! Which directions are left out, for which reason, and how they move all the same.
+//! Which directions are left out, why, and how they move nevertheless.
 
 use super::AxialPlaces;
 use super::course::{Course, Prescribed};
@@ -132,7 +132,7 @@ impl Grounds {
 pub(super) fn is_felt(model: &Model, motion: &Prescribed, reason: Reason) -> bool {
     match reason {
         Reason::NoMoment | Reason::Idle => false,
-        // A smooth, round and balanced ring may turn as it likes.
+        // The angle of a smooth, round and balanced ring has no effect.
         Reason::Driven => {
             let told = |pair: &Pair| {
                 pair.law.turns_balls() || !pair.faults.is_empty() || !pair.waves.is_round()
@@ -140,7 +140,7 @@ pub(super) fn is_felt(model: &Model, motion: &Prescribed, reason: Reason) -> boo
             let inner = model.rows.iter().any(|row| told(&row.pairs[Race::Inner]));
             inner || !model.unbalances.is_empty()
         }
-        // Only a defect tells how far a ball has turned.
+        // Only a defect makes the angle of a ball matter.
         Reason::Rolling => {
             let ball = motion.body.as_ball().map(|j| &model.balls[j].side);
             ball.is_some_and(|side| !side.faults.is_empty())

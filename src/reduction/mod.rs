@@ -1,8 +1,8 @@
-//! No more model than the scene needs: which degrees of freedom a run integrates, and why not the others.
+//! Which degrees of freedom a run integrates, and why not the others.
 //!
-//! Exact is what goes unasked: directions that cannot accelerate (held, driven, or without any moment), and those that
-//! a mirror symmetry of scene *and* start keeps at rest or makes a copy of others. Approximations go by request
-//! ([`crate::scene::Approximations`]).
+//! Left out by default is only what does not change the motion: directions that cannot accelerate (held, driven, or without any
+//! moment), and those that a mirror symmetry of scene *and* start keeps at rest or makes a copy of others. Approximations are made
+//! on request ([`crate::scene::Approximations`]).
 
 mod course;
 mod grounds;

@@ -1,4 +1,4 @@
-//! Approximations by request: what they need of scene and start.
+//! Approximations by request: what scene and start must fulfil.
 
 use super::AxialPlaces;
 use crate::inspect;

@@ -1,4 +1,4 @@
-//! Turning about x and y, where it never happens.
+//! Rotations about x and y, where they do not occur.
 
 use super::course::Course;
 use super::{Obstacle, Omission, Prescribed, Reduction, symmetry};
@@ -7,13 +7,13 @@ use crate::model::{Dof, Model};
 impl Reduction {
     /// Of rings that may tilt and balls that may spin freely, and do not, since the motion is its own mirror image: that is then left
     /// out with all that moves along z, rings are those that stay parallel and balls spin about the axis. Else all states are
-    /// integrated, and what stands against that is told.
+    /// integrated, and the obstacles are reported.
     ///
     /// # Errors
     /// What stands against it.
     pub(crate) fn in_space(model: &Model, start: &[f64]) -> Result<Self, Vec<Obstacle>> {
         let mut found = Self::leaving_out(model, start, true);
-        // Balls of two rows that are images of each other spin as each likes.
+        // Balls of two rows that are images of each other may spin differently.
         let is_flat = found.plane || found.mirrored && !model.balls_turn();
         let against = against(model, start, found.mirrored);
         if !is_flat || !against.is_empty() {

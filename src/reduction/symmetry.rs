@@ -1,6 +1,6 @@
 //! Mirror symmetries of a scene: of every row about its own plane, and of two rows about the plane between them.
 //!
-//! They are looked for in the compiled model, so that whatever breaks one is seen wherever it was said.
+//! They are searched in the compiled model, so that anything that breaks one is found, whichever field it comes from.
 
 use nalgebra::Vector3;
 

@@ -1,7 +1,7 @@
-//! One knob: tolerance and nodes for a requested accuracy of the accelerations, chosen by pilot runs.
+//! Tolerance and nodes for a requested accuracy of the accelerations, chosen by pilot runs.
 //!
-//! What a scene needs cannot be told from its numbers: a quiet signal under heavy loads wants many nodes, a light bearing
-//! whose balls rattle a tight tolerance and few. So the first milliseconds are run with one
+//! What a scene needs cannot be seen from its numbers: a small signal under heavy loads needs many nodes, a light bearing
+//! whose balls rattle a tight tolerance and few nodes. So the first milliseconds are run with one
 //! setting and with the next finer one, until the two agree to a third of the request: first for the tolerance, then
 //! for the nodes. The difference of neighbours is the error of the coarser, for the finer is several times better.
 
@@ -32,7 +32,7 @@ const NODES: [usize; 7] = [6, 8, 12, 18, 26, 38, 64];
 /// and the evaluations that it took.
 pub(crate) type Pilot<'a> = dyn FnMut(&Scene, &Start) -> Result<(Vec<f64>, usize)> + 'a;
 
-/// Puts tolerance, nodes and step cap into a scene that starts as told.
+/// Puts tolerance, nodes and step cap into a scene, for a given start.
 pub(crate) fn choose(
     requested: f64,
     scene: &mut Scene,

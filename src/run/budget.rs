@@ -1,4 +1,4 @@
-//! What a run may cost at most: wall time, and steps.
+//! Limits of a run's cost: wall time, and steps.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::integrate::Statistics;
 use crate::interrupt;
 
-/// Works under a limit of wall time \[s\], looked at as often as `progress` is told, so about every 20 ms, and by static
+/// Works under a limit of wall time \[s\], checked as often as `progress` is called, so about every 20 ms, and by static
 /// solves at every iteration.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! Why a run ended before its time, in the words of its error.
+//! Errors of runs that ended early.
 
 use super::escape;
 use super::step_limit;

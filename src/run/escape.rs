@@ -1,11 +1,11 @@
-//! How a ball left its groove, in words.
+//! Text of the error of a ball that left its groove.
 
 use super::orbit;
 use crate::contact::{Section, Torus};
 use crate::model::{Model, Race};
 use crate::told::length;
 
-/// Which race a ball has left in a state of all bodies, which way and how far, and what may be to blame; `finer` says how the
+/// Which race a ball has left in a state of all bodies, which way and how far, and the possible cause; `finer` says how the
 /// run is made more accurate.
 pub(crate) fn reason(model: &Model, y: &[f64], j: usize, finer: &str) -> String {
     let ball = &model.balls[j];

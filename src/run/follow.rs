@@ -1,4 +1,4 @@
-//! Follows a motion over a stretch of time, step by step, and sees when it leaves reality.
+//! Follows a motion over a stretch of time, step by step, and detects when it is no longer physical.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -18,7 +18,7 @@ use crate::model::{BodyId, DOFS, Model};
 use crate::scene::{Drive, Method};
 use crate::signals::{Recorder, Statistics};
 
-/// How often progress is told, and after how many steps the clock is asked: of a small model's step that would take a
+/// How often progress is reported, and after how many steps the clock is read: of a small model's step that would take a
 /// fiftieth. One of a large model is long enough to ask after each.
 const TELL_EVERY: Duration = Duration::from_millis(20);
 const ASK_EVERY: usize = 8;
@@ -162,7 +162,7 @@ pub(crate) fn follow(
     Ok((full, statistics, choice))
 }
 
-/// What integration and the states of all bodies at the start and at the end tell of a stretch.
+/// Results of a stretch from the integration and from the states of all bodies at its start and end.
 fn statistics(
     model: &Model,
     stats: &integrate::Statistics,

@@ -1,11 +1,10 @@
-//! A run: scene → model → start → settle → integrate → signals. `simulate` has the lines to read first.
+//! A run: scene → model → start → settle → integrate → signals. Begin reading at `simulate`.
 //!
-//! * `options` ([`Run`]) — what a run is asked for; `accuracy` finds nodes, tolerance and step cap for a requested one.
+//! * `options` ([`Run`]) — the options; `accuracy` finds nodes, tolerance and step cap for a requested accuracy.
 //! * `method` — the method, and the switch between two of them; `step_limit` — the largest step of each.
-//! * `prepare` — what comes before: the scene as the run has it, memory, start; `provenance` — what is told of it after.
-//! * `settle` — what is left of the start dies down before t = 0; `follow` — steps over a stretch of time.
-//! * `budget`, `step_collapse`, `runaway`, `escape`, `orbit`, `ending` — when it stops, who held it up, and what its error
-//!   says.
+//! * `prepare` — what comes before: the scene as the run has it, memory, start; `provenance` — what is recorded about it.
+//! * `settle` — the decay of the start's transient before t = 0; `follow` — steps over a stretch of time.
+//! * `budget`, `step_collapse`, `runaway`, `escape`, `orbit`, `ending` — when it stops, and its errors.
 
 mod accuracy;
 mod budget;

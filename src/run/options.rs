@@ -1,4 +1,4 @@
-//! What a run is asked for: one document, which Rust, Python and the command line share.
+//! The options of a run: one document, which Rust, Python and the command line share.
 
 use std::ops::RangeInclusive;
 
@@ -41,7 +41,7 @@ pub struct Run {
     /// Whether signals are filtered before they are sampled.
     #[serde(with = "bandwidths")]
     pub bandwidth: Bandwidth,
-    /// Time before t = 0 in which what is left of the start dies down \[s\]; absent: as long as the scene needs from
+    /// Time before t = 0 in which the transient of the start decays \[s\]; absent: as long as the scene needs from
     /// equilibrium, 0 from any other start. Loads and drive are then as at t = 0, and rings and cage are wound back, so
     /// that at t = 0 they stand where the scene says but for what the balls have slipped. From a given state nothing is
     /// wound back: that state is the one before.

@@ -1,12 +1,12 @@
-//! Whether anything drives the balls along their orbit, and what becomes of it where nothing does.
+//! Whether anything drives the balls along their orbit, and what happens to the orbit where nothing does.
 //!
-//! Friction does. A cage only keeps the balls apart, and contacts without friction take no part in the orbit but by their
-//! damping, which slows a ball a little whenever it enters or leaves the load zone: of a 6205 under 500 N about a hundredth a
+//! Friction drives them. A cage only keeps the balls apart, and contacts without friction affect the orbit only by their
+//! damping, which slows a ball a little whenever it enters or leaves the load zone: in a 6205 under 500 N by about a hundredth a
 //! second.
 
 use crate::model::{BodyId, Model, RowModel};
 
-/// What is told of a scene whose balls nothing drives; nothing where friction does, or where the orbit is given.
+/// The report on a scene whose balls nothing drives; nothing where friction does, or where the orbit is given.
 pub(crate) fn note(model: &Model) -> Option<&'static str> {
     let scene = model.scene();
     let is_driven = loose_balls(model).next().is_none();

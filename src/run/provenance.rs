@@ -1,4 +1,4 @@
-//! What a run says of how its signals came about.
+//! What a run records about the origin of its signals.
 
 use super::Run;
 use super::method::Choice;
@@ -29,7 +29,7 @@ pub(super) struct Done<'a> {
     pub kinematics: Vec<RowKinematics>,
 }
 
-/// What is to be told of it.
+/// What is to be recorded of it.
 pub(super) fn provenance(run: &Run, done: Done<'_>) -> Provenance {
     let (model, solver) = (done.model, &done.prepared.scene.solver);
     let start = match run.start {

@@ -1,6 +1,6 @@
-//! When a run has left reality: a body far outside the bearing, or faster than any solid body can be.
+//! Detects a motion that is no longer physical: a body far outside the bearing, or faster than any solid body can be.
 //!
-//! A step that is too long for the contacts lets a motion grow without bound, and numbers stay finite for a long while.
+//! With a step that is too long for the contacts a motion grows without bound, while its numbers stay finite for a long time.
 
 use crate::dynamics::Dynamics;
 use crate::model::{BodyId, BodyKind, Dof};

@@ -1,10 +1,10 @@
-//! What is left of a start dies down before t = 0 (model section 8).
+//! The decay of a start's transient before t = 0 (model section 8).
 //!
-//! An equilibrium knows no friction, and not how gravity takes up the play of a cage: measured on a healthy 6205 under
-//! 500 N the outer ring shakes ten times as much over the first three ball passes as later, and is steady to 10 % from
+//! An equilibrium does not include friction, nor how gravity takes up the play of a cage: in a healthy 6205 under
+//! 500 N the outer ring vibrates ten times as much over the first three ball passes as later, and is steady to 10 % from
 //! the seventh on, three quarters of a turn of the cage.
-//! So a run begins a little earlier, with loads and drive as they are at t = 0, and with rings and cage wound back: at
-//! t = 0 balls and defects stand where the scene says, but for what the balls have slipped.
+//! So a run begins a little earlier, with loads and drive as they are at t = 0, and with rings and cage turned back: at
+//! t = 0 balls and defects are where the scene says, except for the slip of the balls.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -27,11 +27,11 @@ use crate::start::{Start, face, start};
 /// Decay times of the slowest ring to wait for. Measured on a 6205 under thrust: what the start leaves is 3000 times
 /// the later signal, e⁸, and contacts and the other ring damp too.
 const DECAYS: f64 = 7.0;
-/// The longest time that is chosen \[s\]: what has not settled by then hardly does.
+/// The longest time that is chosen \[s\]: what has not settled by then rarely does.
 const LONGEST: f64 = 0.1;
 /// Turn of the cage in which its play is taken up \[rad\].
 const TAKE_UP: f64 = 0.75 * TAU;
-/// Ball passes to wait for at least: in a wheel bearing under 3 kN of thrust the first is twice as loud as the third.
+/// Ball passes to wait for at least: in a wheel bearing under 3 kN of thrust the vibration in the first is twice that in the third.
 const PASSES: f64 = 2.0;
 
 /// From where a run goes on at t = 0, and what it took to get there.
@@ -43,7 +43,7 @@ pub(crate) struct Settled {
     pub nfev: usize,
 }
 
-/// Lets a scene settle from the start of a run, for as long as asked or needed. `progress` is told the share of
+/// Lets a scene settle from the start of a run, for as long as asked or needed. `progress` receives the share of
 /// settling and run together.
 pub(crate) fn settle(
     scene: &Scene,
@@ -91,7 +91,7 @@ pub(crate) fn settle(
     })
 }
 
-/// Nobody looks while the start settles.
+/// Without an observer while the start settles.
 struct Unseen;
 
 impl Watch for Unseen {

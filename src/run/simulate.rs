@@ -1,4 +1,4 @@
-//! A run: scene → model → start → settle → integrate → signals. The lines to read first.
+//! A run: scene → model → start → settle → integrate → signals.
 
 use std::ops::ControlFlow;
 
@@ -41,7 +41,7 @@ pub fn simulate(scene: &Scene, run: &Run) -> Result<Signals> {
     simulate_with_progress(scene, run, &mut |_| ControlFlow::Continue(()))
 }
 
-/// Simulates a scene as [`simulate`] does. `progress` is told the share done, 0 to 1, about every 20 ms, and may stop the
+/// Simulates a scene as [`simulate`] does. `progress` receives the share done, 0 to 1, about every 20 ms, and may stop the
 /// run.
 ///
 /// # Errors
@@ -77,7 +77,7 @@ pub fn simulate_with_progress(
 /// assert!(peak > 0.0 && told.stats.accepted > 0);
 /// ```
 ///
-/// The signals that it returns tell everything else: statistics, provenance, forces of slices, names and units of the
+/// The signals that it returns have everything else: statistics, provenance, forces of slices, names and units of the
 /// columns, which are empty.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! When the step collapses.
+//! Detects a collapse of the step size.
 
 use crate::model::Model;
 

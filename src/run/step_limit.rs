@@ -1,10 +1,10 @@
-//! The largest step that each method bears in a scene: for its stability, and for its accuracy.
+//! The largest step of each method in a scene, by its stability and its accuracy.
 //!
 //! *Oscillation.* The contacts' highest frequency ω bounds ωh. A method of low order turns or shrinks an oscillation by
 //! c (ωh)^p a radian too much, which adds up as long as the contacts ring: for the few milliseconds over which anything
-//! can be foretold, or until damping has ended it. So undamped scenes want smaller steps.
+//! can be predicted, or until damping has ended it. So undamped scenes need smaller steps.
 //!
-//! *Decay.* Friction and damping let motions die away at a rate λ. An error estimate keeps adaptive methods within what
+//! *Decay.* Friction and damping make motions decay at a rate λ. An error estimate keeps adaptive methods within what
 //! they bear of λh; fixed steps have none, and are kept there by λ under the scene's own loads ([`Rates::fastest`]).
 
 use crate::forces::Rates;
@@ -26,9 +26,9 @@ struct Bounds {
 /// Error of the fastest oscillation when it has rung out \[rad\]; those that matter are slower by a half and more.
 /// With 0.13 Verlet is off by up to 5.8 % in three of 133 scenes of `tests/accuracy/method_defaults.rs`.
 const LAG: f64 = 0.09;
-/// Longest ringing that is looked at \[s\]: beyond it a trajectory cannot be foretold.
+/// Longest vibration that is considered \[s\]: beyond it a trajectory cannot be predicted.
 const HORIZON: f64 = 3e-3;
-/// How much longer than the heaviest loaded ball the lightest one rings that is still heard.
+/// How much longer the vibration of the least loaded relevant ball lasts than that of the most loaded one.
 const LIGHTEST: f64 = 60.0;
 
 /// Measured over 3 ms against Dormand–Prince at rtol 1e-10 with a tenth of its step, on the presets and random scenes
@@ -70,7 +70,7 @@ fn bounds(method: Method) -> Bounds {
             decay: 2.0,
             ..pair
         },
-        // Frequency ω(1 + z²/24); stable to 2, but with velocities foretold to 1 only where they decay.
+        // Frequency ω(1 + z²/24); stable to 2, but with predicted velocities to 1 only where they decay.
         Method::VelocityVerlet => Bounds {
             oscillation: 0.25,
             lag: (1.0 / 24.0, 2.0),

@@ -1,4 +1,4 @@
-//! Integrals of values that change in time, with a table summed once.
+//! Integrals over time of values that change; those of a table are summed once.
 
 use super::time::{Profile, TimeFunction, reached};
 

@@ -1,4 +1,4 @@
-//! What a user gives up for speed.
+//! Simplifications that change the result.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +22,7 @@ pub struct Approximations {
     pub plane: bool,
     /// Of two rows the one that carries next to nothing at the start is left out, for thrust that unloads it.
     pub one_row: bool,
-    /// Rings keep the tilts of equilibrium under the loads at the start: they lean, and do not rock. For loads that do not change.
+    /// Rings keep the tilts of equilibrium under the loads at the start. For loads that do not change.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub tilt: bool,
 }

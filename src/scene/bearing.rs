@@ -77,7 +77,7 @@ pub struct Row {
     /// Moment of inertia of a ball about z \[kg m²\]; absent: 2/5 m R².
     #[serde(default)]
     pub ball_inertia: Option<f64>,
-    /// How every ball of the row hangs on the inertial frame; by default free.
+    /// How every ball of the row is supported; by default free.
     #[serde(default)]
     pub ball_support: Support,
     /// Material of the row's balls; absent: that of the scene, `materials.balls`.
@@ -227,10 +227,10 @@ pub struct Ring {
     /// Axial width \[m\].
     #[serde(default)]
     pub width: Option<f64>,
-    /// How the ring hangs on the inertial frame.
+    /// How the ring is supported.
     #[serde(default)]
     pub support: Support,
-    /// Nominal tilt (τ_x, τ_y) \[rad\], at most 0.5: how far the ring leans where its tilts are held or their springs relaxed, as a
+    /// Nominal tilt (τ_x, τ_y) \[rad\], at most 0.5: how far the ring tilts where its tilts are held or their springs relaxed, as a
     /// right-handed rotation about x and y; absent: not at all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tilt: Option<[f64; 2]>,
@@ -238,12 +238,12 @@ pub struct Ring {
     /// hollow cylinder as long as `width`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub transverse_inertia: Option<f64>,
-    /// Axial place of the centre of mass in the ring's frame \[m\], of which x, y and z of the ring tell the displacement; absent: 0.
+    /// Axial place of the centre of mass in the ring's frame \[m\], whose displacement are x, y and z of the ring; absent: 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub centre_of_mass: Option<f64>,
 }
 
-/// How a body hangs on the inertial frame, a direction each. An absent direction is fixed for the
+/// How a body is supported on the inertial frame, a direction each. An absent direction is fixed for the
 /// outer ring, free for the inner ring and the balls; an absent tilt is fixed.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

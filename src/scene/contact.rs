@@ -34,7 +34,7 @@ impl Default for Contact {
 #[non_exhaustive]
 pub enum NormalLaw {
     /// The paper's law, after the roller slices of ISO/TS 16281: F = Σ c_s s^{10/9}. With the paper's constants it gives
-    /// way about three times as far as Hertz; [`crate::explain()`] tells how far at a scene's own load.
+    /// way about three times as far as Hertz; [`crate::explain()`] gives the ratio at a scene's own load.
     Iso16281 {
         /// Constant of the law for lengths in metres \[N m^{−2}\]; 35948 N/mm² = 3.5948·10¹⁰.
         #[serde(default = "iso_constant")]

@@ -1,4 +1,4 @@
-//! Defaults that serde wants as functions.
+//! Defaults as functions, as serde needs them.
 
 pub(super) fn schema() -> u32 {
     super::SCHEMA

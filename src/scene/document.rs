@@ -1,8 +1,8 @@
-//! Reads what a user says from a document, and knows where in it something is wrong.
+//! Reads a document, and finds the path of what is wrong in it.
 //!
-//! A document says every field by its name. Serde's derived readers also take a list for a struct, its items in the order of the fields,
-//! as formats without names need it; of a document that would be misread without a word, so that a list stands for no struct here.
-//! There is one reader for all formats: each is first made a JSON value, and every type of a scene is compiled for this reader alone.
+//! A document names every field. Serde's derived readers also accept a list for a struct, its items in the order of the fields, for
+//! formats without names; such a list could be misread unnoticed and is refused here. There is one reader for all formats: each is first
+//! made a JSON value, and every type of a scene is compiled for this reader only.
 
 use std::fmt;
 
@@ -138,7 +138,7 @@ impl<'de> Deserializer<'de> for Reader<'de> {
         };
         let mut left = Items(items.iter().enumerate());
         let read = visitor.visit_seq(&mut left)?;
-        // Of too few items the visitor tells, after it has read them.
+        // Too few items are reported by the visitor, after it has read them.
         if left.0.len() == 0 {
             return Ok(read);
         }

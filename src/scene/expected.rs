@@ -1,4 +1,4 @@
-//! What a document's reader may write, in words that its writer knows: serde speaks of Rust's types.
+//! What is allowed at a place of a document, in words of the document; serde's messages name Rust types.
 
 /// The least likeness, by Jaro and Winkler, of a name that may be meant to the one that is written.
 const LIKE: f64 = 0.8;
@@ -17,7 +17,7 @@ pub(super) fn allowed(message: &str) -> String {
     }
 }
 
-/// Says of a field that nobody knows which one may be meant, and which there are.
+/// For an unknown field: which one may be meant, and which there are.
 pub(super) fn no_such_field(name: &str, known: &[&str]) -> String {
     let likeness = |other: &&&str| strsim::jaro_winkler(name, other);
     let perhaps = (known.iter())

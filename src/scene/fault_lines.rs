@@ -1,4 +1,4 @@
-//! Kinematic frequencies at which defects are heard.
+//! Kinematic frequencies of defects.
 
 use std::f64::consts::TAU;
 

@@ -16,7 +16,7 @@ pub struct Load {
     pub direction: [f64; 3],
     /// Force along the direction \[N\].
     pub force: TimeFunction,
-    /// The point in the ring's frame, which leans but does not turn with the ring \[m\]; absent: the ring's origin.
+    /// The point in the ring's frame, which tilts but does not turn with the ring \[m\]; absent: the ring's origin.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<[f64; 3]>,
 }
@@ -70,7 +70,7 @@ impl Moment {
 /// A mass off the axis of a ring that turns with it: in-plane force m e (ω² r̂ − ω̇ t̂).
 ///
 /// It is part of the ring's mass and of its inertia about its own centre, which x and y are of: the centre of mass stands
-/// m e / (mass of the ring) off. A ring whose rotation is free feels the reaction, about z −m e r̂ × (ẍ, ÿ), and its weight.
+/// m e / (mass of the ring) off. On a ring whose rotation is free acts the reaction, about z −m e r̂ × (ẍ, ÿ), and its weight.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
@@ -117,7 +117,7 @@ pub enum Drive {
 }
 
 impl Drive {
-    /// Largest speed of the inner ring that the drive tells of \[rad/s\].
+    /// Largest speed of the inner ring that is known from the drive \[rad/s\].
     pub(crate) fn peak_speed(&self) -> f64 {
         match self {
             Self::Speed(speed) => speed.peak(),

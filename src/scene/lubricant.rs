@@ -1,4 +1,4 @@
-//! The oil between balls and races: its data sheet, and what is asked of its film.
+//! The oil between balls and races: its data sheet, and which effects of its film are computed.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

@@ -1,8 +1,8 @@
-//! What a user says: the scene, a plain document in SI units.
+//! The user's input: the scene, a plain document in SI units.
 //!
-//! TOML is for people, JSON crosses the border to Python; both are the same serde document. Unknown
-//! fields are refused. Nothing is computed here: [`Scene::validate`] refuses what cannot be, [`Scene::doubts`] tells what
-//! hardly is meant, and [`crate::Model`] compiles the rest.
+//! TOML is for users, JSON for the bindings of Python; both are the same serde document. Unknown
+//! fields are refused. Nothing is computed here: [`Scene::validate`] refuses what is impossible, [`Scene::doubts`] reports what
+//! is improbable, and [`crate::compile()`] makes a [`crate::Model`] of the rest.
 //!
 //! ```
 //! use ballrace::Scene;

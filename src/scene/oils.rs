@@ -1,4 +1,4 @@
-//! Oils that have names, what a base oil stands for, and an oil's data sheet.
+//! Named oils, properties of base oils, and an oil's data sheet.
 
 use std::fmt;
 

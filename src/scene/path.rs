@@ -14,7 +14,7 @@ pub(super) enum Segment {
     Item(usize),
 }
 
-/// Parts of a scene whose entries have names that people choose.
+/// Parts of a scene whose entries have names chosen by the user.
 const NAMED: [&str; 5] = ["loads", "moments", "unbalances", "defects", "probes"];
 
 /// Replaces the value at `path`. The place must exist (`null` counts as existing), or be a new name among loads,
@@ -111,7 +111,7 @@ fn all_of<'v>(document: &'v mut Value, keys: &[&str]) -> Vec<&'v mut Map<String,
     maps.collect()
 }
 
-/// A place of a document, as people write it; empty: the whole document.
+/// A path in a document, as a user writes it; empty: the whole document.
 pub(super) fn place<'a>(steps: impl Iterator<Item = &'a Segment>) -> String {
     steps.fold(String::new(), |place, step| match step {
         Segment::Item(index) => format!("{place}[{index}]"),

@@ -1,7 +1,7 @@
 //! What a run records. A probe's columns are named after it: probe `outer` of a motion gives `outer.ay`.
 //!
 //! Motion, cage forces and friction torques are signals, filtered before they are sampled unless a run's bandwidth is
-//! [`Raw`](crate::Bandwidth::Raw). Contacts, energies, films, moments, forces by origin and slices tell a state: always points.
+//! [`Raw`](crate::Bandwidth::Raw). Contacts, energies, films, moments, forces by origin and slices are values of a state: always points.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +16,7 @@ pub enum Probe {
     Motion {
         /// `outer`, `inner` or a ball such as `row0.ball3`.
         body: String,
-        /// Which of them; absent: all twelve, of a ring that may lean also those of its tilts, of a ball
+        /// Which of them; absent: all twelve, of a ring that may tilt also those of its tilts, of a ball
         /// that spins freely also those about x and y.
         #[serde(default)]
         components: Option<Vec<Component>>,
@@ -151,7 +151,7 @@ impl Component {
         Self::Alpha,
     ];
 
-    /// Of a ring that may lean, beside those of every body.
+    /// Of a ring that may tilt, beside those of every body.
     pub const OF_TILTS: [Self; 6] = [
         Self::TiltX,
         Self::TiltY,

@@ -6,14 +6,14 @@ use super::Scene;
 
 /// How the balls of all rows spin.
 ///
-/// Where a contact leans by an angle α, a ball that rolls about the bearing's axis pivots in both contacts, by about Ω sin α in
+/// At a contact angle α, a ball that rolls about the bearing's axis pivots in both contacts, by about Ω sin α in
 /// sum: friction torque under thrust comes out 4 to 10 times too high, and a ball's defect meets the same places for ever. A ball
 /// that spins freely finds its axis by friction. At α = 0 both are the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Spin {
-    /// About the bearing's axis, or at contacts with a ring that leans about that ring's: one state a ball.
+    /// About the bearing's axis, or at contacts with a ring that tilts about that ring's: one state a ball.
     #[default]
     Axial,
     /// About any axis: the angular velocity of a ball is a vector, three states a ball.

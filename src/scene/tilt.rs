@@ -1,4 +1,4 @@
-//! Rings that tilt: which may, and what is asked of scenes that have one.
+//! Rings that tilt: which may, and what scenes with one need.
 
 use super::bearing::{Mount, Ring, Support};
 use super::{Approximations, Component, Scene, TimeFunction};
@@ -17,7 +17,7 @@ impl Support {
 }
 
 impl Ring {
-    /// Whether it may lean: it does from the start, may tilt, or its support couples tilts with other directions.
+    /// Whether it has tilts: one from the start, a free or sprung one, or one that its support couples with other directions.
     pub(crate) fn leans(&self) -> bool {
         let support = &self.support;
         self.tilt.is_some_and(|tilt| tilt != [0.0; 2])
@@ -27,7 +27,7 @@ impl Ring {
 }
 
 impl Scene {
-    /// The components of a body's motion, where nobody says which: of a ring that may lean also those of its tilts, of a ball that
+    /// The components of a body's motion, unless they are given: of a ring that may tilt also those of its tilts, of a ball that
     /// spins freely also those about x and y.
     pub(crate) fn components_of(&self, body: &str) -> Vec<Component> {
         let beside: &[Component] = match body {
@@ -40,7 +40,7 @@ impl Scene {
         [&Component::ALL, beside].concat()
     }
 
-    /// Whether a ring may lean. Where none does, rings have four directions and nobody hears of tilts.
+    /// Whether a ring may tilt. Where none does, rings have four directions and tilts do not occur.
     pub(crate) fn leans(&self) -> bool {
         self.outer_ring.leans() || self.inner_ring.leans()
     }
@@ -79,7 +79,7 @@ impl Scene {
         Ok(())
     }
 
-    /// What reductions by request do not know yet is refused.
+    /// Refuses what reductions by request do not support.
     pub(super) fn check_leaning(&self) -> Result<()> {
         let Approximations {
             rolling,

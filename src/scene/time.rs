@@ -153,7 +153,7 @@ impl TimeFunction {
 
     /// Breakpoints that a step must end on: all of them, but of a table's corners only those that stand `apart` or further
     /// from the ones beside them \[s\]. Where corners are closer than steps the error decides, as it does for any other
-    /// function that is not smooth; jumps are always told.
+    /// function that is not smooth; jumps are always reported.
     pub(crate) fn breakpoints_apart(&self, apart: f64) -> Vec<f64> {
         let Self::Profile(Profile::Table { times, .. }) = self else {
             return self.breakpoints();

@@ -1,4 +1,4 @@
-//! What a run says of the accuracy that it was asked for.
+//! What a run reports of the requested accuracy.
 
 use serde::Serialize;
 

@@ -1,4 +1,4 @@
-//! The samples of a record that are held: all of a run, or those that no block has taken away yet.
+//! The samples of a record that are in memory: all of a run, or those that no block has handed over yet.
 
 use std::collections::TryReserveError;
 use std::mem;

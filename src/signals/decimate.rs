@@ -1,5 +1,5 @@
-//! Columns decimated as a run goes on: every point of the grid is added at once to the samples it counts for, so
-//! that nothing of the grid is kept but what the ends need.
+//! Columns decimated during a run: every point of the grid is added at once to the samples that it contributes to, so
+//! that only the points for the ends of the record are kept.
 
 use std::collections::VecDeque;
 
@@ -163,7 +163,7 @@ mod tests {
     }
 
     /// Analytic: where a record ends, a signal that is odd about its ends comes out as if it went on, and a ramp with it;
-    /// samples further from an end than the filter reaches do not feel it.
+    /// samples further from an end than the filter reaches do not depend on it.
     #[test]
     fn ends_are_continued_oddly() {
         let last = signed((COUNT - 1) * OVER);

@@ -1,4 +1,4 @@
-//! What a run's record takes, counted before anything of it is there.
+//! Memory for a run's record, computed before any of it is allocated.
 
 use super::SliceRow;
 use super::blocks::rows_in_memory;

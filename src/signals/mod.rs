@@ -1,13 +1,13 @@
 //! Probes read from the dense output of a run, as samples at a rate of their own.
 //!
 //! What a sensor would give (motion, forces of the cage, friction torques) has content far above half the sampling
-//! rate: of a faulted 6205 most of the acceleration's power stands above 6 kHz. Taken as points that folds into the
+//! rate: of a faulted 6205 most of the acceleration's power is above 6 kHz. Point samples would fold it into the
 //! band below. So these columns are read on a finer grid, as fine as the steps, and decimated through a linear-phase
-//! low-pass (`filter`, `decimate`); accelerations come from the velocities there, by the filter's derivative. What
-//! tells a state (contacts, energies, forces by origin, slices) is read at the samples' own times and never filtered:
-//! a contact angle does not exist without load, energies balance and forces add up at an instant.
+//! low-pass (`filter`, `decimate`); accelerations come from the velocities there, by the filter's derivative. Values
+//! of a state (contacts, energies, forces by origin, slices) are read at the samples' own times and never filtered:
+//! a contact angle does not exist without load, and energies and forces balance at an instant.
 //!
-//! A record is kept whole, or it leaves in blocks (`blocks`) of samples that nothing changes any more.
+//! A record is kept whole, or handed over in blocks (`blocks`) of samples that are final.
 
 mod accuracy;
 mod blocks;
@@ -116,7 +116,7 @@ pub struct Statistics {
     /// end \[rad\].
     #[serde(skip)]
     pub(crate) contact_arcs: [f64; 2],
-    /// By how much a ring that may tilt leans most at the start or at the end of the run \[rad\]; 0 where none may. Above 0.05 is
+    /// Largest tilt of a ring at the start or at the end of the run \[rad\]; 0 where none may tilt. Above 0.05 is
     /// warned of.
     pub largest_tilt: f64,
     /// Steps accepted before t = 0, while the start settled; counted nowhere else.
@@ -163,7 +163,7 @@ pub struct Provenance {
     pub distrust: Option<Distrust>,
     /// Processor architecture.
     pub architecture: &'static str,
-    /// Frequency up to which motion, cage forces and friction torques are told as they are \[Hz\]: 0.4 fs behind the
+    /// Frequency up to which motion, cage forces and friction torques are not attenuated \[Hz\]: 0.4 fs behind the
     /// low-pass, fs/2 where fs is above the rate of the steps and takes none; absent for point samples.
     pub bandwidth: Option<f64>,
     /// Points a sample at which filtered signals are read; 1: there is no filter.

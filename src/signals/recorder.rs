@@ -1,4 +1,4 @@
-//! Reads the probes along a run.
+//! Reads the probes during a run.
 
 use std::ops::ControlFlow;
 

@@ -1,4 +1,4 @@
-//! How finely a run is read, and what its samples tell.
+//! How finely a run is read, and up to which frequency its samples are valid.
 
 use super::filter::{FLAT, HALF};
 use crate::error::{Error, Result};
@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 /// Sampling rate over the highest contact frequency [1/rad] from which on nothing is left to filter. Of the
 /// acceleration's power 1e-7 stands above half of it, for the faulted wheel bearing and a faulted 6205.
 const FINE: f64 = 2.0;
-/// The most points a sample: more would take memory for coefficients rather than tell anything.
+/// The most points a sample: more would take memory for coefficients without effect.
 const MOST: f64 = 1e5;
 /// Largest share of a run by which it goes on past its end.
 const PAST_END: f64 = 0.1;
@@ -30,7 +30,7 @@ pub(crate) struct Sampling {
     pub fs: f64,
     /// Points of the grid a sample; 1: there is no filter.
     pub oversampling: usize,
-    /// Frequency up to which signals are told as they are \[Hz\]; absent for point samples that may be folded.
+    /// Frequency up to which signals are not attenuated \[Hz\]; absent for point samples, which may be aliased.
     pub bandwidth: Option<f64>,
 }
 

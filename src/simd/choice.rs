@@ -1,4 +1,4 @@
-//! Which instruction set a process uses: the widest that it has, that is asked for, and that computes what it should.
+//! Which instruction set a process uses: the widest that exists, or the requested one, if it computes correctly.
 
 use std::ffi::OsStr;
 use std::sync::OnceLock;
@@ -108,7 +108,7 @@ impl InstructionSet {
 mod tests {
     use super::*;
 
-    /// Analytic: what errs is not used, and it is told what was wrong with it.
+    /// Analytic: a set that errs is not used, and its error is reported.
     #[test]
     fn a_level_that_errs_gives_way_to_the_next() {
         let all = InstructionSet::available();

@@ -1,4 +1,4 @@
-//! Logarithm and arctangent by products and quotients: a call of the library's for each number would empty all registers.
+//! Logarithm and arctangent by products and quotients: a library call for each number would spill all registers.
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]

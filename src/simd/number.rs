@@ -1,4 +1,4 @@
-//! What the contact kernel computes with: one number, eight side by side, or those of a register.
+//! The numbers of the contact kernel: one, eight side by side, or those of a register.
 
 // Everything here must end up in the loop that uses it, compiled for that loop's instructions.
 #![allow(clippy::inline_always)]

@@ -1,4 +1,4 @@
-//! Whether the instructions of a set do what their names say. Run once a process before a set is used, and by the tests at
+//! Checks that the instructions of a set compute what they should. Run once in a process before a set is used, and by the tests at
 //! every set that the machine has.
 
 // Everything here must be compiled for the instruction set that it tries.
@@ -256,7 +256,7 @@ mod tests {
     use super::*;
 
     /// Analytic: every primitive against the same on single numbers, masks of every pattern, at every instruction set of this
-    /// machine. `tests/reliability/levels.rs` tells which levels there are not.
+    /// machine. `tests/reliability/levels.rs` prints which levels are missing.
     #[test]
     fn every_primitive_at_every_level() {
         for instructions in InstructionSet::available() {

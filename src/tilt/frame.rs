@@ -26,7 +26,7 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// Of a ring that leans; its tilt is shorter than 1.
+    /// Of a ring that tilts; its tilt is shorter than 1.
     pub fn new([x, y]: [f64; 2]) -> Self {
         let along = (1.0 - x * x - y * y).max(0.0).sqrt();
         let k = 1.0 / (1.0 + along);

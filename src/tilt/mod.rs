@@ -7,12 +7,12 @@
 //! a = (τ_y, −τ_x, w),  w = √(1 − τ_x² − τ_y²)
 //! ```
 //!
-//! To third order it is the rotation vector; its size is the sine of the angle between a and ẑ. Two numbers that are a vector
-//! of the plane: no order of axes, regular to 90°, and their rates are velocities as those of places are. What turns about the
-//! axis is the spin θ.
+//! To third order it is the rotation vector; its length is the sine of the angle between a and ẑ. The two numbers are a vector
+//! in the plane: there is no order of axes, they are regular to 90°, and their rates are velocities. The rotation about the
+//! ring's axis is the spin θ.
 //!
-//! `frame` has the ring's frame, which leans but does not spin, `rotation` its angular velocity and its equations of motion.
-//! Numbers in, numbers out: a ring of what scene or of what state is no matter here.
+//! `frame` has the ring's frame, which tilts but does not spin, `rotation` its angular velocity and its equations of motion.
+//! Nothing here depends on a scene or on the layout of a state.
 
 mod frame;
 mod rotation;

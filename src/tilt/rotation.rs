@@ -13,8 +13,8 @@
 //! | M | moment about the centre of mass | N m |
 //! | θ | spin about the axis, against the ring's frame | rad |
 //!
-//! −L_s ȧ × a is the gyroscopic term. Directions that are held or driven take what force their own coordinate needs: such a
-//! hold does no work on the others.
+//! −L_s ȧ × a is the gyroscopic term. The constraint of a direction that is held or driven acts on its own coordinate only: it
+//! does no work on the others.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -29,7 +29,7 @@ pub(crate) struct Inertia {
     pub transverse: f64,
 }
 
-/// A ring that leans and turns.
+/// A ring that tilts and turns.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rotation {
     pub frame: Frame,
@@ -39,7 +39,7 @@ pub(crate) struct Rotation {
     spin: f64,
     /// ȧ.
     axis_rate: Vector3<f64>,
-    /// χ, what leaning adds to the spin \[rad/s\].
+    /// χ, what the motion of the tilt adds to the spin \[rad/s\].
     drift: f64,
 }
 

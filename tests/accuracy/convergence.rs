@@ -1,6 +1,6 @@
 //! The integrator against problems with a known answer.
 //!
-//! Each test says which truth it tells. Nothing here knows of bearings.
+//! Each test names its truth. Nothing here depends on bearings.
 
 use std::ops::ControlFlow;
 

@@ -1,7 +1,7 @@
 //! The defaults are in balance: steps and nodes together stay within a percent.
 //!
 //! Truth: 64 nodes, Dormand–Prince at rtol 1e-9 with a fifth of its step, from the same state. Compared is the
-//! acceleration of the outer ring over 4 ms (relative, L2, at 100 kHz), as far as it can be foretold: up to the last
+//! acceleration of the outer ring over 4 ms (relative, L2, at 100 kHz), as far as it can be predicted: up to the last
 //! moment at which that solution and a looser one agree to a hundredth of the percent.
 
 use crate::common;
@@ -15,7 +15,7 @@ use common::{Noise, soon_over_the_spall};
 
 /// What is allowed.
 const PERCENT: f64 = 1e-2;
-/// Of a scene that cannot be foretold for half a millisecond nothing is learnt.
+/// A scene that cannot be predicted for half a millisecond is left out.
 const LEAST_SAMPLES: usize = 50;
 
 /// A bearing of one or two rows of any size, conformity, load, speed, law, damping and friction, with a spall that its most
@@ -122,7 +122,7 @@ fn errors(found: &[[f64; 3]], truth: &[[f64; 3]]) -> Vec<f64> {
 }
 
 /// The whole error of the defaults, for how long, and the evaluations that they and Dormand–Prince took; none where nothing can
-/// be foretold.
+/// be predicted.
 fn judged(scene: &Scene) -> Option<(f64, f64, [usize; 2])> {
     let model = compile(scene).ok()?;
     let y0 = start(&model, &Start::Equilibrium).ok()?;

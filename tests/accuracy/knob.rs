@@ -108,7 +108,7 @@ fn within(accuracy: f64, scenes: usize, seed: u64) {
             continue;
         }
         let pair = error_and_horizon(&scene, accuracy);
-        // Of a bearing that cannot be foretold for half a millisecond nothing is learnt.
+        // A bearing that cannot be predicted for half a millisecond is left out.
         if pair.1 < 0.5e-3 {
             dark += 1;
         } else {

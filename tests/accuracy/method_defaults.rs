@@ -1,7 +1,7 @@
 //! Every method, just as it comes: within 5 % of the truth, or warned of.
 //!
 //! Truth: Dormand–Prince at rtol 1e-10 with a tenth of its step, from the same state. Compared is the acceleration of
-//! the outer ring over 3 ms (relative, L2, at 200 kHz), as far as it can be foretold: up to the last moment at which a
+//! the outer ring over 3 ms (relative, L2, at 200 kHz), as far as it can be predicted: up to the last moment at which a
 //! run at rtol 1e-8 with 0.15 of the step, a hundred times better than the default, is itself within a 1000th of the
 //! 5 %. Beyond it the bearing by itself makes errors of the default's size grow past all bounds.
 
@@ -28,7 +28,7 @@ const METHODS: [Method; 9] = [
 /// The largest error that needs no warning.
 const MOST: f64 = 0.05;
 const DURATION: f64 = 3e-3;
-/// Of a scene that cannot be foretold for half a millisecond nothing is learnt.
+/// A scene that cannot be predicted for half a millisecond is left out.
 const LEAST_SAMPLES: usize = 100;
 
 struct Case {
@@ -203,14 +203,14 @@ fn errors(found: &[[f64; 3]], truth: &[[f64; 3]]) -> Vec<f64> {
     running.skip(2).step_by(3).collect()
 }
 
-/// A start, the truth from there, and for how many samples it can be foretold.
+/// A start, the truth from there, and for how many samples it can be predicted.
 struct Truth {
     y0: Vec<f64>,
     accelerations: Vec<[f64; 3]>,
     samples: usize,
 }
 
-/// None where a random bearing does not carry its load, or nothing can be foretold.
+/// None where a random bearing does not carry its load, or nothing can be predicted.
 fn truth(case: &Case) -> Option<Truth> {
     let model = compile(&case.scene).ok()?;
     let y0 = start(&model, &case.start).ok()?;

@@ -1,6 +1,6 @@
 //! The methods against each other, and each against what is proved of it.
 //!
-//! Each test says which truth it tells.
+//! Each test names its truth.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;

@@ -1,6 +1,6 @@
 //! Single contacts against published numbers: Hertz's constants, the slice laws, a ball over a slot.
 //!
-//! Each test says which truth it tells: *printed* is a number of the source, *computed* the source's formulas
+//! Each test names its truth: *printed* is a number of the source, *computed* the source's formulas
 //! evaluated outside this crate. Tolerances are what the source supports. `--nocapture` shows every case
 //! with the published and the obtained number.
 //!

@@ -1,6 +1,6 @@
 //! Kinematics and impacts against published numbers.
 //!
-//! Each test says which truth it tells; tolerances are what the source supports. `--nocapture` shows every case
+//! Each test names its truth; tolerances are what the source supports. `--nocapture` shows every case
 //! with the published and the obtained number.
 //!
 //! | what | source |

@@ -1,8 +1,9 @@
-"""The shape of the package: modules import each other one way only."""
+"""Modules import each other one way only, and the map of the tests is complete."""
 
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
 from graphlib import TopologicalSorter
@@ -13,6 +14,7 @@ import pytest
 import ballrace
 
 PACKAGE = Path(ballrace.__file__).parent
+ROOT = Path(__file__).parents[2]
 
 
 def modules() -> dict[str, Path]:
@@ -86,3 +88,14 @@ def test_what_comes_later_is_there() -> None:
     subprocess.run([sys.executable, "-c", program], check=True)
     with pytest.raises(AttributeError, match="'ballrace' has no attribute 'bearing_'"):
         ballrace.bearing_  # type: ignore[attr-defined]  # noqa: B018
+
+
+def test_the_map_of_the_tests_lists_every_file_once() -> None:
+    """Files of tests in Rust and Python, but for the heads of the Rust programs, which only name their files."""
+    paths = [path for kind in ("rs", "py") for path in ROOT.glob(f"tests/**/*.{kind}")]
+    names = {path.relative_to(ROOT).as_posix() for path in paths if "target" not in path.parts}
+    files = sorted(name for name in names if not re.fullmatch(r"tests/\w+/main\.rs", name))
+    text = (ROOT / "tests" / "MAP.md").read_text(encoding="utf-8")
+    listed = sorted(re.findall(r"^\| `([^`]+)` \|", text, re.MULTILINE))
+    assert len(files) > 100
+    assert listed == files

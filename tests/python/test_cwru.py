@@ -96,7 +96,7 @@ def simulated(race: Race, thrust: float) -> tuple[br.Signals, float]:
 
     A clearance of 5 µm is what fits leave of the normal one; the thrust [N] opens a contact angle. Neither it nor
     the load at the test rig is published. No play in the cage, since play moves the rates too (see
-    ``test_defects_speak.py``).
+    ``test_defect_frequencies.py``).
     """
     rate = PUBLISHED[race][0]
     spall = Defect(

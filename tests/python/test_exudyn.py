@@ -3,7 +3,7 @@
 Truth: Exudyn (extra ``validation``; J. Gerstmayr, Multibody Syst. Dyn. 60 (2024) 533) with its contact of a
 sphere in a torus, set up with the same geometry, masses, cage springs, friction and the Hertz constants that
 our contacts have. It differs where it must: its contact is a point, so that a ball rolls on its full diameter
-there and on a little less here (see ``test_defects_speak.py``), and its contact damping is linear.
+there and on a little less here (see ``test_defect_frequencies.py``), and its contact damping is linear.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-//! What users and the house rely on: same bits on every level and thread count, refusals and doubts, campaigns, memory, the order of the rooms.
+//! What users and contributors rely on: same bits on every level and thread count, refusals and doubts, campaigns, memory, the order of the modules.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,4 +1,4 @@
-//! The crate as a stranger uses it: nothing but `ballrace`, no preset, no progress callback.
+//! The crate as an outside program uses it: nothing but `ballrace`, no preset, no progress callback.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;

@@ -14,10 +14,10 @@
 ``build``      a scene of a row: clearance, cage, friction, supports
 =============  ====================================================================
 
-Makers print bore, outside diameter, width and load ratings of a bearing, not its balls. Those of most rows are
-worked out: the number of balls and their diameter in 1/64 inch whose ratings come nearest to the printed ones,
+Makers publish bore, outside diameter, width and load ratings of a bearing, not its balls. Those of most rows are
+estimated: the number of balls and their diameter in 1/64 inch whose ratings come nearest to the published ones,
 the static by ISO 76 (within 2 %) and the dynamic by ISO 281 (within 1 %), with the pitch diameter half-way
-between bore and outside diameter. It is the same set that the makers' factor f₀ tells of, where they print it.
+between bore and outside diameter. Where makers publish their factor f₀, it leads to the same set.
 ``sources`` of a row says what is estimated. A real pitch diameter may be 1 % larger than that mean, which moves
 BPFO by less than 0.4 %.
 """

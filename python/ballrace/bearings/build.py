@@ -1,4 +1,4 @@
-"""A scene of a bearing of the catalogue: what a user would choose who knows no more than its name and load."""
+"""A scene of a bearing of the catalogue, with reasonable defaults for all but its name and load."""
 
 from __future__ import annotations
 

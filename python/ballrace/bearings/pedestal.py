@@ -1,4 +1,4 @@
-"""What the outer ring sits in: a mass on a mount, part of the dynamics."""
+"""The housing of the outer ring: a mass on a mount, part of the dynamics."""
 
 from __future__ import annotations
 

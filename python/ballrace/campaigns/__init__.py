@@ -7,11 +7,11 @@
 
 ============  =====================================================================
 ``cases``     a table and its scenes: what each row means, and its case id
-``reading``   tables of any kind, and what their columns may have meant
-``store``     the folder: shards that are what was written, or are set aside
-``disk``      files that are there whole or not at all
-``work``      cases run in this process, results written as they come
-``spread``    the same work handed to an executor, chunk by chunk
+``reading``   tables of any kind, and suggestions for unknown columns
+``store``     the folder: shards are checked, and set aside if damaged
+``disk``      files that are complete or absent
+``work``      cases run in this process, results written as they finish
+``spread``    the same work given to an executor, chunk by chunk
 ============  =====================================================================
 """
 

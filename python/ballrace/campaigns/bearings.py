@@ -1,4 +1,4 @@
-"""Virtual bearings: one drawing, made many times within its tolerances."""
+"""Virtual bearings: one design with the deviations of its manufacturing tolerances."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A table of cases bound to its scenes: what each row means, and the id it is known by."""
+"""A table of cases with its scenes: what each row means, and its id."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files of a campaign's folder: there whole or not at all, whatever ends the process that writes them."""
+"""Files of a campaign's folder: complete or absent, however the process that writes them ends."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def _sync(folder: Path) -> None:
 def sweep(folder: Path) -> None:
     """Remove what killed processes have left half written; what is being written is locked, and stays."""
     if os.name == "nt":
-        # Nothing tells there whether a file is still being written.
+        # Whether a file is still being written cannot be known there.
         return
     for path in folder.iterdir():
         if _NAME.fullmatch(path.name):

@@ -1,4 +1,4 @@
-"""What a campaign would take."""
+"""Estimate of a campaign's time and disk space."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far a campaign is: a bar, a line, or a callback."""
+"""Progress of a campaign: a bar, a line, or a callback."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def duration(seconds: float) -> str:
 
 
 class Teller:
-    """Tells progress: a bar in a terminal or notebook, else one line at the end; or a callback."""
+    """Shows progress: a bar in a terminal or notebook, else one line at the end; or a callback."""
 
     def __init__(
         self,

@@ -1,4 +1,4 @@
-"""Tables of any kind as rows of cells, and what a column that is no field may have been meant for."""
+"""Tables of any kind as rows of cells, and the field that an unknown column may have been meant for."""
 
 from __future__ import annotations
 

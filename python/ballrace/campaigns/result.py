@@ -1,4 +1,4 @@
-"""What came of a campaign."""
+"""Results of a campaign."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The one call."""
+"""The call ``ballrace.campaign``."""
 
 from __future__ import annotations
 
@@ -119,9 +119,9 @@ def campaign(
     """Run a table of cases into a folder, and return the table of results.
 
     Finished cases are written as they come. Called again, after a kill, Ctrl-C or with more rows, it runs only
-    those that are missing or damaged: a case is known by the hash of its scene and of the arguments of its run.
-    The manifest tells which rows to trust: ``status``, ``error`` and ``message`` of cases that failed, and
-    ``warnings`` of those that ran but want a second look.
+    those that are missing or damaged: the hash of its scene and of the arguments of its run identifies a case.
+    The manifest says which rows are reliable: ``status``, ``error`` and ``message`` of cases that failed, and
+    ``warnings`` of those that ran but need a check.
 
     Parameters
     ----------

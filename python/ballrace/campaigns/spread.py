@@ -1,4 +1,4 @@
-"""Cases handed to an executor, chunk by chunk, with a bounded number on the way."""
+"""Cases given to an executor, chunk by chunk, with a bounded number in progress."""
 
 from __future__ import annotations
 
@@ -137,7 +137,7 @@ def _check_scheduler(executor: Any) -> None:
     CampaignError
         The client has lost its scheduler.
     """
-    # The executor of a Dask client knows it; other executors tell in their futures.
+    # The executor of a Dask client has it; other executors have it in their futures.
     status = getattr(getattr(executor, "_client", None), "status", "running")
     if status in ("connecting", "closing", "closed"):
         raise CampaignError(f"Dask's scheduler was lost (its client is {status}); start it again")

@@ -10,7 +10,7 @@
     tmp/                 files that are being written
     locks/               who is at work
 
-A file is written in ``tmp/``, synced and renamed, so that what stands in the other folders is whole whatever
+A file is written in ``tmp/``, synced and renamed, so that files in the other folders are complete whatever
 happens. Rows are written after the signals they name. Nothing is ever changed in place. Reading a shard checks
 that its content has the hash it is named by; a campaign that goes on sets those that have not aside, as
 ``<hash>.parquet.damaged``, and runs their cases again.
@@ -51,7 +51,7 @@ STATISTICS = {
     "accepted": "Int64", "rejected": "Int64", "nfev": "Int64", "wall_time": "Float64",
     "acceleration_residual": "Float64", "truncated_contacts": "Int64", "simd": "String",
 }  # fmt: skip
-"""What the core tells of every run beside its features, as it is called there, with the type of its column."""
+"""Results of the core for every run besides its features, by the name there, with the type of the column."""
 
 BASE = (
     "case_id", *FAULTS, "status", "error", "message", "warnings", "version", *STATISTICS, "signals",
@@ -314,7 +314,7 @@ def without_empty_errors(table: pl.DataFrame) -> pl.DataFrame:
 
 
 def _joined(frames: list[pl.DataFrame]) -> pl.DataFrame:
-    """Join tables in parts, between which Ctrl-C is heard: polars takes more than a second for 5000 at once."""
+    """Join tables in parts, between which Ctrl-C is checked: polars takes more than a second for 5000 at once."""
     from .._polars import pl
 
     while len(frames) > 1:

@@ -85,7 +85,7 @@ def _series(name: str, column: list[object]) -> pl.Series:
     kinds = (str, bytes, Mapping, Sequence, np.ndarray, Part, Real, np.bool_)
     present = [value for value in column if value is not None]
     if len({next((k for k in kinds if isinstance(v, k)), type(v)) for v in present}) <= 1:
-        # Some that polars knows no type for it tells by errors of Python's own, too.
+        # For some types that polars does not support it raises errors of Python's own, too.
         with suppress(pl.exceptions.PolarsError, TypeError, ValueError, AttributeError):
             return pl.Series(name, column, strict=False)
     return pl.Series(name, column, dtype=pl.Object)
@@ -169,7 +169,7 @@ def counted_cases(n: object) -> int:
 
 
 def check_cases(name: str, count: int) -> None:
-    """Refuse a table of more cases than anybody means; ``name`` is what asks for them."""
+    """Refuse a table of improbably many cases; ``name`` is what asks for them."""
     if count > MOST_CASES:
         raise SceneError(name, f"{count:,} cases", f"at most {MOST_CASES:,}")
 

@@ -1,4 +1,4 @@
-"""Cases run in this process, their results written as they come."""
+"""Cases run in this process, their results written as they finish."""
 
 from __future__ import annotations
 

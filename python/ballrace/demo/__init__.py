@@ -1,8 +1,8 @@
-"""What ``ballrace demo`` shows: the wheel bearing under three loads, as a table, files and a report.
+"""``ballrace demo``: the wheel bearing under three loads, as a table, files and a report.
 
-Thrust towards a faulted row makes its impacts louder, thrust away from it silences them: the point of the paper
-that this project starts from (P. Tkachuk, J. Strackeljan, *A 3D-ball bearing model for simulation of axial load
-variations*).
+Thrust towards a faulted row makes its impacts stronger, thrust away from it makes them vanish: the result of the
+paper that this project starts from (P. Tkachuk, J. Strackeljan, *A 3D-ball bearing model for simulation of axial
+load variations*).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The page of the demonstration: which row, where the defect lies, and why thrust makes it louder."""
+"""The page of the demonstration: which row, where the defect lies, and why thrust increases its vibration."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def _loads(made: Page, cases: Mapping[str, Case]) -> None:
 def _heard(made: Page, cases: Mapping[str, Case]) -> None:
     from .. import plot
 
-    made.section("What is heard")
+    made.section("Vibration")
     outs = {label: case.out for label, case in cases.items()}
     rate = passing(next(iter(outs.values())).scene)
     made.figure(
@@ -145,8 +145,8 @@ def _spectra(made: Page, cases: Mapping[str, Case]) -> None:
     assert fig is not None
     made.figure(
         fig,
-        "spectrum of the squared envelope. The spall speaks at BPFO and its multiples, here at the contact angle "
-        "under 3 kN.",
+        "spectrum of the squared envelope. The spall has lines at BPFO and its multiples, here at the contact "
+        "angle under 3 kN.",
     )
 
 
@@ -163,6 +163,6 @@ def _told(made: Page, none: Case, towards: Case, away: Case) -> None:
         f"and presses the ball harder ({loads} radially): impacts go from {before:.1f} to {louder:.1f} m/s², "
         f"{change:+.0f} %. Thrust away from it takes the load off the row ({away.zone.force:.0f} N) and the "
         f"contact off the spall: {softer:.1f} m/s² are left. The spall is the same; a radial model, in which a "
-        "ball meets a race in its middle plane whatever the thrust, could not tell these three apart."
+        "ball meets a race in its middle plane whatever the thrust, could not distinguish these three."
     )
     made.text(told.replace("-", "−"))

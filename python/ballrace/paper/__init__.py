@@ -1,4 +1,4 @@
-"""The published case, run again: figures 6 to 11 of the paper and its numbers beside ours.
+"""The published case, simulated: figures 6 to 11 of the paper and its numbers beside ours.
 
 Source: P. Tkachuk, J. Strackeljan, *A 3D-ball bearing model for simulation of axial load variations*: a
 double-row wheel bearing under 7 kN with a defect on the outer ring, and 0, +3 or -3 kN along its axis.
@@ -12,8 +12,8 @@ How each number is taken:
   balls of the run go round, with the defect in its middle.
 - *Envelope line*: the magnitude of the analytic signal of the acceleration between 0.5 and 20 kHz; of this the
   amplitude of the oscillation at the passing frequency, over the same whole passages.
-- *Line over its surroundings* and *scatter of impacts*: figure 11 shows "no clear fault structure". A signal
-  without one is not only quiet: the squared envelope's line at the passing frequency drowns in what surrounds it
+- *Line over its surroundings* and *scatter of impacts*: figure 11 shows "no clear fault structure". In a signal
+  without one the squared envelope's line at the passing frequency is hardly above what surrounds it
   (10 dB and less; noise alone gives 4 to 9 dB), and its impacts differ by a fifth of their mean and more.
 - *Ball in the middle of the load zone*: the ball of the faulted row nearest to -90° at t = 0.017992 s (figure 9).
   The contact zone's place is the middle of its slices' forces, in the outer ring's frame; its length that of the

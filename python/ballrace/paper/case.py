@@ -1,4 +1,4 @@
-"""What one load case of the paper gives."""
+"""Results of one load case of the paper."""
 
 from __future__ import annotations
 

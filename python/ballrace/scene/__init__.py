@@ -1,6 +1,6 @@
-"""What a user says: the scene, frozen dataclasses in SI units.
+"""The user's input: the scene, frozen dataclasses in SI units.
 
-Every class mirrors one of the same document that the TOML files hold. Objects are checked as a whole when
+Every class mirrors a part of the document in TOML files. Objects are checked as a whole when
 they are used (or by :meth:`Scene.validate`); an error names the path of the field, its value and what is
 allowed there. Nothing here changes in place: make variants of a scene with :meth:`Scene.replace` or
 :func:`dataclasses.replace`.

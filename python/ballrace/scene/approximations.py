@@ -1,4 +1,4 @@
-"""Simplifications that change the answer."""
+"""Simplifications that change the result."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ class Approximations(Part):
     """Simplifications that change the answer, all off by default.
 
     What each costs in accuracy is measured in ``benches/records.md``; :func:`ballrace.explain` offers those that
-    apply to a scene, and ``out.provenance.left_out`` tells which ones a run made use of.
+    apply to a scene, and ``out.provenance.left_out`` lists those that a run used.
 
     Attributes
     ----------
@@ -29,7 +29,7 @@ class Approximations(Part):
         Of two rows the one that carries less than 2 % of the load at the start is left out, where loads do not
         change.
     tilt : bool
-        Rings keep the tilts of equilibrium under the loads at the start: they lean, and do not rock. Needs loads
+        Rings keep the tilts of equilibrium under the loads at the start. Needs loads
         that do not change.
     """
 

@@ -120,7 +120,7 @@ class Row(Part):
     ball_inertia : float or None
         Moment of inertia of a ball about z [kg m²]; None: 2/5 m R².
     ball_support : Support
-        How every ball of the row hangs on the inertial frame; by default free.
+        How every ball of the row is supported; by default free.
     ball_material : Material or None
         Material of the row's balls; None: the scene's ``materials.balls``.
     contact : Contact or None
@@ -178,9 +178,9 @@ class Ring(Part):
     width : float or None
         Axial width [m].
     support : Support
-        How the ring hangs on the inertial frame.
+        How the ring is supported.
     tilt : tuple of two floats, or None
-        Nominal tilt about x and y [rad], together at most 0.5: how far the ring leans where its tilts are held
+        Nominal tilt about x and y [rad], together at most 0.5: how far the ring tilts where its tilts are held
         or their
         springs relaxed; None: not at all.
     transverse_inertia : float or None
@@ -188,8 +188,8 @@ class Ring(Part):
         ``inertia`` comes
         from, of a hollow cylinder as long as ``width``.
     centre_of_mass : float or None
-        Axial place of the centre of mass in the ring's frame [m], of which x, y and z of the ring tell the
-        displacement; None: 0.
+        Axial place of the centre of mass in the ring's frame [m], whose displacement are x, y and z of the
+        ring; None: 0.
     """
 
     mass: float | None = None

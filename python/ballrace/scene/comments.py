@@ -1,6 +1,6 @@
-"""Scenes in TOML for people: a comment at every field says what it is, and in which unit.
+"""Scenes in TOML with a comment at every field that says what it is, and in which unit.
 
-What comments say stands once, in the docstrings of the parts; the JSON Schema has it from there too.
+Comments and the JSON Schema take their text from the docstrings of the parts.
 """
 
 from __future__ import annotations

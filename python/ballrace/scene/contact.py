@@ -22,7 +22,7 @@ __all__ = [
 class Iso16281(Variant, tag="iso16281"):
     """The paper's law, after the roller slices of ISO/TS 16281: the sum of ``c s^(10/9)`` over the slices.
 
-    With the paper's constants it gives way about three times as far as Hertz; :func:`ballrace.explain` tells how
+    With the paper's constants it gives way about three times as far as Hertz; :func:`ballrace.explain` says how
     far at a scene's own load.
 
     Attributes

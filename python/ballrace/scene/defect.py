@@ -77,7 +77,7 @@ class Defect(Part):
         balls, at the static equilibrium of the healthy bearing under the largest value of every load. Of a
         defect on the outer race that is a ball's at the defect's own angle; of one on a ball, its contact with
         the race that loads it more. Without equilibrium or load it is the place of the nominal contact angle.
-        A run records the number in ``out.scene`` and tells in ``out.defects`` where it comes from.
+        A run records the number in ``out.scene`` and its origin in ``out.defects``.
     shape : "cap" or None
         Outline; None: a patch of ``length`` and ``width``. A cap of a ball is a circle on its surface, as wide in
         every direction as ``width`` says, less than the ball's radius. Its middle is seen from the ball's centre

@@ -1,6 +1,6 @@
 """What a document may hold, from the dataclasses themselves: names, types, choices, defaults, meanings with units.
 
-It is said as JSON Schema has it. What a number may be depends on the others, and is checked as a scene is read.
+The form is JSON Schema. The range of a number depends on the others, and is checked when a scene is read.
 """
 
 from __future__ import annotations

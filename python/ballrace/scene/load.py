@@ -24,7 +24,7 @@ class Load(Part):
     force : TimeFunction
         Force along the direction [N].
     at : tuple of three floats, or None
-        The point in the ring's frame, which leans but does not turn with the ring [m]; None: the ring's origin.
+        The point in the ring's frame, which tilts but does not turn with the ring [m]; None: the ring's origin.
     """
 
     ring: RingName

@@ -1,7 +1,7 @@
 """The oil between balls and races.
 
 Film, film damping, traction and rolling resistance follow from it, each of which may be left out;
-``docs/lubrication.md`` guides through them.
+see ``docs/lubrication.md``.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ class Lubricant(Part):
     damping_frequency : float or None
         Frequency at which the film's damping is taken [Hz]; None: at the contacts' own frequencies.
     reference_speed : float or None
-        Relative speed of the rings for which the film is made [rad/s]; None: the largest that the drive tells of.
+        Relative speed of the rings for which the film is made [rad/s]; None: the largest of the drive.
     reference_load : float or None
         Contact load for which the film is made [N]; None: that of the equilibrium.
     fill : float

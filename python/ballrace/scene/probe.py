@@ -67,7 +67,7 @@ class MotionProbe(Variant, tag="motion"):
     body : str
         ``outer``, ``inner`` or a ball such as ``row0.ball3``.
     components : tuple of Component, or None
-        Which of them; None: all twelve, of a ring that may lean also those of its tilts, of a ball that
+        Which of them; None: all twelve, of a ring that may tilt also those of its tilts, of a ball that
         spins freely also those about x and y.
     """
 
@@ -155,8 +155,8 @@ class LubricationProbe(Variant, tag="lubrication"):
     ``<probe>.friction_torque`` [N m], ``<probe>.slip_power``, ``rolling_power``, ``damping_power`` and
     ``drag_power`` [W].
 
-    The torque resists: it is what the row's balls put on the inner ring, positive whichever way the shaft turns; a
-    :class:`TorqueProbe` tells it with the sign of its axis. Powers are of both races together. Film and λ are not
+    The torque is that of the row's balls against the motion of the inner ring, positive for either direction; a
+    :class:`TorqueProbe` has it with the sign of its axis. Powers are of both races together. Film and λ are not
     a number where the oil's effects are all switched off.
 
     Attributes

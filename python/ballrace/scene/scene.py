@@ -1,4 +1,4 @@
-"""The whole document, and how it is read, checked and changed."""
+"""The scene: reading, checking and changing it."""
 
 from __future__ import annotations
 
@@ -64,9 +64,9 @@ class Scene(Part):
     lubricant : Lubricant or None
         Oil of balls and races, whose traction takes the place of ``friction``; None: they are dry.
     spin : Spin or None
-        How balls spin. ``"axial"``, or None: about the bearing's axis (of a ring that leans, its own), one state
-        a ball. ``"free"``: about any axis, three states a ball; then contacts that lean roll and pivot as friction
-        lets them. At a contact angle of 0 both are the same.
+        How balls spin. ``"axial"``, or None: about the bearing's axis (of a ring that tilts, its own), one state
+        a ball. ``"free"``: about any axis, three states a ball; at a contact angle balls then roll and pivot by
+        friction. At a contact angle of 0 both are the same.
     cage : Cage or None
         Cage; None: the balls are not linked.
     drive : Drive
@@ -280,7 +280,7 @@ class Scene(Part):
 
 
 def checked_path(path: object) -> str:
-    """Return a path that names something; whether it leads anywhere, the core tells."""
+    """Return a path that is not empty; the core checks whether it exists."""
     if not isinstance(path, str) or not path:
         raise SceneError(
             "changes", repr(path), "paths such as loads.radial.force or rows[0].clearance"

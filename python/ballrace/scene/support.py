@@ -1,4 +1,4 @@
-"""How bodies hang on the inertial frame."""
+"""Supports of bodies on the inertial frame."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class CoupledSupport(Part):
 
 @dataclass(frozen=True, kw_only=True)
 class Support(Part):
-    """How a body hangs on the inertial frame, a direction each.
+    """How a body is supported on the inertial frame, a direction each.
 
     An absent direction is fixed for the outer ring, free for the inner ring and the balls; an absent tilt is
     fixed.

@@ -1,4 +1,4 @@
-//! Eight contacts side by side: which of them touch, and what is gathered of those that do.
+//! Eight contacts side by side: which of them touch, and the data gathered for those that do.
 
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]

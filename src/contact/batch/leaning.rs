@@ -1,7 +1,7 @@
-//! Forces of eight contacts at once with a ring that may lean, in whose frame balls turn across its axis.
+//! Forces of eight contacts at once with a ring that may tilt, in whose frame balls turn across its axis.
 //!
-//! To what contacts of parallel rings sum up ([`Sums`]) this adds the slip of that turning, and the moments of friction across the axis
-//! (model section 13.3). A program of its own: in that of parallel rings the compiler would no longer fill whole registers.
+//! To the sums of contacts of parallel rings ([`Sums`]) this adds the slip of that rotation, and the moments of friction across the axis
+//! (model section 13.3). It is separate code, since in that of parallel rings the compiler would no longer fill whole registers.
 
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
@@ -21,8 +21,8 @@ pub(super) struct Leaning<'a> {
 }
 
 impl Pair {
-    /// As [`Pair::forces`], of eight contacts in the frame of a ring that may lean, where it stands still and balls turn across its axis
-    /// so fast \[rad/s\]. Moments across the axis are told as well, on balls and on the ring about the origin \[N m\].
+    /// As [`Pair::forces`], of eight contacts in the frame of a ring that may tilt, where it stands still and balls turn across its axis
+    /// so fast \[rad/s\]. Moments across the axis are returned as well, on balls and on the ring about the origin \[N m\].
     #[inline(always)]
     pub(crate) fn forces_leaning<const FMA: bool>(
         &self,

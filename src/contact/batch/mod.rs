@@ -1,8 +1,8 @@
 //! Forces of eight contacts at once.
 //!
 //! The same contacts as [`Pair::evaluate`] takes one by one, wherever ball and race are whole and the zone ends in the
-//! groove: then the contacts lie side by side in [`Lanes`]. Whatever is not so (a shoulder, a ball that is not in
-//! front of its groove) is told, and left to it.
+//! groove: then the contacts lie side by side in [`Lanes`]. Other contacts (a shoulder, a ball that is not in
+//! front of its groove) are reported, and left to it.
 
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
@@ -74,7 +74,7 @@ struct Sums<'a> {
 
 impl Pair {
     /// Forces of eight contacts of this or another row: what their constants do not say (the kind of law, where
-    /// the ball is cut, damping, friction) is the same for all rows. Contacts in `skip` are left out, and told.
+    /// the ball is cut, damping, friction) is the same for all rows. Contacts in `skip` are left out, and reported.
     #[inline(always)]
     pub(crate) fn forces<const FMA: bool, const SYMMETRIC: bool>(
         &self,

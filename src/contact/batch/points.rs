@@ -1,7 +1,7 @@
 //! Forces of eight contacts at once with a race through points that is hollow all along.
 //!
 //! What [`Contour`] does one by one, in [`Lanes`]: the foot, the ends of the zone, the elements between them. Contacts
-//! that run over an end of race or ball, or whose Newton steps do not settle, are told and left to it.
+//! that run over an end of race or ball, or whose Newton steps do not converge, are reported and left to it.
 
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
@@ -57,7 +57,7 @@ impl Pair {
         sums.on_bodies(&place)
     }
 
-    /// The same in the frame of a ring that may lean; see [`Pair::forces_leaning`].
+    /// The same in the frame of a ring that may tilt; see [`Pair::forces_leaning`].
     #[inline(always)]
     pub(crate) fn forces_on_curve_leaning<const FMA: bool>(
         &self,

@@ -1,4 +1,4 @@
-//! What friction weighs at the nodes of eight contacts.
+//! Weights of friction at the nodes of eight contacts.
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
@@ -30,7 +30,7 @@ impl Rubbing {
         self.at_nodes_turning::<FMA, false>(instructions, pair, whole, (moves, turning), middle)
     }
 
-    /// The same, with angular velocities along n_e and t_e where balls before a ring that may lean have some \[rad/s\].
+    /// The same, with angular velocities along n_e and t_e where balls before a ring that may tilt have some \[rad/s\].
     #[inline(always)]
     pub(in crate::contact) fn at_nodes_turning<const FMA: bool, const LEAN: bool>(
         &mut self,

@@ -42,7 +42,7 @@ pub(crate) struct AxiallyFixedBalls<S: Simd> {
     pub raise: Vector<S>,
     /// Its derivative by the angle \[m\]; none where races are round.
     pub slope: Option<Vector<S>>,
-    /// Where there is a ball, whose contact sees no defect. If there is no telling, all are to be left out as soon as
+    /// Where there is a ball, whose contact sees no defect. If that is unknown, all are to be left out as soon as
     /// one needs care.
     pub whole: Option<Choice<S>>,
 }

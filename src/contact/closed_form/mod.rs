@@ -1,4 +1,4 @@
-//! A whole contact in one number: without friction and defects its force depends on the approach alone.
+//! A whole contact in closed form: without friction and defects its force depends on the approach alone.
 //!
 //! * Hertz's law is F = K δ^{3/2} along the common normal, whatever the contact angle.
 //! * Of the ISO law, for a ball that keeps its axial place in the groove, F / δ^{29/18} of the force in the plane is a

@@ -195,7 +195,7 @@ fn forces_and_moments_are_the_gradient_of_the_energy() {
     assert!(failed.is_empty(), "{failed:#?}");
 }
 
-/// Numbers between −1 and 1 that look like chance.
+/// Pseudo-random numbers between −1 and 1.
 struct Chance(u64);
 
 impl Chance {
@@ -213,7 +213,7 @@ impl Chance {
     }
 }
 
-/// Truth: power is force times velocity. Of normal forces it is what their approach says, of friction what is told to be lost,
+/// Truth: power is force times velocity. Of normal forces it is that of their approach, of friction the reported loss,
 /// and elastic forces have the energy's rate, however the ball moves and turns.
 #[test]
 fn powers_are_those_of_forces_and_moments() {

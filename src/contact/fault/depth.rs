@@ -1,4 +1,4 @@
-//! How far one element stands behind another: a number, or one with the slopes that its gradient needs.
+//! Depth of one element behind another: a number, or one with the slopes that its gradient needs.
 
 use crate::contact::dual::Dual;
 use std::ops::{Add, Sub};

@@ -1,4 +1,4 @@
-//! What a slice meets: features of the ring against features of the ball.
+//! Surfaces that a slice touches: features of the ring against features of the ball.
 //!
 //! The surfaces that a slice can meet are *features*: the race itself, or the fault circles of a ring
 //! defect; and seen from each of these the ball is smooth, or a pair of circles of a ball defect. A

@@ -1,4 +1,4 @@
-//! What the gradient of the elastic energy has beside forces along normals: forces through the ball's centre.
+//! Terms of the gradient of the elastic energy in addition to forces along normals: forces through the ball's centre.
 //!
 //! A contact's energy is U = Σ ± ∫ u(p) over its terms (see `elements`), u' the law. Forces are conservative if they are
 //! −∂U/∂q. With e and dz the ball's place in the meridional plane ([`Section`](crate::contact::Section): e = σ (d − a − R̃(φ)), R̃ the waves), l and

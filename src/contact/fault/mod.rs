@@ -134,7 +134,7 @@ impl Fault {
     }
 
     /// Whether the surface is absent at an axial place where it has this radius, in a direction this far from the
-    /// fault's own \[rad\]; `ball` tells how a ball stands that has it.
+    /// fault's own \[rad\]; `ball` is the orientation of the ball that has it.
     pub(crate) fn covers(&self, z: f64, radius: f64, aside: f64, ball: &Motion) -> bool {
         let at = Station {
             z,
@@ -208,7 +208,7 @@ impl Fault {
 pub struct Station {
     /// In the ring's frame or from the ball's centre.
     pub z: f64,
-    /// By how much beside it defects are looked for: a hair to either side of an end, else 0.
+    /// Distance at which defects are looked for: a rounding error to either side of an end, else 0.
     pub beside: f64,
     /// Radius of the surface.
     pub radius: f64,

@@ -1,4 +1,4 @@
-//! The forces of a slice: of every element of the ring against every one of the ball that it meets.
+//! The forces of a slice: of every element of the ring against every element of the ball that it touches.
 
 use super::depth::{Depth, Sloped};
 use super::elements::{ElementPair, Lean, RingElement};

@@ -1,4 +1,4 @@
-//! The direction in which a body is met.
+//! The direction from a body's centre to a contact.
 
 use nalgebra::Vector3;
 

@@ -1,4 +1,4 @@
-//! What a contact carries within a defect.
+//! The load of a contact within a defect.
 
 use super::Fault;
 use crate::contact::{BallSide, Motion, Pair, Sink, Touch};

@@ -1,4 +1,4 @@
-//! Where a contact is cut into elements, and along which direction these press.
+//! Where a contact is cut into elements, and the direction of their normal forces.
 
 /// The line along which elements lie.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,4 +1,4 @@
-//! The laws of a contact: where it is cut, what an element bears, how it is damped, how it rubs, what oil does.
+//! The laws of a contact: where it is cut, elastic force of an element, damping, friction, oil.
 //!
 //! Each law is written once, for any kind of number: for one contact, for eight side by side, and with derivatives.
 
@@ -76,7 +76,7 @@ impl Law {
         self.turns_balls() || self.damps()
     }
 
-    /// Where the ball is cut: the elastic law knows.
+    /// Where the ball is cut, by the elastic law.
     pub fn cut(&self) -> Cut {
         self.elastic.cut()
     }

@@ -49,7 +49,7 @@ const SMOOTH: f64 = 0.05;
 /// Places at which a part that is not plain is looked at for its nearest point.
 const LOOKS: usize = 24;
 impl Contour {
-    /// A curve, for balls of a radius whose contact normal nominally leans by an angle from the plane towards +z.
+    /// A curve, for balls of a radius whose contact normal is nominally inclined by an angle from the plane towards +z.
     pub fn new(sigma: f64, curve: Curve, radius: f64, angle: f64) -> Self {
         let nominal = nominal(&curve, sigma, radius, angle);
         let parts = parts(&curve, sigma, radius);
@@ -252,7 +252,7 @@ impl Contour {
     }
 }
 
-/// The torus of the circle of curvature where a race's normal leans by an angle from the plane towards +z.
+/// The torus of the circle of curvature where a race's normal is inclined by an angle from the plane towards +z.
 fn nominal(curve: &Curve, sigma: f64, radius: f64, angle: f64) -> Option<Torus> {
     let z = leaning(curve, sigma, angle)?;
     let hollow = curve.smoothed(z, SMOOTH * radius).hollow(sigma);
@@ -273,7 +273,7 @@ fn nominal(curve: &Curve, sigma: f64, radius: f64, angle: f64) -> Option<Torus> 
     })
 }
 
-/// Where a race's normal leans by an angle, as near to its bottom as it does.
+/// Where a race's normal is inclined by an angle, as near to its bottom as possible.
 fn leaning(curve: &Curve, sigma: f64, angle: f64) -> Option<f64> {
     let slope = -sigma * angle.tan();
     let off = |z: f64| curve.at(z).slope - slope;

@@ -1,7 +1,7 @@
-//! Races as functions R(z), and a ball before one in their meridional plane.
+//! Races as functions R(z), and a ball at one in their meridional plane.
 //!
 //! A race is a torus (model section 2), a curve through points (`curve`; `contour` finds the contacts with it, `meeting` their zones). A gothic
-//! arch is two tori, of which `scalar/shape.rs` knows.
+//! arch is two tori; see `scalar/shape.rs`.
 
 mod contour;
 mod curve;

@@ -126,7 +126,7 @@ impl Chord {
             return (along_axis, [end(-1.0), end(1.0)]);
         }
         let end = |side: f64| {
-            // The ball ends at its equator, ρ = 0, towards which the normal leans.
+            // The ball ends at its equator, ρ = 0, towards which the normal is inclined.
             let equator = radius * cos;
             if side * sin > 0.0 && zone.half > equator {
                 (side * equator, false)

@@ -1,4 +1,4 @@
-//! Product integration over whole zones, of which one half mirrors the other.
+//! Product integration over whole zones, whose halves are mirror images.
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]

@@ -1,5 +1,5 @@
-//! Where a ball is cut: fixed slices of equal width, or quadrature nodes fitted to the zone that touches, and what these weigh
-//! for friction.
+//! Where a ball is cut: fixed slices of equal width, or quadrature nodes fitted to the zone of contact, and their weights for
+//! friction.
 
 mod halves;
 mod moments;

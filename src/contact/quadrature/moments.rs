@@ -1,4 +1,4 @@
-//! What the nodes of a rule take of the needles of friction, by their integrals in closed form.
+//! Weights of the nodes of a rule for the needles of friction, from integrals in closed form.
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
@@ -15,7 +15,7 @@ use crate::simd::Number;
 const POWERS: usize = 28;
 
 /// What the nodes of a rule take of needles: their projection onto polynomials, ∫ ω K Σ p_j(x_i) p_j dx, by the integrals of K times
-/// powers of x; p_j are orthonormal under ω. Of few nodes these are all polynomials that the nodes can tell apart, as of a
+/// powers of x; p_j are orthonormal under ω. For few nodes these are all polynomials that the nodes can distinguish, as of a
 /// [`Product`](super::Product); of many the force has nothing left beyond.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Moments {

@@ -1,4 +1,4 @@
-//! What friction goes like where slip vanishes within a zone: needles, whose integrals are known in closed form.
+//! Functions with the shape of friction where slip vanishes within a zone ("needles"), whose integrals are known in closed form.
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]

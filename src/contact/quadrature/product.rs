@@ -1,4 +1,4 @@
-//! Product integration: what the nodes of a rule weigh for friction.
+//! Product integration: weights of the nodes of a rule for friction.
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
@@ -13,7 +13,7 @@ use crate::simd::Number;
 const PART: usize = 32;
 
 /// Weights of a rule's nodes for integrals over f K, where f is as smooth as the force and K is known but peaks between the
-/// nodes: K is replaced by its projection onto the polynomials that the nodes can tell apart,
+/// nodes: K is replaced by its projection onto the polynomials that the nodes can distinguish,
 ///
 /// ```text
 /// ∫ ω f K dx ≈ Σ λ_i f(x_i) K̂(x_i),   K̂(x_i) = ∫ ω K ℓ_i dx / λ_i ≈ Σ_j (Λ_j ℓ_i(t_j)/λ_i) K(t_j)

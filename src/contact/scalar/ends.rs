@@ -1,9 +1,8 @@
 //! Where the zones of elements end inside a defect: places at which a penetration changes its sign.
 //!
-//! A piece of a contact's zone is looked at in even steps, and between three looks of which the middle one is nearest to zero the
-//! penetration, which is nearly a parabola, is followed to where it turns. Without that a zone shorter than a step, such as that
-//! of a far edge or of what is left of the race, would begin with a jump of the force, and an equilibrium that lies there could
-//! not be found.
+//! The penetration is evaluated at equal steps over a piece of a contact's zone. Where the middle one of three values is nearest to
+//! zero, the extremum of the penetration, which is nearly a parabola, is found. Otherwise a zone shorter than a step, such as that
+//! of a far edge or of what is left of the race, would begin with a jump of the force, and an equilibrium there could not be found.
 
 use super::{Contact, Line};
 

@@ -1,4 +1,4 @@
-//! One ball on one race: finds the zone that touches, and cuts it into slices.
+//! One ball on one race: finds the zone of contact, and cuts it into slices.
 
 mod coat;
 mod ends;
@@ -236,7 +236,7 @@ impl Pair {
         if turns {
             slip = slip.turning_across::<false>(&self.law, section, across);
         }
-        // Beside the groove there is no slip to tell, nor a node to weigh.
+        // Beside the groove there is no slip to report, nor a node with a weight.
         Some(slip).filter(Slip::is_finite)
     }
 }

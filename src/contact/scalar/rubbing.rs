@@ -1,4 +1,4 @@
-//! How far slip sweeps over a zone: how finely friction must be resolved.
+//! The variation of slip over a zone: how finely friction must be resolved.
 
 use super::Pair;
 use crate::contact::kernel;

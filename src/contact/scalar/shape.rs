@@ -1,4 +1,4 @@
-//! What a race is where it is more than one torus: a curve through points, or the two flanks of a gothic arch.
+//! Races other than one torus: a curve through points, or the two flanks of a gothic arch.
 //!
 //! The flanks of an arch are two tori, each up to the cusp where they meet, and a ball has a contact with each that it touches:
 //!
@@ -8,7 +8,7 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | α_s | shim angle: lean of the normals of a ball that rests on both flanks at zero clearance | rad |
+//! | α_s | shim angle: inclination of the normals of a ball that rests on both flanks at zero clearance | rad |
 //! | r, R | radii of the flank's groove and of the ball | m |
 //! | a | radius of the circle of groove centres | m |
 //! | d_m, P_d | pitch diameter, and the play of a ball that touches both flanks of both races | m |
@@ -46,7 +46,7 @@ pub(in crate::contact) enum Kind {
 /// in it touches both at the shim angle.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::contact) struct Flank {
-    /// How far the normal of a resting ball leans towards +z \[rad\]: the shim angle, or less than 0 for the flank at −z.
+    /// Inclination of the normal of a resting ball towards +z \[rad\]: the shim angle, or less than 0 for the flank at −z.
     pub angle: f64,
     /// Where it meets the other flank in the ring's frame \[m\].
     pub cusp: f64,
@@ -62,7 +62,7 @@ impl Flank {
 }
 
 impl Shape {
-    /// A curve through points whose contacts nominally lean by an angle towards +z \[rad\].
+    /// A curve through points whose contacts are nominally inclined by an angle towards +z \[rad\].
     pub(crate) fn points(contour: Contour, angle: f64) -> Self {
         let contour = Arc::new(contour);
         Self(Kind::Points { contour, angle })
@@ -73,7 +73,7 @@ impl Shape {
         matches!(self.0, Kind::Torus)
     }
 
-    /// What contacts on it are told with; nothing of a torus.
+    /// Name of contacts on it in reports; none for a torus.
     pub(crate) fn name(&self) -> &'static str {
         match &self.0 {
             Kind::Torus => "",
@@ -180,7 +180,7 @@ impl Pair {
         (race.a + race.sigma * (l * cos), race.centre + l * sin)
     }
 
-    /// How far the normal nominally leans towards +z, as seen from the bottom of a torus \[rad\].
+    /// Nominal inclination of the normal towards +z, from the bottom of a torus \[rad\].
     pub(crate) fn nominal_angle(&self) -> f64 {
         match &self.shape.0 {
             Kind::Torus => 0.0,

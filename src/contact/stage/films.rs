@@ -1,4 +1,4 @@
-//! Contacts of a stage under films: what nodes weigh follows the velocities, and rolling is resisted.
+//! Contacts of a stage with films: weights of nodes follow the velocities, and there is rolling resistance.
 
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]

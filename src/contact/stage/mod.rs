@@ -1,4 +1,4 @@
-//! Contacts of an implicit stage: what of their elements does not depend on velocities, ready for any of them.
+//! Contacts of an implicit stage: the part of their elements that does not depend on velocities, for any velocities.
 //!
 //! With all of a node's force at one point, slip and approach depend only on the relative twist
 //! w = (v_b − v_r − θ̇_r ẑ × a, θ̇_b − θ̇_r), where a leads from the ring's centre to the ball's: four numbers a

@@ -1,4 +1,4 @@
-//! What a contact of a stage does to its ball, and how that changes with the relative twist.
+//! The wrench of a contact of a stage on its ball, and its derivative by the relative twist.
 
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]

@@ -52,9 +52,9 @@ pub(super) struct Group {
     pub contacts: [Touching; LANES],
     pub count: usize,
     pub forces: BatchForces,
-    /// Angular velocities of the balls across the axis of a ring that may lean \[rad/s\].
+    /// Angular velocities of the balls across the axis of a ring that may tilt \[rad/s\].
     pub turning: Across,
-    /// Moments across the axis of a ring that may lean, on balls in its frame, and on the ring about the frame's origin.
+    /// Moments across the axis of a ring that may tilt, on balls in its frame, and on the ring about the frame's origin.
     pub across: [Across; 2],
     rubbing: Rubbing,
 }
@@ -235,7 +235,7 @@ pub(super) struct EvaluateEight<'a> {
 }
 
 impl EvaluateEight<'_> {
-    /// One of them, as `LEAN` says before a ring that may lean.
+    /// One of them, as `LEAN` says before a ring that may tilt.
     pub fn run<const LEAN: bool>(&self, group: &mut Group) {
         let curve = self.model.rows[group.class].pairs[group.race].hollow_curve();
         let eight = Eight::<LEAN> { group, of: self };

@@ -1,4 +1,4 @@
-//! The search: which balls touch which race, eight at a time.
+//! Finds which balls touch which race, eight at a time.
 
 use super::{Batch, SideConstants, Single, Touching, View};
 use crate::contact::{Constants, EightContacts, Places, Raise, Summing};

@@ -1,10 +1,10 @@
 //! All contacts of an evaluation: those that touch are found, gathered by eights and evaluated together.
 //!
-//! Where a contact has a closed form all neighbours are evaluated as they stand: to gather would cost more. Rows whose
-//! balls keep their axial places as well are not even searched.
+//! Contacts in closed form are evaluated without being gathered, which would cost more. If the balls of a row also keep their axial
+//! positions, they are not searched for contact either.
 //!
-//! Each ring has its own [`View`] of the balls: the scene's state where rings stand parallel, else all balls turned into its frame, where
-//! a program of its own adds what balls slip that turn across its axis.
+//! Each ring has its own [`View`] of the balls: the scene's state where rings are parallel, else all balls turned into its frame, where
+//! separate code adds the slip of balls that turn across its axis.
 //!
 //! Eights may be evaluated by several threads; since their members depend on the state alone and they are added
 //! up in one order afterwards, the bits do not depend on the number of threads.
@@ -184,7 +184,7 @@ impl Batch {
         rings.map(|sum| sum[Dof::Theta])
     }
 
-    /// The same for rings that may lean, on which forces are returned and moments about the origins of their frames, both in these.
+    /// The same for rings that may tilt, on which forces are returned and moments about the origins of their frames, both in these.
     pub fn add_leaning(
         &mut self,
         forces: &mut Table,
@@ -351,7 +351,7 @@ impl Batch {
         }
     }
 
-    /// Moments across the axes of rings that lean, about the origins of their frames.
+    /// Moments across the axes of rings that tilt, about the origins of their frames.
     fn moments_across(&self, views: &[View<'_>; 2]) -> [[f64; 2]; 2] {
         let mut rings = [[0.0; 2]; 2];
         let groups = self.groups[..self.active].iter();

@@ -1,4 +1,4 @@
-//! Contacts that are evaluated one by one: those that something cuts.
+//! Contacts that are evaluated one by one, since a defect or an end of a race cuts their zone.
 
 use super::View;
 use crate::dynamics::sums::{Spatial, Sum};
@@ -10,7 +10,7 @@ pub(super) struct Single {
     pub race: Race,
     pub ball: usize,
     pub sum: Sum,
-    /// Moments about x and y on a ball that spins freely, in the scene's frame, and on a ring that may lean, in its own about its
+    /// Moments about x and y on a ball that spins freely, in the scene's frame, and on a ring that may tilt, in its own about its
     /// origin.
     pub across: [[f64; 2]; 2],
 }

@@ -1,4 +1,4 @@
-//! Where balls are and how they move, as their contacts with one ring see them.
+//! Positions and velocities of balls in the frame in which their contacts with one ring are evaluated.
 
 use crate::contact::{Across, LeaningRing, Motion};
 use crate::forces::{State, Table};
@@ -6,7 +6,7 @@ use crate::model::{BodyId, DOFS, Model, Race};
 use crate::simd::{LANES, Lanes, Task};
 use crate::tilt::Frame;
 
-/// All balls before one ring: in the scene's frame, or in that of a ring that may lean, where it stands still.
+/// All balls before one ring: in the scene's frame, or in that of a ring that may tilt, where it stands still.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct View<'a> {
     pub q: &'a Table,
@@ -66,7 +66,7 @@ impl<'a> View<'a> {
     }
 }
 
-/// All balls in the frame of a ring that may lean.
+/// All balls in the frame of a ring that may tilt.
 #[derive(Debug)]
 pub(crate) struct RingView {
     race: Race,

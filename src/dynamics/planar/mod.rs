@@ -1,8 +1,8 @@
-//! Nothing but contacts in closed form, cage and steady loads in a plane: one loop along the balls, straight from
-//! states to rates.
+//! Contacts in closed form, cage and steady loads in a plane, without anything else: one loop along the balls, from states
+//! to rates.
 //!
-//! To put them into tables and back would cost more than the forces. What this loop does not know — a contact out of
-//! the reach of its form or whose damping pulls, a lost ball — is left to those.
+//! To copy them into tables and back would cost more than the forces. What this loop does not cover (a contact outside the
+//! range of its form or whose damping pulls, a lost ball) is left to the tables.
 
 mod rates;
 
@@ -147,7 +147,7 @@ impl Direction {
     }
 }
 
-/// The truth is what the tables tell.
+/// Truth: the tables.
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,8 +1,8 @@
-//! Where every place of a state vector stands.
+//! Offsets of a state vector.
 
 use super::*;
 
-/// Truth: the order that `Model::names` tells.
+/// Truth: the order of `Model::names`.
 #[test]
 fn every_place_has_one_owner() {
     let layout = Layout::of_balls(3);

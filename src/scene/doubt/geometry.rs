@@ -102,7 +102,7 @@ fn boundary(scene: &Scene, found: &mut Vec<Doubt>) {
     };
     let (middle, height) = (f64::midpoint(bore, outside), (outside - bore) / 2.0);
     for (i, row) in scene.rows.iter().enumerate() {
-        // Beyond any ring they are told already, or stand for a housing and a shaft.
+        // Beyond any ring they are reported already, or stand for a housing and a shaft.
         let is_off = (row.pitch_diameter - middle).abs() > ASIDE * height;
         if is_off && height > row.ball_diameter && height < 6.0 * row.ball_diameter {
             let usual = format!(

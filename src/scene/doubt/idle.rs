@@ -1,4 +1,4 @@
-//! What a scene says and nothing feels: the model lacks it, or what is held takes it.
+//! Fields without effect: the model lacks it, or a support that is held carries it.
 
 use super::{Doubt, millimetres};
 use crate::scene::{
@@ -12,7 +12,7 @@ const NO_MOMENT: f64 = 1e-9;
 const MODULUS: f64 = 0.03;
 /// Contact angle from which a bearing takes thrust one way \[rad\]; deep groove bearings are given 0.
 const ANGULAR: f64 = 0.1;
-/// Thrust over radial load from which contacts of a deep groove bearing lean by some 10°.
+/// Thrust over radial load from which contact angles of a deep groove bearing are some 10°.
 const THRUST: f64 = 0.5;
 
 /// What a moment is about.
@@ -28,7 +28,7 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
 
 /// Moments, and loads off the centre, about directions in which their ring is held.
 fn moments(scene: &Scene, found: &mut Vec<Doubt>) {
-    // Held as they are at equilibrium, which feels them.
+    // Held as they are at equilibrium, on which the field has an effect.
     if scene.approximations.tilt {
         return;
     }
@@ -122,7 +122,7 @@ fn preload(scene: &Scene, found: &mut Vec<Doubt>) {
     }
 }
 
-/// Thrust of the inner ring towards +z at t = 0, as the balls feel it \[N\]; none where both rings are held along z.
+/// Thrust of the inner ring towards +z at t = 0, as it acts on the balls \[N\]; none where both rings are held along z.
 fn thrust_of(scene: &Scene) -> Option<f64> {
     let on = |name: RingName| {
         let loads = scene.loads.values().filter(|load| load.ring == name);
@@ -154,7 +154,7 @@ fn thrust(scene: &Scene, found: &mut Vec<Doubt>) {
     }
 }
 
-/// Moduli that the law in slices does not know.
+/// Moduli that the law in slices does not include.
 fn moduli(scene: &Scene, found: &mut Vec<Doubt>) {
     let paper = NormalLaw::iso16281();
     let steel = Material::default().youngs_modulus;
@@ -189,7 +189,7 @@ fn moduli(scene: &Scene, found: &mut Vec<Doubt>) {
     }
 }
 
-/// Defects of balls that spin about z though their contacts lean.
+/// Defects of balls that spin about z at a contact angle.
 fn balls(scene: &Scene, found: &mut Vec<Doubt>) {
     if scene.spin == Some(Spin::Free) {
         return;

@@ -1,4 +1,4 @@
-//! Oil, as far as no equilibrium is asked for.
+//! Oil, as far as it is judged without an equilibrium.
 
 use super::{Doubt, millimetres};
 use crate::scene::{Drive, Lubricant, Probe, Scene};

@@ -1,8 +1,8 @@
-//! What a scene may say without being refused, and hardly means: a number in another unit, a column that stands still.
+//! What a scene may have without being refused, and is probably not meant: a number in another unit, a column that is constant.
 //!
-//! Validation refuses what cannot be computed; a pitch diameter of 39 m can. So every number is held against what
-//! bearings have, wide enough for any catalogue from miniature bearings to those of a bore of one metre
-//! (`tests/reliability/doubts.rs`), and what lies outside is told, not refused: research may well look there.
+//! Validation refuses what cannot be computed; a pitch diameter of 39 m can. So every number is compared with the range of
+//! real bearings, from miniature ones to those with a bore of one metre (`tests/reliability/doubts.rs`). What lies outside
+//! causes a warning and is not refused, since research may need it.
 
 mod geometry;
 mod idle;
@@ -71,7 +71,7 @@ impl Doubt {
 }
 
 impl Scene {
-    /// What is unusual about the scene's numbers, what of them nothing feels, and probes of what cannot change; of an ordinary
+    /// Improbable numbers of the scene, fields without effect, and probes of what cannot change; of an ordinary
     /// bearing nothing.
     /// For a scene that [`Scene::validate`] accepts.
     ///

@@ -31,7 +31,7 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
 }
 
 /// Columns of a motion that never change. That the outer ring does not turn is as usual as expected: of all twelve
-/// components its rotation is told only where nothing else moves either.
+/// components its rotation is reported only where nothing else moves either.
 fn still(scene: &Scene, name: &str, body: &str, components: Option<&[Component]>) -> Option<Doubt> {
     let mut moves = scene.moves(scene.body_index(body)?);
     if components.is_none() && moves[..3].contains(&true) {

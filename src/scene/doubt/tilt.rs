@@ -1,17 +1,17 @@
-//! Rings that lean.
+//! Rings that tilt.
 
 use super::Doubt;
 use crate::scene::Scene;
 use crate::told::number;
 
-/// Rings lean by less in use \[rad\]: self-aligning ball bearings by 2.5 to 3°.
+/// Rings tilt by less in use \[rad\]: self-aligning ball bearings by 2.5 to 3°.
 const TILT: f64 = 0.05;
 
 /// Why that is doubted.
 const USUAL: &str = "no bearing's rings lean by 3° in use";
 
 impl Doubt {
-    /// Of how far rings lean in a run or at equilibrium \[rad\], if that is too far.
+    /// Of how far rings tilt in a run or at equilibrium \[rad\], if that is too far.
     pub(crate) fn tilt(size: f64) -> Option<Self> {
         (size > TILT).then(|| {
             let value = format!("{}°", number(size.to_degrees()));

@@ -1,4 +1,4 @@
-//! Numbers that are possible and yet far smaller than anybody means, or written as if in another unit.
+//! Numbers that are possible but improbably small, or written as if in another unit.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! Everything checkable is checked here, naming the field.
+//! All checks of a scene; each error names the field.
 
 mod bearing;
 mod check;

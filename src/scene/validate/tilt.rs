@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::scene::{CoupledSupport, Drive, Mount, Ring, Scene};
 use crate::told::number;
 
-/// The furthest that a ring may lean \[rad\].
+/// The furthest that a ring may tilt \[rad\].
 const FURTHEST: f64 = 0.5;
 /// How far a coupled support may miss being symmetric and positive semidefinite, over its largest entry: rounding.
 const ROUNDING: f64 = 1e-9;

@@ -1,4 +1,4 @@
-//! What a run that came to its end still has to say.
+//! Warnings of a run that was completed.
 
 mod text;
 
@@ -27,7 +27,7 @@ const LARGEST_LOSS: f64 = 0.005;
 /// in the loaded zone: half of it over the balls' pitch (`docs/defects.md`).
 const LARGEST_LEAD: f64 = 0.005;
 
-/// A reason to look twice at the signals of a run.
+/// A reason to check the signals of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -44,8 +44,8 @@ pub enum Warning {
         /// The step of a method of fixed steps, which has no tolerance \[s\].
         fixed_step: Option<f64>,
     },
-    /// The accuracy that was asked for cannot be had: pilot runs differ by more however fine they are, since the motion is
-    /// chance.
+    /// The requested accuracy cannot be reached: pilot runs differ by more however fine they are, since the motion is
+    /// chaotic.
     AccuracyMissed(Accuracy),
     /// Contacts reached beyond a shoulder, or beyond the pole of ball and groove where a zone ends there: the model has no race there.
     Shoulders {
@@ -99,7 +99,7 @@ pub enum Warning {
         /// [`crate::Statistics::orbit_slowed`].
         slowed: f64,
     },
-    /// The balls of a row went round at another rate than rolling at the contact angle at rest tells.
+    /// The orbit speed of a row differs from rolling at the contact angle at rest.
     Kinematics(RowKinematics),
 }
 
@@ -123,7 +123,7 @@ impl Warning {
 }
 
 impl Signals {
-    /// Reasons to look twice; usually none.
+    /// Reasons to check the signals; usually none.
     ///
     /// ```
     /// use ballrace::{Run, scene::presets, simulate};
@@ -207,7 +207,7 @@ impl Signals {
         })
     }
 
-    /// Rows that went round otherwise than told; where nothing drives the balls that is said already.
+    /// Rows whose orbit speed differs from the prediction; where nothing drives the balls another warning says so.
     fn other_than_told(&self) -> impl Iterator<Item = Warning> {
         let play = self.scene.cage.as_ref().map_or(0.0, |cage| cage.play);
         let is_off = move |of: &RowKinematics| {

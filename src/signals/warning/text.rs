@@ -1,4 +1,4 @@
-//! Warnings in words: what was found, and what to do about it.
+//! Texts of warnings: what was found, and what to do.
 
 use std::fmt::{Display, Formatter, Result};
 

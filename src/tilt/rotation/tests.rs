@@ -70,7 +70,7 @@ fn a_free_top_precesses_about_its_momentum() {
     assert!((rotation(&back).frame.axis() - axis).norm() < 1e-10);
 }
 
-/// Energy and all of the momentum of a free ring that leans far are kept.
+/// Energy and all of the momentum of a free ring that tilts far are kept.
 #[test]
 fn a_free_ring_keeps_energy_and_momentum() {
     let start = [0.2, -0.1, 0.4, -15.0, 22.0, 180.0];

@@ -1,4 +1,4 @@
-//! What is constant of the film between a row's balls and one race.
+//! Constants of the film between a row's balls and one race.
 
 use super::conjunction::{Conjunction, Groups, Race};
 use super::damping::{Damping, DampingNow};

@@ -1,4 +1,4 @@
-//! The film of a race, and what it does in a contact as a whole.
+//! The film of a race, and its effect on a whole contact.
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]

@@ -24,12 +24,12 @@ pub struct FilmNow {
 }
 
 impl FilmNow {
-    /// Thickness h of the coat on the ring \[m\]; 0 where the film is left out, of which the other effects still know.
+    /// Thickness h of the coat on the ring \[m\]; 0 where the film is left out, though the other effects use it.
     pub fn thickness(&self) -> f64 {
         self.coat
     }
 
-    /// Thickness h in the middle of a contact \[m\], also where the film is left out and only other effects know of it.
+    /// Thickness h in the middle of a contact \[m\], also where the film is left out and only other effects use it.
     pub fn central(&self) -> f64 {
         self.film
     }

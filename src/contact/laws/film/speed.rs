@@ -1,4 +1,4 @@
-//! The rings' speed, as films see it.
+//! The relative speed of the rings, on which films depend.
 
 /// Powers of w̃ that films need.
 #[derive(Debug, Clone, Copy, PartialEq)]

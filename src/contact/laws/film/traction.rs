@@ -1,4 +1,4 @@
-//! How a film rubs.
+//! Friction of a film.
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]

@@ -170,7 +170,7 @@ impl Traction {
         }
     }
 
-    /// Friction coefficient of a film at large slip; 0 of other laws, which know their own.
+    /// Friction coefficient of a film at large slip; 0 of other laws, which have their own.
     fn limit(&self) -> f64 {
         match self {
             Self::Film(law) => law.coefficient,

@@ -1,4 +1,4 @@
-"""Physics of rings that lean: whirl and precession of a rotor, and a wheel bearing loaded at its tyre."""
+"""Dynamics of rings that tilt: whirl and precession of a rotor, and a wheel bearing loaded at its tyre."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Defects speak at the rates that the geometry gives them.
+"""Defects excite vibration at the rates that the geometry gives them.
 
 Truth: kinematics of pure rolling at the *operating* contact angle (measured in the run from the contact
 forces), and the orbit and the spin of the balls themselves. Signals are judged as one judges a measured

@@ -1,4 +1,4 @@
-"""What goes wrong around a run is decided: clocks that jump, forks, threads, a folder or a scheduler that goes."""
+"""Failures around a run: clocks that jump, forks, threads, a folder that is removed, a scheduler that is lost."""
 
 from __future__ import annotations
 
