@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from ._features import features
     from .bearings import Bearing, Catalogue, Pedestal, bearing, catalogue
     from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
+    from .channel import Channel
     from .explanation import Explanation, explain
     from .friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf
     from .life import RatingLife, rating_life
@@ -67,6 +68,7 @@ else:
             "_features": ("features",),
             "bearings": ("Bearing", "Catalogue", "Pedestal", "bearing", "catalogue"),
             "campaigns": ("Campaign", "campaign", "grid", "latin_hypercube", "scatter", "sobol"),
+            "channel": ("Channel",),
             "explanation": ("Explanation", "explain"),
             "friction": ("FrictionTorque", "friction_torque_palmgren", "friction_torque_skf"),
             "life": ("RatingLife", "rating_life"),
@@ -101,6 +103,7 @@ __all__ = [
     "CampaignError",
     "CampaignWarning",
     "Catalogue",
+    "Channel",
     "Equilibrium",
     "EquilibriumError",
     "Explanation",
