@@ -60,7 +60,7 @@ class Comb:
     def height(
         self, levels: Levels, base: NDArray[np.float64], shaft: float
     ) -> NDArray[np.float64]:
-        """Return the mean level of the lines [dB], shape (bands, *base.shape, factors)."""
+        """Return the mean level of the lines [dB], shape (spectra, *base.shape, factors)."""
         tried = base[..., np.newaxis] * FACTORS
         total = np.zeros((levels.db.shape[0], *tried.shape))
         for row in self.frequencies(tried, shaft):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -67,6 +67,8 @@ class Evidence:
         How often the largest of both races' and the ball's combs stands that high by chance.
     band : tuple of two floats
         Band in which it stands out most [Hz].
+    whitening : {"cepstrum", "smoothed"}
+        How the record was prewhitened where it does: each amplitude of its spectrum alone, or over a running mean.
     chance : tuple of two floats
         Median and 99 % quantile of the null's lines in that band [dB].
     height : float
@@ -86,6 +88,7 @@ class Evidence:
     z: float
     probability: float
     band: tuple[float, float]
+    whitening: Literal["cepstrum", "smoothed"]
     chance: tuple[float, float]
     height: float
     lines: tuple[Line, ...]
@@ -106,7 +109,7 @@ def evidence_of(
     comb = comb_of(part, kinematics.orders)
     null = null_orders(kinematics.orders, part, np.random.default_rng([seed, len(part)]))
     found = found_of(comb, levels, shaft, null)
-    chance = levels_by_chance(comb, levels, shaft, null, _SHARES)[:, found.band]
+    chance = levels_by_chance(comb, levels, shaft, null, _SHARES)[:, found.row]
     lines = comb.frequencies(np.array([comb.order * shaft]), shaft)[:, 0]
     at = np.clip(np.rint(lines * levels.duration).astype(int), 0, levels.hidden.size - 1)
     return Evidence(
@@ -116,7 +119,8 @@ def evidence_of(
         contact_angle=_angle(part, comb.order * found.factor, kinematics),
         z=found.z,
         probability=probability(found.z, len(ACCUSED)),
-        band=levels.bands[found.band],
+        band=envelopes.bands[found.row % len(envelopes.bands)],
+        whitening="cepstrum" if found.row < len(envelopes.bands) else "smoothed",
         chance=(float(chance[0]), float(chance[1])),
         height=found.height,
         lines=_speaking(comb, levels, shaft, found, float(chance[1])),
@@ -139,7 +143,7 @@ def _speaking(
     nominal = comb.frequencies(np.array([comb.order * shaft]), shaft)[:, 0]
     moved = comb.frequencies(np.array([comb.order * found.factor * shaft]), shaft)[:, 0]
     for line, expected, near in zip(comb.lines, nominal.tolist(), moved.tolist(), strict=True):
-        at, level = _summit(levels, found.band, near)
+        at, level = _summit(levels, found.row, near)
         if level > above:
             lines.append(
                 Line(
@@ -153,12 +157,12 @@ def _speaking(
     return tuple(lines)
 
 
-def _summit(levels: Levels, band: int, near: float) -> tuple[float, float]:
+def _summit(levels: Levels, row: int, near: float) -> tuple[float, float]:
     """Return the highest bin within a line's width [Hz], and its level [dB]."""
     at, reach = round(near * levels.duration), round(WIDTH * near * levels.duration)
     first = max(at - reach, 0)
-    row = levels.db[band, first : at + reach + 1]
-    if row.size == 0:
+    near_by = levels.db[row, first : at + reach + 1]
+    if near_by.size == 0:
         return near, float("-inf")
-    best = int(np.argmax(row))
-    return (first + best) / levels.duration, float(row[best])
+    best = int(np.argmax(near_by))
+    return (first + best) / levels.duration, float(near_by[best])

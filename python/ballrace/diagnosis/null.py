@@ -51,7 +51,7 @@ _SPREAD = 1.4826
 """Standard deviation of normal numbers over the median of their distances from their median."""
 
 _LEAST = 0.3
-"""Added to the spread of a band's combs [dB]: where all are alike, none stands out for that."""
+"""Added to the spread of a spectrum's combs [dB]: where all are alike, none stands out for that."""
 
 _GUMBEL = 0.36651, 0.76705
 """Median, and median distance from it, of the standard Gumbel distribution."""
@@ -65,16 +65,16 @@ class Found:
     ----------
     z : float
         How far it stands above the null's median, in the null's standard deviations.
-    band : int
-        Band in which it stands out most.
+    row : int
+        Spectrum in which it stands out most.
     factor : float
         Its order over the nominal one.
     height : float
-        Mean level of its lines in that band [dB].
+        Mean level of its lines there [dB].
     """
 
     z: float
-    band: int
+    row: int
     factor: float
     height: float
 
@@ -101,14 +101,14 @@ def found_of(comb: Comb, levels: Levels, shaft: float, null: NDArray[np.float64]
     spread = _SPREAD * np.median(np.abs(by_chance - middle), axis=1, keepdims=True) + _LEAST
     scores = ((by_chance - middle) / spread).max(axis=0)
     own = (tried - middle) / spread
-    band, factor = np.unravel_index(int(np.argmax(own)), own.shape)
+    row, factor = np.unravel_index(int(np.argmax(own)), own.shape)
     centre = float(np.median(scores))
     deviation = _SPREAD * float(np.median(np.abs(scores - centre)))
     return Found(
         z=(float(own.max()) - centre) / max(deviation, 1e-9),
-        band=int(band),
+        row=int(row),
         factor=float(FACTORS[factor]),
-        height=float(tried[band, factor]),
+        height=float(tried[row, factor]),
     )
 
 
@@ -138,6 +138,6 @@ def largest_z(rate: float, of: int) -> float:
 def levels_by_chance(
     comb: Comb, levels: Levels, shaft: float, null: NDArray[np.float64], shares: Sequence[float]
 ) -> NDArray[np.float64]:
-    """Return quantiles of single lines of the null, shape (len(shares), bands) [dB]."""
+    """Return quantiles of single lines of the null, shape (len(shares), spectra) [dB]."""
     lines = levels.highest(comb.frequencies(null * shaft, shaft), WIDTH)
     return np.quantile(lines, shares, axis=(1, 2))

@@ -33,7 +33,7 @@ def picture(
     fig = fig if fig is not None else Figure()
     f = np.arange(levels.hidden.size) / levels.duration
     shown = f <= 4.3 * one.order * of.shaft.rate
-    row = levels.db[levels.bands.index(one.band)]
+    row = levels.db[of._row(one)]
     fig.add_hrect(
         y0=one.chance[0], y1=one.chance[1], fillcolor="#888", opacity=0.15, line_width=0,
         annotation_text="lines by chance, median to 99 %", annotation_position="top left",

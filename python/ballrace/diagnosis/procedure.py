@@ -14,7 +14,7 @@ from ..channel import channel_of
 from ..errors import SceneError
 from ..spectra.checks import checked_signal
 from .combs import PARTS, comb_of
-from .envelopes import envelope_spectra, levels_of
+from .envelopes import bands_of, envelope_spectra, levels_of
 from .evidence import evidence_of
 from .kinematics import kinematics_of
 from .null import ACCUSED, largest_z
@@ -63,7 +63,7 @@ def diagnose(
 ) -> Diagnosis:
     """Say whether a race or a ball is damaged, nothing is, or the record cannot tell.
 
-    The record is prewhitened by its cepstrum; in overlapping bands the squared envelope's spectrum is searched
+    The record is prewhitened in two ways; in overlapping bands the squared envelope's spectrum is searched
     for the combs of lines that faults of each part have. How high they stand is compared with a thousand combs
     at orders of the same record that no part has, so that chance has a known rate, without training and without
     a threshold in decibels. Lines that stand out accuse a part only where they are deep or blows stand out,
@@ -133,14 +133,15 @@ def diagnose(
         raise SceneError("false_alarm", repr(false_alarm), "a share of records, 1e-6 to 0.2")
     orders, rates = _others(exclude, mains)
     machine = checked_machine(machine)
-    bands, spectra = _spectra(channel, kinematics, nominal)
+    bands = bands_of(channel.fs, _HELD * kinematics.orders.bpfi * nominal)
     shaft = ShaftRate(rate=nominal, nominal=nominal, by="nominal", z=0.0)
     told = _undecided(channel, kinematics, shaft, false_alarm)
     lack = _lack(channel, nominal, kinematics, len(bands))
     if lack is not None:
         return replace(told, why=lack)
+    spectra = _spectra(channel, bands, kinematics, nominal)
     shaft = shaft_rate(channel.x, channel.fs, nominal, spectra)
-    levels = levels_of(bands, spectra, channel.n_samples / channel.fs, shaft.rate)
+    levels = levels_of(spectra, channel.n_samples / channel.fs, shaft.rate)
     levels = levels.without([shaft.rate, *(order * shaft.rate for order in orders), *rates])
     envelopes = Envelopes(channel.x, channel.fs, bands)
     evidence = {
@@ -156,17 +157,17 @@ def diagnose(
     severity = severity_of(channel, shaft.rate, envelopes, deciding, machine)
     return replace(
         told, verdict=verdict.verdict, parts=verdict.parts, why=verdict.why, evidence=evidence, shaft=shaft,
-        severity=severity, _levels=levels,
+        severity=severity, _levels=levels, _bands=tuple(bands),
     )  # fmt: skip
 
 
 def _spectra(
-    channel: Channel, kinematics: Kinematics, shaft: float
-) -> tuple[list[tuple[float, float]], NDArray[np.float64]]:
-    """Return bands and spectra of their envelopes, up to the last line of the null's highest comb."""
+    channel: Channel, bands: list[tuple[float, float]], kinematics: Kinematics, shaft: float
+) -> NDArray[np.float64]:
+    """Return the spectra of envelopes up to the last line of the null's highest comb."""
     highest = max(comb_of(part, kinematics.orders).order for part in ACCUSED)
     limit = (4.1 * 1.55 * highest + 3.0) * shaft
-    return envelope_spectra(channel.x, channel.fs, limit, _HELD * kinematics.orders.bpfi * shaft)
+    return envelope_spectra(channel.x, channel.fs, bands, limit, shaft)
 
 
 def _checked(channel: Channel, unit: str | None) -> Channel:

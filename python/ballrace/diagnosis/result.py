@@ -71,6 +71,7 @@ class Diagnosis:
     unit: str
     notes: tuple[str, ...] = ()
     _levels: Levels | None = field(default=None)
+    _bands: tuple[tuple[float, float], ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "evidence", MappingProxyType(dict(self.evidence)))
@@ -100,6 +101,10 @@ class Diagnosis:
         what = escape(self.verdict + "".join(f", {NAMES[part]}" for part in self.parts))
         told = f"<p><strong>{escape(self.bearing)}: {what}.</strong> {escape(self.why)}.</p>"
         return f"{told}<table><tr>{head}</tr>{body}</table>"
+
+    def _row(self, one: Evidence) -> int:
+        """Return the row of the levels in which a part stands out most."""
+        return self._bands.index(one.band) + len(self._bands) * (one.whitening == "smoothed")
 
     def rows(self) -> list[list[str]]:
         """Return the evidence as text: part, z, probability, factor, band, depth, acceleration."""

@@ -55,7 +55,7 @@ def shaft_rate(
     """Find the rate whose multiples stand highest in the spectrum and in the envelopes' spectra."""
     plain = line_spectrum(x, envelopes.shape[1])
     value = np.vstack([plain, envelopes])
-    levels = levels_of([(0.0, 0.0)] * value.shape[0], value, x.size / fs, nominal)
+    levels = levels_of(value, x.size / fs, nominal)
     tried, heights = _family(levels, nominal)
     by_chance = np.array([_family(levels, other)[1].max(axis=1) for other in _others(nominal)])
     middle = np.median(by_chance, axis=0)
