@@ -27,10 +27,10 @@ NAMES: dict[Part, str] = {
 }  # fmt: skip
 
 _DOUBT = 3.0
-"""Up to so many times the false-alarm rate a part is doubted, not cleared."""
+"""Up to so many times the false-alarm rate a part with strong lines is doubted, not cleared."""
 
 _BESIDE = 6.0, 0.6
-"""A second part is named where its comb stands at most so much below the first's [dB], and its z is so much of it.
+"""A part is named beside others whose comb is at most so far below the highest [dB], its z so much of the largest.
 
 Lines of an outer race that the shaft modulates lie at those of the inner race, since BPFO + BPFI is the number of
 balls: in the records of damaged outer races of ``hit-sm`` and CWRU 130 they stand 9 to 17 dB lower.
@@ -82,7 +82,13 @@ def decided(
         return Verdict(verdict="undecided", parts=(), why=_shallow(loud[0]))
     if sure and faint is not None:
         return Verdict(verdict="healthy", parts=(), why=_faint(sure[0], faint))
-    doubted = [one for one in ranked if one.probability < _DOUBT * false_alarm]
+    doubted = [
+        one
+        for one in ranked
+        if one.probability < _DOUBT * false_alarm
+        and not one.strength.is_shallow
+        and (faint is None or one.strength.acceleration >= faint)
+    ]
     needs = [*wanting, *map(_doubt, doubted), *map(_hidden, filter(_is_hidden, ranked[:3]))]
     if needs:
         return Verdict(verdict="undecided", parts=(), why=needs[0])
@@ -106,7 +112,8 @@ def own_lines(
     left has to stand out still.
     """  # fmt: skip
     sure = [one for one in map(evidence.__getitem__, ACCUSED) if one.probability < false_alarm]
-    ranked = sorted(sure, key=lambda one: -one.height)
+    least = _BESIDE[1] * max((one.z for one in sure), default=0.0)
+    ranked = sorted((one for one in sure if one.z >= least), key=lambda one: -one.height)
     if len(ranked) < 2:
         return [one.part for one in ranked]
     first = ranked[0]
@@ -116,7 +123,7 @@ def own_lines(
     rest = levels.without_lines(np.array(lines), WIDTH)
     own = [first.part]
     for other in ranked[1:]:
-        if other.height < first.height - _BESIDE[0] or other.z < _BESIDE[1] * first.z:
+        if other.height < first.height - _BESIDE[0]:
             continue
         null = null_orders(kinematics.orders, other.part, np.random.default_rng([seed, 1]))
         found = found_of(comb_of(other.part, kinematics.orders), rest, shaft, null)
