@@ -150,10 +150,10 @@ def main() -> None:
     )
 
 
-VERDICTS = """What `br.diagnose` says of records whose truth is known. The combs and the limits of strength were
-chosen with the measured records at hand: 21 of 21 is no forecast for others. Left open was one healthy record, whose
-inner race has significant but shallow lines. Ball defects of simulated bearings are not found: their balls spin about
-the axis, at another rate than 2·BSF.
+VERDICTS = """What `br.diagnose` says of records whose truth is known. The combs and the limits of strength
+were chosen with the measured records at hand: 21 of 21 is no forecast for others. Left open was one healthy
+record, whose inner race has significant but shallow lines. Ball defects of simulated bearings are not found: their
+balls spin about the axis, at another rate than 2·BSF.
 """
 
 LIMITS = """## Misfits, explained
