@@ -71,8 +71,9 @@ def test_blows_accuse_the_part_with_their_rate(part: str, seed: int) -> None:
                                                   "ball": {"2·BSF"}}[part]  # fmt: skip
 
 
-def test_two_faults_are_both_named_and_one_is_not_two() -> None:
-    outer, inner = blows(ORDERS.bpfo), blows(ORDERS.bpfi, 1.0, seed=3)
+@pytest.mark.parametrize("seed", range(1, 4))
+def test_two_faults_are_both_named_and_one_is_not_two(seed: int) -> None:
+    outer, inner = blows(ORDERS.bpfo, seed=seed), blows(ORDERS.bpfi, 1.0, seed=seed + 29)
     both = judged(noise(outer + inner, 0.1))
     assert set(both.parts) == {"outer_race", "inner_race"}
     # Blows of the outer race that the shaft modulates have lines next to the inner race's: 9 f_r − BPFO is BPFI.
@@ -261,7 +262,9 @@ REFUSED: dict[str, Callable[[], object]] = {
     "speed_rpm = 0.0": lambda: judged(X, rpm=0.0),
     "fs = None": lambda: br.diagnose(X, "6205", RPM),
     "false_alarm = 0.5": lambda: judged(X, false_alarm=0.5),
-    "exclude = 0.0": lambda: judged(X, exclude=[0.0]),
+    "exclude = [0.0]": lambda: judged(X, exclude=[0.0]),
+    "exclude = 1.7": lambda: judged(X, exclude=1.7),
+    "seed = -1": lambda: judged(X, seed=-1),
     "mains = 0.0": lambda: judged(X, mains=0.0),
     "machine = 'small'": lambda: judged(X, machine="small"),
     "unit = 'V'": lambda: judged(X, unit="V"),

@@ -78,6 +78,15 @@ def test_no_piece_of_a_healthy_record_is_called_damaged(name: str) -> None:
         assert br.diagnose(piece, "6205", rpm, fs=51_200.0).verdict != "damaged", (first, last)
 
 
+@pytest.mark.parametrize("name", ["OR5_1200", "OR5_900"])
+def test_lines_of_the_outer_race_do_not_accuse_the_inner(name: str) -> None:
+    """BPFI is 9 f_r − BPFO: in pieces of these records its lines stand out as well."""
+    x, rpm = hit(name)
+    for first in (0, 1, 2, 3):
+        piece = x[first * 51_200 : (first + 2) * 51_200]
+        assert br.diagnose(piece, "6205", rpm, fs=51_200.0).parts == ("outer_race",), first
+
+
 @pytest.mark.parametrize("number", CWRU)
 @pytest.mark.parametrize("first", [0.0, 1.0])
 def test_records_of_case_western_reserve(number: str, first: float) -> None:

@@ -62,9 +62,10 @@ class Levels:
         reach = np.rint(width * f * self.duration).astype(int)
         at = np.clip(np.rint(f * self.duration).astype(int), 0, self.db.shape[1] - 1)
         found = np.empty((self.db.shape[0], *f.shape))
-        for half in np.unique(reach):
+        for half in range(int(reach.min()), int(reach.max()) + 1):
             chosen = reach == half
-            found[:, chosen] = self._within(int(half))[:, at[chosen]]
+            if chosen.any():
+                found[:, chosen] = self._within(half)[:, at[chosen]]
         return found
 
     def _within(self, half: int) -> NDArray[np.float64]:

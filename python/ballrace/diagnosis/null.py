@@ -85,7 +85,7 @@ def null_orders(orders: Orders, part: str, rng: np.random.Generator) -> NDArray[
     near = [orders.ftf] if part == "cage" else faults
     ratios = [p / q for p in range(1, 5) for q in range(1, 5)]
     shared = np.array([fault * ratio for fault in (*faults, orders.ftf) for ratio in ratios])
-    drawn = rng.uniform(0.6 * min(near), 1.55 * max(near), 20 * _COUNT)
+    drawn = rng.uniform(0.6 * min(near), 1.55 * max(near), 6 * _COUNT)
     own = np.abs(drawn[:, np.newaxis] / shared - 1.0).min(axis=1) < _APART
     whole = np.abs(drawn - np.rint(drawn)) < _OF_SHAFT
     free = drawn[~(own | whole)]

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from .._numbers import real
-from .._units import ACCELERATIONS
 from ..channel import channel_of
-from ..errors import SceneError
-from ..spectra.checks import checked_signal
+from .arguments import (
+    check_chances,
+    checked_channel,
+    known_bearing,
+    nominal_rate,
+    other_rates,
+)
 from .combs import PARTS, comb_of
 from .envelopes import bands_of, envelope_spectra, levels_of
 from .evidence import evidence_of
-from .kinematics import kinematics_of
+from .lacking import HELD, lack_of, notes_of, wanting_of
 from .null import ACCUSED, largest_z
 from .result import Diagnosis
 from .severity import checked_machine, severity_of
@@ -27,6 +27,7 @@ from .verdict import decided, own_lines
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    import numpy as np
     from numpy.typing import NDArray
 
     from ..channel import Channel
@@ -35,15 +36,6 @@ if TYPE_CHECKING:
     from .severity import Machine
 
 __all__ = ["diagnose"]
-
-_TURNS = 20.0
-"""Turns of the shaft below which the running median under a line has too few bins for a null."""
-
-_HELD = 2.0
-"""Lines of an inner race that a band has to hold: an envelope has none above the width of its band."""
-
-_CLIPPED = 1e-3
-"""Share of samples at the largest or the smallest value from which on a record counts as clipped."""
 
 
 def diagnose(
@@ -126,17 +118,16 @@ def diagnose(
     >>> found.verdict, found.parts
     ('damaged', ('inner_race',))
     """
-    channel = _checked(channel_of(record, fs, column, name="record"), unit)
-    kinematics = _kinematics(channel, bearing, row)
-    nominal = _nominal(channel, speed_rpm)
-    if not 1e-6 <= real(false_alarm) <= 0.2:
-        raise SceneError("false_alarm", repr(false_alarm), "a share of records, 1e-6 to 0.2")
-    orders, rates = _others(exclude, mains)
+    channel = checked_channel(channel_of(record, fs, column, name="record"), unit)
+    kinematics = known_bearing(channel, bearing, row)
+    nominal = nominal_rate(channel, speed_rpm)
+    check_chances(false_alarm, seed)
+    orders, rates = other_rates(exclude, mains)
     machine = checked_machine(machine)
-    bands = bands_of(channel.fs, _HELD * kinematics.orders.bpfi * nominal)
+    bands = bands_of(channel.fs, HELD * kinematics.orders.bpfi * nominal)
     shaft = ShaftRate(rate=nominal, nominal=nominal, by="nominal", z=0.0)
     told = _undecided(channel, kinematics, shaft, false_alarm)
-    lack = _lack(channel, nominal, kinematics, len(bands))
+    lack = lack_of(channel, nominal, kinematics, len(bands))
     if lack is not None:
         return replace(told, why=lack)
     spectra = _spectra(channel, bands, kinematics, nominal)
@@ -152,7 +143,7 @@ def diagnose(
     }
     own = own_lines(evidence, levels, kinematics, shaft.rate, false_alarm=false_alarm, seed=seed)
     faint = _faint(channel, kinematics, shaft.rate)
-    verdict = decided(evidence, own, false_alarm, faint=faint, wanting=_wanting(channel))
+    verdict = decided(evidence, own, false_alarm, faint=faint, wanting=wanting_of(channel))
     deciding = bands.index(max((evidence[part] for part in ACCUSED), key=lambda one: one.z).band)
     severity = severity_of(channel, shaft.rate, envelopes, deciding, machine)
     return replace(
@@ -168,83 +159,6 @@ def _spectra(
     highest = max(comb_of(part, kinematics.orders).order for part in ACCUSED)
     limit = (4.1 * 1.55 * highest + 3.0) * shaft
     return envelope_spectra(channel.x, channel.fs, bands, limit, shaft)
-
-
-def _checked(channel: Channel, unit: str | None) -> Channel:
-    """Return the channel in m/s² where its unit is known, cut to a length that transforms quickly."""
-    from scipy.fft import prev_fast_len
-
-    x = checked_signal(channel.x, channel.fs, "record")
-    channel = replace(channel, x=x[: prev_fast_len(x.size, real=True)])
-    if unit is not None:
-        if unit.replace("²", "^2") not in ACCELERATIONS:
-            raise SceneError("unit", repr(unit), f"one of {', '.join(ACCELERATIONS)}, or None")
-        channel = replace(channel, unit=unit.replace("²", "^2"))
-    return channel.to("m/s^2") if channel.unit in ACCELERATIONS else channel
-
-
-def _kinematics(channel: Channel, bearing: AnyBearing | None, row: int) -> Kinematics:
-    bearing = channel.scene if bearing is None else bearing
-    if bearing is None:
-        raise SceneError("bearing", "None", "a bearing: the record does not know its own")
-    return kinematics_of(bearing, row)
-
-
-def _nominal(channel: Channel, speed_rpm: float | None) -> float:
-    if speed_rpm is None:
-        if not channel.shaft:
-            raise SceneError(
-                "speed_rpm", "None", "the speed [rev/min]: the record does not know it"
-            )
-        return abs(channel.shaft)
-    if not 0.0 < abs(real(speed_rpm)) < math.inf:
-        raise SceneError("speed_rpm", repr(speed_rpm), "a speed of the inner ring [rev/min], not 0")
-    return abs(real(speed_rpm)) / 60.0
-
-
-def _others(exclude: Iterable[float], mains: float | None) -> tuple[list[float], list[float]]:
-    """Return orders, and frequencies [Hz], whose multiples are not the bearing's."""
-    orders = [real(order) for order in exclude]
-    for order in orders:
-        if not 0.05 <= order < math.inf:
-            raise SceneError("exclude", repr(order), "orders of the shaft from 0.05 on")
-    if mains is not None and not 1.0 <= real(mains) <= 1000.0:
-        raise SceneError("mains", repr(mains), "a frequency, 1 to 1000 Hz, or None")
-    return orders, [] if mains is None else [real(mains)]
-
-
-def _notes(channel: Channel, kinematics: Kinematics) -> tuple[str, ...]:
-    notes = list(channel.warnings)
-    if channel.unit != "m/s^2":
-        unit = f"{channel.unit} is no acceleration" if channel.unit else "its unit is not known"
-        notes.append(f"how strong lines are was not judged: {unit}; give unit=")
-    elif kinematics.row is None:
-        notes.append("how strong lines are was not judged: only orders of the bearing are known")
-    return tuple(notes)
-
-
-def _lack(channel: Channel, shaft: float, kinematics: Kinematics, bands: int) -> str | None:
-    """Say what a record would need to have for any evidence; None if it has it."""
-    turns = channel.n_samples / channel.fs * shaft
-    if not channel.x.std() > 1e-12 * np.abs(channel.x).max():
-        return "a signal: this one is silent"
-    if turns < _TURNS:
-        return f"a longer record, at least {_TURNS / shaft:.3g} s: this one has {turns:.3g} turns of the shaft"
-    if not bands:
-        needed = 2.0 * _HELD * kinematics.orders.bpfi * shaft / 0.92
-        return (
-            f"a higher sampling rate, at least {needed:.3g} Hz: no band holds two lines of a race"
-        )
-    return None
-
-
-def _wanting(channel: Channel) -> list[str]:
-    """Return what a record lacks for a statement that nothing is damaged."""
-    x = channel.x
-    at_rails = np.count_nonzero((x == x.max()) | (x == x.min()))
-    if at_rails > max(_CLIPPED * x.size, 8):
-        return ["a record within the logger's range: this one is clipped"]
-    return []
 
 
 def _faint(channel: Channel, kinematics: Kinematics, shaft: float) -> float | None:
@@ -263,5 +177,5 @@ def _undecided(
     return Diagnosis(
         verdict="undecided", parts=(), why="", evidence={}, shaft=shaft, severity=None,
         false_alarm=false_alarm, threshold=largest_z(false_alarm, len(ACCUSED)), bearing=kinematics.name,
-        record=record, unit=channel.unit, notes=_notes(channel, kinematics),
+        record=record, unit=channel.unit, notes=notes_of(channel, kinematics),
     )  # fmt: skip
