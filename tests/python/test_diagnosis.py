@@ -100,6 +100,19 @@ def test_slip_and_speed_are_found() -> None:
     assert one.contact_angle == pytest.approx(math.acos(cosine))
 
 
+def test_a_run_up_is_judged_over_the_angle() -> None:
+    """Blows of the outer race while the shaft goes from 20 to 40 turns a second."""
+    rng = np.random.default_rng(1)
+    t = np.arange(round(3.0 * FS)) / FS
+    turns = 20.0 * t + 20.0 / 6.0 * t**2
+    passes = np.arange(1.0, turns[-1] * ORDERS.bpfo) + 0.005 * rng.normal()
+    x = 0.1 * rng.normal(size=t.size)
+    x[np.searchsorted(turns * ORDERS.bpfo, passes + 0.005 * rng.normal(size=passes.size))] += 3.0
+    turn, value = br.spectra.by_order(x, 2 * np.pi * turns)
+    assert br.diagnose(value, "6205", 60.0, fs=1.0 / turn[1]).parts == ("outer_race",)
+    assert not judged(x, rpm=1800.0).parts
+
+
 def test_what_names_the_bearing_does_not_matter() -> None:
     x = noise(blows(ORDERS.bpfi, 1.0), 0.3)
     scene = br.bearing("6205", radial_load=500.0, speed_rpm=RPM)

@@ -98,6 +98,11 @@ def test_records_of_case_western_reserve(number: str, first: float) -> None:
     assert found.verdict == ("damaged" if found.parts else "healthy")
     whole = br.diagnose(record, "6205", 1797.0, unit="g")
     assert whole.parts == found.parts
+    z = max(e.z for p, e in found.evidence.items() if p != "cage")
+    what = ", ".join((found.verdict, *found.parts)).replace("_", " ")
+    print(
+        f"\n[verdict] CWRU {number}, 4 s from {first:g} s | {what} | z {z:.1f}, threshold {found.threshold:.1f}"
+    )
     # As the CWRU tests have it: 29.93 Hz within 1e-3.
     assert whole.shaft.by == "record"
     assert whole.shaft.rate == pytest.approx(29.93, rel=1e-3)
