@@ -35,10 +35,12 @@ from .scene import Scene
 from .scene.lubricant import lubricants
 
 if TYPE_CHECKING:
-    from . import measuring, plot, spectra
+    from . import diagnosis, measuring, plot, spectra
     from ._features import features
     from .bearings import Bearing, Catalogue, Pedestal, bearing, catalogue
     from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
+    from .channel import Channel
+    from .diagnosis import Diagnosis, diagnose
     from .explanation import Explanation, explain
     from .friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf
     from .life import RatingLife, rating_life
@@ -67,6 +69,8 @@ else:
             "_features": ("features",),
             "bearings": ("Bearing", "Catalogue", "Pedestal", "bearing", "catalogue"),
             "campaigns": ("Campaign", "campaign", "grid", "latin_hypercube", "scatter", "sobol"),
+            "channel": ("Channel",),
+            "diagnosis": ("Diagnosis", "diagnose"),
             "explanation": ("Explanation", "explain"),
             "friction": ("FrictionTorque", "friction_torque_palmgren", "friction_torque_skf"),
             "life": ("RatingLife", "rating_life"),
@@ -101,6 +105,8 @@ __all__ = [
     "CampaignError",
     "CampaignWarning",
     "Catalogue",
+    "Channel",
+    "Diagnosis",
     "Equilibrium",
     "EquilibriumError",
     "Explanation",
@@ -128,6 +134,8 @@ __all__ = [
     "campaign",
     "catalogue",
     "defects",
+    "diagnose",
+    "diagnosis",
     "equilibrium",
     "explain",
     "fault_frequencies",

@@ -16,17 +16,16 @@ from .scene.scene import checked_scene
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import ArrayLike
-
     from .scene import Scene
+    from .spectra.checks import Given
 
 __all__ = ["feature_options", "features"]
 
 
 @answers_ctrl_c
 def features(
-    x: ArrayLike,
-    fs: float,
+    x: Given,
+    fs: float | None = None,
     *,
     name: str = "",
     scene: Scene | None = None,
@@ -40,10 +39,10 @@ def features(
 
     Parameters
     ----------
-    x : array_like, shape (n,)
-        Signal.
-    fs : float
-        Sampling rate [Hz].
+    x : Signals, Measurement, Recording, Channel or array_like, shape (n,)
+        Signal; of a record ``outer.ay`` if there is one, else its first column.
+    fs : float, optional
+        Sampling rate of an array [Hz].
     name : str
         Name of the column that the features are of: ``"outer.ay"`` gives ``outer.ay.rms``, no name ``rms``.
     scene : Scene, optional
@@ -76,11 +75,12 @@ def features(
     >>> round(found["sensor.rms"], 4), round(found["sensor.kurtosis"], 4)
     (0.7071, 1.5)
     """
-    from .spectra.checks import checked_signal
+    from .spectra.checks import given_signal
 
     document = None if scene is None else checked_scene(scene).to_json()
     options = json.dumps(feature_options(None, skip, band, loads=False))
-    return dict(_core.signal_features(checked_signal(x, fs), fs, name, document, options))
+    signal, fs = given_signal(x, fs)
+    return dict(_core.signal_features(signal, fs, name, document, options))
 
 
 def feature_options(

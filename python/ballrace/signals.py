@@ -342,6 +342,9 @@ class Signals(Columns):
             metadata={"scene": self.scene.to_dict(), "provenance": self._provenance.to_dict()},
         )
 
+    def _known(self) -> dict[str, Any]:
+        return {"shaft": shaft_of(self.scene), "scene": self.scene, "warnings": self.warnings}
+
     def _origin(self) -> Origin:
         return origin_of(self.scene, self._provenance.get("version"))
 

@@ -30,6 +30,8 @@ STANDING = {
     ("ballrace._record", "ballrace.signals"),
     ("ballrace.signals", "ballrace.report"),
     ("ballrace.campaigns.result", "ballrace.report"),
+    ("ballrace.diagnosis.result", "ballrace.diagnosis.page"),
+    ("ballrace.diagnosis.result", "ballrace.diagnosis.picture"),
 }
 """Who names whom against the order: for a type alone, or in a method that only hands on what it was given."""
 

@@ -416,3 +416,28 @@ def test_explain_draws_the_scene(
     assert "contact angle" in (tmp_path / "scene.html").read_text(encoding="utf-8")
     capsys.readouterr()
     assert "html" in refused(capsys, "explain", str(scene_file), "--drawing", "scene.svg")
+
+
+def test_diagnose(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """A verdict from a file, with a page; what cannot be told of it is refused in one line."""
+    rng = np.random.default_rng(1)
+    rate = br.catalogue["6205"].orders.bpfo * 30.0
+    x = 0.3 * rng.normal(size=24_000)
+    at = np.rint((np.arange(200) + 0.005 * rng.normal(size=200)) * 12_000.0 / rate).astype(int)
+    x[at[(at >= 0) & (at < x.size)]] += 5.0
+    br.Recording(columns={"quiet": rng.normal(size=x.size), "DE": x}, fs=12_000.0).write(
+        "record.csv"
+    )
+    known = ["diagnose", "record.csv", "--bearing", "6205"]
+    assert main([*known, "--rpm", "1800", "--channel", "DE", "-o", "page.html"]) == 0
+    told = capsys.readouterr().out
+    assert told.startswith("6205: damaged, outer race\n")
+    assert "give unit=" in told
+    assert (tmp_path / "page.html").is_file()
+    assert main([*known, "--rpm", "1800", "--exclude", "1.7", "--mains", "50"]) == 0
+    assert capsys.readouterr().out.startswith("6205: healthy\n")
+    assert "speed_rpm = None" in refused(capsys, *known)
+    assert "channel = 'FE'" in refused(capsys, *known, "--rpm", "1800", "--channel", "FE")
+    assert "designation = '62x'" in refused(capsys, *known[:3], "62x", "--rpm", "1800")
+    assert ".html" in refused(capsys, *known, "--rpm", "1800", "-o", "page.txt")
+    assert "missing.csv" in refused(capsys, "diagnose", "missing.csv", "--bearing", "6205")

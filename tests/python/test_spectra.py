@@ -156,3 +156,19 @@ def test_bad_arguments_are_refused() -> None:
     ):
         with pytest.raises(br.SceneError):
             call()
+
+
+def test_prewhitened_spectra_are_flat() -> None:
+    """Truth: every amplitude is one by the cepstrum; over 50 Hz a resonance goes, and a tone stays."""
+    t = np.arange(8192) / FS
+    tone = np.sin(2 * np.pi * 1000.0 * FS / 12_000.0 * t)
+    x = 20.0 * tone + np.random.default_rng(1).normal(size=t.size)
+    flat = np.abs(np.fft.rfft(spectra.prewhitened(x, FS)))[1:-1]
+    assert flat == pytest.approx(flat.mean(), rel=1e-9)
+    wide = np.abs(np.fft.rfft(spectra.prewhitened(x, FS, width=50.0)))[1:-1]
+    at = int(np.argmax(np.abs(np.fft.rfft(x))[1:-1]))
+    assert wide[at] > 4.0 * np.median(wide)
+    assert spectra.prewhitened(x, FS).std() == pytest.approx(1.0)
+    assert not spectra.prewhitened(np.zeros(64), FS).any()
+    with pytest.raises(br.SceneError, match=r"width = 0\.0"):
+        spectra.prewhitened(x, FS, width=0.0)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from .._text import printable
 from ..campaigns.cli import add_command as add_campaign
 from ..errors import BallraceError, SceneError
-from . import about, papers, running, signals, standing
+from . import about, diagnosing, papers, running, signals, standing
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -56,7 +56,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"ballrace {about.version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for room in (papers, running, standing, signals, about):
+    for room in (papers, running, standing, signals, diagnosing, about):
         room.add_commands(commands)
     add_campaign(commands)
     return parser

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ..operating import FaultFrequencies
     from ..recordings.columns import Columns
 
-__all__ = ["add_commands"]
+__all__ = ["add_commands", "local", "read_columns"]
 
 _STRONGEST = 10
 _HARMONICS = 5
@@ -97,7 +97,7 @@ def _add_spectrum(commands: Commands[argparse.ArgumentParser]) -> None:
 
 
 @contextmanager
-def _local(path: Path) -> Iterator[Path]:
+def local(path: Path) -> Iterator[Path]:
     """Give the name of a file, into which standard input goes where the name is ``-``."""
     if str(path) != "-":
         yield path
@@ -110,7 +110,7 @@ def _local(path: Path) -> Iterator[Path]:
 
 
 def _report(options: argparse.Namespace) -> None:
-    with _local(options.file) as path:
+    with local(options.file) as path:
         if path.is_dir():
             done = Campaign.open(path)
             done.report(options.output, features=options.columns, title=options.title)
@@ -128,8 +128,8 @@ def _spectrum(options: argparse.Namespace) -> None:
         if options.output.suffix.lower() not in (".csv", ".html"):
             raise SceneError("output", str(options.output), "a file that ends in .csv or .html")
         check_writable(options.output)
-    with _local(options.file) as path:
-        out = _read(path)
+    with local(options.file) as path:
+        out = read_columns(path)
         rates = _rates(out, options.bearing, options.rpm)
         name = options.column or ("outer.ay" if "outer.ay" in out else next(iter(out)))
         if name not in out:
@@ -150,20 +150,20 @@ def _spectrum(options: argparse.Namespace) -> None:
             csv.writer(file).writerows([("frequency", "value"), *lines])
 
 
-def _read(path: Path) -> Columns:
-    """Read a run, which knows its scene, or a record."""
+def read_columns(path: Path, fs: float | None = None) -> Columns:
+    """Read a run, which knows its scene, or a record, whose sampling rate may have to be told [Hz]."""
     try:
         return (
             Signals.read_parquet(path)
             if path.suffix.lower() in (".parquet", ".pq", "")
-            else read(path)
+            else read(path, fs)
         )
     except SceneError:
         raise
     except Exception as error:
         if type(error).__name__ != "FileError":
             raise
-        return read(path)
+        return read(path, fs)
 
 
 def _rates(out: Columns, bearing: str | None, rpm: float | None) -> FaultFrequencies | None:

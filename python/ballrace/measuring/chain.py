@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 import numpy as np
 from numpy.typing import NDArray
 
+from ..channel import Channel
 from ..errors import AccuracyWarning, SceneError
+from ..scene import Scene
 from ..signals import Signals
 from .housing import AnyHousing, Housing, ImpulseResponse, MeasuredResponse
 from .linear import passed
@@ -22,6 +24,7 @@ from .tacho import Tacho
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+
 
 __all__ = ["CLIPPED", "Chain", "Measurement", "measure", "measured"]
 
@@ -117,6 +120,12 @@ class Measurement:
         What was applied.
     seed : int
         With which seed.
+    shaft : float or None
+        Mean rate of the shaft [Hz], if it is known.
+    scene : Scene or None
+        What was run, where signals of a run were measured.
+    warnings : tuple of str
+        What that run was warned of.
     """
 
     x: NDArray[np.float64]
@@ -128,6 +137,9 @@ class Measurement:
     clipped: float = 0.0
     chain: Chain = Chain()
     seed: int = 0
+    shaft: float | None = None
+    scene: Scene | None = None
+    warnings: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         by = ", ".join(self.chain.stages) or "no stage"
@@ -139,6 +151,21 @@ class Measurement:
     def t(self) -> NDArray[np.float64]:
         """Times of the samples, shape (n,) [s]."""
         return self.start + np.arange(self.x.size) / self.fs
+
+    def channel(self, name: str | None = None) -> Channel:
+        """Return the signal with all that is known of it, as runs and recordings do.
+
+        Raises
+        ------
+        KeyError
+            There is no such column; the only one is ``sensor``.
+        """
+        clipped = (_clipped(self.clipped, self.range),) if self.clipped > CLIPPED else ()
+        told = Channel(
+            x=self.x, fs=self.fs, name="sensor", unit=self.unit, start=self.start, shaft=self.shaft,
+            scene=self.scene, warnings=(*self.warnings, *clipped),
+        )  # fmt: skip
+        return told.channel(name)
 
     def mix_into(
         self, background: ArrayLike, snr_db: float, *, seed: int | None = None
@@ -198,12 +225,15 @@ def measure(
     """
     found = measured(of, chain, fs=fs, shaft=shaft, seed=seed, **stages)
     if found.clipped > CLIPPED:
-        text = (
-            f"{100.0 * found.clipped:.2g} % of the samples lie beyond the logger's range of ±{found.range:g} m/s² "
-            "and are clipped: levels and lines are too small; leave out logger.range, and it fits the signal"
-        )
-        warnings.warn(text, AccuracyWarning, stacklevel=2)
+        warnings.warn(_clipped(found.clipped, found.range), AccuracyWarning, stacklevel=2)
     return found
+
+
+def _clipped(share: float, reach: float | None) -> str:
+    return (
+        f"{100.0 * share:.2g} % of the samples lie beyond the logger's range of ±{reach:g} m/s² "
+        "and are clipped: levels and lines are too small; leave out logger.range, and it fits the signal"
+    )
 
 
 def measured(
@@ -236,7 +266,8 @@ def measured(
     start = float(source.t[0])
     return Measurement(
         x=x, fs=rate, start=start, pulses=pulses, range=reach, clipped=clipped, chain=chain,
-        seed=seed,
+        seed=seed, shaft=source.rate, scene=of.scene if isinstance(of, Signals) else None,
+        warnings=of.warnings if isinstance(of, Signals) else (),
     )  # fmt: skip
 
 

@@ -31,6 +31,14 @@ class Source:
     fs: float
     angle: NDArray[np.float64] | None
 
+    @property
+    def rate(self) -> float | None:
+        """Mean rate of the shaft [Hz], if its angle is known."""
+        if self.angle is None or self.t.size < 2:
+            return None
+        turns = float(self.angle[-1] - self.angle[0]) / (2.0 * math.pi)
+        return turns / float(self.t[-1] - self.t[0])
+
     def needed_angle(self) -> NDArray[np.float64]:
         """Return the angle of the shaft [rad].
 

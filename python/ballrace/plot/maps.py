@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ..operating import FaultFrequencies
-    from ..recordings.columns import Columns
     from ..spectra import Kurtogram
     from ..spectra.bands import Fault
+    from ..spectra.checks import Given
     from .sources import Source
 
 __all__ = ["kurtogram", "order_map", "spectrogram"]
@@ -38,7 +38,7 @@ _CELLS = 600
 
 
 def spectrogram(
-    of: Columns | ArrayLike,
+    of: Given,
     column: str | None = None,
     *,
     fs: float | None = None,
@@ -50,7 +50,7 @@ def spectrogram(
 
     Parameters
     ----------
-    of : Signals, Recording or array_like
+    of : Signals, Measurement, Recording, Channel or array_like
         A run, a record, or an array.
     column : str, optional
         Column of it; by default ``outer.ay`` if there is one, else the first.
@@ -85,7 +85,7 @@ def spectrogram(
 
 
 def order_map(
-    of: Columns | ArrayLike,
+    of: Given,
     angle: str | ArrayLike = "inner.theta",
     column: str | None = None,
     *,
@@ -106,7 +106,7 @@ def order_map(
 
     Parameters
     ----------
-    of : Signals, Recording or array_like
+    of : Signals, Measurement, Recording, Channel or array_like
         A run-up, as a run, a record, or an array.
     angle : str or array_like
         Column of the shaft's angle, or the angle itself [rad].

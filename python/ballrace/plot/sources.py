@@ -3,27 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, cast
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .. import operating
+from ..channel import channel_of
 from ..errors import EquilibriumError, SceneError
 from ..operating import FaultFrequencies, fault_frequencies
-from ..recordings.columns import Columns
 from ..scene import SpeedDrive
+from ..signals import Signals
 from ..spectra.checks import checked_signal
 from .style import unit, words
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from numpy.typing import ArrayLike
-
     from ..scene import Scene
-    from ..signals import Signals
     from ..spectra.bands import Fault
+    from ..spectra.checks import Given
 
 __all__ = ["Source", "faults_of", "rates_of", "scene_of", "source", "spin_of"]
 
@@ -44,12 +43,12 @@ class Source:
         return self.start + np.arange(self.x.size) / self.fs
 
 
-def source(of: Columns | ArrayLike, column: str | None, fs: float | None) -> Source:
+def source(of: Given, column: str | None, fs: float | None) -> Source:
     """Return the signal that is meant.
 
     Parameters
     ----------
-    of : Signals, Recording or array_like
+    of : Signals, Measurement, Recording, Channel or array_like
         Where it stands.
     column : str, optional
         Column; by default ``outer.ay`` if there is one, else the first.
@@ -63,13 +62,11 @@ def source(of: Columns | ArrayLike, column: str | None, fs: float | None) -> Sou
     KeyError
         There is no such column.
     """
-    if isinstance(of, Columns):
-        name = column or ("outer.ay" if "outer.ay" in of else next(iter(of)))
-        x, start = of[name], float(of.t[0]) if of.t.size else 0.0
-        return Source(checked_signal(x, of.fs), of.fs, start, unit(of.units[name]), words(name))
-    if fs is None:
-        raise SceneError("fs", "None", "the sampling rate of the array [Hz]")
-    return Source(checked_signal(np.asarray(of), fs), fs, 0.0, "", "signal")
+    found = channel_of(of, fs, column)
+    x = checked_signal(found.x, found.fs)
+    return Source(
+        x, found.fs, found.start, unit(found.unit), words(found.name) if found.name else "signal"
+    )
 
 
 def scene_of(of: object) -> Scene | None:
@@ -87,7 +84,7 @@ def rates_of(of: object, rates: FaultFrequencies | None, row: int) -> FaultFrequ
         return rates
     if not isinstance(scene.drive.speed, int | float) or scene.drive.speed == 0.0:
         return None
-    known = cast("Signals", of)
+    known = of if isinstance(of, Signals) else scene
     try:
         return fault_frequencies(known, row=row)
     except EquilibriumError:

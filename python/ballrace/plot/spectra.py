@@ -16,17 +16,17 @@ if TYPE_CHECKING:
 
     import numpy as np
     import plotly.graph_objects as go
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
     from ..operating import FaultFrequencies
-    from ..recordings.columns import Columns
     from ..spectra.bands import Fault
+    from ..spectra.checks import Given
 
 __all__ = ["envelope_spectrum", "psd"]
 
 
 def envelope_spectrum(
-    of: Columns | ArrayLike,
+    of: Given,
     column: str | None = None,
     *,
     fs: float | None = None,
@@ -49,7 +49,7 @@ def envelope_spectrum(
 
     Parameters
     ----------
-    of : Signals, Recording or array_like
+    of : Signals, Measurement, Recording, Channel or array_like
         A run, a record, or an array.
     column : str, optional
         Column of it; by default ``outer.ay`` if there is one, else the first.
@@ -137,7 +137,7 @@ def _limit(
 
 
 def psd(
-    of: Columns | ArrayLike,
+    of: Given,
     column: str | None = None,
     *,
     fs: float | None = None,

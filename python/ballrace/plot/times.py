@@ -16,12 +16,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     import plotly.graph_objects as go
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
     from ..operating import FaultFrequencies
     from ..recordings.columns import Columns
     from ..signals import Signals
     from ..spectra.bands import Fault
+    from ..spectra.checks import Given
 
 __all__ = ["impacts", "load_cases", "signals"]
 
@@ -99,7 +100,7 @@ def load_cases(
 
 
 def impacts(
-    of: Columns | ArrayLike,
+    of: Given,
     column: str | None = None,
     *,
     fs: float | None = None,
@@ -117,7 +118,7 @@ def impacts(
 
     Parameters
     ----------
-    of : Signals, Recording or array_like
+    of : Signals, Measurement, Recording, Channel or array_like
         A run, a record, or an array.
     column : str, optional
         Column of it; by default ``outer.ay`` if there is one, else the first.

@@ -5,11 +5,12 @@ from __future__ import annotations
 import difflib
 from abc import abstractmethod
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..channel import Channel
 from ..errors import SceneError
 from .libraries import needed
 from .windows import Origin, windows
@@ -47,6 +48,32 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         return self is other
 
     __hash__ = None  # type: ignore[assignment]
+
+    def channel(self, name: str | None = None) -> Channel:
+        """Return one signal with all that is known of it.
+
+        Parameters
+        ----------
+        name : str, optional
+            Column; by default ``outer.ay`` if there is one, else the first.
+
+        Raises
+        ------
+        KeyError
+            There is no such column.
+
+        Examples
+        --------
+        >>> import ballrace as br
+        >>> out = br.simulate(br.presets.deep_groove_6205(), duration=0.001)
+        >>> out.channel().to("g").unit
+        'g'
+        """
+        name = name or ("outer.ay" if "outer.ay" in self else next(iter(self)))
+        start = float(self.t[0]) if self.t.size else 0.0
+        return Channel(
+            x=self[name], fs=self.fs, name=name, unit=self.units[name], start=start, **self._known()
+        )
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with the time ``t`` and all columns."""
@@ -197,6 +224,10 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         if not names:
             raise SceneError("columns", "none", "at least one column")
         return names
+
+    @abstractmethod
+    def _known(self) -> dict[str, Any]:
+        """Return what is known of all columns, by the fields of a channel."""
 
     @abstractmethod
     def _samples(self, names: Iterable[str] | None = None) -> Samples:

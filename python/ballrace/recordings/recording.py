@@ -121,6 +121,9 @@ class Recording(Columns):
             metadata=dict(self.metadata),
         )
 
+    def _known(self) -> dict[str, Any]:
+        return {"shaft": self.shaft or None}
+
     def _origin(self) -> Origin:
         shaft = self.shaft
         return Origin() if shaft is None else Origin(speed=lambda _: 2.0 * math.pi * shaft)

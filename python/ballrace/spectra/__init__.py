@@ -1,10 +1,10 @@
 """Signals looked at as vibration analysts do: spectra, envelopes, orders, kurtograms and fault bands.
 
-All functions take plain arrays, measured or simulated, with the sampling rate ``fs`` in hertz, and return
-``(f, value)`` as scipy does. Amplitude spectra are taken under a Hann window without the mean: a sine of
-amplitude 2 has a line of height 2.
+All functions take a run, a measurement, a recording, a channel of one (``record.channel("DE")``), or a plain array
+with its sampling rate ``fs`` in hertz, and return ``(f, value)`` as scipy does. Amplitude spectra are taken under
+a Hann window without the mean: a sine of amplitude 2 has a line of height 2.
 
-From a record to the race that is damaged:
+Where lines of the outer race stand, and how high; whether it is damaged is for :func:`ballrace.diagnose` to say:
 
 >>> import ballrace as br, numpy as np
 >>> fs, orders = 16_000.0, br.frequencies.orders(9, 7.94e-3, 39.04e-3)
@@ -14,8 +14,8 @@ From a record to the race that is damaged:
 >>> band = kurtogram(x, fs, narrowest=500.0).best
 >>> f, value = squared_envelope_spectrum(x, fs, band)
 >>> found = fault_band_metrics(f, value, fault_bands(orders, shaft=30.0))
->>> max(found, key=lambda fault: found[fault].level)
-'outer_race'
+>>> bool(found["outer_race"].level > 20.0)
+True
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from .densities import psd, spectrogram
 from .envelopes import envelope_spectrum, squared_envelope, squared_envelope_spectrum
 from .kurtograms import Kurtogram, kurtogram
 from .lines import comb, floor, line, spectrum
+from .whitening import prewhitened
 
 __all__ = [
     "FaultBand",
@@ -40,6 +41,7 @@ __all__ = [
     "kurtogram",
     "line",
     "order_spectrum",
+    "prewhitened",
     "psd",
     "spectrogram",
     "spectrum",

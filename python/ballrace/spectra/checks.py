@@ -4,39 +4,57 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from .._numbers import LARGEST, real, real_row
+from ..channel import channel_of
 from ..errors import SceneError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["checked_band", "checked_length", "checked_signal"]
+    from ..channel import Recorded
+
+__all__ = ["Given", "checked_band", "checked_length", "checked_signal", "given_signal"]
+
+Given: TypeAlias = "Recorded | ArrayLike"
+"""A run, a measurement, a recording or a channel of one, or an array."""
 
 RATES = 1e-9, 1e15
 """Sampling rates that are taken [Hz]."""
 
 
-def checked_signal(x: ArrayLike, fs: float) -> NDArray[np.float64]:
-    """Return a signal as the core reads it.
+def given_signal(x: Given, fs: float | None) -> tuple[NDArray[np.float64], float]:
+    """Return a signal and its sampling rate [Hz], of a record or of an array.
+
+    Raises
+    ------
+    SceneError
+        As of :func:`checked_signal`; or the rate of an array is missing, or that of a record another.
+    """
+    channel = channel_of(x, fs)
+    return checked_signal(channel.x, channel.fs), channel.fs
+
+
+def checked_signal(x: ArrayLike, fs: float, name: str = "x") -> NDArray[np.float64]:
+    """Return a signal as the core reads it; ``name`` is what it is called as an argument.
 
     Raises
     ------
     SceneError
         It is no row of finite numbers, or too short, or its sampling rate is not usable.
     """
-    signal = real_row("x", x)
+    signal = real_row(name, x)
     if signal.ndim != 1 or signal.size < 8:
         raise SceneError(
-            "x", f"an array of shape {signal.shape}", "an array of shape (n,), n at least 8"
+            name, f"an array of shape {signal.shape}", "an array of shape (n,), n at least 8"
         )
     if not np.isfinite(signal).all():
-        raise SceneError("x", "not a number, or infinite, at places", "finite everywhere")
+        raise SceneError(name, "not a number, or infinite, at places", "finite everywhere")
     if np.abs(signal).max() > LARGEST:
-        raise SceneError("x", f"up to {np.abs(signal).max():g}", f"magnitudes up to {LARGEST:g}")
+        raise SceneError(name, f"up to {np.abs(signal).max():g}", f"magnitudes up to {LARGEST:g}")
     if not RATES[0] <= real(fs) <= RATES[1]:
         raise SceneError("fs", repr(fs), f"a rate [Hz], {RATES[0]:g} to {RATES[1]:g}")
     return signal

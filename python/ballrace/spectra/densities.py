@@ -6,18 +6,20 @@ from typing import TYPE_CHECKING
 
 from .._interrupt import answers_ctrl_c
 from ..errors import SceneError
-from .checks import checked_length, checked_signal
+from .checks import checked_length, given_signal
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
+
+    from .checks import Given
 
 __all__ = ["psd", "spectrogram"]
 
 
 @answers_ctrl_c
 def psd(
-    x: ArrayLike, fs: float, length: int | None = None
+    x: Given, fs: float | None = None, length: int | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the one-sided power spectral density after Welch, by :func:`scipy.signal.welch`.
 
@@ -26,10 +28,10 @@ def psd(
 
     Parameters
     ----------
-    x : array_like, shape (n,)
-        Signal.
-    fs : float
-        Sampling rate [Hz].
+    x : Signals, Measurement, Recording, Channel or array_like, shape (n,)
+        Signal; of a record ``outer.ay`` if there is one, else its first column.
+    fs : float, optional
+        Sampling rate of an array [Hz].
     length : int, optional
         Samples of a window; by default that of eight windows along the record. The resolution is fs/length.
 
@@ -57,14 +59,14 @@ def psd(
     """
     from scipy.signal import welch
 
-    signal = checked_signal(x, fs)
+    signal, fs = given_signal(x, fs)
     samples = checked_length("length", length, max(2 * signal.size // 9, 2), signal.size)
     return welch(signal, fs, nperseg=samples)  # type: ignore[no-any-return]
 
 
 @answers_ctrl_c
 def spectrogram(
-    x: ArrayLike, fs: float, length: int | None = None, hop: int | None = None
+    x: Given, fs: float | None = None, length: int | None = None, hop: int | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Return the power spectral density in time, by :class:`scipy.signal.ShortTimeFFT`.
 
@@ -73,10 +75,10 @@ def spectrogram(
 
     Parameters
     ----------
-    x : array_like, shape (n,)
-        Signal.
-    fs : float
-        Sampling rate [Hz].
+    x : Signals, Measurement, Recording, Channel or array_like, shape (n,)
+        Signal; of a record ``outer.ay`` if there is one, else its first column.
+    fs : float, optional
+        Sampling rate of an array [Hz].
     length : int, optional
         Samples of a window; by default the root of 4 n, which resolves times and frequencies alike.
     hop : int, optional
@@ -110,7 +112,7 @@ def spectrogram(
     from scipy.signal import ShortTimeFFT
     from scipy.signal.windows import hann
 
-    signal = checked_signal(x, fs)
+    signal, fs = given_signal(x, fs)
     samples = checked_length("length", length, round((4 * signal.size) ** 0.5), signal.size)
     if samples < 4:
         raise SceneError("length", str(samples), "at least 4 samples")

@@ -14,27 +14,29 @@ import numpy as np
 
 from .. import _core
 from .._interrupt import answers_ctrl_c
-from .checks import checked_band, checked_signal
+from .checks import checked_band, given_signal
 from .lines import spectrum
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
+
+    from .checks import Given
 
 __all__ = ["envelope_spectrum", "squared_envelope", "squared_envelope_spectrum"]
 
 
 @answers_ctrl_c
 def squared_envelope(
-    x: ArrayLike, fs: float, band: tuple[float, float] | None = None
+    x: Given, fs: float | None = None, band: tuple[float, float] | None = None
 ) -> NDArray[np.float64]:
     """Return the squared envelope of a signal in a band: the square of its analytic signal's magnitude.
 
     Parameters
     ----------
-    x : array_like, shape (n,)
-        Signal.
-    fs : float
-        Sampling rate [Hz].
+    x : Signals, Measurement, Recording, Channel or array_like, shape (n,)
+        Signal; of a record ``outer.ay`` if there is one, else its first column.
+    fs : float, optional
+        Sampling rate of an array [Hz].
     band : tuple of two floats, optional
         Lowest and highest frequency [Hz] that count; by default all. The edges are sharp, so the first and
         the last few periods of the lower edge carry the filter's ringing.
@@ -57,13 +59,13 @@ def squared_envelope(
     >>> bool(np.allclose(found, (1.0 + 0.5 * np.cos(2 * np.pi * 7.0 * t)) ** 2))
     True
     """
-    signal = checked_signal(x, fs)
+    signal, fs = given_signal(x, fs)
     checked = None if band is None else checked_band(band, fs)
     return _core.squared_envelope(signal, fs, checked)
 
 
 def squared_envelope_spectrum(
-    x: ArrayLike, fs: float, band: tuple[float, float] | None = None
+    x: Given, fs: float | None = None, band: tuple[float, float] | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the spectrum of the squared envelope of a signal in a band.
 
@@ -89,11 +91,12 @@ def squared_envelope_spectrum(
     >>> value[[20, 40]].round(3).tolist()
     [1.0, 0.125]
     """
-    return spectrum(squared_envelope(x, fs, band), fs)
+    signal, fs = given_signal(x, fs)
+    return spectrum(squared_envelope(signal, fs, band), fs)
 
 
 def envelope_spectrum(
-    x: ArrayLike, fs: float, band: tuple[float, float] | None = None, squared: bool = True
+    x: Given, fs: float | None = None, band: tuple[float, float] | None = None, squared: bool = True
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the spectrum of the envelope of a signal in a band.
 
@@ -122,4 +125,5 @@ def envelope_spectrum(
     """
     if squared:
         return squared_envelope_spectrum(x, fs, band)
-    return spectrum(np.sqrt(squared_envelope(x, fs, band)), fs)
+    signal, fs = given_signal(x, fs)
+    return spectrum(np.sqrt(squared_envelope(signal, fs, band)), fs)

@@ -20,12 +20,12 @@ from numpy.typing import NDArray
 from .._interrupt import answers_ctrl_c
 from .._numbers import real
 from ..errors import SceneError
-from .checks import checked_signal
+from .checks import given_signal
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from numpy.typing import ArrayLike
+    from .checks import Given
 
     Complex = NDArray[np.complex128]
 
@@ -70,15 +70,15 @@ class Kurtogram:
 
 
 @answers_ctrl_c
-def kurtogram(x: ArrayLike, fs: float, narrowest: float | None = None) -> Kurtogram:
+def kurtogram(x: Given, fs: float | None = None, narrowest: float | None = None) -> Kurtogram:
     """Return the fast kurtogram of a signal.
 
     Parameters
     ----------
-    x : array_like, shape (n,)
-        Signal.
-    fs : float
-        Sampling rate [Hz].
+    x : Signals, Measurement, Recording, Channel or array_like, shape (n,)
+        Signal; of a record ``outer.ay`` if there is one, else its first column.
+    fs : float, optional
+        Sampling rate of an array [Hz].
     narrowest : float, optional
         Width that no band is below [Hz]. The envelope of a band holds lines up to its width, so ask for some
         multiples of the highest rate that is looked for. By default bands are halved as long as their
@@ -110,7 +110,7 @@ def kurtogram(x: ArrayLike, fs: float, narrowest: float | None = None) -> Kurtog
     """
     from scipy.signal import hilbert
 
-    signal = checked_signal(x, fs)
+    signal, fs = given_signal(x, fs)
     if signal.size < 4 * _FEWEST:
         raise SceneError("x", f"{signal.size} samples", f"at least {4 * _FEWEST}")
     if narrowest is not None and not 0.0 < real(narrowest) <= fs / 2.0:

@@ -16,26 +16,28 @@ from .. import _core
 from .._interrupt import answers_ctrl_c
 from .._numbers import real
 from ..errors import SceneError
-from .checks import checked_signal
+from .checks import given_signal
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
+
+    from .checks import Given
 
 __all__ = ["comb", "floor", "line", "spectrum"]
 
 
 @answers_ctrl_c
-def spectrum(x: ArrayLike, fs: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def spectrum(x: Given, fs: float | None = None) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the amplitude spectrum of a signal.
 
     Parameters
     ----------
-    x : array_like, shape (n,)
-        Signal.
-    fs : float
-        Sampling rate [Hz].
+    x : Signals, Measurement, Recording, Channel or array_like, shape (n,)
+        Signal; of a record ``outer.ay`` if there is one, else its first column.
+    fs : float, optional
+        Sampling rate of an array [Hz].
 
     Returns
     -------
@@ -51,12 +53,14 @@ def spectrum(x: ArrayLike, fs: float) -> tuple[NDArray[np.float64], NDArray[np.f
     >>> float(f[at]), round(float(value[at]), 3)
     (50.0, 2.0)
     """
-    signal = checked_signal(x, fs)
+    signal, fs = given_signal(x, fs)
     f = np.fft.rfftfreq(signal.size, 1.0 / fs)
     return f.astype(np.float64, copy=False), _core.amplitudes(signal, signal.size)
 
 
-def line(x: ArrayLike, fs: float, near: float, width: float) -> tuple[float, float]:
+def line(
+    x: Given, fs: float | None = None, near: float = math.nan, width: float = math.nan
+) -> tuple[float, float]:
     """Find the strongest line near a frequency, between the bins.
 
     The maximum of the Hann-weighted Fourier transform at any frequency, not only at multiples of fs/n. For
@@ -70,7 +74,7 @@ def line(x: ArrayLike, fs: float, near: float, width: float) -> tuple[float, flo
     fs : float
         Sampling rate [Hz].
     near, width : float
-        The line is sought from ``near - width`` to ``near + width`` [Hz].
+        The line is sought from ``near - width`` to ``near + width`` [Hz]; both have to be given.
 
     Returns
     -------
@@ -99,10 +103,10 @@ def line(x: ArrayLike, fs: float, near: float, width: float) -> tuple[float, flo
 
 @answers_ctrl_c
 def comb(
-    x: ArrayLike,
-    fs: float,
-    near: float,
-    width: float,
+    x: Given,
+    fs: float | None = None,
+    near: float = math.nan,
+    width: float = math.nan,
     *,
     orders: Iterable[int] = (1,),
     offset: float = 0.0,
@@ -117,7 +121,7 @@ def comb(
     x, fs
         As for :func:`line`.
     near, width : float
-        The frequency is sought from ``near - width`` to ``near + width`` [Hz].
+        The frequency is sought from ``near - width`` to ``near + width`` [Hz]; both have to be given.
     orders : iterable of int
         The lines stand at these multiples.
     offset : float
@@ -143,7 +147,7 @@ def comb(
     >>> round(f, 3), value.round(2).tolist()
     (20.123, [1.0, 0.5, 0.33])
     """
-    signal = checked_signal(x, fs)
+    signal, fs = given_signal(x, fs)
     multiples = sorted(set(orders))
     if not multiples or multiples[0] < 1:
         raise SceneError("orders", str(orders), "at least one, from 1")

@@ -1,0 +1,166 @@
+"""One signal and what is known of it, whoever recorded it.
+
+A run (:class:`ballrace.Signals`), what a chain measured (:class:`ballrace.measuring.Measurement`) and a file
+(:class:`ballrace.Recording`) hold signals under different names. Each gives one of them as a :class:`Channel`, and
+what looks at signals (:mod:`ballrace.spectra`, :mod:`ballrace.plot`, :func:`ballrace.diagnose`) takes any of
+them, a channel, or an array with its sampling rate.
+
+>>> import ballrace as br, numpy as np
+>>> record = br.Recording(columns={"DE": np.sin(np.arange(4000.0))}, fs=12e3, units={"DE": "g"}, shaft=29.95)
+>>> record.channel("DE")
+<Channel DE [g]: 4000 samples at 12000 Hz, shaft 29.95 Hz>
+>>> f, value = br.spectra.psd(record)
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._numbers import real_row
+from ._units import in_unit
+from .errors import SceneError
+from .scene import Scene
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+
+__all__ = ["Channel", "Recorded", "channel_of"]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Channel:
+    """One signal of a record.
+
+    Attributes
+    ----------
+    x : ndarray, shape (n,)
+        Samples, in ``unit``.
+    fs : float
+        Sampling rate [Hz].
+    name : str
+        Its column; empty for an array.
+    unit : str
+        Unit, such as ``m/s^2`` or ``g``; empty where it is not known.
+    start : float
+        Time of the first sample [s].
+    shaft : float or None
+        Mean rate of the inner ring [Hz], if it is known.
+    scene : Scene or None
+        What was simulated; None of what was measured.
+    warnings : tuple of str
+        What the record was warned of: unsound accelerations, clipped samples.
+    """
+
+    x: NDArray[np.float64]
+    fs: float
+    name: str = ""
+    unit: str = ""
+    start: float = 0.0
+    shaft: float | None = None
+    scene: Scene | None = None
+    warnings: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        shaft = "" if self.shaft is None else f", shaft {self.shaft:g} Hz"
+        name = f"{self.name or 'array'} [{self.unit or '?'}]"
+        return f"<Channel {name}: {self.x.size} samples at {self.fs:g} Hz{shaft}>"
+
+    @property
+    def n_samples(self) -> int:
+        """Number of samples."""
+        return self.x.size
+
+    @property
+    def t(self) -> NDArray[np.float64]:
+        """Times of the samples, shape (n,) [s]."""
+        return self.start + np.arange(self.x.size) / self.fs
+
+    def channel(self, name: str | None = None) -> Channel:
+        """Return the channel itself, so that it stands wherever a record does.
+
+        Raises
+        ------
+        KeyError
+            Another name is asked for.
+        """
+        if name is not None and name != self.name:
+            raise KeyError(f"no column {name!r}; there is {self.name or 'one without a name'}")
+        return self
+
+    def to(self, unit: str, band: tuple[float, float] = (10.0, 1000.0)) -> Channel:
+        """Return the signal in another unit.
+
+        Parameters
+        ----------
+        unit : {"m/s^2", "g", "mm/s", "m/s"}
+            Accelerations become velocities by integration in the spectrum (division by 2πif).
+        band : tuple of two floats
+            Frequencies that a velocity keeps [Hz]; by default those of ISO 20816-1, 10 to 1000 Hz.
+
+        Raises
+        ------
+        SceneError
+            There is no such unit, or the channel's own is not known.
+
+        Examples
+        --------
+        10 m/s² at 100 Hz are 10/(2π·100) m/s:
+
+        >>> t = np.arange(10_000) / 10_000.0
+        >>> shaken = Channel(x=10.0 * np.sin(2 * np.pi * 100.0 * t), fs=10_000.0, unit="m/s^2")
+        >>> round(float(shaken.to("mm/s").x.max()), 2), round(float(shaken.to("g").x.max()), 3)
+        (15.92, 1.02)
+        """
+        x = in_unit(self.x, self.fs, self.unit, unit, band)
+        return replace(self, x=x, unit=unit.replace("²", "^2"))
+
+
+@runtime_checkable
+class Recorded(Protocol):
+    """What runs, measurements, recordings and channels share."""
+
+    @property
+    def fs(self) -> float:
+        """Sampling rate [Hz]."""
+
+    def channel(self, name: str | None = None) -> Channel:
+        """Return one signal; by default ``outer.ay`` if there is one, else the first."""
+
+
+def channel_of(
+    of: Recorded | ArrayLike, fs: float | None = None, column: str | None = None, *, name: str = "x"
+) -> Channel:
+    """Return the signal that is meant.
+
+    Parameters
+    ----------
+    of : Signals, Measurement, Recording, Channel or array_like
+        Where it stands.
+    fs : float, optional
+        Sampling rate of an array [Hz].
+    column : str, optional
+        Which column of a record.
+    name : str
+        What ``of`` is called where it is an argument.
+
+    Raises
+    ------
+    SceneError
+        The sampling rate of an array is missing, that of a record is another, or it is no row of numbers.
+    KeyError
+        There is no such column.
+    """
+    if isinstance(of, Recorded):
+        if fs is not None and fs != of.fs:
+            raise SceneError("fs", repr(fs), f"left out: the record has {of.fs:g} Hz")
+        return of.channel(column)
+    if fs is None:
+        raise SceneError("fs", "None", "the sampling rate of the array [Hz]")
+    if column is not None:
+        raise SceneError("column", repr(column), "None with an array, which has no columns")
+    return Channel(x=real_row(name, of), fs=fs)

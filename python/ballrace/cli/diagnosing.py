@@ -1,0 +1,92 @@
+"""``ballrace diagnose``: a verdict from a file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, get_args
+
+from .._text import printable
+from ..diagnosis import diagnose
+from ..diagnosis.result import HEADER
+from ..diagnosis.severity import Machine
+from ..errors import SceneError
+from ..report.writing import check_page
+from ..scene import Scene
+from .arguments import Commands, added
+from .signals import local, read_columns
+from .tables import print_table
+
+if TYPE_CHECKING:
+    import argparse
+
+    from ..diagnosis.kinematics import AnyBearing
+
+__all__ = ["add_commands"]
+
+
+def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
+    """Add the subcommand."""
+    found = added(
+        commands, "diagnose", "say of a record whether its bearing is damaged: healthy, damaged or undecided",
+        "ballrace diagnose 105.mat --fs 12000 --channel DE --bearing 6205 --rpm 1797 -o page.html", _diagnose,
+    )  # fmt: skip
+    found.add_argument(
+        "file", type=Path, metavar="FILE",
+        help="signals: Parquet, CSV, WAV, MATLAB, UFF58, HDF5; - reads Parquet from standard input",
+    )  # fmt: skip
+    found.add_argument(
+        "--bearing", metavar="NAME", help="designation, as 6205, or scene, .toml or .json (default: the run's)"
+    )  # fmt: skip
+    found.add_argument("--rpm", type=float, help="speed, rev/min (default: what the file knows)")
+    found.add_argument(
+        "--fs", type=float, metavar="HZ", help="sampling rate that the file does not tell"
+    )
+    found.add_argument(
+        "--channel",
+        metavar="NAME",
+        help="column (default: outer.ay if there is one, else the first)",
+    )
+    found.add_argument("--unit", choices=("m/s^2", "g"), help="unit that the file does not tell")
+    found.add_argument(
+        "--false-alarm", type=float, default=0.01, metavar="SHARE",
+        help="share of healthy records that may be called damaged (default: %(default)s)",
+    )  # fmt: skip
+    found.add_argument("--mains", type=float, metavar="HZ", help="frequency of the mains, 50 or 60")
+    found.add_argument(
+        "--exclude", type=float, nargs="+", default=[], metavar="ORDER",
+        help="orders that are not the bearing's, with their multiples: of belts, blades, gears",
+    )  # fmt: skip
+    found.add_argument(
+        "--machine",
+        choices=get_args(Machine),
+        help="class of the machine, for the zone of ISO 20816-3",
+    )
+    found.add_argument("-o", "--output", type=Path, metavar="FILE", help="page to write, .html")
+
+
+def _diagnose(options: argparse.Namespace) -> None:
+    if options.output is not None:
+        check_page(options.output, "output")
+    with local(options.file) as path:
+        record = read_columns(path, options.fs)
+        if options.channel is not None and options.channel not in record:
+            raise SceneError("channel", repr(options.channel), f"one of {', '.join(record)}")
+        found = diagnose(
+            record, _bearing(options.bearing), options.rpm, column=options.channel, unit=options.unit,
+            false_alarm=options.false_alarm, exclude=options.exclude, mains=options.mains, machine=options.machine,
+        )  # fmt: skip
+    parts = "".join(f", {part.replace('_', ' ')}" for part in found.parts)
+    print(printable(f"{found.bearing}: {found.verdict}{parts}\n{found.why}"))
+    if found.evidence:
+        print_table([*HEADER], found.rows())
+    for note in found.notes:
+        print(printable(note))
+    if options.output is not None:
+        found.report(options.output)
+        print(f"{printable(str(options.output))}: {options.output.stat().st_size / 1e6:.1f} MB")
+
+
+def _bearing(name: str | None) -> AnyBearing | None:
+    if name is not None and name.lower().endswith((".toml", ".json")):
+        return Scene.load(Path(name))
+    return name

@@ -1,0 +1,33 @@
+"""A verdict from a record: healthy, damaged, or what would decide.
+
+>>> import ballrace as br, numpy as np
+>>> noise = np.random.default_rng(1).normal(size=48_000)
+>>> br.diagnose(noise, "6205", 1800.0, fs=12_000.0).verdict
+'healthy'
+
+==============  ======================================================================================
+``arguments``   what is asked, checked; ``lacking``: what a record would need
+``kinematics``  orders of a bearing, whatever names it
+``envelopes``   prewhitening, spectra of squared envelopes in bands, levels over their running medians
+``shaft``       rate of the shaft from its own orders
+``combs``       the lines that a fault of each part has
+``null``        the same combs where no part has them: z and probability
+``strength``    how strong a fault speaks
+``evidence``    all of that for one part
+``verdict``     healthy, damaged or undecided
+``severity``    velocity and zone by ISO 20816-3, crest factor, kurtosis
+``procedure``   the way from a record to a verdict
+``result``      what comes out; ``picture`` and ``page`` show it
+==============  ======================================================================================
+"""
+
+from __future__ import annotations
+
+from .evidence import Evidence, Line
+from .procedure import diagnose
+from .result import Diagnosis
+from .severity import Severity
+from .shaft import ShaftRate
+from .strength import Strength
+
+__all__ = ["Diagnosis", "Evidence", "Line", "Severity", "ShaftRate", "Strength", "diagnose"]

@@ -1,0 +1,81 @@
+"""What a diagnosis is asked with, checked."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .._numbers import real
+from .._units import ACCELERATIONS
+from ..errors import SceneError
+from ..spectra.checks import checked_signal
+from .kinematics import kinematics_of
+
+if TYPE_CHECKING:
+    from ..channel import Channel
+    from .kinematics import AnyBearing, Kinematics
+
+__all__ = ["check_chances", "checked_channel", "known_bearing", "nominal_rate", "other_rates"]
+
+
+def checked_channel(channel: Channel, unit: str | None) -> Channel:
+    """Return the channel in m/s² where its unit is known, cut to a length that transforms quickly."""
+    from scipy.fft import prev_fast_len
+
+    x = checked_signal(channel.x, channel.fs, "record")
+    channel = replace(channel, x=x[: prev_fast_len(x.size, real=True)])
+    if unit is not None:
+        if unit.replace("²", "^2") not in ACCELERATIONS:
+            raise SceneError("unit", repr(unit), f"one of {', '.join(ACCELERATIONS)}, or None")
+        channel = replace(channel, unit=unit.replace("²", "^2"))
+    return channel.to("m/s^2") if channel.unit in ACCELERATIONS else channel
+
+
+def known_bearing(channel: Channel, bearing: AnyBearing | None, row: int) -> Kinematics:
+    """Return the bearing that was given, or that of the record."""
+    bearing = channel.scene if bearing is None else bearing
+    if bearing is None:
+        raise SceneError("bearing", "None", "a bearing: the record does not know its own")
+    return kinematics_of(bearing, row)
+
+
+def nominal_rate(channel: Channel, speed_rpm: float | None) -> float:
+    """Return the rate of the shaft that was given, or that the record knows [Hz]."""
+    if speed_rpm is None:
+        if not channel.shaft:
+            raise SceneError(
+                "speed_rpm", "None", "the speed [rev/min]: the record does not know it"
+            )
+        return abs(channel.shaft)
+    if not 0.0 < abs(real(speed_rpm)) < math.inf:
+        raise SceneError("speed_rpm", repr(speed_rpm), "a speed of the inner ring [rev/min], not 0")
+    return abs(real(speed_rpm)) / 60.0
+
+
+def other_rates(exclude: Iterable[float], mains: float | None) -> tuple[list[float], list[float]]:
+    """Return orders, and frequencies [Hz], whose multiples are not the bearing's."""
+    orders = [real(order) for order in exclude] if isinstance(exclude, Iterable) else [math.nan]
+    for order in orders:
+        if not 0.05 <= order < math.inf:
+            raise SceneError("exclude", repr(exclude), "orders of the shaft from 0.05 on")
+    if mains is not None and not 1.0 <= real(mains) <= 1000.0:
+        raise SceneError("mains", repr(mains), "a frequency, 1 to 1000 Hz, or None")
+    return orders, [] if mains is None else [real(mains)]
+
+
+def check_chances(false_alarm: float, seed: int) -> None:
+    """Refuse a false-alarm rate or a seed that is none.
+
+    Raises
+    ------
+    SceneError
+        It is none.
+    """
+    if not 1e-6 <= real(false_alarm) <= 0.2:
+        raise SceneError("false_alarm", repr(false_alarm), "a share of records, 1e-6 to 0.2")
+    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
+        raise SceneError("seed", repr(seed), "a whole number from 0")

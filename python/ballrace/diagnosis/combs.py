@@ -1,0 +1,95 @@
+"""Combs of lines that faults have, and how high they stand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, get_args
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..frequencies import Orders
+    from .envelopes import Levels
+
+__all__ = ["FACTORS", "PARTS", "WIDTH", "Comb", "Part", "comb_of"]
+
+Part = Literal["outer_race", "inner_race", "ball", "cage"]
+"""A part of a bearing."""
+
+PARTS: tuple[Part, ...] = get_args(Part)
+
+FACTORS = np.linspace(0.985, 1.015, 31)
+"""What slip, contact angle and a pitch diameter that is not known make of nominal orders."""
+
+WIDTH = 8e-4
+"""How far from its place a line may stand, in parts of its frequency: slip is not steady."""
+
+_HARMONICS = range(1, 5)
+_WITH_SIDEBANDS = range(1, 4)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Comb:
+    """Lines at multiples of an order, some with sidebands.
+
+    Attributes
+    ----------
+    name : str
+        Name of the order, such as ``BPFO``.
+    order : float
+        Its nominal value.
+    sideband : float
+        Distance of the sidebands, as an order; 0: none.
+    lines : tuple of tuple of two ints
+        Harmonic and sideband of each line, from (1, 0) on.
+    """
+
+    name: str
+    order: float
+    sideband: float
+    sideband_name: str
+    lines: tuple[tuple[int, int], ...]
+
+    def frequencies(self, base: NDArray[np.float64], shaft: float) -> NDArray[np.float64]:
+        """Return the frequencies of the lines [Hz] over those of base frequencies [Hz], a line a row."""
+        rows = [k * base + side * self.sideband * shaft for k, side in self.lines]
+        return np.array(rows)
+
+    def height(
+        self, levels: Levels, base: NDArray[np.float64], shaft: float
+    ) -> NDArray[np.float64]:
+        """Return the mean level of the lines [dB], shape (spectra, *base.shape, factors)."""
+        tried = base[..., np.newaxis] * FACTORS
+        total = np.zeros((levels.db.shape[0], *tried.shape))
+        for row in self.frequencies(tried, shaft):
+            total += levels.highest(row, WIDTH)
+        return total / len(self.lines)
+
+    def label(self, line: tuple[int, int]) -> str:
+        """Return the name of a line, such as ``2·BPFI − f_r``."""
+        harmonic, side = line
+        head = self.name if harmonic == 1 else f"{harmonic}·{self.name}"
+        return head if side == 0 else f"{head} {'+' if side > 0 else '−'} {self.sideband_name}"
+
+
+def comb_of(part: Part, orders: Orders) -> Comb:
+    """Return the comb of a part.
+
+    A place on the inner race goes through the load zone once a turn of the shaft, a ball once a turn of the cage:
+    their lines have sidebands there. A ball's defect meets a race twice a turn of the ball.
+    """
+    plain = tuple((k, 0) for k in _HARMONICS)
+    sides = tuple((k, side) for k in _WITH_SIDEBANDS for side in (-1, 1))
+    match part:
+        case "outer_race":
+            return Comb(name="BPFO", order=orders.bpfo, sideband=0.0, sideband_name="", lines=plain)
+        case "inner_race":
+            return Comb(name="BPFI", order=orders.bpfi, sideband=1.0, sideband_name="f_r",
+                        lines=plain + sides)  # fmt: skip
+        case "ball":
+            return Comb(name="2·BSF", order=2.0 * orders.bsf, sideband=orders.ftf, sideband_name="FTF",
+                        lines=plain + sides)  # fmt: skip
+        case "cage":
+            return Comb(name="FTF", order=orders.ftf, sideband=0.0, sideband_name="", lines=plain)

@@ -1,0 +1,193 @@
+"""Spectra of squared envelopes in overlapping bands, as levels over what is beside each line."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..spectra.whitening import flattened
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = [
+    "FLOOR",
+    "Levels",
+    "band_envelope",
+    "bands_of",
+    "envelope_spectra",
+    "half_spectrum",
+    "levels_of",
+    "line_spectrum",
+]
+
+FLOOR, CEILING = -3.0, 35.0
+"""Levels count within these [dB]: a gap weighs no more than a weak line, and one line alone makes no comb."""
+
+_EDGES = np.geomspace(0.03, 0.95, 7)
+"""Edges of the bands, in parts of fs/2; a band has two neighbours of them."""
+
+_AROUND = 0.6
+"""Width of the running median under a line, in parts of the shaft's rate: no two lines of one kind within it."""
+
+_LINE = 3.0
+"""Half of the width of a line under a Hann window, with some slip of the shaft [bins]."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Levels:
+    """Levels of some spectra over their running medians.
+
+    Attributes
+    ----------
+    db : ndarray, shape (spectra, m)
+        Levels at the frequencies ``0, 1/duration, …`` [dB].
+    duration : float
+        Length of the record [s].
+    hidden : ndarray of bool, shape (m,)
+        Frequencies that are the shaft's or of something else that is not the bearing.
+    """
+
+    db: NDArray[np.float64]
+    duration: float
+    hidden: NDArray[np.bool_]
+    _widened: dict[int, NDArray[np.float64]] = field(default_factory=dict, repr=False)
+
+    def highest(self, f: NDArray[np.float64], width: float) -> NDArray[np.float64]:
+        """Return the highest level within ``width`` parts of each frequency [dB], a spectrum a row."""
+        reach = np.rint(width * f * self.duration).astype(int)
+        at = np.clip(np.rint(f * self.duration).astype(int), 0, self.db.shape[1] - 1)
+        found = np.empty((self.db.shape[0], *f.shape))
+        for half in range(int(reach.min()), int(reach.max()) + 1):
+            chosen = reach == half
+            if chosen.any():
+                found[:, chosen] = self._within(half)[:, at[chosen]]
+        return found
+
+    def _within(self, half: int) -> NDArray[np.float64]:
+        from scipy.ndimage import maximum_filter1d
+
+        if half not in self._widened:
+            self._widened[half] = maximum_filter1d(self.db, 2 * half + 1, axis=1)
+        return self._widened[half]
+
+    def without(self, rates: Iterable[float]) -> Levels:
+        """Return the levels with nothing above its surroundings at multiples of some rates [Hz]."""
+        f = np.arange(self.hidden.size) / self.duration
+        hidden = self.hidden.copy()
+        for rate in rates:
+            hidden |= np.abs(f - rate * np.rint(f / rate)) <= _LINE / self.duration
+        return self._hiding(hidden)
+
+    def without_lines(self, lines: NDArray[np.float64], width: float) -> Levels:
+        """Return the levels with nothing above its surroundings within ``width`` parts of some lines [Hz]."""
+        hidden = self.hidden.copy()
+        for f in lines[lines > 0.0]:
+            reach = _LINE + width * f * self.duration
+            low, high = (f * self.duration - reach, f * self.duration + reach)
+            hidden[max(math.ceil(low), 0) : max(math.floor(high) + 1, 0)] = True
+        return self._hiding(hidden)
+
+    def _hiding(self, hidden: NDArray[np.bool_]) -> Levels:
+        db = np.where(hidden, np.minimum(self.db, 0.0), self.db)
+        return Levels(db=db, duration=self.duration, hidden=hidden)
+
+
+def bands_of(fs: float, held: float) -> list[tuple[float, float]]:
+    """Return the bands that are wide enough [Hz], the last of which holds all others; none if ``fs`` is too low.
+
+    An envelope holds no lines above the width of its band, and ``held`` is what it has to hold.
+    """
+    edges = _EDGES * (fs / 2.0)
+    bands = [*zip(edges[:-2], edges[2:], strict=True), (edges[0], edges[-1])]
+    return [(float(low), float(high)) for low, high in bands if high - low >= held]
+
+
+def envelope_spectra(
+    x: NDArray[np.float64], fs: float, bands: list[tuple[float, float]], limit: float, shaft: float
+) -> NDArray[np.float64]:
+    """Return the spectra of the squared envelopes of a signal that is prewhitened in two ways.
+
+    By the cepstrum, which takes out tones; and over a running root mean square as wide as the shaft's rate, which
+    leaves blows that slip by next to nothing. Where one is blind the other sees: of the measured records the first
+    shows more, of simulated ones at 10 dB the first names 14 of 30 and both together 24.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n,)
+        Signal.
+    fs : float
+        Sampling rate [Hz].
+    bands : list of tuple of two floats
+        Bands [Hz].
+    limit : float
+        Highest frequency of the spectra [Hz].
+    shaft : float
+        Rate of the shaft [Hz].
+
+    Returns
+    -------
+    ndarray, shape (2·len(bands), m)
+        Amplitudes at the frequencies ``0, fs/n, …``: of the bands for one way, then for the other; only their
+        ratios mean something.
+    """
+    spectrum = half_spectrum(x)
+    m = int(limit * x.size / fs) + 1
+    rows = [
+        line_spectrum(band_envelope(white, *band, x.size, fs), m)
+        for white in (flattened(spectrum), flattened(spectrum, shaft * x.size / fs))
+        for band in bands
+    ]
+    return np.array(rows)
+
+
+def half_spectrum(x: NDArray[np.float64]) -> NDArray[np.complex128]:
+    """Return the transform of a signal without its mean, below fs/2."""
+    from scipy.fft import rfft
+
+    found: NDArray[np.complex128] = rfft(x - x.mean())[: x.size // 2]
+    return found
+
+
+def band_envelope(
+    spectrum: NDArray[np.complex128], low: float, high: float, n: int, fs: float
+) -> NDArray[np.float64]:
+    """Return the squared envelope in a band of the signal, of ``n`` samples, that has a transform.
+
+    The band is moved to zero and sampled twice as densely as it is wide, which the square needs.
+    """
+    from scipy.fft import ifft, next_fast_len
+
+    inside = spectrum[round(low * n / fs) : round(high * n / fs)]
+    size = next_fast_len(2 * inside.size)
+    z = ifft(inside, size) * (2.0 * size / n)
+    power: NDArray[np.float64] = z.real**2 + z.imag**2
+    return power
+
+
+def line_spectrum(x: NDArray[np.float64], m: int) -> NDArray[np.float64]:
+    """Return the first ``m`` amplitudes of a Hann-weighted spectrum; zero where there are fewer."""
+    from scipy.fft import rfft
+    from scipy.signal.windows import hann
+
+    found = np.abs(rfft((x - x.mean()) * hann(x.size, sym=False)))[:m]
+    return np.pad(found, (0, m - found.size))
+
+
+def levels_of(value: NDArray[np.float64], duration: float, shaft: float) -> Levels:
+    """Return spectra as levels over their running medians, within :data:`FLOOR` and :data:`CEILING`."""
+    from scipy.ndimage import median_filter
+
+    around = max(int(_AROUND * shaft * duration) | 1, 3)
+    db = np.empty(value.shape)
+    for row, spectrum in zip(db, value, strict=True):
+        floor = median_filter(spectrum, around)
+        # Where there is next to nothing, rounding makes no lines.
+        floor = np.maximum(floor, 1e-9 * spectrum.max(initial=0.0)) + np.finfo(float).tiny
+        row[:] = 20.0 * np.log10(np.maximum(spectrum / floor, 1e-9))
+    hidden = np.zeros(value.shape[1], dtype=bool)
+    return Levels(db=np.clip(db, FLOOR, CEILING), duration=duration, hidden=hidden)

@@ -1,0 +1,168 @@
+"""What speaks for a fault of one part."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from .combs import WIDTH, Part, comb_of
+from .null import ACCUSED, found_of, levels_by_chance, null_orders, probability
+from .strength import Strength, strength_at
+
+if TYPE_CHECKING:
+    from .combs import Comb
+    from .envelopes import Levels
+    from .kinematics import Kinematics
+    from .null import Found
+    from .strength import Envelopes
+
+__all__ = ["Evidence", "Line", "evidence_of"]
+
+_SHARES = (0.5, 0.99)
+"""Shares of the null's lines that bound its band in pictures; above the second one a line speaks."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Line:
+    """A line of the squared envelope's spectrum.
+
+    Attributes
+    ----------
+    label : str
+        Its name, such as ``2·BPFI − f_r``.
+    order : float
+        Where it was found, in multiples of the shaft's rate.
+    expected, found : float
+        Where it was expected by the nominal orders, and where it was found [Hz].
+    level : float
+        Height over the median beside it [dB], 35 at most.
+    """
+
+    label: str
+    order: float
+    expected: float
+    found: float
+    level: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evidence:
+    """Evidence for a fault of one part.
+
+    Attributes
+    ----------
+    part : {"outer_race", "inner_race", "ball", "cage"}
+        The part.
+    order : float
+        Order of its fault that was expected, of a ball 2·BSF.
+    factor : float
+        Order that was found over it: what slip, contact angle and dimensions make of it.
+    contact_angle : float or None
+        The angle at which rolling balls explain the factor [rad]; None if none does, or dimensions are not known.
+    z : float
+        How far its comb of lines stands above the null's, in the null's standard deviations.
+    probability : float
+        How often the largest of both races' and the ball's combs stands that high by chance.
+    band : tuple of two floats
+        Band in which it stands out most [Hz].
+    whitening : {"cepstrum", "smoothed"}
+        How the record was prewhitened where it does: each amplitude of its spectrum alone, or over a running mean.
+    chance : tuple of two floats
+        Median and 99 % quantile of the null's lines in that band [dB].
+    height : float
+        Mean level of its lines in that band [dB].
+    lines : tuple of Line
+        Lines that speak: those above the null's 99 %.
+    hidden : float
+        Share of its lines that nominally lie on the shaft's or on what was excluded, and so cannot speak.
+    strength : Strength
+        How strong it is.
+    """
+
+    part: Part
+    order: float
+    factor: float
+    contact_angle: float | None
+    z: float
+    probability: float
+    band: tuple[float, float]
+    whitening: Literal["cepstrum", "smoothed"]
+    chance: tuple[float, float]
+    height: float
+    lines: tuple[Line, ...]
+    hidden: float
+    strength: Strength
+
+
+def evidence_of(
+    part: Part,
+    envelopes: Envelopes,
+    *,
+    levels: Levels,
+    kinematics: Kinematics,
+    shaft: float,
+    seed: int,
+) -> Evidence:
+    """Return the evidence for a part, at a shaft's rate [Hz]."""
+    comb = comb_of(part, kinematics.orders)
+    null = null_orders(kinematics.orders, part, np.random.default_rng([seed, len(part)]))
+    found = found_of(comb, levels, shaft, null)
+    chance = levels_by_chance(comb, levels, shaft, null, _SHARES)[:, found.row]
+    lines = comb.frequencies(np.array([comb.order * shaft]), shaft)[:, 0]
+    at = np.clip(np.rint(lines * levels.duration).astype(int), 0, levels.hidden.size - 1)
+    return Evidence(
+        part=part,
+        order=comb.order,
+        factor=found.factor,
+        contact_angle=_angle(part, comb.order * found.factor, kinematics),
+        z=found.z,
+        probability=probability(found.z, len(ACCUSED)),
+        band=envelopes.bands[found.row % len(envelopes.bands)],
+        whitening="cepstrum" if found.row < len(envelopes.bands) else "smoothed",
+        chance=(float(chance[0]), float(chance[1])),
+        height=found.height,
+        lines=_speaking(comb, levels, shaft, found, float(chance[1])),
+        hidden=float(levels.hidden[at].mean()),
+        strength=strength_at(envelopes, comb.order * found.factor * shaft),
+    )
+
+
+def _angle(part: Part, order: float, kinematics: Kinematics) -> float | None:
+    if kinematics.row is None or part not in ("outer_race", "inner_race"):
+        return None
+    balls = kinematics.row.ball_count
+    return kinematics.angle_at(order if part == "outer_race" else balls - order)
+
+
+def _speaking(
+    comb: Comb, levels: Levels, shaft: float, found: Found, above: float
+) -> tuple[Line, ...]:
+    lines = []
+    nominal = comb.frequencies(np.array([comb.order * shaft]), shaft)[:, 0]
+    moved = comb.frequencies(np.array([comb.order * found.factor * shaft]), shaft)[:, 0]
+    for line, expected, near in zip(comb.lines, nominal.tolist(), moved.tolist(), strict=True):
+        at, level = _summit(levels, found.row, near)
+        if level > above:
+            lines.append(
+                Line(
+                    label=comb.label(line),
+                    order=at / shaft,
+                    expected=expected,
+                    found=at,
+                    level=level,
+                )
+            )
+    return tuple(lines)
+
+
+def _summit(levels: Levels, row: int, near: float) -> tuple[float, float]:
+    """Return the highest bin within a line's width [Hz], and its level [dB]."""
+    at, reach = round(near * levels.duration), round(WIDTH * near * levels.duration)
+    first = max(at - reach, 0)
+    near_by = levels.db[row, first : at + reach + 1]
+    if near_by.size == 0:
+        return near, float("-inf")
+    best = int(np.argmax(near_by))
+    return (first + best) / levels.duration, float(near_by[best])

@@ -1,0 +1,103 @@
+"""The orders at which a bearing's faults are looked for, whatever names the bearing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, TypeAlias
+
+from ..bearings import Bearing, catalogue
+from ..errors import EquilibriumError, SceneError
+from ..frequencies import Orders, of_row, orders
+from ..operating import FaultFrequencies, fault_frequencies
+from ..scene import Row, Scene
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["AnyBearing", "Kinematics", "kinematics_of"]
+
+AnyBearing: TypeAlias = (
+    "str | Bearing | Scene | Row | Orders | FaultFrequencies | Mapping[str, float]"
+)
+"""What names a bearing: a designation, a bearing of the catalogue, a scene or a row of one, or its orders."""
+
+_WANTED = "a designation, a Bearing, a Scene, a Row, or orders: a mapping of ftf, bpfo, bpfi, bsf"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Kinematics:
+    """Orders of a row of balls, and its dimensions where they are known.
+
+    Attributes
+    ----------
+    name : str
+        What the bearing is called.
+    orders : Orders
+        Orders that are expected.
+    row : Bearing, Row or None
+        Where the dimensions stand; None where only orders were given.
+    """
+
+    name: str
+    orders: Orders
+    row: Bearing | Row | None = None
+
+    def angle_at(self, bpfo: float) -> float | None:
+        """Return the contact angle at which balls that roll pass at an order ``bpfo`` [rad]; None if at none."""
+        if self.row is None:
+            return None
+        row = self.row
+        cosine = (1.0 - 2.0 * bpfo / row.ball_count) * row.pitch_diameter / row.ball_diameter
+        return math.acos(cosine) if 0.0 < cosine <= 1.0 else None
+
+
+def kinematics_of(bearing: AnyBearing, row: int = 0) -> Kinematics:
+    """Return the orders of what names a bearing.
+
+    Raises
+    ------
+    SceneError
+        It names none.
+    """
+    if isinstance(bearing, str):
+        bearing = catalogue[bearing]
+    if isinstance(bearing, Bearing):
+        return Kinematics(name=bearing.designation, orders=bearing.orders, row=bearing)
+    if isinstance(bearing, Row):
+        return Kinematics(name="a row of a scene", orders=of_row(bearing), row=bearing)
+    if isinstance(bearing, Scene):
+        return _of_scene(bearing, row)
+    if isinstance(bearing, FaultFrequencies):
+        bearing = bearing.orders
+    if isinstance(bearing, Mapping):
+        bearing = _of_mapping(bearing)
+    if not isinstance(bearing, Orders):
+        raise SceneError("bearing", f"a {type(bearing).__name__}", _WANTED)
+    return Kinematics(name="orders that were given", orders=_checked(bearing))
+
+
+def _of_scene(scene: Scene, row: int) -> Kinematics:
+    if isinstance(row, bool) or not isinstance(row, int) or not 0 <= row < len(scene.rows):
+        raise SceneError("row", repr(row), f"a row, 0 to {len(scene.rows) - 1}")
+    of = scene.rows[row]
+    try:
+        found = fault_frequencies(scene, 60.0, row=row).orders
+    except EquilibriumError:
+        found = orders(of.ball_count, of.ball_diameter, of.pitch_diameter, of.contact_angle)
+    return Kinematics(name=scene.name or "the scene's bearing", orders=found, row=of)
+
+
+def _of_mapping(given: Mapping[str, float]) -> Orders:
+    names: Sequence[str] = [field.name for field in fields(Orders)]
+    if sorted(given) != sorted(names):
+        raise SceneError("bearing", repr(dict(given)), f"orders by the names {', '.join(names)}")
+    return Orders(**given)
+
+
+def _checked(given: Orders) -> Orders:
+    for name, order in vars(given).items():
+        if not 0.05 <= order <= 100.0:
+            raise SceneError(f"bearing.{name}", repr(order), "an order of the shaft, 0.05 to 100")
+    return given

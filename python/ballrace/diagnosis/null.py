@@ -1,0 +1,143 @@
+"""What combs are by chance: the same comb at orders of the same record that no part of the bearing has.
+
+Nothing is trained and no threshold in decibels is set: a tone of the machine, a leaning spectrum or a short record
+raise the null as they raise the fault's comb. The largest of many combs is distributed as extreme values are
+(E. J. Gumbel, *Statistics of Extremes*, 1958): of white noise the probabilities below came out within a factor 1.2
+of the share of records (``tests/python/test_diagnosis.py``).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .combs import FACTORS, PARTS, WIDTH, comb_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from ..frequencies import Orders
+    from .combs import Comb
+    from .envelopes import Levels
+
+__all__ = [
+    "ACCUSED",
+    "Found",
+    "found_of",
+    "largest_z",
+    "levels_by_chance",
+    "null_orders",
+    "probability",
+]
+
+ACCUSED = PARTS[:3]
+"""Parts that a verdict may name: the cage's line alone accuses nobody."""
+
+_COUNT = 1000
+"""Combs of the null."""
+
+_APART = 0.02
+"""Nearest that an order of the null comes to one at which a comb shares lines with a fault's, as a part of it."""
+
+_OF_SHAFT = 0.03
+"""Nearest that it comes to a whole order."""
+
+_SPREAD = 1.4826
+"""Standard deviation of normal numbers over the median of their distances from their median."""
+
+_LEAST = 0.3
+"""Added to the spread of a spectrum's combs [dB]: where all are alike, none stands out for that."""
+
+_GUMBEL = 0.36651, 0.76705
+"""Median, and median distance from it, of the standard Gumbel distribution."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Found:
+    """A comb beside its null.
+
+    Attributes
+    ----------
+    z : float
+        How far it stands above the null's median, in the null's standard deviations.
+    row : int
+        Spectrum in which it stands out most.
+    factor : float
+        Its order over the nominal one.
+    height : float
+        Mean level of its lines there [dB].
+    """
+
+    z: float
+    row: int
+    factor: float
+    height: float
+
+
+def null_orders(orders: Orders, part: str, rng: np.random.Generator) -> NDArray[np.float64]:
+    """Draw orders of the null, around those of the races and balls, or of the cage."""
+    faults = [comb_of(each, orders).order for each in ACCUSED]
+    near = [orders.ftf] if part == "cage" else faults
+    ratios = [p / q for p in range(1, 5) for q in range(1, 5)]
+    shared = np.array([fault * ratio for fault in (*faults, orders.ftf) for ratio in ratios])
+    drawn = rng.uniform(0.6 * min(near), 1.55 * max(near), 6 * _COUNT)
+    own = np.abs(drawn[:, np.newaxis] / shared - 1.0).min(axis=1) < _APART
+    whole = np.abs(drawn - np.rint(drawn)) < _OF_SHAFT
+    free = drawn[~(own | whole)]
+    # Of a bearing whose faults lie so densely that next to nothing is left, nearer ones have to do.
+    return free[:_COUNT] if free.size >= _COUNT // 4 else drawn[~whole][:_COUNT]
+
+
+def found_of(comb: Comb, levels: Levels, shaft: float, null: NDArray[np.float64]) -> Found:
+    """Return a comb beside the null's [orders]."""
+    by_chance = comb.height(levels, null * shaft, shaft).max(axis=-1)
+    tried = comb.height(levels, np.array([comb.order * shaft]), shaft)[:, 0]
+    middle = np.median(by_chance, axis=1, keepdims=True)
+    spread = _SPREAD * np.median(np.abs(by_chance - middle), axis=1, keepdims=True) + _LEAST
+    scores = ((by_chance - middle) / spread).max(axis=0)
+    own = (tried - middle) / spread
+    row, factor = np.unravel_index(int(np.argmax(own)), own.shape)
+    centre = float(np.median(scores))
+    deviation = _SPREAD * float(np.median(np.abs(scores - centre)))
+    return Found(
+        z=(float(own.max()) - centre) / max(deviation, 1e-9),
+        row=int(row),
+        factor=float(FACTORS[factor]),
+        height=float(tried[row, factor]),
+    )
+
+
+def probability(z: float, of: int = 1) -> float:
+    """Return how often the largest of some combs stands that high by chance.
+
+    Examples
+    --------
+    >>> round(probability(5.0), 5), round(probability(5.0, of=3), 5)
+    (0.00235, 0.00703)
+    """
+    median, distance = _GUMBEL
+    above = median + _SPREAD * distance * z
+    alone = -math.expm1(-math.exp(-min(above, 700.0)) if above > -30.0 else -math.inf)
+    return -math.expm1(of * math.log1p(-alone)) if alone < 1.0 else 1.0
+
+
+def largest_z(rate: float, of: int) -> float:
+    """Return the z that some combs exceed at a rate by chance."""
+    low, high = -5.0, 200.0
+    for _ in range(80):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if probability(middle, of) > rate else (low, middle)
+    return high
+
+
+def levels_by_chance(
+    comb: Comb, levels: Levels, shaft: float, null: NDArray[np.float64], shares: Sequence[float]
+) -> NDArray[np.float64]:
+    """Return quantiles of single lines of the null, shape (len(shares), spectra) [dB]."""
+    lines = levels.highest(comb.frequencies(null * shaft, shaft), WIDTH)
+    return np.quantile(lines, shares, axis=(1, 2))

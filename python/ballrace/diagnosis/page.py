@@ -1,0 +1,99 @@
+"""The page of a verdict."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..report import Page
+from ..report.words import degrees, number
+from .picture import picture
+from .result import HEADER
+from .verdict import NAMES
+
+if TYPE_CHECKING:
+    from .result import Diagnosis
+
+__all__ = ["diagnosis_page"]
+
+_METHOD = (
+    "Prewhitening by the cepstrum, and over a running mean as wide as the shaft's rate; spectra of the squared "
+    "envelope in overlapping bands, over their medians. For each part the mean level of its lines, the largest "
+    "over a common factor of 0.985 to 1.015 and over the bands; z against the same of a thousand combs of this "
+    "record at orders that no part has; a Gumbel distribution makes it a probability."
+)
+
+
+def diagnosis_page(of: Diagnosis, title: str | None = None) -> Page:
+    """Return a diagnosis as a page."""
+    what = of.verdict + "".join(f", {NAMES[part]}" for part in of.parts)
+    page = Page(title or f"{of.bearing}: {what}")
+    page.text(
+        f"Verdict: {what}. {'What would decide: ' if of.verdict == 'undecided' else ''}{of.why}."
+    )
+    for note in of.notes:
+        page.warning(note)
+    page.section("Record and bearing")
+    nominal = f"nominal {number(of.shaft.nominal, 5)} Hz"
+    told = (
+        "from the record's shaft orders"
+        if of.shaft.by == "record"
+        else "the nominal one; the record's are not clear"
+    )
+    page.told([
+        ("Bearing", of.bearing), ("Record", of.record), ("Unit", of.unit or "not known"),
+        ("Shaft", f"{number(of.shaft.rate, 6)} Hz, {told} ({nominal})"),
+        ("False alarms asked for", f"{100.0 * of.false_alarm:g} % of healthy records: z above {of.threshold:.2f}"),
+    ])  # fmt: skip
+    if of.evidence:
+        _add_evidence(page, of)
+        _add_severity(page, of)
+    page.section("How it was judged")
+    page.text(_METHOD)
+    return page
+
+
+def _add_evidence(page: Page, of: Diagnosis) -> None:
+    page.section("Evidence")
+    page.table(HEADER, of.rows())
+    for part in of.parts or (None,):
+        fig = picture(of, of._levels, part, None, {})
+        page.figure(
+            fig, "squared envelope in the deciding band, with what chance gives in this record."
+        )
+    for one in (of.evidence[part] for part in of.parts):
+        angle = (
+            ""
+            if one.contact_angle is None
+            else f", as balls at a contact angle of {degrees(one.contact_angle)} have it"
+        )
+        page.text(
+            f"Lines of the {NAMES[one.part]}, at {one.factor:.3f} times nominal orders{angle}:"
+        )
+        rows = [
+            [
+                line.label,
+                number(line.order, 5),
+                number(line.expected, 5),
+                number(line.found, 5),
+                number(line.level, 3),
+            ]
+            for line in one.lines
+        ]
+        page.table(["line", "order", "expected, Hz", "found, Hz", "level, dB"], rows)
+
+
+def _add_severity(page: Page, of: Diagnosis) -> None:
+    found = of.severity
+    assert found is not None
+    page.section("Severity")
+    machine = (
+        "no class of the machine was given"
+        if found.machine is None
+        else found.machine.replace("_", ", ")
+    )
+    page.told([
+        (f"Velocity, {found.band[0]:g} to {found.band[1]:g} Hz, mm/s rms", number(found.velocity, 3)),
+        ("Zone by ISO 20816-3", f"{found.zone or '–'} ({machine})"),
+        ("Crest factor in the deciding band", number(found.crest_factor, 3)),
+        ("Kurtosis there (3: noise)", number(found.kurtosis, 3)),
+    ])  # fmt: skip

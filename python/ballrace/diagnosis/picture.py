@@ -1,0 +1,84 @@
+"""The picture of a verdict."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import SceneError
+from ..plot.style import COLOURS, SYMBOLS, finished
+from .null import ACCUSED
+from .verdict import NAMES
+
+if TYPE_CHECKING:
+    import plotly.graph_objects as go
+
+    from .combs import Part
+    from .envelopes import Levels
+    from .evidence import Evidence
+    from .result import Diagnosis
+
+__all__ = ["picture"]
+
+
+def picture(
+    of: Diagnosis, levels: Levels | None, part: Part | None, fig: go.Figure | None, layout: dict[str, Any]
+) -> go.Figure:  # fmt: skip
+    """Draw a diagnosis; see :meth:`ballrace.diagnosis.Diagnosis.plot`."""
+    from plotly.graph_objects import Figure, Scatter
+
+    one = _chosen(of, levels, part)
+    assert levels is not None
+    fig = fig if fig is not None else Figure()
+    f = np.arange(levels.hidden.size) / levels.duration
+    shown = f <= 4.3 * one.order * of.shaft.rate
+    row = levels.db[of._row(one)]
+    fig.add_hrect(
+        y0=one.chance[0], y1=one.chance[1], fillcolor="#888", opacity=0.15, line_width=0,
+        annotation_text="lines by chance, median to 99 %", annotation_position="top left",
+    )  # fmt: skip
+    line = {"color": COLOURS[0], "width": 1.0}
+    fig.add_trace(
+        Scatter(x=f[shown], y=row[shown], mode="lines", name="squared envelope", line=line)
+    )
+    _add_expected(fig, one)
+    fig.update_xaxes(title_text="frequency / Hz")
+    fig.update_yaxes(title_text="level over the median beside / dB")
+    band = f"{NAMES[one.part]}, {one.band[0]:.0f} to {one.band[1]:.0f} Hz"
+    own = f"{band}: z {one.z:.1f}, threshold {of.threshold:.1f}"
+    return finished(fig, {"title": {"text": own, "font": {"size": 15}}} | layout, height=420)
+
+
+def _chosen(of: Diagnosis, levels: Levels | None, part: Part | None) -> Evidence:
+    if levels is None:
+        raise SceneError("part", repr(part), f"none: the record needs {of.why}")
+    if part is None:
+        return max((of.evidence[each] for each in ACCUSED), key=lambda one: one.z)
+    if part not in of.evidence:
+        raise SceneError("part", repr(part), f"one of {', '.join(of.evidence)}")
+    return of.evidence[part]
+
+
+def _add_expected(fig: go.Figure, one: Evidence) -> None:
+    """Mark where lines were expected below the axis, and those that speak at their tops."""
+    from plotly.graph_objects import Scatter
+
+    name, colour, _, marker = SYMBOLS[one.part]
+    places = [line.expected for line in one.lines]
+    labels = [line.label.replace("f_r", "f<sub>r</sub>") for line in one.lines]
+    fig.add_trace(
+        Scatter(
+            x=places, y=[-2.0] * len(places), mode="markers", name="expected by nominal orders",
+            marker={"symbol": "line-ns-open", "size": 12, "color": "#444"},
+            text=[line.label for line in one.lines], hovertemplate="%{text}: %{x:.3f} Hz<extra></extra>",
+        )
+    )  # fmt: skip
+    fig.add_trace(
+        Scatter(
+            x=[line.found for line in one.lines], y=[line.level for line in one.lines], mode="markers+text",
+            name=f"{name}, order × {one.factor:.3f}", text=labels,
+            textposition="top center", marker={"symbol": marker, "size": 9, "color": colour},
+            hovertemplate="%{text}: %{x:.3f} Hz, %{y:.1f} dB<extra></extra>",
+        )
+    )  # fmt: skip

@@ -1,0 +1,181 @@
+"""From a record to a verdict."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from ..channel import channel_of
+from .arguments import (
+    check_chances,
+    checked_channel,
+    known_bearing,
+    nominal_rate,
+    other_rates,
+)
+from .combs import PARTS, comb_of
+from .envelopes import bands_of, envelope_spectra, levels_of
+from .evidence import evidence_of
+from .lacking import HELD, lack_of, notes_of, wanting_of
+from .null import ACCUSED, largest_z
+from .result import Diagnosis
+from .severity import checked_machine, severity_of
+from .shaft import ShaftRate, shaft_rate
+from .strength import Envelopes, faint_below
+from .verdict import decided, own_lines
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ..channel import Channel
+    from ..spectra.checks import Given
+    from .kinematics import AnyBearing, Kinematics
+    from .severity import Machine
+
+__all__ = ["diagnose"]
+
+
+def diagnose(
+    record: Given,
+    bearing: AnyBearing | None = None,
+    speed_rpm: float | None = None,
+    *,
+    fs: float | None = None,
+    column: str | None = None,
+    unit: str | None = None,
+    row: int = 0,
+    false_alarm: float = 0.01,
+    exclude: Iterable[float] = (),
+    mains: float | None = None,
+    machine: Machine | None = None,
+    seed: int = 0,
+) -> Diagnosis:
+    """Say whether a race or a ball is damaged, nothing is, or the record cannot tell.
+
+    The record is prewhitened in two ways; in overlapping bands the squared envelope's spectrum is searched
+    for the combs of lines that faults of each part have. How high they stand is compared with a thousand combs
+    at orders of the same record that no part has, so that chance has a known rate, without training and without
+    a threshold in decibels. Lines that stand out accuse a part only where they are deep or blows stand out,
+    and, where the unit of the record is known, where they carry more than those of a healthy bearing do.
+
+    Parameters
+    ----------
+    record : Signals, Measurement, Recording, Channel or array_like, shape (n,)
+        At constant speed, over 20 turns of the shaft and more. Of a speed that changes give the signal over the
+        shaft's angle (:func:`ballrace.spectra.by_order`), with its samples a turn as ``fs`` and 60 as
+        ``speed_rpm``.
+    bearing : str, Bearing, Scene, Row, Orders, FaultFrequencies or mapping, optional
+        A designation such as ``"6205-2RS/C3"``, a bearing of the catalogue, a scene, a row of one, or orders, as a
+        mapping of ``ftf``, ``bpfo``, ``bpfi`` and ``bsf``. By default the scene of the record.
+    speed_rpm : float, optional
+        Nominal speed of the inner ring, within 1 % [rev/min]; by default what the record knows.
+    fs : float, optional
+        Sampling rate of an array [Hz].
+    column : str, optional
+        Column of a record; by default ``outer.ay`` if there is one, else the first.
+    unit : {"m/s^2", "g"}, optional
+        Unit, where the record does not tell it, as of an array. Without one lines are judged, and not their size.
+    row : int
+        Row of balls of a scene, from 0.
+    false_alarm : float
+        Share of healthy records that may be called damaged, from 1e-6 to 0.2.
+    exclude : iterable of float
+        Orders, with their multiples, that are not the bearing's: of belts, blades, gears.
+    mains : float, optional
+        Frequency of the mains, 50 or 60 [Hz], whose multiples are not the bearing's.
+    machine : {"large_rigid", "large_flexible", "medium_rigid", "medium_flexible"}, optional
+        Class of the machine, for the zone of ISO 20816-3: above 300 kW or from 15 to 300 kW, on a rigid or a
+        flexible foundation.
+    seed : int
+        Which combs the null has.
+
+    Returns
+    -------
+    Diagnosis
+        Verdict, evidence, severity; ``plot()`` and ``report(path)``.
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable; samples that are not finite; a speed or a bearing that nobody tells.
+    KeyError
+        There is no such column.
+
+    Examples
+    --------
+    Blows at the rate of the inner race, half a percent of a period off, in noise:
+
+    >>> import ballrace as br, numpy as np
+    >>> fs, shaft, rng = 16_000.0, 30.0, np.random.default_rng(1)
+    >>> blow = np.arange(650) + 0.005 * rng.normal(size=650)
+    >>> at = np.rint(blow * fs / (br.catalogue["6205"].orders.bpfi * shaft)).astype(int)
+    >>> x = 0.3 * rng.normal(size=64_000)
+    >>> x[at[at >= 0]] += 3.0 + 2.0 * np.cos(2 * np.pi * shaft * at[at >= 0] / fs)
+    >>> found = br.diagnose(x, "6205", 1800.0, fs=fs)
+    >>> found.verdict, found.parts
+    ('damaged', ('inner_race',))
+    """
+    channel = checked_channel(channel_of(record, fs, column, name="record"), unit)
+    kinematics = known_bearing(channel, bearing, row)
+    nominal = nominal_rate(channel, speed_rpm)
+    check_chances(false_alarm, seed)
+    orders, rates = other_rates(exclude, mains)
+    machine = checked_machine(machine)
+    bands = bands_of(channel.fs, HELD * kinematics.orders.bpfi * nominal)
+    shaft = ShaftRate(rate=nominal, nominal=nominal, by="nominal", z=0.0)
+    told = _undecided(channel, kinematics, shaft, false_alarm)
+    lack = lack_of(channel, nominal, kinematics, len(bands))
+    if lack is not None:
+        return replace(told, why=lack)
+    spectra = _spectra(channel, bands, kinematics, nominal)
+    shaft = shaft_rate(channel.x, channel.fs, nominal, spectra)
+    levels = levels_of(spectra, channel.n_samples / channel.fs, shaft.rate)
+    levels = levels.without([shaft.rate, *(order * shaft.rate for order in orders), *rates])
+    envelopes = Envelopes(channel.x, channel.fs, bands)
+    evidence = {
+        part: evidence_of(
+            part, envelopes, levels=levels, kinematics=kinematics, shaft=shaft.rate, seed=seed
+        )
+        for part in PARTS
+    }
+    own = own_lines(evidence, levels, kinematics, shaft.rate, false_alarm=false_alarm, seed=seed)
+    faint = _faint(channel, kinematics, shaft.rate)
+    verdict = decided(evidence, own, false_alarm, faint=faint, wanting=wanting_of(channel))
+    deciding = bands.index(max((evidence[part] for part in ACCUSED), key=lambda one: one.z).band)
+    severity = severity_of(channel, shaft.rate, envelopes, deciding, machine)
+    return replace(
+        told, verdict=verdict.verdict, parts=verdict.parts, why=verdict.why, evidence=evidence, shaft=shaft,
+        severity=severity, _levels=levels, _bands=tuple(bands),
+    )  # fmt: skip
+
+
+def _spectra(
+    channel: Channel, bands: list[tuple[float, float]], kinematics: Kinematics, shaft: float
+) -> NDArray[np.float64]:
+    """Return the spectra of envelopes up to the last line of the null's highest comb."""
+    highest = max(comb_of(part, kinematics.orders).order for part in ACCUSED)
+    limit = (4.1 * 1.55 * highest + 3.0) * shaft
+    return envelope_spectra(channel.x, channel.fs, bands, limit, shaft)
+
+
+def _faint(channel: Channel, kinematics: Kinematics, shaft: float) -> float | None:
+    if channel.unit != "m/s^2" or kinematics.row is None:
+        return None
+    return faint_below(kinematics.row.pitch_diameter, shaft)
+
+
+def _undecided(
+    channel: Channel, kinematics: Kinematics, shaft: ShaftRate, false_alarm: float
+) -> Diagnosis:
+    """Return what is known before there is evidence."""
+    record = (
+        f"{channel.name or 'signal'}, {channel.n_samples / channel.fs:.4g} s at {channel.fs:g} Hz"
+    )
+    return Diagnosis(
+        verdict="undecided", parts=(), why="", evidence={}, shaft=shaft, severity=None,
+        false_alarm=false_alarm, threshold=largest_z(false_alarm, len(ACCUSED)), bearing=kinematics.name,
+        record=record, unit=channel.unit, notes=notes_of(channel, kinematics),
+    )  # fmt: skip

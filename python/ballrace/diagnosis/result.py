@@ -1,0 +1,177 @@
+"""A verdict with all that speaks for it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from html import escape
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+from .._text import printable
+from .combs import Part
+from .envelopes import Levels
+from .evidence import Evidence
+from .severity import Severity
+from .shaft import ShaftRate
+from .verdict import NAMES, Verdicts
+
+if TYPE_CHECKING:
+    import os
+
+    import plotly.graph_objects as go
+
+
+__all__ = ["Diagnosis"]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Diagnosis:
+    """What :func:`ballrace.diagnose` says of a record.
+
+    Attributes
+    ----------
+    verdict : {"healthy", "damaged", "undecided"}
+        The verdict.
+    parts : tuple of {"outer_race", "inner_race", "ball"}
+        What is damaged, the surest first; empty unless ``damaged``.
+    why : str
+        What it rests on; where it is undecided, what would decide.
+    evidence : mapping of str to Evidence
+        Of ``outer_race``, ``inner_race``, ``ball`` and ``cage``; empty where the record allows none. The cage's
+        line alone accuses nobody.
+    shaft : ShaftRate
+        Rate of the shaft, and whether the record told it.
+    severity : Severity or None
+        How much the machine shakes; None where the record allows no evidence.
+    false_alarm : float
+        Share of healthy records that may be called damaged, as asked for.
+    threshold : float
+        The z that follows from it.
+    bearing : str
+        What the bearing is called.
+    record : str
+        Column, length and sampling rate of the record.
+    unit : str
+        Its unit; empty where it is not known.
+    notes : tuple of str
+        What else there is to know: what could not be judged, and what the record was warned of.
+    """
+
+    verdict: Verdicts
+    parts: tuple[Part, ...]
+    why: str
+    evidence: Mapping[Part, Evidence]
+    shaft: ShaftRate
+    severity: Severity | None
+    false_alarm: float
+    threshold: float
+    bearing: str
+    record: str
+    unit: str
+    notes: tuple[str, ...] = ()
+    _levels: Levels | None = field(default=None)
+    _bands: tuple[tuple[float, float], ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "evidence", MappingProxyType(dict(self.evidence)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        fields = {name: getattr(self, name) for name in self.__dataclass_fields__}
+        return _remade, (fields | {"evidence": dict(self.evidence)},)
+
+    def __repr__(self) -> str:
+        what = self.verdict + "".join(f", {NAMES[part]}" for part in self.parts)
+        by = f"z above {self.threshold:.1f} in {100.0 * self.false_alarm:g} % of healthy records"
+        lines = [
+            f"<Diagnosis of {self.bearing}: {what}",
+            f"  {self.why}",
+            "  " + (", ".join(map(_short, self.evidence.values())) or "no evidence"),
+            f"  {by}; shaft {self.shaft.rate:.3f} Hz ({self.shaft.by})",
+        ]
+        return printable("\n".join(lines)) + ">"
+
+    def _repr_html_(self) -> str:
+        """Return the verdict and a table of the evidence, as notebooks show it."""
+        head = "".join(f"<th>{cell}</th>" for cell in HEADER)
+        body = "".join(
+            "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>"
+            for row in self.rows()
+        )
+        what = escape(self.verdict + "".join(f", {NAMES[part]}" for part in self.parts))
+        told = f"<p><strong>{escape(self.bearing)}: {what}.</strong> {escape(self.why)}.</p>"
+        return f"{told}<table><tr>{head}</tr>{body}</table>"
+
+    def _row(self, one: Evidence) -> int:
+        """Return the row of the levels in which a part stands out most."""
+        return self._bands.index(one.band) + len(self._bands) * (one.whitening == "smoothed")
+
+    def rows(self) -> list[list[str]]:
+        """Return the evidence as text: part, z, probability, factor, band, depth, acceleration."""
+        return [_row(one) for one in self.evidence.values()]
+
+    def plot(
+        self, part: Part | None = None, fig: go.Figure | None = None, **layout: Any
+    ) -> go.Figure:
+        """Draw the envelope spectrum in the deciding band with the lines of a part and the null's band.
+
+        Parameters
+        ----------
+        part : {"outer_race", "inner_race", "ball", "cage"}, optional
+            Whose lines are drawn; by default those of the part that stands out most.
+        fig : plotly.graph_objects.Figure, optional
+            Figure to draw into.
+        **layout
+            For ``fig.update_layout``.
+
+        Raises
+        ------
+        SceneError
+            There is no such part, or the record allowed no evidence.
+        """
+        from .picture import picture
+
+        return picture(self, self._levels, part, fig, layout)
+
+    def report(self, path: str | os.PathLike[str], *, title: str | None = None) -> None:
+        """Write a page that needs no network: verdict, evidence, picture, severity, and what to trust.
+
+        Parameters
+        ----------
+        path : str or path
+            File to write, ``.html``; one of the same name is replaced.
+        title : str, optional
+            Title of the page.
+
+        Raises
+        ------
+        SceneError
+            The name does not end in ``.html``, or plotly is not installed.
+        OSError
+            The file cannot be written.
+        """
+        from ..report import write_page
+        from .page import diagnosis_page
+
+        write_page(path, lambda: diagnosis_page(self, title))
+
+
+HEADER = (
+    "part", "z", "by chance", "order found / expected", "band, Hz", "depth", "at the fault's rate",
+)  # fmt: skip
+"""Columns of :meth:`Diagnosis.rows`."""
+
+
+def _short(one: Evidence) -> str:
+    return f"{NAMES[one.part]} z {one.z:.1f}"
+
+
+def _row(one: Evidence) -> list[str]:
+    return [
+        NAMES[one.part], f"{one.z:.1f}".replace("-", "−"), f"{one.probability:.2g}", f"{one.factor:.3f}",
+        f"{one.band[0]:.0f}–{one.band[1]:.0f}", f"{one.strength.depth:.2f}", f"{one.strength.acceleration:.3g}",
+    ]  # fmt: skip
+
+
+def _remade(fields: dict[str, Any]) -> Diagnosis:
+    return Diagnosis(**fields)

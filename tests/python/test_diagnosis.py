@@ -1,0 +1,335 @@
+"""A verdict from a record: synthetic records whose truth is known.
+
+Truth: analytic. Blows at a known rate in noise are damage of the part that has that rate; noise, tones, mains and
+blows at no part's rate are none, and of such records a verdict may accuse the share that was asked for. The limits
+for counts are those of binomial numbers: exceeded once in a thousand times at the rate asked for.
+"""
+
+from __future__ import annotations
+
+import math
+import pickle
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+import ballrace as br
+from ballrace.diagnosis.null import largest_z, probability
+from ballrace.diagnosis.severity import zone_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from ballrace.diagnosis.kinematics import AnyBearing
+
+    Signal = NDArray[np.float64]
+
+FS, RPM = 12_000.0, 1770.0
+SHAFT = RPM / 60.0
+ORDERS = br.catalogue["6205"].orders
+RATES = {"outer_race": ORDERS.bpfo, "inner_race": ORDERS.bpfi, "ball": 2.0 * ORDERS.bsf}
+SIDEBANDS = {"outer_race": 0.0, "inner_race": 1.0, "ball": ORDERS.ftf}
+
+
+def blows(order: float, side: float = 0.0, *, seed: int = 1, duration: float = 2.0) -> Signal:
+    """Return blows at an order that ring at 3 kHz, swelling at another, their times off by 0.5 %."""
+    rng = np.random.default_rng(seed)
+    x = np.zeros(round(duration * FS))
+    period = 1.0 / (order * SHAFT)
+    times = np.arange(0.0, duration, period)
+    times = times + 0.005 * period * rng.normal(size=times.size)
+    at = np.clip(np.rint(times * FS).astype(int), 0, x.size - 1)
+    np.add.at(x, at, 1.0 + 0.8 * (side > 0.0) * np.cos(2 * np.pi * side * SHAFT * times))
+    t = np.arange(200) / FS
+    ringing = np.exp(-800.0 * t) * np.sin(2 * np.pi * 3000.0 * t)
+    return np.convolve(x, ringing)[: x.size]
+
+
+def noise(x: Signal, level: float, seed: int = 2) -> Signal:
+    return x + level * np.random.default_rng(seed).normal(size=x.size)
+
+
+def judged(x: Signal, bearing: AnyBearing = "6205", rpm: float = RPM, **more: Any) -> br.Diagnosis:
+    return br.diagnose(x, bearing, rpm, fs=FS, **more)
+
+
+@pytest.mark.parametrize("part", RATES)
+@pytest.mark.parametrize("seed", range(3))
+def test_blows_accuse_the_part_with_their_rate(part: str, seed: int) -> None:
+    x = noise(blows(RATES[part], SIDEBANDS[part], seed=seed), 0.3, seed)
+    found = judged(x)
+    assert (found.verdict, found.parts) == ("damaged", (part,))
+    one = found.evidence[found.parts[0]]
+    assert one.probability < 1e-3
+    assert one.factor == pytest.approx(1.0, abs=0.0025)
+    assert one.strength.depth > 0.4
+    assert {line.label for line in one.lines} >= {"outer_race": {"BPFO"}, "inner_race": {"BPFI"},
+                                                  "ball": {"2·BSF"}}[part]  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(1, 4))
+def test_two_faults_are_both_named_and_one_is_not_two(seed: int) -> None:
+    outer, inner = blows(ORDERS.bpfo, seed=seed), blows(ORDERS.bpfi, 1.0, seed=seed + 29)
+    both = judged(noise(outer + inner, 0.1))
+    assert set(both.parts) == {"outer_race", "inner_race"}
+    # Blows of the outer race that the shaft modulates have lines next to the inner race's: 9 f_r − BPFO is BPFI.
+    swelling = 1.0 + 0.8 * np.cos(2 * np.pi * SHAFT * np.arange(outer.size) / FS)
+    assert judged(noise(swelling * outer, 0.1)).parts == ("outer_race",)
+
+
+def test_slip_and_speed_are_found() -> None:
+    """Blows 0.8 % beside the nominal order, and a shaft 0.6 % faster than told."""
+    x = blows(1.008 * ORDERS.bpfo)
+    t = np.arange(x.size) / FS
+    x = noise(x + sum(np.cos(2 * np.pi * k * SHAFT * t + k) / k for k in range(1, 11)), 0.3)
+    found = judged(x, rpm=RPM / 1.006)
+    assert found.parts == ("outer_race",)
+    assert found.shaft.by == "record"
+    assert found.shaft.rate == pytest.approx(SHAFT, rel=1e-3)
+    one = found.evidence["outer_race"]
+    assert one.factor == pytest.approx(1.008, abs=0.0015)
+    for line in one.lines:
+        assert line.found == pytest.approx(1.008 * line.expected, rel=2e-3)
+    # A bearing with that order at a contact angle: cos α = (1 − 2 · order / 9) d_m / D.
+    row = br.catalogue["6205"]
+    cosine = (1 - 2 * one.factor * one.order / 9) * row.pitch_diameter / row.ball_diameter
+    assert one.contact_angle == pytest.approx(math.acos(cosine))
+
+
+def test_a_run_up_is_judged_over_the_angle() -> None:
+    """Blows of the outer race while the shaft goes from 20 to 40 turns a second."""
+    rng = np.random.default_rng(1)
+    t = np.arange(round(3.0 * FS)) / FS
+    turns = 20.0 * t + 20.0 / 6.0 * t**2
+    passes = np.arange(1.0, turns[-1] * ORDERS.bpfo) + 0.005 * rng.normal()
+    x = 0.1 * rng.normal(size=t.size)
+    x[np.searchsorted(turns * ORDERS.bpfo, passes + 0.005 * rng.normal(size=passes.size))] += 3.0
+    turn, value = br.spectra.by_order(x, 2 * np.pi * turns)
+    assert br.diagnose(value, "6205", 60.0, fs=1.0 / turn[1]).parts == ("outer_race",)
+    assert not judged(x, rpm=1800.0).parts
+
+
+def test_what_names_the_bearing_does_not_matter() -> None:
+    x = noise(blows(ORDERS.bpfi, 1.0), 0.3)
+    scene = br.bearing("6205", radial_load=500.0, speed_rpm=RPM)
+    for bearing in (
+        "6205-2RS/C3",
+        br.catalogue["6205"],
+        scene,
+        scene.rows[0],
+        ORDERS,
+        vars(ORDERS),
+    ):
+        assert judged(x, bearing).parts == ("inner_race",), bearing
+
+
+def test_what_holds_the_record_does_not_matter() -> None:
+    x = noise(blows(ORDERS.bpfi, 1.0), 0.3)
+    record = br.Recording(columns={"quiet": np.ones(x.size), "DE": x}, fs=FS, shaft=SHAFT)
+    told = judged(x)
+    for found in (br.diagnose(record, "6205", column="DE"), br.diagnose(record.channel("DE"), "6205"),
+                  br.diagnose(br.measure(x, fs=FS, shaft=SHAFT), "6205")):  # fmt: skip
+        assert found.evidence["inner_race"].z == pytest.approx(told.evidence["inner_race"].z)
+
+
+def test_what_is_excluded_accuses_nobody() -> None:
+    """A fan whose blades pass at the order of the outer race."""
+    x = noise(blows(ORDERS.bpfo), 0.3)
+    assert judged(x).verdict == "damaged"
+    found = judged(x, exclude=[ORDERS.bpfo])
+    assert found.verdict == "undecided"
+    assert found.evidence["outer_race"].hidden > 0.9
+    assert "excluded" in found.why
+
+
+def test_faint_lines_are_no_damage() -> None:
+    """The same blows as an acceleration of 0.05 m/s², as of a loaded healthy bearing, and of 50 m/s²."""
+    x = noise(blows(ORDERS.bpfo), 0.05)
+    quiet, loud = (judged(scale * x / x.std(), unit="m/s^2") for scale in (0.05, 50.0))
+    assert quiet.verdict == "healthy"
+    assert quiet.why.startswith("lines of the outer race are there")
+    assert loud.parts == ("outer_race",)
+    in_g = judged(50.0 / 9.80665 * x / x.std(), unit="g").evidence["outer_race"].strength
+    assert in_g.acceleration == pytest.approx(loud.evidence["outer_race"].strength.acceleration)
+    # Nearly all of the record comes at that rate.
+    assert 40.0 < in_g.acceleration < 50.0
+
+
+def test_shallow_lines_leave_it_open() -> None:
+    """Noise that a waved inner race modulates by an eighth: lines without a blow."""
+    t = np.arange(round(8.0 * FS)) / FS
+    x = np.random.default_rng(1).normal(size=t.size)
+    for k in (1, 2, 3):
+        x *= 1.0 + 0.12 * np.cos(2 * np.pi * k * ORDERS.bpfo * SHAFT * t + k)
+    found = judged(x)
+    assert found.evidence["outer_race"].probability < 1e-3
+    assert found.verdict == "undecided"
+    assert "no blows stand out" in found.why
+
+
+def shaken(kind: str, rng: np.random.Generator, duration: float = 2.0) -> Signal:
+    """Return a record in which no part of the bearing speaks."""
+    t = np.arange(round(duration * FS)) / FS
+    white = rng.normal(size=t.size)
+    phases = rng.uniform(0.0, 2.0 * np.pi, size=12)
+
+    def tones(f: float) -> Signal:
+        waves = [np.cos(2 * np.pi * (k + 1) * f * t + phases[k]) / (k + 1) for k in range(12)]
+        return np.asarray(3.0 * np.sum(waves, axis=0))
+
+    blow = np.zeros(t.size)
+    blow[rng.integers(0, t.size, 20)] = 30.0
+    ringing = np.exp(-200.0 * t[:999]) * np.sin(2 * np.pi * rng.uniform(500, 4000) * t[:999])
+    made: dict[str, Callable[[], Signal]] = {
+        "white noise": lambda: white,
+        "coloured noise": lambda: np.convolve(white, ringing, "same"),
+        "shaft": lambda: tones(1.004 * SHAFT) + 0.1 * white,
+        "shaft without noise": lambda: tones(1.004 * SHAFT),
+        "noise that the shaft swells": lambda: white * (1.0 + 0.5 * np.cos(2 * np.pi * SHAFT * t)),
+        "mains": lambda: tones(50.0) + 0.3 * white,
+        "noise that the mains swell": lambda: white * (1.0 + 0.5 * np.cos(2 * np.pi * 100.0 * t)),
+        "blows at random": lambda: blow + white,
+        "clipped": lambda: np.clip(white, -1.0, 1.0),
+    }
+    return made[kind]()
+
+
+KINDS = ["white noise", "coloured noise", "shaft", "shaft without noise", "noise that the shaft swells", "mains",
+         "noise that the mains swell", "blows at random", "clipped"]  # fmt: skip
+
+
+def most(count: int, rate: float) -> int:
+    """Return the count that a binomial number exceeds once in a thousand times."""
+    from scipy.stats import binom
+
+    return int(binom.ppf(0.999, count, rate))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_nothing_of_the_kind_is_damaged(kind: str) -> None:
+    told = [judged(shaken(kind, np.random.default_rng([7, k]))).verdict for k in range(8)]
+    assert told.count("damaged") <= most(8, 0.01)
+    assert kind != "clipped" or set(told) == {"undecided"}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("kind", KINDS)
+def test_false_alarms_come_at_the_rate_asked_for(kind: str) -> None:
+    """500 records of each kind; of white noise the probabilities themselves are told right, too."""
+    found = [judged(shaken(kind, np.random.default_rng([8, k]), 1.0)) for k in range(500)]
+    accused = sum(one.verdict == "damaged" for one in found)
+    print(f"\n[verdict] {kind}, 500 records of 1 s | {accused} | at most {most(500, 0.01)}")
+    assert accused <= most(500, 0.01)
+    if kind == "white noise":
+        least = np.array(
+            [min(e.probability for p, e in d.evidence.items() if p != "cage") for d in found]
+        )
+        for rate in (0.05, 0.2):
+            assert np.mean(least < rate) == pytest.approx(rate, rel=0.35)
+
+
+def test_probabilities_are_those_of_extreme_values() -> None:
+    """Truth: the largest of 50 normal numbers is all but Gumbel's, with the robust scale of the null."""
+    rng = np.random.default_rng(1)
+    largest = rng.gumbel(size=400_000)
+    middle = np.median(largest)
+    z = (largest - middle) / (1.4826 * np.median(np.abs(largest - middle)))
+    for rate in (0.1, 0.01, 0.001):
+        assert probability(float(np.quantile(z, 1.0 - rate))) == pytest.approx(rate, rel=0.15)
+        assert probability(largest_z(rate, 3), 3) == pytest.approx(rate)
+    assert probability(-1e3) == 1.0
+    assert 0.0 <= probability(1e3) < 1e-100
+
+
+LACKING = {
+    "silent": (np.zeros(24_000), {}, "silent"),
+    "constant": (np.full(24_000, 3.0), {}, "silent"),
+    "short": (noise(np.zeros(1200), 1.0), {}, "a longer record, at least 0.678 s"),
+    "slow": (noise(np.zeros(24_000), 1.0), {"fs": 300.0}, "a higher sampling rate, at least"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("lacking", LACKING)
+def test_a_record_that_allows_no_evidence_says_what_it_lacks(lacking: str) -> None:
+    x, more, told = LACKING[lacking]
+    found = br.diagnose(x, "6205", RPM, **({"fs": FS} | more))  # type: ignore[arg-type]
+    assert found.verdict == "undecided"
+    assert told in found.why
+    assert not found.evidence
+    with pytest.raises(br.SceneError, match="the record needs"):
+        found.plot()
+
+
+X = noise(blows(ORDERS.bpfo, duration=1.0), 0.3)
+REFUSED: dict[str, Callable[[], object]] = {
+    "record = not a number": lambda: judged(np.where(np.arange(X.size) == 5, np.nan, X)),
+    "bearing = ": lambda: br.diagnose(X, None, RPM, fs=FS),
+    "designation = '62x5'": lambda: judged(X, "62x5"),
+    "bearing = {'bpfo': 3.0}": lambda: judged(X, {"bpfo": 3.0}),
+    "bearing.bpfo = 0.0": lambda: judged(X, vars(ORDERS) | {"bpfo": 0.0}),
+    "speed_rpm = None": lambda: br.diagnose(X, "6205", fs=FS),
+    "speed_rpm = 0.0": lambda: judged(X, rpm=0.0),
+    "fs = None": lambda: br.diagnose(X, "6205", RPM),
+    "false_alarm = 0.5": lambda: judged(X, false_alarm=0.5),
+    "exclude = [0.0]": lambda: judged(X, exclude=[0.0]),
+    "exclude = 1.7": lambda: judged(X, exclude=1.7),
+    "seed = -1": lambda: judged(X, seed=-1),
+    "mains = 0.0": lambda: judged(X, mains=0.0),
+    "machine = 'small'": lambda: judged(X, machine="small"),
+    "unit = 'V'": lambda: judged(X, unit="V"),
+    "row = 1": lambda: judged(X, br.bearing("6205"), row=1),
+    "part = 'shaft'": lambda: judged(X).plot("shaft"),  # type: ignore[arg-type]
+}
+
+
+@pytest.mark.parametrize("told", REFUSED)
+def test_bad_input_is_refused_by_name(told: str) -> None:
+    with pytest.raises(br.SceneError) as caught:
+        REFUSED[told]()
+    assert str(caught.value).startswith(told)
+
+
+def test_it_is_told_in_five_lines_a_table_a_picture_and_a_page(tmp_path: Path) -> None:
+    found = judged(100.0 * X, unit="m/s^2", machine="medium_rigid")
+    assert len(repr(found).splitlines()) <= 5
+    assert "damaged, outer race" in repr(found)
+    assert "<td>outer race</td>" in found._repr_html_()
+    fig = found.plot(title="A record")
+    levels = found.evidence["outer_race"].lines
+    assert list(fig.data[2].x) == [line.found for line in levels]
+    found.report(tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    for text in (
+        "Verdict: damaged, outer race",
+        "Zone by ISO 20816-3",
+        "2·BPFO",
+        "By chance".lower(),
+    ):
+        assert text in page
+    again = pickle.loads(pickle.dumps(found))
+    assert (again.parts, again.why, dict(again.evidence)) == (
+        found.parts,
+        found.why,
+        dict(found.evidence),
+    )
+
+
+def test_severity_is_that_of_a_tone_and_blows() -> None:
+    """Truth: 10 m/s² at 100 Hz are 10/(2π·100·√2) m/s rms, 11.25 mm/s; a tone of 2 kHz is above the band."""
+    t = np.arange(24_000) / FS
+    x = 10.0 * np.sin(2 * np.pi * 100.0 * t) + 10.0 * np.sin(2 * np.pi * 2000.0 * t)
+    severity = judged(noise(x, 1e-3), unit="m/s^2", machine="large_flexible").severity
+    assert severity is not None
+    assert severity.velocity == pytest.approx(11.254, rel=2e-3)
+    assert severity.zone == "D"
+    assert severity.band == (10.0, 1000.0)
+    # Table A.1 of ISO 10816-3, and its neighbours.
+    assert [zone_of(v, "large_rigid") for v in (2.2, 2.4, 4.6, 7.2)] == ["A", "B", "C", "D"]
+    white = judged(noise(np.zeros(24_000), 1.0)).severity
+    assert white is not None
+    assert white.kurtosis == pytest.approx(3.0, abs=0.2)
+    assert white.velocity is None
