@@ -31,7 +31,6 @@ CHOICES = (
     *(("fitted 6", Effort(cap=cap, rtol=1e-3)) for cap in (2.0, 3.0, math.inf)),
     ("fitted 6", Effort(cap=math.inf, rtol=1e-2)),
     ("fitted 6", Effort(cap=0.5, rtol=1e-6)),
-    ("fitted 6", Effort(method="velocity-verlet", cap=0.5)),
     *(("fitted 6", Effort("adams", rtol, 0.8)) for rtol in (1e-4, 1e-6)),
     ("fitted 6", DEFAULT),
 )
@@ -165,8 +164,6 @@ def label(row: dict[str, Any]) -> str:
         return f"adams, {row['rtol']:.0e}".replace("e-0", "e-")
     if row["rtol"] == 1e-4:
         return {"4": "4 nodes", "8": "8", "16": "16 nodes"}.get(count, "")
-    if row["method"] == "velocity-verlet":
-        return "Verlet"
     if math.isinf(row["cap"]):
         return f"no cap, rtol {row['rtol']:.0e}".replace("e-0", "e-")
     return ""

@@ -37,15 +37,9 @@ SLIP_SPEEDS = (0.1, 0.001)
 ADAPTIVE = (
     "adams",
     "dormand-prince",
-    "bogacki-shampine",
-    "tsitouras",
     "verner",
     "implicit-friction",
 )
-FIXED_STEP = {
-    "runge-kutta-4": (1.5, 1.0, 0.75, 0.5, 0.3, 0.2, 0.1, 0.05, 0.03),
-    "velocity-verlet": (1.0, 0.75, 0.5, 0.3, 0.2, 0.1, 0.05, 0.03),
-}
 PEERS = ("RK45", "DOP853", "Radau", "LSODA")
 PEER_TOLERANCES = (1e-3, 1e-4, 1e-6)
 PATIENCE = 15.0  # s, for a peer
@@ -66,12 +60,6 @@ def measure(*, quick: bool) -> list[dict[str, Any]]:
             for cap in caps
             for rtol in tolerances
         ]
-        cases += [
-            case(slip_speed, Effort(method, cap=cap))
-            for method, multiples in FIXED_STEP.items()
-            for cap in multiples
-        ]
-        cases += [case(slip_speed, Effort("auto", rtol)) for rtol in tolerances]
         rows += survey(cases, 1 if quick else 3)
         rows += [
             peer(name, slip_speed, rtol)
@@ -190,12 +178,8 @@ def draw_chart(rows: list[dict[str, Any]], path: Path) -> None:
     colours = {
         "adams": draw.RED,
         "dormand-prince": draw.BLUE,
-        "bogacki-shampine": draw.GREEN,
-        "tsitouras": draw.PURPLE,
         "verner": draw.BROWN,
         "implicit-friction": draw.GREY,
-        "runge-kutta-4": draw.ORANGE,
-        "velocity-verlet": draw.BLACK,
         **dict.fromkeys(PEERS, draw.GREY),
     }
     for i, ax in enumerate(axes):

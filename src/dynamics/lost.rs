@@ -220,14 +220,7 @@ fn ends(name: &str, scene: &Scene, begin: Start, duration: f64) -> (String, Stri
 #[test]
 fn a_run_ends_when_a_ball_is_lost() {
     let mut all = paths();
-    for method in [
-        Method::BogackiShampine,
-        Method::Verner,
-        Method::RungeKutta4,
-        Method::VelocityVerlet,
-        Method::ImplicitFriction,
-        Method::Auto,
-    ] {
+    for method in [Method::Verner, Method::ImplicitFriction] {
         let mut other = paths().swap_remove(0);
         other.scene.solver.method = method;
         all.push(other);
@@ -244,13 +237,7 @@ fn a_run_ends_when_a_ball_is_lost() {
             let begin = Start::State(lose(&model, *way));
             let (body, reason, time) = ends(&name, &path.scene, begin, 1e-3);
             assert_eq!(body, "row0.ball0", "{name}: {reason}");
-            // A step that is fixed throws a ball that is pressed so hard half a metre off.
-            let is_fixed = matches!(
-                path.scene.solver.method,
-                Method::VelocityVerlet | Method::RungeKutta4
-            );
-            let is_thrown = is_fixed && *way == Way::Pressed;
-            assert!(is_thrown || reason.contains(told), "{name}: {reason}");
+            assert!(reason.contains(told), "{name}: {reason}");
             assert!(time < 1e-4, "{name}: {time}");
         }
     }

@@ -11,7 +11,7 @@ use nalgebra::{Vector3, Vector6};
 
 use super::{Account, OnRing, State, Table, load, unbalance};
 use crate::contact::LeaningRing;
-use crate::model::{BodyId, CoupledModel, Degree, Dof, Model, Race, RingModel};
+use crate::model::{CoupledModel, Degree, Dof, Model, Race, RingModel};
 use crate::scene::Drive;
 use crate::tilt::Frame;
 
@@ -152,20 +152,4 @@ pub(crate) fn add(
             moments[race] += part.moment;
         }
     }
-}
-
-/// Rate of the fastest damper of a ring's tilts \[1/s\].
-pub(crate) fn rate(model: &Model, body: BodyId) -> f64 {
-    let Some(race) = Race::BOTH.into_iter().find(|race| race.ring() == body) else {
-        return 0.0;
-    };
-    let ring = &model.rings[race];
-    let own = ring.degrees.iter().map(|degree| match degree {
-        Degree::Free { damping, .. } => *damping,
-        Degree::Fixed | Degree::Driven => 0.0,
-    });
-    let about = ring.coupled.as_ref().map_or(0.0, |coupled| {
-        coupled.damping.fixed_view::<3, 3>(3, 3).amax()
-    });
-    own.fold(about, f64::max) / ring.inertia.transverse
 }

@@ -17,7 +17,7 @@ use nalgebra::Vector3;
 
 use crate::model::Model;
 
-pub(crate) use rates::Rates;
+pub(crate) use rates::damping;
 pub(crate) use state::{State, Table};
 
 /// A force as an entry of the lists.

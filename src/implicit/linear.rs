@@ -3,7 +3,7 @@
 use super::stage::{Stage, Velocity};
 use crate::contact::{AXIAL, FREE};
 use crate::dynamics::{Dynamics, RingView, View};
-use crate::forces::{Rates, State};
+use crate::forces::{self, State};
 use crate::integrate::{LinearlyImplicit, System};
 use crate::model::{BodyId, DOFS, Dof, RowModel};
 
@@ -85,7 +85,7 @@ fn is_stiff(dynamics: &Dynamics<'_>, longest: f64) -> bool {
     let has_traction = |row: &RowModel| row.pairs.iter().any(|pair| pair.law.traction.is_some());
     // Nothing rubs on rolling balls.
     let rubs = dynamics.radii().is_empty() && model.rows.iter().any(has_traction);
-    let bears = !rubs && !model.has_films() && Rates::of(model).damping * longest < BEARS;
+    let bears = !rubs && !model.has_films() && forces::damping(model) * longest < BEARS;
     model.rows.iter().any(RowModel::resists_motion) && !bears
 }
 

@@ -40,11 +40,6 @@ impl<'d, 'm> ImplicitDynamics<'d, 'm> {
         };
         Self { dynamics, newton }
     }
-
-    /// The fastest rate \[1/s\] at which friction and damping let velocities decay, or a bound not far above it.
-    pub(crate) fn fastest_rate(&mut self, t: f64, y: &[f64]) -> f64 {
-        self.newton.fastest_rate(self.dynamics, t, y)
-    }
 }
 
 impl System for ImplicitDynamics<'_, '_> {

@@ -1,12 +1,10 @@
 //! Newton's iteration for the velocities of a stage.
 
-use nalgebra::DMatrix;
-
 use super::stage::{Largest, Stage, Velocity};
-use crate::contact::{AXIAL, attitude_accelerations};
+use crate::contact::attitude_accelerations;
 use crate::dynamics::Dynamics;
 use crate::integrate::Stuck;
-use crate::model::{BodyId, DOFS, Dof, Layout, Model, Race};
+use crate::model::{BodyId, DOFS, Dof, Layout, Model};
 
 /// Iterations before a stage is given up and the step tried again smaller.
 const MOST_ITERATIONS: usize = 20;
@@ -26,9 +24,6 @@ pub(super) const RESIDUAL_SHARE: f64 = 0.002;
 
 /// What solves for velocities, of bodies of any number of directions.
 pub(super) trait Solves: std::fmt::Debug {
-    /// As [`super::ImplicitDynamics::fastest_rate`].
-    fn fastest_rate(&mut self, dynamics: &mut Dynamics<'_>, t: f64, y: &[f64]) -> f64;
-
     /// As [`crate::integrate::ImplicitVelocity::solve_velocity`].
     fn solve(
         &mut self,
@@ -101,22 +96,6 @@ impl<const N: usize> Newton<N> {
 }
 
 impl<const N: usize> Solves for Newton<N> {
-    fn fastest_rate(&mut self, dynamics: &mut Dynamics<'_>, t: f64, y: &[f64]) -> f64 {
-        self.find_elements(dynamics, t, y);
-        self.stage.forces(dynamics, &dynamics.views(), true);
-        let mut fastest: f64 = 0.0;
-        for batch in self.stage.batches() {
-            for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
-                let slope = |i: usize, j: usize| {
-                    let of = |race: Race| batch.sides[race].wrenches.slope[i][j][lane];
-                    of(Race::Outer) + of(Race::Inner)
-                };
-                fastest = fastest.max(fastest_of::<N>(dynamics.model(), *ball, slope));
-            }
-        }
-        fastest
-    }
-
     fn solve(
         &mut self,
         dynamics: &mut Dynamics<'_>,
@@ -163,25 +142,6 @@ impl<const N: usize> Solves for Newton<N> {
             iterations: MOST_ITERATIONS,
         })
     }
-}
-
-/// The fastest rate at which contacts let the velocities of a ball decay \[1/s\].
-fn fastest_of<const N: usize>(
-    model: &Model,
-    ball: usize,
-    slope: impl Fn(usize, usize) -> f64,
-) -> f64 {
-    let mobility = &model.mobility[BodyId::ball(ball)];
-    let root = |i: usize| match i {
-        // A sphere turns about all axes alike.
-        AXIAL.. if model.balls_turn() => mobility[Dof::Theta].sqrt(),
-        AXIAL.. => 0.0,
-        _ => mobility[i].sqrt(),
-    };
-    let block = DMatrix::from_fn(N, N, |i, j| root(i) * slope(i, j) * root(j));
-    // Friction's part is symmetric, damping's nearly: the spectral norm of the symmetric part.
-    let symmetric = (&block + block.transpose()) / 2.0;
-    symmetric.symmetric_eigenvalues().amax()
 }
 
 /// The change of a velocity \[m/s\] below which an iteration is over.

@@ -190,11 +190,6 @@ impl<const N: usize> Stage<N> {
         largest
     }
 
-    /// The balls that meet something, by eights.
-    pub fn batches(&self) -> &[StageBatch<N>] {
-        &self.batches[..self.active]
-    }
-
     /// Solves for the correction of all velocities; `residual` is replaced by it. False if singular.
     pub fn correct(&mut self, model: &Model) -> bool {
         model.instructions.run(Correct { work: self })

@@ -8,7 +8,7 @@ use super::tableau::Tableau;
 
 /// A way to take one step; the driver does the rest.
 ///
-/// Its implementations are the explicit [`Tableau`] and [`VelocityVerlet`](super::VelocityVerlet) for any system, and
+/// Its implementations are the explicit [`Tableau`] for any system, and
 /// [`Additive`] and the multistep [`Adams`](super::Adams) for systems with stiff velocities.
 pub trait Method<S> {
     /// Weights, error weights and dense output.

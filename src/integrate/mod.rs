@@ -8,7 +8,6 @@
 //! | `tableau*.rs`  | methods, as data: coefficients in constants                |
 //! | `method.rs`    | what the driver asks of a method                           |
 //! | `additive.rs`  | a step explicit in positions, implicit in velocities       |
-//! | `verlet.rs`    | velocity Verlet                                            |
 //! | `adams.rs`     | Adams' predictor–corrector, linearly implicit in velocities |
 //! | `multistep.rs` | the steps behind, and the polynomial through their accelerations |
 //! | `combine.rs`   | base + h · weighted sum of stages, in one pass             |
@@ -72,8 +71,7 @@ mod stiffness;
 mod stops;
 mod tableau;
 mod tableau_additive;
-mod tableau_pairs;
-mod verlet;
+mod tableau_verner;
 
 pub use adams::{Adams, LinearlyImplicit};
 pub use additive::{Additive, ImplicitVelocity, Stuck};
@@ -87,8 +85,7 @@ pub use options::Options;
 pub use stats::Statistics;
 pub use tableau::{DORMAND_PRINCE, Tableau};
 pub use tableau_additive::KENNEDY_CARPENTER;
-pub use tableau_pairs::{BOGACKI_SHAMPINE, RUNGE_KUTTA_4, TSITOURAS, VERNER};
-pub use verlet::VelocityVerlet;
+pub use tableau_verner::VERNER;
 
 use std::ops::ControlFlow;
 
@@ -115,7 +112,7 @@ pub trait Observer<S> {
     ///
     /// The last [`System::rhs`] call before this one was at the accepted state
     /// `(step.t1(), step.y1())`, so whatever `system` remembers of its last
-    /// evaluation belongs to that state ([`Adams`] and [`VelocityVerlet`]: to the
+    /// evaluation belongs to that state ([`Adams`]: to the
     /// state foretold, a fraction of the error away). If the step ended on a breakpoint, the
     /// call was at `(t1.next_down(), y1)`: the limit from the left.
     ///

@@ -138,7 +138,7 @@ impl Reduction {
         assert_eq!(start.len(), model.dim(), "length of the state");
         let solver = &model.scene.solver;
         match solver.method {
-            Method::ImplicitFriction | Method::Auto => None,
+            Method::ImplicitFriction => None,
             _ if !model.is_spatial() => Some(Self::leaving_out(model, start, solver.reduce)),
             _ if solver.reduce => Self::in_space(model, start).ok(),
             _ => None,

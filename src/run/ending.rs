@@ -1,12 +1,10 @@
 //! Errors of runs that ended early.
 
-use super::escape;
-use super::step_limit;
+use super::escape::{self, FINER};
 use crate::error::Error;
 use crate::inspect::{Element, stiffest};
 use crate::integrate::{Failure, FailureKind};
 use crate::model::{BodyId, Model};
-use crate::told::duration;
 
 const CRAWLING: &str = "the step has collapsed to less than 1e-5 of the contacts' period and stays there; \
                         raise slip_speed, lower the damping, or soften the contacts";
@@ -24,14 +22,13 @@ pub(crate) enum Halt {
 impl Halt {
     /// The error in the last state of all bodies, at a time and after a step \[s\].
     pub fn error(&self, model: &Model, last: &[f64], (time, step): (f64, f64)) -> Error {
-        let finer = finer(model, step);
         let (body, reason) = match self {
             Self::Escaped(ball) => (
                 Some(BodyId::ball(*ball)),
-                escape::reason(model, last, *ball, &finer),
+                escape::reason(model, last, *ball),
             ),
             Self::RanAway(body, does) => {
-                let advice = format!("check loads, drive and supports, or {finer}");
+                let advice = format!("check loads, drive and supports, or {FINER}");
                 (
                     Some(*body),
                     format!("the body {does}, which no bearing does; {advice}"),
@@ -43,34 +40,11 @@ impl Halt {
     }
 }
 
-/// How a run is made more accurate: the one thing that a method of fixed steps has is its step.
-fn finer(model: &Model, step: f64) -> String {
-    let method = model.scene.solver.method;
-    if !method.is_fixed() {
-        return "use a smaller rtol".to_owned();
-    }
-    let limit = step_limit::largest(method, model);
-    let bears = if step > limit {
-        format!(", stability asks for at most {}", duration(limit))
-    } else {
-        String::new()
-    };
-    format!(
-        "use a smaller max_step (the step was {}{bears})",
-        duration(step)
-    )
-}
-
 /// The error of an integration that could not go on from its last state; its clock was 0 at `begins` \[s\].
 pub(crate) fn broken(model: &Model, last: &[f64], begins: f64, failure: &Failure) -> Error {
     let reason = match failure.kind {
         FailureKind::NonFinite => {
-            let what = "a force is not finite; check masses, stiffnesses and loads";
-            if model.scene.solver.method.is_fixed() {
-                format!("{what}, or {}", finer(model, failure.step))
-            } else {
-                what.to_owned()
-            }
+            "a force is not finite; check masses, stiffnesses and loads".to_owned()
         }
         FailureKind::TooSmall => "the step fell below the resolution of time; soften contacts, raise slip_speed or rtol, \
                                   or try another method"

@@ -5,9 +5,11 @@ use crate::contact::{Section, Torus};
 use crate::model::{Model, Race};
 use crate::told::length;
 
-/// Which race a ball has left in a state of all bodies, which way and how far, and the possible cause; `finer` says how the
-/// run is made more accurate.
-pub(crate) fn reason(model: &Model, y: &[f64], j: usize, finer: &str) -> String {
+/// How a run is made more accurate.
+pub(super) const FINER: &str = "use a smaller rtol";
+
+/// Which race a ball has left in a state of all bodies, which way and how far, and the possible cause.
+pub(crate) fn reason(model: &Model, y: &[f64], j: usize) -> String {
     let ball = &model.balls[j];
     let radius = ball.side.radius;
     let races = model.rows[ball.row].pairs.each_ref().map(|pair| pair.race);
@@ -26,7 +28,7 @@ pub(crate) fn reason(model: &Model, y: &[f64], j: usize, finer: &str) -> String 
     let advice = if orbit::note(model).is_some() && model.scene().cage.is_none() {
         "nothing keeps the balls apart: give the scene a cage".to_owned()
     } else {
-        format!("check loads, clearance and shoulders, or {finer}")
+        format!("check loads, clearance and shoulders, or {FINER}")
     };
     let race = race.name();
     format!("the ball has left its groove: it is {how} the {race} race; {advice}")

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::budget::StepBudget;
 use super::ending::{Halt, broken};
-use super::method::{self, Choice, Task};
+use super::method::{self, Task};
 use super::orbit;
 use super::runaway;
 use super::step_collapse::StepCollapse;
@@ -78,7 +78,7 @@ pub(crate) fn follow(
     stretch: Stretch,
     options: &Options,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<(Vec<f64>, Statistics, Choice)> {
+) -> Result<(Vec<f64>, Statistics, &'static str)> {
     let Stretch {
         begins,
         length,
@@ -137,7 +137,7 @@ pub(crate) fn follow(
     );
     let mut full = y0.to_vec();
     dynamics.expand(last_time, &last, &mut full);
-    let (solution, choice) = solved.map_err(|failure| broken(model, &full, begins, &failure))?;
+    let (solution, method) = solved.map_err(|failure| broken(model, &full, begins, &failure))?;
     if let Some((time, step, why)) = halt {
         return Err(why.error(model, &full, (begins + time, step)));
     }
@@ -157,16 +157,15 @@ pub(crate) fn follow(
         truncated_contacts: truncated,
         wall_time: begun.elapsed().as_secs_f64(),
         nfev_past_end,
-        ..statistics(model, &solution.stats, &choice, (y0, &full))
+        ..statistics(model, &solution.stats, (y0, &full))
     };
-    Ok((full, statistics, choice))
+    Ok((full, statistics, method))
 }
 
 /// Results of a stretch from the integration and from the states of all bodies at its start and end.
 fn statistics(
     model: &Model,
     stats: &integrate::Statistics,
-    choice: &Choice,
     (first, last): (&[f64], &[f64]),
 ) -> Statistics {
     let share = |steps: usize| steps as f64 / stats.accepted.max(1) as f64;
@@ -179,7 +178,6 @@ fn statistics(
         smallest_step_time: Some(stats.smallest_step_time).filter(|t| t.is_finite()),
         largest_step: stats.largest_step,
         stiff_share: stats.share_stiff(),
-        implicit_share: share(choice.implicit),
         capped_share: share(stats.capped),
         clamped_pulls: 0,
         truncated_contacts: 0,
@@ -290,18 +288,9 @@ pub(crate) fn options(model: &Model) -> Result<Options> {
     breakpoints.extend(match &scene.drive {
         Drive::Speed(value) | Drive::Torque { value, .. } => value.breakpoints_apart(apart),
     });
-    let fixed = solver.method.is_fixed();
-    if fixed && max_step.is_infinite() {
-        return Err(Error::scene(
-            "solver.max_step",
-            "absent",
-            "a step [s], since the method has a fixed one and solver.frequency_cap is false",
-        ));
-    }
     Ok(Options {
         first_step: solver.first_step,
         max_step,
-        fixed_step: fixed.then_some(max_step),
         breakpoints,
         ..Options::default()
     })

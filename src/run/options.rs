@@ -225,7 +225,7 @@ mod tests {
             duration: 0.1 + 0.2,
             start: Start::State(vec![0.1, -1.0 / 3.0]),
             rtol: Some(1e-7),
-            method: Some(Method::RungeKutta4),
+            method: Some(Method::Verner),
             bandwidth: Bandwidth::Raw,
             settle: Some(0.0),
             max_steps: Some(7),

@@ -1,7 +1,6 @@
 //! What a run records about the origin of its signals.
 
 use super::Run;
-use super::method::Choice;
 use super::prepare::Prepared;
 use super::step_limit;
 use crate::inspect::films;
@@ -24,7 +23,7 @@ pub(super) struct Done<'a> {
     pub threads: usize,
     pub options: &'a Options,
     pub reduction: Option<Reduction>,
-    pub choice: Choice,
+    pub method: &'static str,
     pub defects: Vec<Touched>,
     pub kinematics: Vec<RowKinematics>,
 }
@@ -40,8 +39,7 @@ pub(super) fn provenance(run: &Run, done: Done<'_>) -> Provenance {
     Provenance {
         version: env!("CARGO_PKG_VERSION"),
         schema: SCHEMA,
-        method: done.choice.to_string(),
-        stiffness: done.choice.stiffness,
+        method: done.method.to_owned(),
         rtol: solver.rtol,
         accuracy: done.prepared.accuracy,
         max_step: Some(done.options.max_step).filter(|h| h.is_finite()),

@@ -137,7 +137,7 @@ fn unlimited(
     };
     let whole = settled.seconds + run.duration;
     let mut progress = |share: f64| progress((settled.seconds + share * run.duration) / whole);
-    let (_, mut stats, choice) = on(threads, dynamics, &mut progress, |dynamics, progress| {
+    let (_, mut stats, method) = on(threads, dynamics, &mut progress, |dynamics, progress| {
         follow(dynamics, &mut recorder, &y0, stretch, &options, progress)
     })?;
 
@@ -151,7 +151,7 @@ fn unlimited(
         threads,
         options: &options,
         reduction,
-        choice,
+        method,
         defects: recorder.watch.told(&model, &prepared.placed),
         kinematics: recorder.orbits.told(&model),
     };

@@ -65,11 +65,11 @@ impl Approximations {
             tilt: false,
             ..self
         };
-        if of_states.any() && matches!(method, Method::ImplicitFriction | Method::Auto) {
+        if of_states.any() && method == Method::ImplicitFriction {
             return Err(Error::scene(
                 "approximations",
                 "asked for",
-                "none with solver.method \"implicit-friction\" or \"auto\", which take all states",
+                "none with solver.method \"implicit-friction\", which takes all states",
             ));
         }
         if self.rolling {

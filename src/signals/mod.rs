@@ -88,8 +88,6 @@ pub struct Statistics {
     pub largest_step: f64,
     /// Share of the accepted steps at the stability limit (stiffness quotient above 3.25), 0 to 1.
     pub stiff_share: f64,
-    /// Share of the accepted steps that were implicit in velocities, 0 to 1.
-    pub implicit_share: f64,
     /// Share of the accepted steps that the step cap limited, 0 to 1.
     pub capped_share: f64,
     /// Slices at accepted steps whose damping wanted to pull and was clamped.
@@ -136,11 +134,8 @@ pub struct Provenance {
     pub version: &'static str,
     /// Version of the scene document.
     pub schema: u32,
-    /// Method; after `auto: ` the methods that were chosen, in their order.
+    /// Method.
     pub method: String,
-    /// Largest stiffness quotient that `auto` met: rate of friction times step cap over the explicit method's
-    /// limit; absent for any other method.
-    pub stiffness: Option<f64>,
     /// Relative tolerance.
     pub rtol: f64,
     /// What a requested accuracy chose, where one was.

@@ -194,11 +194,11 @@ fn what_cannot_be_asked_is_refused() {
     assert_eq!(refused(&both), "rtol");
     let elsewhere = Run {
         accuracy: Some(1e-2),
-        method: Some(Method::VelocityVerlet),
+        method: Some(Method::Verner),
         ..Run::default()
     };
     let text = simulate(&scene, &elsewhere).unwrap_err().to_string();
-    assert!(text.starts_with("method = velocity-verlet: "), "{text}");
+    assert!(text.starts_with("method = verner: "), "{text}");
 }
 
 /// Of which none is as long as from one sample of a pilot run to the next.

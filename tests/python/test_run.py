@@ -71,12 +71,12 @@ def test_a_run_goes_both_ways() -> None:
 
 
 def test_a_run_says_what_the_arguments_say() -> None:
-    run = br.Run(duration=1e-3, start="rolling", settle=0.0, method="tsitouras")
+    run = br.Run(duration=1e-3, start="rolling", settle=0.0, method="verner")
     out = br.simulate(SCENE, **run.to_dict())
-    alone = br.simulate(SCENE, duration=1e-3, start="rolling", settle=0.0, method="tsitouras")
+    alone = br.simulate(SCENE, duration=1e-3, start="rolling", settle=0.0, method="verner")
     np.testing.assert_array_equal(out["outer.ay"], alone["outer.ay"])
     state = br.Run(duration=1e-3, start=br.Model(SCENE).start("rolling"))
-    again = br.simulate(SCENE, **{**state.to_dict(), "method": "tsitouras"})
+    again = br.simulate(SCENE, **{**state.to_dict(), "method": "verner"})
     np.testing.assert_array_equal(again["outer.ay"], alone["outer.ay"])
 
 

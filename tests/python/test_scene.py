@@ -142,7 +142,7 @@ def every_field() -> s.Scene:
             "slices": s.SlicesProbe(row=1, balls=(0,), races=("outer",), times=(0.0, 1e-3)),
         },
         solver=s.Solver(
-            method="auto",
+            method="verner",
             rtol=1e-5,
             first_step=1e-8,
             max_step=1e-5,

@@ -13,17 +13,11 @@ __all__ = ["Method", "Solver"]
 Method = Literal[
     "adams",
     "dormand-prince",
-    "bogacki-shampine",
-    "tsitouras",
     "verner",
-    "runge-kutta-4",
-    "velocity-verlet",
     "implicit-friction",
-    "auto",
 ]
-"""The method of integration: a predictor–corrector of order 4 with one evaluation a step, explicit pairs of
-order 5, 3, 5 and 6, two of fixed steps, the one that is explicit in positions and implicit in velocities, and the
-choice of it or Dormand–Prince by friction's stiffness."""
+"""The method of integration: a predictor–corrector of order 4 with one evaluation a step, explicit pairs of order 5 and 6, and the one
+that is explicit in positions and implicit in velocities."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,8 +29,7 @@ class Solver(Part):
     method : Method
         The method. ``"adams"`` takes one evaluation a step and a third to a fifth of those that explicit pairs
         take for the same error. Explicit steps shrink with the slip speed of friction, those of ``"adams"``
-        later and those of ``"implicit-friction"`` not at all. Methods of fixed steps take the largest step
-        allowed.
+        later and those of ``"implicit-friction"`` not at all.
     rtol : float
         Relative tolerance [1], 1e-12 to 1e-1; each kind of state has its scale from the scene.
     first_step : float or None
@@ -45,10 +38,8 @@ class Solver(Part):
         Largest step [s]; None: no limit but the one below.
     frequency_cap : bool
         Whether the step is also kept below what the method's stability and accuracy ask for: a share of the
-        period of the highest contact frequency, less for methods of low order where contacts ring undamped; for
-        fixed steps also a share of the time in which friction and damping act (``provenance.step_limit``).
-        Without it, loose tolerances report success with accelerations wrong by 30 % and more, and fixed steps
-        longer than that are warned of.
+        period of the highest contact frequency, less where contacts vibrate undamped (``provenance.step_limit``).
+        Without it, loose tolerances report success with accelerations wrong by 30 % and more.
     reduce : bool
         Whether a run leaves out what does not change the motion: directions without forces, mirror images, slices
         where a closed form says the same.

@@ -41,8 +41,6 @@ pub enum Warning {
         stiff_share: f64,
         /// Tolerance of the run.
         rtol: f64,
-        /// The step of a method of fixed steps, which has no tolerance \[s\].
-        fixed_step: Option<f64>,
     },
     /// The requested accuracy cannot be reached: pilot runs differ by more however fine they are, since the motion is
     /// chaotic.
@@ -87,13 +85,6 @@ pub enum Warning {
         /// Simulated time \[s\].
         duration: f64,
     },
-    /// The fixed step that was asked for is longer than the method bears in this scene.
-    FixedStep {
-        /// The step \[s\].
-        step: f64,
-        /// The longest by which the method is stable and accurate there \[s\].
-        limit: f64,
-    },
     /// Nothing drives the balls along their orbit, and they have lost some of its rate.
     FreeOrbit {
         /// [`crate::Statistics::orbit_slowed`].
@@ -110,8 +101,7 @@ impl Warning {
             Self::Accelerations { .. }
             | Self::AccuracyMissed(_)
             | Self::Shoulders { .. }
-            | Self::Instructions(_)
-            | Self::FixedStep { .. } => "accuracy",
+            | Self::Instructions(_) => "accuracy",
             Self::SamplingRate { .. }
             | Self::Doubtful(_)
             | Self::Untouched { .. }
@@ -151,7 +141,6 @@ impl Signals {
             self.accelerations(),
             self.accuracy_missed(),
             self.shoulders(),
-            self.too_long_a_step(),
             self.provenance.distrust.map(Warning::Instructions),
             self.unheard(),
             self.lost_orbit(),
@@ -164,19 +153,12 @@ impl Signals {
         .collect()
     }
 
-    /// The step of a method of fixed steps.
-    fn fixed_step(&self) -> Option<f64> {
-        let is_fixed = self.scene.solver.method.is_fixed();
-        self.provenance.max_step.filter(|_| is_fixed)
-    }
-
     fn accelerations(&self) -> Option<Warning> {
         let residual = self.stats.acceleration_residual?;
         (residual > LARGEST_RESIDUAL).then(|| Warning::Accelerations {
             residual,
             stiff_share: self.stats.stiff_share,
             rtol: self.provenance.rtol,
-            fixed_step: self.fixed_step(),
         })
     }
 
@@ -190,12 +172,6 @@ impl Signals {
         let contacts = self.stats.truncated_contacts;
         let steps = self.stats.accepted;
         (contacts > 0).then_some(Warning::Shoulders { contacts, steps })
-    }
-
-    fn too_long_a_step(&self) -> Option<Warning> {
-        let limit = self.provenance.step_limit;
-        let step = self.fixed_step().filter(|step| *step > limit)?;
-        Some(Warning::FixedStep { step, limit })
     }
 
     fn unheard(&self) -> Option<Warning> {

@@ -7,7 +7,6 @@ use crate::equilibrium::Placed;
 use crate::kinematics::RowKinematics;
 use crate::signals::Accuracy;
 use crate::simd::Distrust;
-use crate::told::duration;
 
 impl Display for Warning {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
@@ -16,13 +15,8 @@ impl Display for Warning {
                 residual,
                 stiff_share,
                 rtol,
-                fixed_step,
-            } => match fixed_step {
-                None => accelerations(f, *residual, *stiff_share, *rtol),
-                Some(step) => accelerations_of_fixed_steps(f, *residual, *step),
-            },
+            } => accelerations(f, *residual, *stiff_share, *rtol),
             Self::AccuracyMissed(of) => accuracy_missed(f, of),
-            Self::FixedStep { step, limit } => fixed_step(f, *step, *limit),
             Self::Shoulders { contacts, steps } => shoulders(f, *contacts, *steps),
             Self::Instructions(distrust) => instructions(f, distrust),
             Self::SamplingRate { fs, defect, line } => sampling_rate(f, *fs, defect, *line),
@@ -56,16 +50,6 @@ fn accelerations(f: &mut Formatter<'_>, residual: f64, stiff_share: f64, rtol: f
     )
 }
 
-fn accelerations_of_fixed_steps(f: &mut Formatter<'_>, residual: f64, step: f64) -> Result {
-    write!(
-        f,
-        "accelerations are uncertain by about {:.0} %: they differ that much from the derivative of the \
-         velocities. Use a max_step smaller than {}, or raise the friction's slip_speed",
-        100.0 * residual,
-        duration(step)
-    )
-}
-
 fn accuracy_missed(f: &mut Formatter<'_>, of: &Accuracy) -> Result {
     write!(
         f,
@@ -86,16 +70,6 @@ fn accuracy_missed(f: &mut Formatter<'_>, of: &Accuracy) -> Result {
     write!(
         f,
         ": {why}. Compare features, with their standard errors, not samples"
-    )
-}
-
-fn fixed_step(f: &mut Formatter<'_>, step: f64, limit: f64) -> Result {
-    write!(
-        f,
-        "a fixed step of {} is longer than the {} by which the method is stable and \
-         accurate in this scene. Use a smaller max_step, or keep solver.frequency_cap on",
-        duration(step),
-        duration(limit)
     )
 }
 
