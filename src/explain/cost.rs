@@ -88,7 +88,7 @@ pub(super) fn of(model: &Model, y0: &[f64]) -> Result<Cost> {
 
 /// Time for an evaluation in some steps, and evaluations for a simulated second.
 fn steps(model: &Model, start: &[f64], count: usize) -> Result<(f64, f64)> {
-    let options = options(model)?;
+    let options = options(model);
     let reduction = Reduction::of(model, start);
     let mut best = f64::INFINITY;
     let mut reached = [(0.0, 0); 2];

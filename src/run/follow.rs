@@ -12,6 +12,7 @@ use super::step_collapse::StepCollapse;
 use super::step_limit;
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
+use crate::forces::damping;
 use crate::inspect;
 use crate::integrate::{self, DenseStep, Options, Tolerance};
 use crate::model::{BodyId, DOFS, Model};
@@ -264,7 +265,7 @@ pub(crate) fn threads(model: &Model, asked: usize) -> Result<usize> {
 }
 
 /// Step cap, first step, breakpoints of loads and drive.
-pub(crate) fn options(model: &Model) -> Result<Options> {
+pub(crate) fn options(model: &Model) -> Options {
     let scene = &model.scene;
     let solver = &scene.solver;
     let cap = if solver.frequency_cap {
@@ -288,19 +289,35 @@ pub(crate) fn options(model: &Model) -> Result<Options> {
     breakpoints.extend(match &scene.drive {
         Drive::Speed(value) | Drive::Torque { value, .. } => value.breakpoints_apart(apart),
     });
-    Ok(Options {
+    Options {
         first_step: solver.first_step,
         max_step,
         breakpoints,
         ..Options::default()
-    })
+    }
 }
 
-/// How much the error estimate of Adams' method exceeds what a step leaves: it is that of the corrector of order three, the step is of
-/// order four (1/24 against 19/720 ωh; motions that matter have an ωh of some 0.3). With it 42 random bearings err by 0.13 % in the median,
-/// nine in ten by 0.56 %, and take a fifth fewer evaluations. Not under films, whose forces follow speeds so closely that accelerations of
-/// a run-up would err by 3.7 instead of 1.2 % (`tests/analytic/oil_run.rs`), for steps that they hold short anyway.
-const OVERESTIMATED: f64 = 5.0;
+/// Tolerance from which on the error estimate of Adams' method exceeds what a step leaves. The estimate is that of the corrector of order
+/// three, the step is of order four: one over the other falls like h, which is the fourth root of the tolerance. At the default
+/// of 1e-7 that is five: 42 random bearings err by 0.13 % in the median, nine in ten by 0.56 %, and take a fifth fewer evaluations.
+/// No more is used at tighter ones, which are asked for to be safe.
+const EXACT: f64 = 6.25e-5;
+const MOST_OVERESTIMATED: f64 = 5.0;
+/// Damping over contact frequency above which velocities decay within a step, so that orders say nothing.
+const OVERDAMPED: f64 = 10.0;
+
+/// By how much the error estimate of the scene's method exceeds the error. Not under films, whose forces follow speeds so closely that
+/// accelerations of a run-up would err by 3.7 instead of 1.2 % (`tests/analytic/oil_run.rs`), for steps that they hold short anyway.
+fn overestimate(model: &Model) -> f64 {
+    let solver = &model.scene.solver;
+    let is_damped = damping(model) > OVERDAMPED * model.scales.frequency;
+    if solver.method != Method::Adams || model.has_films() || is_damped {
+        return 1.0;
+    }
+    (EXACT / solver.rtol)
+        .powf(0.25)
+        .clamp(1.0, MOST_OVERESTIMATED)
+}
 
 /// Every body is a group; lengths are measured by the contact's approach δ, speeds by δ ω of the highest
 /// contact frequency, angles by the arc on a ball. A position itself (36 mm) says nothing about what error
@@ -317,9 +334,7 @@ pub(crate) fn tolerance(dynamics: &Dynamics<'_>) -> Result<Tolerance> {
         let degrees = degrees.iter();
         degrees.map(move |&(body, dof)| (body, length / model.lever(body, dof)))
     };
-    let overestimates = model.scene.solver.method == Method::Adams && !model.has_films();
-    let slack = if overestimates { OVERESTIMATED } else { 1.0 };
-    let length = slack * rtol * scales.approach;
+    let length = overestimate(model) * rtol * scales.approach;
     let atol = half(length)
         .chain(half(length * scales.frequency))
         // What is left out has no error: it counts in a body's mean as if it were there.

@@ -69,7 +69,7 @@ pub(crate) fn settle(
     let before = before(&model, &run.start, y0, seconds)?;
     let options = Options {
         breakpoints: Vec::new(),
-        ..options(&model)?
+        ..options(&model)
     };
     let dynamics = Dynamics::begin(&model, Reduction::of(&model, &before).as_ref(), &before);
     let stretch = Stretch {

@@ -129,7 +129,7 @@ fn unlimited(
     recorder.prepare(&dynamics, &y0)?;
 
     let threads = threads(&model, run.threads)?;
-    let options = options(&model)?;
+    let options = options(&model);
     let stretch = Stretch {
         begins: 0.0,
         length: run.duration,

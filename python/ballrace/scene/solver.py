@@ -16,8 +16,8 @@ Method = Literal[
     "verner",
     "implicit-friction",
 ]
-"""The method of integration: a predictor–corrector of order 4 with one evaluation a step, explicit pairs of order 5 and 6, and the one
-that is explicit in positions and implicit in velocities."""
+"""The method of integration: a predictor–corrector of order 4 with one evaluation a step, explicit pairs of
+order 5 and 6, and the one that is explicit in positions and implicit in velocities."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -155,7 +155,7 @@ impl Signals {
 
     fn accelerations(&self) -> Option<Warning> {
         let residual = self.stats.acceleration_residual?;
-        (residual > LARGEST_RESIDUAL).then(|| Warning::Accelerations {
+        (residual > LARGEST_RESIDUAL).then_some(Warning::Accelerations {
             residual,
             stiff_share: self.stats.stiff_share,
             rtol: self.provenance.rtol,
