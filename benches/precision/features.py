@@ -31,7 +31,7 @@ CHOICES = (
     *(("fitted 6", Effort(cap=cap, rtol=1e-3)) for cap in (2.0, 3.0, math.inf)),
     ("fitted 6", Effort(cap=math.inf, rtol=1e-2)),
     ("fitted 6", Effort(cap=0.5, rtol=1e-6)),
-    *(("fitted 6", Effort("adams", rtol, 0.8)) for rtol in (1e-4, 1e-6)),
+    *(("fitted 6", Effort("adams", rtol, 0.9)) for rtol in (1e-4, 1e-6)),
     ("fitted 6", DEFAULT),
 )
 

@@ -43,7 +43,7 @@ ADAPTIVE = (
 PEERS = ("RK45", "DOP853", "Radau", "LSODA")
 PEER_TOLERANCES = (1e-3, 1e-4, 1e-6)
 PATIENCE = 15.0  # s, for a peer
-CAPS = (math.inf, 2.0, 1.5, 1.0, 0.8, 0.5, 0.25)
+CAPS = (math.inf, 2.0, 1.5, 1.0, 0.9, 0.5, 0.25)
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 TARGETS = (1e-2, 1e-3, 1e-4)
 

@@ -54,7 +54,7 @@ class Effort:
 
 
 #: What a run does by default.
-DEFAULT = Effort("adams", 1e-7, 0.8)
+DEFAULT = Effort("adams", 1e-7, 0.9)
 
 
 def integrated(scene: br.Scene, effort: Effort) -> br.Scene:

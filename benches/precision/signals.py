@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 NAME = "signals"
 TRUE = "fitted 64"
 OWN = "fitted 6"
-CAPS = (math.inf, 1.0, 0.8, 0.5, 0.25)
+CAPS = (math.inf, 1.0, 0.9, 0.5, 0.25)
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
 CUTS = (
     *(f"fitted {n}" for n in (4, 6, 8, 12, 16, 24, 32)),
@@ -24,8 +24,8 @@ CUTS = (
 DRAWN = (*(f"fitted {n}" for n in (6, 12, 16, 24, 32)), *(f"fixed {n}" for n in (50, 100, 400)))
 FINE = Effort("adams", 1e-8, 0.3)
 EFFORTS = (
-    Effort("adams", 1e-4, 0.8),
-    Effort("adams", 1e-6, 0.8),
+    Effort("adams", 1e-4, 0.9),
+    Effort("adams", 1e-6, 0.9),
     DEFAULT,
     FINE,
 )
@@ -72,7 +72,7 @@ def draw_chart(rows: list[dict[str, Any]], path: Path) -> None:
     figure, (left, right) = draw.panels(
         ["Steps: with the cap any tolerance will do", "Nodes: they decide, not the steps"]
     )
-    colours = {math.inf: draw.RED, 0.8: draw.BLUE, 0.5: draw.ORANGE, 0.25: draw.GREEN}
+    colours = {math.inf: draw.RED, 0.9: draw.BLUE, 0.5: draw.ORANGE, 0.25: draw.GREEN}
     for cap, colour in colours.items():
         mine = [r for r in rows if (r["error_of"], r["cap"]) == ("integration", cap)]
         label = "no cap" if math.isinf(cap) else f"cap × {cap:g}"
