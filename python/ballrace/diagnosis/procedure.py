@@ -21,7 +21,7 @@ from .null import ACCUSED, largest_z
 from .result import Diagnosis
 from .severity import checked_machine, severity_of
 from .shaft import ShaftRate, shaft_rate
-from .strength import Envelopes, faint_below
+from .strength import Envelopes, has_background, limits_of
 from .verdict import decided, own_lines
 
 if TYPE_CHECKING:
@@ -142,8 +142,11 @@ def diagnose(
         for part in PARTS
     }
     own = own_lines(evidence, levels, kinematics, shaft.rate, false_alarm=false_alarm, seed=seed)
-    faint = _faint(channel, kinematics, shaft.rate)
-    verdict = decided(evidence, own, false_alarm, faint=faint, wanting=wanting_of(channel))
+    limits = _limits(channel, kinematics, shaft.rate)
+    verdict = decided(
+        evidence, own, false_alarm, limits=limits, silent=not has_background(channel.x),
+        blows=envelopes.blows(limits[0] if limits else 0.0), wanting=wanting_of(channel, shaft.rate, kinematics),
+    )  # fmt: skip
     deciding = bands.index(max((evidence[part] for part in ACCUSED), key=lambda one: one.z).band)
     severity = severity_of(channel, shaft.rate, envelopes, deciding, machine)
     return replace(
@@ -161,10 +164,10 @@ def _spectra(
     return envelope_spectra(channel.x, channel.fs, bands, limit, shaft)
 
 
-def _faint(channel: Channel, kinematics: Kinematics, shaft: float) -> float | None:
+def _limits(channel: Channel, kinematics: Kinematics, shaft: float) -> tuple[float, float] | None:
     if channel.unit != "m/s^2" or kinematics.row is None:
         return None
-    return faint_below(kinematics.row.pitch_diameter, shaft)
+    return limits_of(kinematics.row.pitch_diameter, shaft)
 
 
 def _undecided(
