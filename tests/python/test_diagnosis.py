@@ -181,6 +181,18 @@ def test_lines_without_background_need_a_unit() -> None:
     assert judged(50.0 * x / x.std(), unit="m/s^2").parts == ("outer_race",)
 
 
+def test_waves_without_blows_need_a_unit() -> None:
+    """Tones at multiples of BPFO, as of balls that pass through the load zone of a smooth bearing, in noise."""
+    t = np.arange(round(4.0 * FS)) / FS
+    x = sum(np.cos(2 * np.pi * k * ORDERS.bpfo * SHAFT * t + k * k) for k in range(4, 12))
+    x = noise(x, 1.0)
+    found = judged(x)
+    assert found.evidence["outer_race"].probability < 0.01
+    assert found.evidence["outer_race"].strength.depth > 0.4
+    assert (found.verdict, "size tells" in found.why) == ("undecided", True)
+    assert judged(10.0 * x, unit="m/s^2").parts == ("outer_race",)
+
+
 def test_blows_at_no_rate_of_the_bearing_leave_it_open() -> None:
     """A speed that is 3 % off, and the rate of no part: neither accuses, neither clears."""
     for x, rpm in ((blows(ORDERS.bpfi, 1.0), 1.03 * RPM), (blows(4.31), RPM)):

@@ -113,7 +113,7 @@ def _not_sure(one: Evidence, sure: float, unknown: bool, silent: bool) -> str | 
         return _shallow(one)
     if one.strength.acceleration < sure:
         return _between(one, sure)
-    return _of_no_size(one) if unknown and silent else None
+    return _of_no_size(one) if unknown and (silent or one.strength.is_smooth) else None
 
 
 def own_lines(
@@ -172,8 +172,8 @@ def _between(one: Evidence, sure: float) -> str:
 
 def _of_no_size(one: Evidence) -> str:
     return (
-        f"the record's unit and a bearing with dimensions: lines of the {NAMES[one.part]} are there, but in a "
-        "record without background noise a loaded healthy bearing has such lines, too, and only their size tells"
+        f"the record's unit and a bearing with dimensions: lines of the {NAMES[one.part]} are there, but "
+        "without blows, or in a record without noise, a loaded healthy bearing has such lines, too: size tells"
     )
 
 
