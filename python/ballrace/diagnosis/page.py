@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ..report import Page
 from ..report.words import degrees, number
 from .picture import picture
-from .result import capital, header_of
+from .result import capital, header_of, reason
 from .verdict import NAMES
 
 if TYPE_CHECKING:
@@ -27,8 +27,7 @@ def diagnosis_page(of: Diagnosis, title: str | None = None) -> Page:
     """Return a diagnosis as a page."""
     what = of.verdict + "".join(f", {NAMES[part]}" for part in of.parts)
     page = Page(title or f"{of.bearing}: {what}")
-    decides = f"What would decide: {of.why}" if of.verdict == "undecided" else capital(of.why)
-    page.text(f"Verdict: {what}. {decides}.")
+    page.text(f"Verdict: {what}. {capital(reason(of))}.")
     for note in of.notes:
         page.warning(note)
     page.section("Record and bearing")

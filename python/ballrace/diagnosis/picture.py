@@ -85,7 +85,13 @@ def _add_expected(fig: go.Figure, one: Evidence) -> None:
         Scatter(
             x=[line.found for line in one.lines], y=[line.level for line in one.lines], mode="markers+text",
             name=f"{name}, order × {one.factor:.3f}", text=labels,
-            textposition="top center", marker={"symbol": marker, "size": 9, "color": colour},
+            textposition=[_beside(line.label) for line in one.lines],
+            marker={"symbol": marker, "size": 9, "color": colour},
             hovertemplate="%{text}: %{x:.3f} Hz, %{y:.1f} dB<extra></extra>",
         )
     )  # fmt: skip
+
+
+def _beside(label: str) -> str:
+    """Return where the label of a line stands: that of a sideband away from its middle line."""
+    return "top left" if " − " in label else "top right" if " + " in label else "top center"

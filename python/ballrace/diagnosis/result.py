@@ -85,7 +85,7 @@ class Diagnosis:
         by = f"z above {self.threshold:.1f} in {100.0 * self.false_alarm:g} % of healthy records"
         lines = [
             f"<Diagnosis of {self.bearing}: {what}",
-            f"  {self.why}",
+            f"  {reason(self)}",
             "  " + (", ".join(map(_short, self.evidence.values())) or "no evidence"),
             f"  {by}; shaft {self.shaft.rate:.3f} Hz ({self.shaft.by})",
         ]
@@ -99,9 +99,7 @@ class Diagnosis:
             for row in self.rows()
         )
         what = escape(self.verdict + "".join(f", {NAMES[part]}" for part in self.parts))
-        told = (
-            f"<p><strong>{escape(self.bearing)}: {what}.</strong> {escape(capital(self.why))}.</p>"
-        )
+        told = f"<p><strong>{escape(self.bearing)}: {what}.</strong> {escape(capital(reason(self)))}.</p>"
         return f"{told}<table><tr>{head}</tr>{body}</table>"
 
     def _row(self, one: Evidence) -> int:
@@ -167,6 +165,11 @@ HEADER = (
 def header_of(unit: str) -> list[str]:
     """Return the columns of :meth:`Diagnosis.rows` for a record in a unit."""
     return [*HEADER[:-1], f"{HEADER[-1]}, {unit or 'unit not known'}"]
+
+
+def reason(of: Diagnosis) -> str:
+    """Return why the verdict is what it is, or what would decide."""
+    return f"what would decide: {of.why}" if of.verdict == "undecided" else of.why
 
 
 def capital(text: str) -> str:
