@@ -59,7 +59,8 @@ def diagnose(
     for the combs of lines that faults of each part have. How high they stand is compared with a thousand combs
     at orders of the same record that no part has, so that chance has a known rate, without training and without
     a threshold in decibels. Lines that stand out accuse a part only where they are deep or blows stand out,
-    and, where the unit of the record is known, where they carry more than those of a healthy bearing do.
+    and, where the unit of the record is known, where they carry more than those of a healthy bearing do. A record
+    with blows at no rate of the bearing, or too few turns to tell a race from the shaft, is not called healthy.
 
     Parameters
     ----------
@@ -77,7 +78,8 @@ def diagnose(
     column : str, optional
         Column of a record; by default ``outer.ay`` if there is one, else the first.
     unit : {"m/s^2", "g"}, optional
-        Unit, where the record does not tell it, as of an array. Without one lines are judged, and not their size.
+        Unit, where the record does not tell it, as of an array. Without one the size of lines is not judged, and
+        lines without blows, or in a record without noise, are left open.
     row : int
         Row of balls of a scene, from 0.
     false_alarm : float

@@ -55,6 +55,9 @@ _NOISY = 4.0
 """Kurtosis below which no blows stand out: 3.2 to 3.4 in that healthy record, 5.3 and more in all damaged ones."""
 
 
+_BLOWS = 5.0
+"""Kurtosis from which on blows need an explanation: noise that swells by a half with the shaft has 4.2."""
+
 _SMOOTH = 3.5
 """Kurtosis below which the lines of a record without a unit may be those of balls in the load zone.
 
@@ -134,7 +137,7 @@ class Envelopes:
         """Return the largest kurtosis of a band where blows stand out; None of noise or below ``faint``."""
         largest = max(map(self.kurtosis, range(len(self.bands))))
         loud = 0.5 * float(self.rows[-1].mean()) >= faint**2
-        return largest if loud and largest >= _NOISY else None
+        return largest if loud and largest >= _BLOWS else None
 
     def kurtosis(self, band: int) -> float:
         """Return the kurtosis of the signal in a band; of none, that of noise."""
