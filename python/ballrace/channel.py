@@ -14,6 +14,7 @@ them, a channel, or an array with its sampling rate.
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
@@ -159,6 +160,8 @@ def channel_of(
         if fs is not None and fs != of.fs:
             raise SceneError("fs", repr(fs), f"left out: the record has {of.fs:g} Hz")
         return of.channel(column)
+    if isinstance(of, str | os.PathLike):
+        raise SceneError(name, repr(of), "a record or an array; ballrace.read(path) reads a file")
     if fs is None:
         raise SceneError("fs", "None", "the sampling rate of the array [Hz]")
     if column is not None:

@@ -159,6 +159,67 @@ def test_faint_lines_are_no_damage() -> None:
     assert 40.0 < in_g.acceleration < 50.0
 
 
+def test_lines_between_both_limits_leave_it_open() -> None:
+    """Blows at 590 1/min: healthy ones have up to 0.3 m/s² there, 1.8 times the limit for faint lines."""
+    x = noise(blows(ORDERS.bpfo), 0.05)
+    quiet, between, loud = (
+        br.diagnose(scale * x / x.std(), "6205", RPM / 3, fs=FS / 3, unit="m/s^2")
+        for scale in (0.15, 0.4, 1.0)
+    )
+    assert (quiet.verdict, between.verdict, loud.verdict) == ("healthy", "undecided", "damaged")
+    assert "from when it was new" in between.why
+
+
+def test_lines_without_background_need_a_unit() -> None:
+    """Blows in silence may be those of a loaded healthy bearing in a simulated array."""
+    x = blows(ORDERS.bpfo)
+    found = judged(x)
+    assert found.verdict == "undecided"
+    assert "unit" in found.why
+    assert judged(noise(x, 1e-3 * x.std())).verdict == "undecided"
+    assert judged(noise(x, 0.1 * x.std())).parts == ("outer_race",)
+    assert judged(50.0 * x / x.std(), unit="m/s^2").parts == ("outer_race",)
+
+
+def test_waves_without_blows_need_a_unit() -> None:
+    """Tones at multiples of BPFO, as of balls that pass through the load zone of a smooth bearing, in noise."""
+    t = np.arange(round(4.0 * FS)) / FS
+    tones = [np.cos(2 * np.pi * k * ORDERS.bpfo * SHAFT * t + k * k) for k in range(4, 12)]
+    x = noise(np.sum(tones, axis=0), 1.0)
+    found = judged(x)
+    assert found.evidence["outer_race"].probability < 0.01
+    assert found.evidence["outer_race"].strength.depth > 0.4
+    assert (found.verdict, "size tells" in found.why) == ("undecided", True)
+    assert judged(10.0 * x, unit="m/s^2").parts == ("outer_race",)
+
+
+def test_blows_at_no_rate_of_the_bearing_leave_it_open() -> None:
+    """A speed that is 3 % off, and the rate of no part: neither accuses, neither clears."""
+    for x, rpm in ((blows(ORDERS.bpfi, 1.0), 1.03 * RPM), (blows(4.31), RPM)):
+        found = judged(noise(x, 0.02), rpm=rpm)
+        assert found.verdict == "undecided"
+        assert "blows stand out" in found.why
+
+
+def test_an_order_next_to_a_whole_one_needs_turns() -> None:
+    """Truth: two lines are apart once a record has several times as many turns as one over their distance."""
+    orders = br.catalogue["6309"].orders
+    assert orders.bpfi == pytest.approx(4.963, abs=1e-3)
+    x = noise(np.zeros(round(20.0 * FS)), 1.0)
+    short, long = judged(x[:24_000], "6309"), judged(x, "6309")
+    assert short.verdict == "undecided"
+    assert "race's order" in short.why
+    assert f"at least {8.0 / (5.0 - orders.bpfi) / SHAFT:.3g} s" in short.why
+    assert long.verdict == "healthy"
+
+
+def test_a_velocity_clears_nothing() -> None:
+    x = noise(np.zeros(24_000), 1.0)
+    found = br.diagnose(br.Channel(x=x, fs=FS, unit="m/s^2").to("mm/s"), "6205", RPM)
+    assert found.verdict == "undecided"
+    assert "an acceleration" in found.why
+
+
 def test_shallow_lines_leave_it_open() -> None:
     """Noise that a waved inner race modulates by an eighth: lines without a blow."""
     t = np.arange(round(8.0 * FS)) / FS
@@ -214,6 +275,9 @@ def test_nothing_of_the_kind_is_damaged(kind: str) -> None:
     told = [judged(shaken(kind, np.random.default_rng([7, k]))).verdict for k in range(8)]
     assert told.count("damaged") <= most(8, 0.01)
     assert kind != "clipped" or set(told) == {"undecided"}
+    # Noise that the shaft swells is no blows: 3 E[a⁴]/E[a²]² of a = 1 + cos(φ)/2 is 4.2.
+    if kind in ("white noise", "coloured noise", "noise that the shaft swells"):
+        assert told.count("healthy") >= 6
 
 
 @pytest.mark.long
@@ -281,6 +345,12 @@ REFUSED: dict[str, Callable[[], object]] = {
     "mains = 0.0": lambda: judged(X, mains=0.0),
     "machine = 'small'": lambda: judged(X, machine="small"),
     "unit = 'V'": lambda: judged(X, unit="V"),
+    "unit = 'g': left out": lambda: br.diagnose(
+        br.Channel(x=X, fs=FS, unit="m/s^2"), "6205", RPM, unit="g"
+    ),
+    "record = 'a.wav': a record": lambda: br.diagnose("a.wav", "6205", RPM),
+    "bearing = 6205": lambda: judged(X, 6205),  # type: ignore[arg-type]
+    "bearing.bsf = 'x'": lambda: judged(X, vars(ORDERS) | {"bsf": "x"}),
     "row = 1": lambda: judged(X, br.bearing("6205"), row=1),
     "part = 'shaft'": lambda: judged(X).plot("shaft"),  # type: ignore[arg-type]
 }

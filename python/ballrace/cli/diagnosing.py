@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, get_args
 
 from .._text import printable
 from ..diagnosis import diagnose
-from ..diagnosis.result import HEADER
+from ..diagnosis.result import header_of, reason
 from ..diagnosis.severity import Machine
 from ..errors import SceneError
 from ..report.writing import check_page
@@ -76,9 +76,9 @@ def _diagnose(options: argparse.Namespace) -> None:
             false_alarm=options.false_alarm, exclude=options.exclude, mains=options.mains, machine=options.machine,
         )  # fmt: skip
     parts = "".join(f", {part.replace('_', ' ')}" for part in found.parts)
-    print(printable(f"{found.bearing}: {found.verdict}{parts}\n{found.why}"))
+    print(printable(f"{found.bearing}: {found.verdict}{parts}\n{reason(found)}"))
     if found.evidence:
-        print_table([*HEADER], found.rows())
+        print_table(header_of(found.unit), found.rows())
     for note in found.notes:
         print(printable(note))
     if options.output is not None:

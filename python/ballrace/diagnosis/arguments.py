@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._numbers import real
-from .._units import ACCELERATIONS
+from .._units import ACCELERATIONS, VELOCITIES
 from ..errors import SceneError
 from ..spectra.checks import checked_signal
 from .kinematics import kinematics_of
@@ -29,10 +29,18 @@ def checked_channel(channel: Channel, unit: str | None) -> Channel:
     x = checked_signal(channel.x, channel.fs, "record")
     channel = replace(channel, x=x[: prev_fast_len(x.size, real=True)])
     if unit is not None:
-        if unit.replace("²", "^2") not in ACCELERATIONS:
-            raise SceneError("unit", repr(unit), f"one of {', '.join(ACCELERATIONS)}, or None")
-        channel = replace(channel, unit=unit.replace("²", "^2"))
+        channel = replace(channel, unit=_checked_unit(unit, channel.unit))
     return channel.to("m/s^2") if channel.unit in ACCELERATIONS else channel
+
+
+def _checked_unit(unit: str, known: str) -> str:
+    """Return a unit that was given, of a record that does not tell another."""
+    if not isinstance(unit, str) or unit.replace("²", "^2") not in ACCELERATIONS:
+        raise SceneError("unit", repr(unit), f"one of {', '.join(ACCELERATIONS)}, or None")
+    unit = unit.replace("²", "^2")
+    if known in ACCELERATIONS | VELOCITIES and unit != known:
+        raise SceneError("unit", repr(unit), f"left out: the record is in {known}")
+    return unit
 
 
 def known_bearing(channel: Channel, bearing: AnyBearing | None, row: int) -> Kinematics:

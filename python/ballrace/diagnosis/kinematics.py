@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, TypeAlias
 
+from .._numbers import real
 from ..bearings import Bearing, catalogue
 from ..errors import EquilibriumError, SceneError
 from ..frequencies import Orders, of_row, orders
@@ -74,7 +75,7 @@ def kinematics_of(bearing: AnyBearing, row: int = 0) -> Kinematics:
     if isinstance(bearing, Mapping):
         bearing = _of_mapping(bearing)
     if not isinstance(bearing, Orders):
-        raise SceneError("bearing", f"a {type(bearing).__name__}", _WANTED)
+        raise SceneError("bearing", repr(bearing)[:60], _WANTED)
     return Kinematics(name="orders that were given", orders=_checked(bearing))
 
 
@@ -98,6 +99,6 @@ def _of_mapping(given: Mapping[str, float]) -> Orders:
 
 def _checked(given: Orders) -> Orders:
     for name, order in vars(given).items():
-        if not 0.05 <= order <= 100.0:
+        if not 0.05 <= real(order) <= 100.0:
             raise SceneError(f"bearing.{name}", repr(order), "an order of the shaft, 0.05 to 100")
     return given

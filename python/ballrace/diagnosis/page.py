@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ..report import Page
 from ..report.words import degrees, number
 from .picture import picture
-from .result import HEADER
+from .result import capital, header_of, reason
 from .verdict import NAMES
 
 if TYPE_CHECKING:
@@ -27,9 +27,7 @@ def diagnosis_page(of: Diagnosis, title: str | None = None) -> Page:
     """Return a diagnosis as a page."""
     what = of.verdict + "".join(f", {NAMES[part]}" for part in of.parts)
     page = Page(title or f"{of.bearing}: {what}")
-    page.text(
-        f"Verdict: {what}. {'What would decide: ' if of.verdict == 'undecided' else ''}{of.why}."
-    )
+    page.text(f"Verdict: {what}. {capital(reason(of))}.")
     for note in of.notes:
         page.warning(note)
     page.section("Record and bearing")
@@ -54,7 +52,7 @@ def diagnosis_page(of: Diagnosis, title: str | None = None) -> Page:
 
 def _add_evidence(page: Page, of: Diagnosis) -> None:
     page.section("Evidence")
-    page.table(HEADER, of.rows())
+    page.table(header_of(of.unit), of.rows())
     for part in of.parts or (None,):
         fig = picture(of, of._levels, part, None, {})
         page.figure(

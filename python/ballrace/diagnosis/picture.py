@@ -8,6 +8,7 @@ import numpy as np
 
 from ..errors import SceneError
 from ..plot.style import COLOURS, SYMBOLS, finished
+from .envelopes import FLOOR
 from .null import ACCUSED
 from .verdict import NAMES
 
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
     from .result import Diagnosis
 
 __all__ = ["picture"]
+
+_MARKS = FLOOR - 2.0
+"""Level at which marks stand, below all lines [dB]."""
 
 
 def picture(
@@ -37,6 +41,7 @@ def picture(
     fig.add_hrect(
         y0=one.chance[0], y1=one.chance[1], fillcolor="#888", opacity=0.15, line_width=0,
         annotation_text="lines by chance, median to 99 %", annotation_position="top left",
+        annotation_bgcolor="rgba(255,255,255,0.8)",
     )  # fmt: skip
     line = {"color": COLOURS[0], "width": 1.0}
     fig.add_trace(
@@ -44,7 +49,9 @@ def picture(
     )
     _add_expected(fig, one)
     fig.update_xaxes(title_text="frequency / Hz")
-    fig.update_yaxes(title_text="level over the median beside / dB")
+    highest = max(float(row[shown].max()), one.chance[1])
+    # Room above for labels and below for the marks of what was expected.
+    fig.update_yaxes(title_text="level over median / dB", range=[_MARKS - 2.0, highest + 5.0])
     band = f"{NAMES[one.part]}, {one.band[0]:.0f} to {one.band[1]:.0f} Hz"
     own = f"{band}: z {one.z:.1f}, threshold {of.threshold:.1f}"
     return finished(fig, {"title": {"text": own, "font": {"size": 15}}} | layout, height=420)
@@ -69,7 +76,7 @@ def _add_expected(fig: go.Figure, one: Evidence) -> None:
     labels = [line.label.replace("f_r", "f<sub>r</sub>") for line in one.lines]
     fig.add_trace(
         Scatter(
-            x=places, y=[-2.0] * len(places), mode="markers", name="expected by nominal orders",
+            x=places, y=[_MARKS] * len(places), mode="markers", name="expected by nominal orders",
             marker={"symbol": "line-ns-open", "size": 12, "color": "#444"},
             text=[line.label for line in one.lines], hovertemplate="%{text}: %{x:.3f} Hz<extra></extra>",
         )
@@ -78,7 +85,13 @@ def _add_expected(fig: go.Figure, one: Evidence) -> None:
         Scatter(
             x=[line.found for line in one.lines], y=[line.level for line in one.lines], mode="markers+text",
             name=f"{name}, order × {one.factor:.3f}", text=labels,
-            textposition="top center", marker={"symbol": marker, "size": 9, "color": colour},
+            textposition=[_beside(line.label) for line in one.lines],
+            marker={"symbol": marker, "size": 9, "color": colour},
             hovertemplate="%{text}: %{x:.3f} Hz, %{y:.1f} dB<extra></extra>",
         )
     )  # fmt: skip
+
+
+def _beside(label: str) -> str:
+    """Return where the label of a line stands: that of a sideband away from its middle line."""
+    return "top left" if " − " in label else "top right" if " + " in label else "top center"

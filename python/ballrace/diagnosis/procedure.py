@@ -21,7 +21,7 @@ from .null import ACCUSED, largest_z
 from .result import Diagnosis
 from .severity import checked_machine, severity_of
 from .shaft import ShaftRate, shaft_rate
-from .strength import Envelopes, faint_below
+from .strength import Envelopes, has_background, limits_of
 from .verdict import decided, own_lines
 
 if TYPE_CHECKING:
@@ -59,7 +59,8 @@ def diagnose(
     for the combs of lines that faults of each part have. How high they stand is compared with a thousand combs
     at orders of the same record that no part has, so that chance has a known rate, without training and without
     a threshold in decibels. Lines that stand out accuse a part only where they are deep or blows stand out,
-    and, where the unit of the record is known, where they carry more than those of a healthy bearing do.
+    and, where the unit of the record is known, where they carry more than those of a healthy bearing do. A record
+    with blows at no rate of the bearing, or too few turns to tell a race from the shaft, is not called healthy.
 
     Parameters
     ----------
@@ -77,7 +78,8 @@ def diagnose(
     column : str, optional
         Column of a record; by default ``outer.ay`` if there is one, else the first.
     unit : {"m/s^2", "g"}, optional
-        Unit, where the record does not tell it, as of an array. Without one lines are judged, and not their size.
+        Unit, where the record does not tell it, as of an array. Without one the size of lines is not judged, and
+        lines without blows, or in a record without noise, are left open.
     row : int
         Row of balls of a scene, from 0.
     false_alarm : float
@@ -142,8 +144,11 @@ def diagnose(
         for part in PARTS
     }
     own = own_lines(evidence, levels, kinematics, shaft.rate, false_alarm=false_alarm, seed=seed)
-    faint = _faint(channel, kinematics, shaft.rate)
-    verdict = decided(evidence, own, false_alarm, faint=faint, wanting=wanting_of(channel))
+    limits = _limits(channel, kinematics, shaft.rate)
+    verdict = decided(
+        evidence, own, false_alarm, limits=limits, silent=not has_background(channel.x),
+        blows=envelopes.blows(limits[0] if limits else 0.0), wanting=wanting_of(channel, shaft.rate, kinematics),
+    )  # fmt: skip
     deciding = bands.index(max((evidence[part] for part in ACCUSED), key=lambda one: one.z).band)
     severity = severity_of(channel, shaft.rate, envelopes, deciding, machine)
     return replace(
@@ -161,10 +166,10 @@ def _spectra(
     return envelope_spectra(channel.x, channel.fs, bands, limit, shaft)
 
 
-def _faint(channel: Channel, kinematics: Kinematics, shaft: float) -> float | None:
+def _limits(channel: Channel, kinematics: Kinematics, shaft: float) -> tuple[float, float] | None:
     if channel.unit != "m/s^2" or kinematics.row is None:
         return None
-    return faint_below(kinematics.row.pitch_diameter, shaft)
+    return limits_of(kinematics.row.pitch_diameter, shaft)
 
 
 def _undecided(

@@ -85,7 +85,7 @@ class Diagnosis:
         by = f"z above {self.threshold:.1f} in {100.0 * self.false_alarm:g} % of healthy records"
         lines = [
             f"<Diagnosis of {self.bearing}: {what}",
-            f"  {self.why}",
+            f"  {reason(self)}",
             "  " + (", ".join(map(_short, self.evidence.values())) or "no evidence"),
             f"  {by}; shaft {self.shaft.rate:.3f} Hz ({self.shaft.by})",
         ]
@@ -93,13 +93,13 @@ class Diagnosis:
 
     def _repr_html_(self) -> str:
         """Return the verdict and a table of the evidence, as notebooks show it."""
-        head = "".join(f"<th>{cell}</th>" for cell in HEADER)
+        head = "".join(f"<th>{escape(cell)}</th>" for cell in header_of(self.unit))
         body = "".join(
             "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>"
             for row in self.rows()
         )
         what = escape(self.verdict + "".join(f", {NAMES[part]}" for part in self.parts))
-        told = f"<p><strong>{escape(self.bearing)}: {what}.</strong> {escape(self.why)}.</p>"
+        told = f"<p><strong>{escape(self.bearing)}: {what}.</strong> {escape(capital(reason(self)))}.</p>"
         return f"{told}<table><tr>{head}</tr>{body}</table>"
 
     def _row(self, one: Evidence) -> int:
@@ -160,6 +160,21 @@ HEADER = (
     "part", "z", "by chance", "order found / expected", "band, Hz", "depth", "at the fault's rate",
 )  # fmt: skip
 """Columns of :meth:`Diagnosis.rows`."""
+
+
+def header_of(unit: str) -> list[str]:
+    """Return the columns of :meth:`Diagnosis.rows` for a record in a unit."""
+    return [*HEADER[:-1], f"{HEADER[-1]}, {unit or 'unit not known'}"]
+
+
+def reason(of: Diagnosis) -> str:
+    """Return why the verdict is what it is, or what would decide."""
+    return f"what would decide: {of.why}" if of.verdict == "undecided" else of.why
+
+
+def capital(text: str) -> str:
+    """Return a sentence that begins as one."""
+    return text[:1].upper() + text[1:]
 
 
 def _short(one: Evidence) -> str:

@@ -53,7 +53,9 @@ def decided(
     own: Sequence[Part],
     false_alarm: float,
     *,
-    faint: float | None,
+    limits: tuple[float, float] | None,
+    silent: bool,
+    blows: float | None,
     wanting: Sequence[str],
 ) -> Verdict:
     """Return the verdict.
@@ -66,35 +68,52 @@ def decided(
         Parts whose lines stand out and are their own, the highest first.
     false_alarm : float
         Share of healthy records that may be called damaged.
-    faint : float or None
-        Acceleration below which lines are no damage, in the unit of the record; None where it cannot be judged.
+    limits : tuple of two floats, or None
+        Accelerations below which lines are no damage, and from which on they are; None where nobody knows.
+    silent : bool
+        Whether the record has no background, as simulated ones have none.
+    blows : float or None
+        Kurtosis of the band where blows stand out; None where none do.
     wanting : sequence of str
         What the record lacks for a statement that nothing is damaged.
     """
     ranked = sorted((evidence[part] for part in ACCUSED), key=lambda one: -one.z)
-    sure = [evidence[part] for part in own]
-    loud = [one for one in sure if faint is None or one.strength.acceleration >= faint]
-    strong = [one for one in loud if not one.strength.is_shallow]
+    faint, sure = limits or (0.0, 0.0)
+    own_ones = [evidence[part] for part in own]
+    loud = [one for one in own_ones if one.strength.acceleration >= faint]
+    open_ = {one.part: _not_sure(one, sure, limits is None, silent) for one in loud}
+    strong = [one for one in loud if open_[one.part] is None]
     if strong:
         parts = tuple(one.part for one in strong)
         return Verdict(verdict="damaged", parts=parts, why=_lines_of(strong[0]))
-    if loud:
-        return Verdict(verdict="undecided", parts=(), why=_shallow(loud[0]))
-    if sure and faint is not None:
-        return Verdict(verdict="healthy", parts=(), why=_faint(sure[0], faint))
     doubted = [
         one
         for one in ranked
         if one.probability < _DOUBT * false_alarm
         and not one.strength.is_shallow
-        and (faint is None or one.strength.acceleration >= faint)
+        and one.strength.acceleration >= faint
     ]
-    needs = [*wanting, *map(_doubt, doubted), *map(_hidden, filter(_is_hidden, ranked[:3]))]
+    unexplained = [] if own or blows is None else [_blows(blows)]
+    needs = [
+        *filter(None, open_.values()), *map(_doubt, doubted), *map(_hidden, filter(_is_hidden, ranked)),
+        *unexplained, *wanting,
+    ]  # fmt: skip
     if needs:
         return Verdict(verdict="undecided", parts=(), why=needs[0])
+    if own_ones and limits is not None:
+        return Verdict(verdict="healthy", parts=(), why=_faint(own_ones[0], faint))
     nearest = f"{NAMES[ranked[0].part]}, come by chance in {_percent(ranked[0])} of records"
     why = f"no lines of a fault; the nearest, {nearest}"
     return Verdict(verdict="healthy", parts=(), why=why)
+
+
+def _not_sure(one: Evidence, sure: float, unknown: bool, silent: bool) -> str | None:
+    """Return what would decide whether lines that stand out are damage; None where they are."""
+    if one.strength.is_shallow:
+        return _shallow(one)
+    if one.strength.acceleration < sure:
+        return _between(one, sure)
+    return _of_no_size(one) if unknown and (silent or one.strength.is_smooth) else None
 
 
 def own_lines(
@@ -140,6 +159,28 @@ def _shallow(one: Evidence) -> str:
         f"a record from when it was new, or another place to measure: lines of the {NAMES[one.part]} are "
         f"there, but modulate the vibration by {depth:.0f} % only and no blows stand out "
         f"(kurtosis {kurtosis:.1f}), which waves of a race do, too"
+    )
+
+
+def _between(one: Evidence, sure: float) -> str:
+    return (
+        f"a record from when it was new: lines of the {NAMES[one.part]} carry "
+        f"{one.strength.acceleration:.2g} m/s², which a slow healthy bearing "
+        f"may have, too; damage is sure from {sure:.2g} on"
+    )
+
+
+def _of_no_size(one: Evidence) -> str:
+    return (
+        f"the record's unit and a bearing with dimensions: lines of the {NAMES[one.part]} are there, but "
+        "without blows, or in a record without noise, a loaded healthy bearing has such lines, too: size tells"
+    )
+
+
+def _blows(kurtosis: float) -> str:
+    return (
+        f"the right speed and bearing, or a longer record: blows stand out (kurtosis {kurtosis:.0f}), "
+        "but at no rate of this bearing"
     )
 
 

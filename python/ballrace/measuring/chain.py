@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..channel import Channel
 from ..errors import AccuracyWarning, SceneError
+from ..recordings.recording import Recording
 from ..scene import Scene
 from ..signals import Signals
 from .housing import AnyHousing, Housing, ImpulseResponse, MeasuredResponse
@@ -23,6 +24,8 @@ from .source import Source, of_array, of_signals
 from .tacho import Tacho
 
 if TYPE_CHECKING:
+    import os
+
     from numpy.typing import ArrayLike
 
 
@@ -166,6 +169,34 @@ class Measurement:
             scene=self.scene, warnings=(*self.warnings, *clipped),
         )  # fmt: skip
         return told.channel(name)
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Write the signal into a file that :func:`ballrace.read` reads, as the column ``sensor``.
+
+        Parameters
+        ----------
+        path : path
+            File, of the formats of :meth:`ballrace.Recording.write`.
+
+        Raises
+        ------
+        SceneError
+            The name ends in none of them.
+        OSError
+            The file cannot be written.
+
+        Examples
+        --------
+        >>> import ballrace as br, numpy as np, pathlib, tempfile
+        >>> sensed = br.measure(np.sin(np.arange(1000.0)), fs=12_000.0, shaft=30.0)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     sensed.write(pathlib.Path(folder) / "sensor.parquet")
+        ...     again = br.read(pathlib.Path(folder) / "sensor.parquet")
+        >>> again.channel()
+        <Channel sensor [m/s^2]: 1000 samples at 12000 Hz, shaft 30 Hz>
+        """
+        columns, units = {"sensor": self.x}, {"sensor": self.unit}
+        Recording(columns=columns, fs=self.fs, units=units, shaft=self.shaft).write(path)
 
     def mix_into(
         self, background: ArrayLike, snr_db: float, *, seed: int | None = None
