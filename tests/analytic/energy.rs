@@ -243,6 +243,27 @@ fn energy_is_kept() {
     assert!(failed.is_empty(), "{failed:#?}");
 }
 
+/// Under Hertz's law zones go on past the pole of the ball, along the tangent: when they were cut there, 12 nodes let the energy
+/// drift.
+#[test]
+fn steep_contacts_under_high_pressure_keep_energy() {
+    for (degrees, thrust, pressure) in [
+        (40.0_f64, 36e3, 4.0e9),
+        (70.0, 36e3, 3.5e9),
+        (80.0, 36e3, 3.5e9),
+    ] {
+        let mut scene = presets::deep_groove_6205(400.0, thrust, 3000.0);
+        scene.rows[0].contact_angle = degrees.to_radians();
+        let mut scene = conservative(scene, &NormalLaw::Hertz);
+        scene.contact.slices = Slices::Fitted(12);
+        let found = equilibrium(&scene).unwrap().largest_pressure();
+        let drifts = drift(&scene, 4e-3);
+        println!("{degrees}°, {found:.2e} Pa: {drifts:.1e}");
+        assert!(found > pressure, "{degrees}°: {found:e} Pa");
+        assert!(drifts < 1e-5, "{degrees}°: {drifts:e}");
+    }
+}
+
 /// Films that neither damp nor rub are a coat: a potential of its own, on rings that the drive holds at their speed.
 #[test]
 fn a_film_keeps_energy() {
