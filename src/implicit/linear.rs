@@ -1,4 +1,4 @@
-//! Velocities corrected by friction's matrix, once a step: what [`Adams`](crate::integrate::Adams) needs.
+//! Velocities corrected by the matrix of the contacts' friction, damping and stiffness, once a step: what [`Adams`](crate::integrate::Adams) needs.
 
 use super::stage::{Stage, Velocity};
 use crate::contact::{AXIAL, FREE};
@@ -16,7 +16,7 @@ const SERVES: usize = 128;
 /// thrust, at 0.73, 1.04 and 1.30 times (`benches/approximations.py`).
 const BEARS: f64 = 0.5;
 
-/// A right-hand side with the matrix of its contacts' friction and damping, made now and then.
+/// A right-hand side with the matrix of its contacts' friction, damping and stiffness, made now and then.
 #[derive(Debug)]
 pub(crate) struct Damped<'d, 'm> {
     pub dynamics: &'d mut Dynamics<'m>,
@@ -24,9 +24,10 @@ pub(crate) struct Damped<'d, 'm> {
     matrix: Option<Box<dyn Corrects>>,
 }
 
-/// What a step makes of accelerations.
+/// How much a change of an acceleration moves velocities and places within a step.
 #[derive(Clone, Copy)]
-struct Step {
+struct Corrector {
+    /// Correction of a velocity over that of its acceleration \[s\].
     gamma_h: f64,
     /// By how much a place is corrected with its velocity \[s\].
     reach: f64,
@@ -35,7 +36,7 @@ struct Step {
 /// The matrix of the contacts, of balls of any number of directions.
 trait Corrects: std::fmt::Debug {
     /// As [`LinearlyImplicit::correct`].
-    fn correct(&mut self, dynamics: &Dynamics<'_>, t: f64, y: &[f64], by: Step, r: &mut [f64]);
+    fn correct(&mut self, dynamics: &Dynamics<'_>, t: f64, y: &[f64], by: Corrector, r: &mut [f64]);
 }
 
 /// A matrix of all bodies, also where the run leaves some out.
@@ -102,13 +103,20 @@ impl System for Damped<'_, '_> {
 impl LinearlyImplicit for Damped<'_, '_> {
     fn correct(&mut self, t: f64, y: &[f64], gamma_h: f64, reach: f64, r: &mut [f64]) {
         if let Some(matrix) = &mut self.matrix {
-            matrix.correct(self.dynamics, t, y, Step { gamma_h, reach }, r);
+            matrix.correct(self.dynamics, t, y, Corrector { gamma_h, reach }, r);
         }
     }
 }
 
 impl<const N: usize> Corrects for Matrix<N> {
-    fn correct(&mut self, dynamics: &Dynamics<'_>, t: f64, y: &[f64], by: Step, r: &mut [f64]) {
+    fn correct(
+        &mut self,
+        dynamics: &Dynamics<'_>,
+        t: f64,
+        y: &[f64],
+        by: Corrector,
+        r: &mut [f64],
+    ) {
         if self.served >= SERVES || !self.stage.is_like(by.gamma_h) {
             self.renew(dynamics, t, y, by);
         }
@@ -138,7 +146,7 @@ impl<const N: usize> Matrix<N> {
     }
 
     /// Takes the slopes of the contacts at a state of the run.
-    fn renew(&mut self, dynamics: &Dynamics<'_>, t: f64, y: &[f64], by: Step) {
+    fn renew(&mut self, dynamics: &Dynamics<'_>, t: f64, y: &[f64], by: Corrector) {
         dynamics.expand(t, y, &mut self.full);
         self.state.read(&self.full);
         let views = match &mut self.rings {

@@ -1,17 +1,18 @@
 //! Adams' predictor–corrector for second-order systems: one evaluation a step.
 //!
-//! For q' = v, v' = a(t, q, v) the accelerations of the last steps are joined by a polynomial. Its integral foretells
+//! For q' = v, v' = a(t, q, v) the accelerations of the last steps are joined by a polynomial. Its integral predicts
 //! the velocities, its double integral the positions (Störmer's formulae); there the system is evaluated once, and the
 //! polynomial through the new acceleration as well corrects both. Of order four from the third step on, with steps of
 //! any length.
 //!
-//! *Linearly implicit.* Where velocities die down faster than a step, the evaluation at a foretold velocity answers
-//! with a kick that grows from step to step. The kick is known to first order: with x the correction of the velocity,
+//! *Linearly implicit.* Where velocities decay faster than a step, the evaluation at a predicted velocity has an error
+//! that grows from step to step. It is known to first order: with x the correction of the velocity,
 //! the acceleration at the corrected one is a + (∂a/∂v) x. The place is corrected along with the velocity, by βh/γ x, since
 //! both corrections come from that of the acceleration. Hence (1 − γh ∂a/∂v − βh² ∂a/∂q) x = r with r the correction as the
 //! evaluation gave it ([`LinearlyImplicit::correct`]). Approximate derivatives do: x is as small as the error of the
 //! prediction, so what is wrong in the matrix lowers no order. With them the method is as stable as its corrector: to −3 on
-//! the real axis (without, to −0.3), and undamped oscillations of half a percent of damping to ωh = 0.9, of five to 1.5 (without, to 0.7 and 1.0).
+//! the real axis (without, to −0.3); oscillations with half a percent of damping to ωh = 0.89, with five percent to 1.53
+//! (without, to 0.68 and 1.02; `tests/accuracy/methods.rs`).
 //!
 //! Source: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., sections III.5 (steps of any
 //! length) and III.10 (Störmer); for inexact matrices Steihaug & Wolfbrandt (1979), Math. Comp. 33, 521–534.

@@ -154,16 +154,16 @@ pub(super) fn pass<E: Each<IN, OUT>, const IN: usize, const OUT: usize>(
     to: [&mut [f64]; OUT],
     from: [&[f64]; IN],
 ) {
-    InstructionSet::current().run_wide(Pass { each, to, from });
+    InstructionSet::current().run_wide(OnePass { each, to, from });
 }
 
-struct Pass<'a, E, const IN: usize, const OUT: usize> {
+struct OnePass<'a, E, const IN: usize, const OUT: usize> {
     each: &'a E,
     to: [&'a mut [f64]; OUT],
     from: [&'a [f64]; IN],
 }
 
-impl<E: Each<IN, OUT>, const IN: usize, const OUT: usize> Wide for Pass<'_, E, IN, OUT> {
+impl<E: Each<IN, OUT>, const IN: usize, const OUT: usize> Wide for OnePass<'_, E, IN, OUT> {
     type Output = ();
 
     // Compiled for the instruction set that runs it.
@@ -179,7 +179,7 @@ impl<E: Each<IN, OUT>, const IN: usize, const OUT: usize> Wide for Pass<'_, E, I
 
 // Loops, not closures: those would be calls, compiled for the baseline.
 #[allow(clippy::inline_always, clippy::needless_range_loop)]
-impl<E: Each<IN, OUT>, const IN: usize, const OUT: usize> Pass<'_, E, IN, OUT> {
+impl<E: Each<IN, OUT>, const IN: usize, const OUT: usize> OnePass<'_, E, IN, OUT> {
     #[inline(always)]
     fn registers<S: Simd>(&mut self, simd: S, count: usize) {
         let zero = Vector::all(simd, 0.0);

@@ -113,7 +113,7 @@ pub trait Observer<S> {
     /// The last [`System::rhs`] call before this one was at the accepted state
     /// `(step.t1(), step.y1())`, so whatever `system` remembers of its last
     /// evaluation belongs to that state ([`Adams`]: to the
-    /// state foretold, a fraction of the error away). If the step ended on a breakpoint, the
+    /// state predicted, a fraction of the error away). If the step ended on a breakpoint, the
     /// call was at `(t1.next_down(), y1)`: the limit from the left.
     ///
     /// The observer may call [`System::rhs`] itself; the integrator relies on

@@ -340,6 +340,50 @@ fn adams_is_stable_as_far_as_its_step_says() {
     }
 }
 
+/// A body that is pushed for a tenth of a second.
+struct Pushed;
+
+impl System for Pushed {
+    fn dim(&self) -> usize {
+        2
+    }
+
+    fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        (dy[0], dy[1]) = (y[1], (1.0 - 10.0 * t).max(0.0));
+    }
+}
+
+impl LinearlyImplicit for Pushed {
+    fn correct(&mut self, _: f64, _: &[f64], _: f64, _: f64, _: &mut [f64]) {}
+}
+
+/// Exact: what is not pushed any more has no acceleration. A rest that shrinks from step to step would end in numbers below
+/// 1e-308, by which a processor calculates a hundred times as slowly.
+#[test]
+fn accelerations_that_end_are_zero() {
+    let tolerance = Tolerance::uniform(2, 1e-9, 1e-9).unwrap();
+    let mut after = 0;
+    let mut watch = |_: &mut Pushed, step: &DenseStep<'_>, _: &Statistics| {
+        if step.t1() > 0.105 {
+            assert_eq!(step.dy1()[1], 0.0, "at {}", step.t1());
+            after += 1;
+        }
+        ControlFlow::Continue(())
+    };
+    let start = [0.0, 0.0];
+    let found = integrate(
+        &mut Pushed,
+        &Adams,
+        (0.0, 1.0),
+        &start,
+        &tolerance,
+        &fixed(0.01),
+        &mut watch,
+    );
+    found.unwrap();
+    assert!(after > 80);
+}
+
 /// The amplification of y' = λy over a step, |R(hλ)|, run through the method's own coefficients.
 fn amplification(t: &Tableau, real: f64, imaginary: f64) -> f64 {
     let mut k: Vec<(f64, f64)> = Vec::new();

@@ -12,7 +12,7 @@
 ``shaft``       rate of the shaft from its own orders
 ``combs``       the lines that a fault of each part has
 ``null``        the same combs where no part has them: z and probability
-``strength``    how strong a fault speaks
+``strength``    how strong the vibration of a fault is
 ``evidence``    all of that for one part
 ``verdict``     healthy, damaged or undecided
 ``severity``    velocity and zone by ISO 20816-3, crest factor, kurtosis

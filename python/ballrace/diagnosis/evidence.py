@@ -1,4 +1,4 @@
-"""What speaks for a fault of one part."""
+"""The evidence for a fault of one part."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["Evidence", "Line", "evidence_of"]
 
 _SHARES = (0.5, 0.99)
-"""Shares of the null's lines that bound its band in pictures; above the second one a line speaks."""
+"""Shares of the null's lines that bound its band in pictures; above the second one a line counts."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,4 +1,4 @@
-"""A verdict with all that speaks for it."""
+"""A verdict with its evidence."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Diagnosis:
         Of ``outer_race``, ``inner_race``, ``ball`` and ``cage``; empty where the record allows none. The cage's
         line alone accuses nobody.
     shaft : ShaftRate
-        Rate of the shaft, and whether the record told it.
+        Rate of the shaft, and whether it comes from the record.
     severity : Severity or None
         How much the machine shakes; None where the record allows no evidence.
     false_alarm : float

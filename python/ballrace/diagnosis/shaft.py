@@ -38,7 +38,7 @@ class ShaftRate:
     nominal : float
         What was given, or what the record knew [Hz].
     by : {"record", "nominal"}
-        Whether the record's shaft orders told it, or are not clear, so that the nominal one was taken.
+        Whether it comes from the record's shaft orders, or these are not clear and the nominal one was taken.
     z : float
         How far the family of the shaft's orders stands above other families of the record.
     """

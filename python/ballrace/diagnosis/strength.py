@@ -1,4 +1,4 @@
-"""How strong a fault speaks, beside how surely: lines alone are no damage.
+"""How strong the vibration of a fault is, beside how significant: lines alone are no damage.
 
 A smooth bearing under load passes its balls through the load zone one by one and so has lines of the outer race
 (varying compliance), in a record without noise as significant as those of any spall; waves of a race modulate

@@ -83,5 +83,5 @@ def flattened(
     largest = amplitude.max(initial=0.0)
     if bins is not None:
         amplitude = np.sqrt(np.abs(uniform_filter1d(amplitude**2, max(round(bins), 1))))
-    heard = amplitude > _FAINT * largest
-    return np.divide(spectrum, amplitude, out=np.zeros_like(spectrum), where=heard)
+    present = amplitude > _FAINT * largest
+    return np.divide(spectrum, amplitude, out=np.zeros_like(spectrum), where=present)
