@@ -35,67 +35,58 @@
 //! counter-clockwise. A body has four degrees of freedom x, y, z, θ (about z): balls spin about z and rings stay parallel, unless
 //! a scene lets balls spin freely or rings tilt; then each of these has two more, behind all bodies in the state vector.
 
+mod base;
 mod campaign;
 pub mod contact;
 pub mod dynamics;
-mod equilibrium;
-mod error;
 mod explain;
 mod features;
 mod forces;
-pub mod implicit;
 pub mod inspect;
 pub mod integrate;
-mod interrupt;
-mod kinematics;
-mod memory;
 mod model;
-mod pool;
 mod reduction;
-mod residual;
 mod run;
 pub mod scene;
-mod selftest;
 mod signals;
 pub mod simd;
-mod start;
+mod statics;
 mod tilt;
-mod told;
-mod touched;
+pub mod velocities;
 
+pub use base::error::{Error, Result};
+pub use base::interrupt::Interrupt;
 pub use campaign::{Case, Finished, Outcome, campaign, stream};
-pub use equilibrium::{
-    BallEquilibrium, ContactEquilibrium, Equilibrium, EquivalentLoads, LoadDistribution, Placed,
-    RaceControl, Stiffness, compile, equilibrium, equilibrium_under, load_distribution, stiffness,
-};
-pub use error::{Error, Result};
 pub use explain::{
     ContactKind, Cost, Explanation, LawExplanation, OilExplanation, Variant, explain,
 };
 pub use features::{Feature, FeatureOptions, feature_columns, features, signal_features};
-pub use interrupt::Interrupt;
-pub use kinematics::RowKinematics;
 pub use model::{Body, BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Race, Scales};
 pub use reduction::{Obstacle, Omission, Reduction};
 pub use run::{Run, simulate, simulate_into, simulate_with_progress};
 pub use scene::Scene;
+pub use signals::kinematics::RowKinematics;
+pub use signals::touched::Touched;
 pub use signals::{
     Accuracy, Bandwidth, Block, Column, Provenance, Signals, SliceRow, Statistics, Warning,
 };
-pub use start::{Start, start};
-pub use touched::Touched;
+pub use statics::start::{Start, start};
+pub use statics::{
+    BallEquilibrium, ContactEquilibrium, Equilibrium, EquivalentLoads, LoadDistribution, Placed,
+    RaceControl, Stiffness, compile, equilibrium, equilibrium_under, load_distribution, stiffness,
+};
 
 /// What the bindings for Python (`src/python`) use beside the interface. Nobody else should: it changes without notice.
 #[doc(hidden)]
 pub mod bindings {
-    pub use crate::equilibrium::place;
+    pub use crate::base::memory::{available, within};
     pub use crate::features::loads::columns as load_columns;
     pub use crate::features::lubrication::columns as lubrication_columns;
     pub use crate::features::transform::{amplitudes, hann_weighted, squared_envelope};
     pub use crate::features::{Recorded, check as check_features, check_recorded, features_of};
-    pub use crate::kinematics::{RowRolling, rolling};
-    pub use crate::memory::{available, within};
     pub use crate::model::layout_of;
-    pub use crate::pool::STACK;
-    pub use crate::start::check_length;
+    pub use crate::run::pool::STACK;
+    pub use crate::signals::kinematics::{RowRolling, rolling};
+    pub use crate::statics::place;
+    pub use crate::statics::start::check_length;
 }

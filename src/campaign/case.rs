@@ -4,12 +4,12 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
+use crate::base::interrupt::Interrupt;
 use crate::features::{
     Feature, FeatureOptions, Recorded, check, feature_columns, features_of, with_load_probes,
     without_load_probes,
 };
-use crate::interrupt::Interrupt;
 use crate::run::Run;
 use crate::run::simulate_with_progress;
 use crate::scene::Scene;

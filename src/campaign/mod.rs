@@ -19,7 +19,7 @@ mod stream;
 
 use std::ops::ControlFlow;
 
-use crate::error::Result;
+use crate::base::error::Result;
 use crate::features::FeatureOptions;
 
 pub use case::{Case, Finished, Outcome};

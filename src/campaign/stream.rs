@@ -10,11 +10,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::{Case, Outcome};
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
+use crate::base::interrupt::Interrupt;
+use crate::base::memory;
 use crate::features::FeatureOptions;
-use crate::interrupt::Interrupt;
-use crate::memory;
-use crate::pool::STACK;
+use crate::run::pool::STACK;
 
 /// How long the calling thread waits at most before it looks up.
 const ATTENTION: Duration = Duration::from_millis(50);

@@ -1,7 +1,7 @@
 //! The kernel: forces of an element of a contact, and elements of a whole contact. The only implementation of both.
 //!
 //! Everything that evaluates contacts drives it: `scalar` one contact at a time, with everything that may cut it;
-//! `batch` eight whole contacts side by side; `stage` holds contacts at one place for any velocities; `stiffness`
+//! `batch` eight whole contacts side by side; `held` holds contacts at one place for any velocities; `stiffness`
 //! differentiates them at rest; `closed_form` fits whole contacts. It is generic over the [`Number`] it computes with.
 
 // Everything here must be compiled for the instructions of its caller.

@@ -8,18 +8,19 @@
 //!
 //! * `scalar` — [`Pair::evaluate`]: one contact with defects and ends of its zone, every single force to a [`Sink`];
 //! * `batch` — eight whole contacts at once;
-//! * `stage` — contacts held at one place for any velocities, with slopes by these: what implicit methods need;
+//! * `held` — contacts held at one place for any velocities, with slopes by these: what implicit methods need;
 //! * `stiffness` — force at rest and its derivative by the place: what statics need;
 //! * `closed_form` — whole contacts as one formula, where there is one.
 //!
-//! `fault` has defects: arcs where a surface is absent, the elements that a slice meets there (section 7), and what
+//! `defect` has defects: arcs where a surface is absent, the elements that a slice meets there (section 7), and what
 //! makes their forces conservative.
 
 mod batch;
 mod closed_form;
+mod defect;
 mod dual;
-mod fault;
 mod frames;
+mod held;
 mod kernel;
 pub mod laws;
 mod oil;
@@ -28,17 +29,20 @@ mod quadrature;
 mod scalar;
 mod slip;
 mod spatial;
-mod stage;
 mod stiffness;
 
 use nalgebra::{Vector2, Vector3};
 
 pub(crate) use batch::{Across, BatchForces, Constants, EightContacts, Places, Rubbing, Summing};
 pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz_stiffness};
-pub use fault::Fault;
-pub(crate) use fault::{Sight, Sighted, Toward};
+pub use defect::Fault;
+pub(crate) use defect::{Sight, Sighted, Toward};
 pub use frames::Motion;
 pub(crate) use frames::{LeaningRing, attitude_accelerations, attitude_rates, centrifugal};
+pub(crate) use held::{
+    AXIAL, Around, FREE, PlaneVector, SlicePack, SlicePacking, Slopes, StageContacts,
+    StageElements, StageWrench, in_contact,
+};
 pub use laws::elastic::{elliptic, hertz, iso16281};
 pub use laws::film;
 pub use laws::film::Oiled;
@@ -50,10 +54,6 @@ pub use profile::{Torus, Waves};
 pub use quadrature::{Rules, Slices};
 pub use scalar::{BallSide, Pair, Shape};
 pub(crate) use spatial::Wrench;
-pub(crate) use stage::{
-    AXIAL, Around, FREE, PlaneVector, SlicePack, SlicePacking, Slopes, StageContacts,
-    StageElements, StageWrench, in_contact,
-};
 pub(crate) use stiffness::Tangent;
 
 /// A vector in the x-y plane.
@@ -111,7 +111,7 @@ pub struct Touch {
     pub(crate) arm_ball: V2,
     /// Contact point from the ring's centre \[m\].
     pub(crate) arm_ring: V2,
-    /// What rotations of the ball turn it by along its slice: ẑ but at the edges of a cap (see `fault`).
+    /// What rotations of the ball turn it by along its slice: ẑ but at the edges of a cap (see `defect`).
     pub(crate) swing: Vector3<f64>,
     /// Whether damping wanted to pull.
     pub pull: bool,

@@ -7,7 +7,6 @@ use nalgebra::{Rotation3, Vector3};
 use rayon::ThreadPoolBuilder;
 
 use super::{Dynamics, rhs};
-use crate::equilibrium::compile;
 use crate::inspect;
 use crate::integrate::{Options, System, Tolerance, VERNER, integrate};
 use crate::model::{BodyId, Dof, Model, Race};
@@ -16,7 +15,8 @@ use crate::scene::{
     Scene, Slices, Support, Surface, Waviness,
 };
 use crate::simd::InstructionSet;
-use crate::start::{Start, start};
+use crate::statics::compile;
+use crate::statics::start::{Start, start};
 
 const SPRING: Mount = Mount::Spring {
     stiffness: 3e3,

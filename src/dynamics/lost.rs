@@ -3,7 +3,6 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::{Dynamics, Order};
-use crate::equilibrium::compile;
 use crate::integrate::System;
 use crate::model::{BodyId, Dof};
 use crate::reduction::Reduction;
@@ -11,6 +10,7 @@ use crate::scene::{
     Defect, Friction, Method, Profile, Scene, Slices, Surface, TimeFunction, Waviness, presets,
 };
 use crate::simd::InstructionSet;
+use crate::statics::compile;
 use crate::{Error, Model, Run, Start, simulate, start};
 
 /// Truth: geometry. Where a ball is, by what it was moved.

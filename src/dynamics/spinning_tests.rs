@@ -4,12 +4,12 @@
 use super::leaning_tests::{free_rings, laws, momenta, stirred};
 use super::{Dynamics, rhs};
 use crate::contact::attitude_rates;
-use crate::equilibrium::compile;
 use crate::inspect;
 use crate::integrate::{Options, Tolerance, VERNER, integrate};
 use crate::model::{BodyId, Dof, Model, Race};
 use crate::scene::{Defect, Friction, NormalLaw, Scene, Slices, Spin};
-use crate::start::{Start, face, start};
+use crate::statics::compile;
+use crate::statics::start::{Start, face, start};
 
 /// Two rows between free rings whose balls spin freely, with friction.
 fn free_balls(law: &NormalLaw) -> Scene {

@@ -6,10 +6,10 @@ use std::time::Instant;
 
 use serde::Serialize;
 
+use crate::base::error::Result;
+use crate::base::interrupt;
 use crate::dynamics::Dynamics;
-use crate::error::Result;
 use crate::integrate::{DenseStep, Statistics, System};
-use crate::interrupt;
 use crate::model::{BodyId, Dof, Model};
 use crate::reduction::Reduction;
 use crate::run::method::{self, Task};
@@ -185,9 +185,9 @@ fn places(model: &Model, y0: &[f64]) -> Vec<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::equilibrium::compile;
     use crate::scene::{Friction, presets};
-    use crate::start::{Start, start};
+    use crate::statics::compile;
+    use crate::statics::start::{Start, start};
 
     /// Analytic: parts are no more than the whole, also where one loop does all.
     #[test]

@@ -4,9 +4,9 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::equilibrium::Equilibrium;
 use crate::model::{Model, Race};
 use crate::scene::NormalLaw;
+use crate::statics::Equilibrium;
 
 /// How far the heaviest contact gives way at the start, beside Hertz's theory.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -11,18 +11,18 @@ use std::fmt;
 
 use serde::Serialize;
 
+use crate::base::error::Result;
+use crate::base::interrupt;
 use crate::contact::Sighted;
 use crate::dynamics::Dynamics;
-use crate::equilibrium::compile;
-use crate::equilibrium::{Meeting, Placed, describe, place};
-use crate::error::Result;
-use crate::interrupt;
 use crate::model::{Model, Race};
 use crate::reduction::{Obstacle, Omission, Reduction};
 use crate::run;
 use crate::scene::{Defect, Doubt, Scene, Surface};
-use crate::start::{Start, start};
-use crate::touched::{Touched, compiled, is_there};
+use crate::signals::touched::{Touched, compiled, is_there};
+use crate::statics::compile;
+use crate::statics::start::{Start, start};
+use crate::statics::{Meeting, Placed, describe, place};
 
 pub use cost::Cost;
 pub use law::LawExplanation;

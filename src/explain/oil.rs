@@ -5,11 +5,11 @@ use std::fmt;
 
 use serde::Serialize;
 
+use crate::base::error::Result;
+use crate::base::quantities::number;
 use crate::contact::film::Oil;
-use crate::error::Result;
 use crate::inspect::{RaceFilm, films};
 use crate::model::{Model, Race};
-use crate::told::number;
 
 /// 0 °C \[K\].
 const CELSIUS: f64 = 273.15;

@@ -1,8 +1,8 @@
 //! What is told of turning about x and y: where it is there, and where it is left out though the bearing asks for it.
 
+use crate::base::quantities::number;
 use crate::inspect;
 use crate::model::{Model, Race};
-use crate::told::number;
 
 /// Moments that are told, over the largest load at half the pitch diameter.
 const MOMENT: f64 = 0.01;

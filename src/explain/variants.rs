@@ -3,12 +3,12 @@
 use serde::Serialize;
 
 use super::cost::{self, Cost};
-use crate::equilibrium::compile;
 use crate::model::Model;
 use crate::reduction::Reduction;
 use crate::run::step_limit;
 use crate::scene::{Load, Method, Scene, Slices, Surface};
-use crate::start::{Start, start};
+use crate::statics::compile;
+use crate::statics::start::{Start, start};
 
 /// The same scene with one change.
 #[derive(Debug, Clone, PartialEq, Serialize)]

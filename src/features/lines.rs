@@ -4,8 +4,8 @@ use super::shaft::{SHARE, Shaft};
 use super::spectrum::Spectrum;
 use super::transform::squared_envelope;
 use super::{Feature, named};
-use crate::kinematics::RowKinematics;
 use crate::scene::Row;
+use crate::signals::kinematics::RowKinematics;
 
 /// A line is sought this far from its measured frequency: a part of the run has a mean of its own.
 const MEASURED: f64 = 0.005;

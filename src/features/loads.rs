@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::Feature;
 use super::batches::Batches;
 use super::record::Recorded;
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 use crate::scene::{ContactQuantity, Probe, RingName, Scene};
 use crate::signals::Signals;
 

@@ -37,7 +37,7 @@ pub(crate) mod transform;
 
 use serde::Deserialize;
 
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 use crate::run::Run;
 use crate::scene::Scene;
 use crate::signals::{Signals, columns};

@@ -1,8 +1,8 @@
 //! A record: signals of a run, or arrays of another program.
 
-use crate::kinematics::RowKinematics;
 use crate::scene::Scene;
 use crate::signals::Signals;
+use crate::signals::kinematics::RowKinematics;
 
 /// Columns of a run, by their names, all of the same length.
 pub struct Recorded<'a> {

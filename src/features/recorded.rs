@@ -4,9 +4,9 @@ use super::batches::Batches;
 use super::record::Recorded;
 use super::shaft::Shaft;
 use super::{Feature, FeatureOptions, check_record, lines, loads, lubrication, moments, named};
-use crate::error::Result;
-use crate::kinematics::RowKinematics;
+use crate::base::error::Result;
 use crate::scene::Scene;
+use crate::signals::kinematics::RowKinematics;
 
 /// Refuses options that a record does not give.
 ///

@@ -1,9 +1,9 @@
 //! The elements that limit an explicit step: contacts, cages and supports with the highest rates.
 
+use crate::base::quantities::{force, number};
 use crate::forces;
 use crate::inspect::contact;
 use crate::model::{BodyId, Dof, Model, Race};
-use crate::told::{force, number};
 
 /// Elements that are named at most.
 const NAMED: usize = 4;

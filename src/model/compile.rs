@@ -9,15 +9,15 @@ use super::{
     Ball, BodyId, DOFS, Dof, LoadModel, Model, MomentModel, Race, RingModel, RowModel, Scales,
     Spring, UnbalanceModel, demand, nodes,
 };
+use crate::base::error::{Error, Result};
+use crate::base::quantities::number;
 use crate::contact::hertz::Hertz;
 use crate::contact::{
     BallSide, Damping, Elastic, Fault, Law, Pair, Rules, Shape, Slices, Torus, Traction, Waves,
 };
-use crate::error::{Error, Result};
 use crate::scene::{self, Approximations, Defect, Drive, Mount, Row, Scene, Surface};
 use crate::simd::InstructionSet;
 use crate::tilt::Inertia;
-use crate::told::number;
 
 /// Checks and compiles a scene whose defects all have numbers for their places; [`crate::compile()`] gives them those.
 pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {

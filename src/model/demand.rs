@@ -1,7 +1,7 @@
 //! Memory that a scene needs once it is compiled and settled, computed before any of it is allocated.
 
-use crate::error::Result;
-use crate::memory;
+use crate::base::error::Result;
+use crate::base::memory;
 use crate::scene::{Defect, Drive, Probe, Profile, Row, Scene, TimeFunction, Waviness, Width};
 
 /// Copies of a scene's lists that are held at once: the document, the scene as placed, simplified, frozen to settle and

@@ -3,9 +3,9 @@
 use super::compile::classify;
 use super::scales::Bottom;
 use super::{BodyId, Degree, Dof, Model, Race};
+use crate::base::error::{Error, Result};
 use crate::contact::film::{self, Effects, Film, Oil, Reference};
 use crate::contact::{Elastic, Oiled, Pair};
-use crate::error::{Error, Result};
 use crate::scene::{Drive, Lubricant, Row, TimeFunction};
 
 impl Model {

@@ -2,10 +2,10 @@
 
 use super::Race;
 use super::body::groove_radius;
+use crate::base::error::{Error, Result};
+use crate::base::quantities::{length, number};
 use crate::contact::{Before, Contour, Curve, Shape, Torus};
-use crate::error::{Error, Result};
 use crate::scene::{GothicArch, RaceProfile, Row};
-use crate::told::{length, number};
 
 /// A race in its ring's frame.
 pub(super) enum RaceGeometry {

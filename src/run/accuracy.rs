@@ -6,12 +6,12 @@
 //! for the nodes. The difference of neighbours is the error of the coarser, for the finer is several times better.
 
 use super::step_limit;
-use crate::equilibrium::compile;
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 use crate::model::{Body, Dof, Model};
 use crate::scene::{Component, Contact, Method, Probe, Scene, Slices};
 use crate::signals::Accuracy;
-use crate::start::{Start, start};
+use crate::statics::compile;
+use crate::statics::start::{Start, start};
 
 /// Length of a pilot run \[s\]: the horizon.
 pub(crate) const HORIZON: f64 = 3e-3;

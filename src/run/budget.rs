@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
+use crate::base::interrupt;
 use crate::integrate::Statistics;
-use crate::interrupt;
 
 /// Works under a limit of wall time \[s\], checked as often as `progress` is called, so about every 20 ms, and by static
 /// solves at every iteration.

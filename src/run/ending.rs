@@ -1,7 +1,7 @@
 //! Errors of runs that ended early.
 
 use super::escape::{self, FINER};
-use crate::error::Error;
+use crate::base::error::Error;
 use crate::inspect::{Element, stiffest};
 use crate::integrate::{Failure, FailureKind};
 use crate::model::{BodyId, Model};

@@ -1,9 +1,9 @@
 //! Text of the error of a ball that left its groove.
 
 use super::orbit;
+use crate::base::quantities::length;
 use crate::contact::{Section, Torus};
 use crate::model::{Model, Race};
-use crate::told::length;
 
 /// How a run is made more accurate.
 pub(super) const FINER: &str = "use a smaller rtol";

@@ -3,12 +3,12 @@
 use std::ops::ControlFlow;
 
 use crate::dynamics::Dynamics;
-use crate::implicit::{Damped, ImplicitDynamics};
 use crate::integrate::{
     self, Adams, DORMAND_PRINCE, DenseStep, Failure, KENNEDY_CARPENTER, Observer, Options,
     Solution, Statistics, System, Tolerance, VERNER, integrate,
 };
 use crate::scene::Method;
+use crate::velocities::{Damped, ImplicitDynamics};
 
 /// From where to where, and how well.
 #[derive(Clone, Copy)]

@@ -5,10 +5,10 @@ use std::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 use crate::scene::{Method, interpret};
 use crate::signals::Bandwidth;
-use crate::start::Start;
+use crate::statics::start::Start;
 
 /// What to run. As a document it says `start` as `"equilibrium"`, `"rolling"` or the list of a state's numbers, and
 /// `bandwidth` as `"auto"` or, of point samples, `null`; what is absent has its default, and other fields are refused.
@@ -162,7 +162,7 @@ fn within(name: &str, value: Option<f64>, range: RangeInclusive<f64>, allowed: &
 mod starts {
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
-    use crate::start::Start;
+    use crate::statics::start::Start;
 
     #[derive(Deserialize)]
     #[serde(untagged)]

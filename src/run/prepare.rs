@@ -6,12 +6,12 @@ use std::ops::ControlFlow;
 use super::Run;
 use super::accuracy;
 use super::settle::{self, Settled};
-use crate::equilibrium::{Placed, place};
-use crate::error::Result;
-use crate::memory;
+use crate::base::error::Result;
+use crate::base::memory;
 use crate::scene::Scene;
 use crate::signals::{Accuracy, Bandwidth, Demand, Signals};
-use crate::start::Start;
+use crate::statics::start::Start;
+use crate::statics::{Placed, place};
 
 /// A scene as it will run.
 pub(super) struct Prepared {

@@ -5,14 +5,14 @@ use super::prepare::Prepared;
 use super::step_limit;
 use crate::inspect::films;
 use crate::integrate::Options;
-use crate::kinematics::RowKinematics;
 use crate::model::Model;
 use crate::reduction::Reduction;
 use crate::scene::SCHEMA;
+use crate::signals::kinematics::RowKinematics;
+use crate::signals::touched::Touched;
 use crate::signals::{Provenance, Sampling};
 use crate::simd::Distrust;
-use crate::start::Start;
-use crate::touched::Touched;
+use crate::statics::start::Start;
 
 /// A run that is done.
 pub(super) struct Done<'a> {

@@ -2,10 +2,10 @@
 //!
 //! With a step that is too long for the contacts a motion grows without bound, while its numbers stay finite for a long time.
 
+use crate::base::quantities::{length, number};
 use crate::dynamics::Dynamics;
 use crate::model::{BodyId, BodyKind, Dof};
 use crate::scene::{Drive, Row};
-use crate::told::{length, number};
 
 /// Speed of a body or of a turning surface beyond which nothing holds together \[m/s\]: that of sound in steel.
 const FASTEST: f64 = 5000.0;
@@ -97,9 +97,9 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::equilibrium::compile;
     use crate::model::Dof::{Theta, X, Y, Z};
     use crate::scene::presets;
+    use crate::statics::compile;
     use crate::{Start, start};
 
     const INNER: BodyId = BodyId::INNER;

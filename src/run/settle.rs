@@ -11,18 +11,18 @@ use std::ops::ControlFlow;
 
 use super::Run;
 use super::follow::{Stretch, Watch, follow, options, threads};
+use crate::base::error::Result;
 use crate::contact::Pair;
 use crate::dynamics::Dynamics;
-use crate::equilibrium::compile;
-use crate::error::Result;
 use crate::inspect;
 use crate::integrate::{DenseStep, Options};
 use crate::model::{BodyId, Degree, Dof, Model, Race, RowModel};
-use crate::pool::on;
 use crate::reduction::Reduction;
+use crate::run::pool::on;
+use crate::run::selftest;
 use crate::scene::{Drive, RingName, Scene, Surface, TimeFunction};
-use crate::selftest;
-use crate::start::{Start, face, start};
+use crate::statics::compile;
+use crate::statics::start::{Start, face, start};
 
 /// Decay times of the slowest ring to wait for. Measured on a 6205 under thrust: what the start leaves is 3000 times
 /// the later signal, e⁸, and contacts and the other ring damp too.

@@ -7,15 +7,15 @@ use super::budget;
 use super::follow::{Stretch, follow, options, threads};
 use super::prepare::{Prepared, check_memory, prepare};
 use super::provenance::{Done, provenance};
+use crate::base::error::Result;
 use crate::dynamics::Dynamics;
-use crate::equilibrium::compile;
-use crate::error::Result;
-use crate::pool::on;
 use crate::reduction::Reduction;
+use crate::run::pool::on;
+use crate::run::selftest;
 use crate::scene::Scene;
-use crate::selftest;
 use crate::signals::{Block, Recorder, Sampling, Signals, Sink};
-use crate::start::start;
+use crate::statics::compile;
+use crate::statics::start::start;
 
 /// Simulates a scene.
 ///

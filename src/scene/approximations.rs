@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Drive, Method, Mount, Scene};
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 
 /// Simplifications that change the answer, all off by default. What each costs in accuracy is measured in
 /// `benches/records.md`; [`crate::explain()`] offers those that apply to a scene.

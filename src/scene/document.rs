@@ -17,7 +17,7 @@ use serde_json::{Map, Value, map};
 
 use super::expected;
 use super::path::{self, Segment};
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 
 /// Reads a document, or a part of one; its messages say where.
 pub(crate) fn interpret<T: DeserializeOwned>(document: &Value, part: &str) -> Result<T> {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::oils::{Base, NAMED_OILS, NamedOil, OilSheet, OilSource, Sourced, named_oil};
 use super::time::number_or_word;
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 
 /// 0 °C \[K\].
 const CELSIUS: f64 = 273.15;

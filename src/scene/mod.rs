@@ -41,8 +41,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Result};
-use crate::memory;
+use crate::base::error::{Error, Result};
+use crate::base::memory;
 
 pub(crate) use antiderivative::Antiderivative;
 pub use approximations::Approximations;

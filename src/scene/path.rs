@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use serde_json::{Map, Value, json};
 
 use super::expected;
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 
 /// A segment of a path that a reader took into a document.
 #[derive(Debug)]
@@ -193,7 +193,7 @@ fn a_new_one(path: &str, key: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use crate::Scene;
-    use crate::error::Error;
+    use crate::base::error::Error;
 
     /// Path and value that a document is refused by.
     fn refused(toml: &str) -> (String, String) {

@@ -2,7 +2,7 @@
 
 use super::bearing::{Mount, Ring, Support};
 use super::{Approximations, Component, Scene, TimeFunction};
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 
 impl Support {
     /// The mounts of both tilts, which are fixed where they are absent.

@@ -113,8 +113,8 @@ impl Demand {
 mod tests {
     use super::super::probes::Probes;
     use super::*;
-    use crate::equilibrium::compile;
     use crate::scene::{Component, Lubricant, RingName, presets};
+    use crate::statics::compile;
 
     /// Truth: the columns that are made.
     #[test]

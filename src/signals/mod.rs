@@ -14,19 +14,22 @@ mod blocks;
 mod decimate;
 mod demand;
 mod filter;
+pub(crate) mod kinematics;
 mod probes;
 mod recorder;
+mod residual;
 mod sampling;
+pub(crate) mod touched;
 mod warning;
 
 use serde::Serialize;
 
 use crate::inspect::RaceFilm;
-use crate::kinematics::RowKinematics;
 use crate::reduction::Omission;
 use crate::scene::{RingName, Scene};
+use crate::signals::kinematics::RowKinematics;
+use crate::signals::touched::Touched;
 use crate::simd::Distrust;
-use crate::touched::Touched;
 
 pub use accuracy::Accuracy;
 pub use blocks::Block;

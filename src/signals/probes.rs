@@ -2,12 +2,12 @@
 
 use super::Column;
 use super::filter::Kind;
+use crate::base::error::Result;
 use crate::dynamics::{Dynamics, contribution_names, contributions_coated};
-use crate::equilibrium::compile;
-use crate::error::Result;
 use crate::inspect::{self, Energy, Lubrication, MOMENTS};
 use crate::model::{BodyId, Dof, Model, Race};
 use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene};
+use crate::statics::compile;
 
 /// Names and units of what a scene records.
 ///

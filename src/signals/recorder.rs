@@ -7,15 +7,15 @@ use super::decimate::Decimator;
 use super::filter::{HALF, Taps, signed};
 use super::probes::{Probes, Reader};
 use super::{Sampling, SliceRow};
+use crate::base::error::{Error, Result};
+use crate::base::memory;
 use crate::dynamics::Dynamics;
-use crate::error::{Error, Result};
 use crate::inspect;
 use crate::integrate::{DenseStep, System};
-use crate::kinematics::Orbits;
-use crate::memory;
 use crate::model::Model;
-use crate::residual::Residual;
-use crate::touched::Watch;
+use crate::signals::kinematics::Orbits;
+use crate::signals::residual::Residual;
+use crate::signals::touched::Watch;
 
 /// What is read at one kind of times: some readers, and the columns that theirs are.
 #[derive(Default)]
@@ -295,11 +295,11 @@ impl Reading {
 mod tests {
     use super::super::{Block, Column};
     use super::*;
-    use crate::equilibrium::compile;
     use crate::integrate::{self, DORMAND_PRINCE, Options, Tolerance, integrate};
     use crate::scene::{Probe, Scene, presets};
     use crate::signals::Bandwidth;
-    use crate::start::{Start, start};
+    use crate::statics::compile;
+    use crate::statics::start::{Start, start};
 
     const FS: f64 = 50e3;
     const COUNT: usize = 40;

@@ -1,7 +1,7 @@
 //! How finely a run is read, and up to which frequency its samples are valid.
 
 use super::filter::{FLAT, HALF};
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 
 /// Sampling rate over the highest contact frequency [1/rad] from which on nothing is left to filter. Of the
 /// acceleration's power 1e-7 stands above half of it, for the faulted wheel bearing and a faulted 6205.

@@ -1,11 +1,11 @@
 //! An evaluation allocates nothing, nor does an implicit stage.
 
 use ballrace::dynamics::Dynamics;
-use ballrace::implicit::ImplicitDynamics;
 use ballrace::integrate::{ImplicitVelocity, System};
 use ballrace::scene::{
     Drive, Lubricant, Mount, Profile, Scene, Slices, Spin, TimeFunction, presets,
 };
+use ballrace::velocities::ImplicitDynamics;
 use ballrace::{BodyId, Dof, compile};
 use ballrace::{Start, start};
 

@@ -9,8 +9,8 @@
 //! zones of their own: their ends are searched for, and plain Gauss nodes lie on every smooth piece.
 
 use super::Contact;
-use crate::contact::fault::Station;
-use crate::contact::fault::gradient::{HAIR, Owner};
+use crate::contact::defect::Station;
+use crate::contact::defect::gradient::{HAIR, Owner};
 use crate::contact::profile::{Chord, Ends, Section, Zone};
 use crate::contact::quadrature::MOST;
 use crate::contact::{Fault, Rules, Sink, Slices, Toward};

@@ -152,9 +152,9 @@ impl Direction {
 mod tests {
     use super::*;
     use crate::dynamics::Dynamics;
-    use crate::equilibrium::compile;
     use crate::integrate::System;
     use crate::scene::{Friction, NormalLaw, Profile, Scene, TimeFunction, presets};
+    use crate::statics::compile;
     use crate::{Start, start};
 
     fn smooth() -> Scene {

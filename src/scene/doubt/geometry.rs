@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::{Doubt, angle, length, millimetres};
+use crate::base::quantities::number;
 use crate::scene::{Material, Ring, Row, Scene, Waviness};
-use crate::told::number;
 
 /// Largest ball, largest pitch or ring diameter, and any other length \[m\]: a bearing of a bore of one metre has balls of
 /// some 70 mm and is 1.42 m wide outside (dimension series 10 of ISO 15).

@@ -1,10 +1,10 @@
 //! Fields without effect: the model lacks it, or a support that is held carries it.
 
 use super::{Doubt, millimetres};
+use crate::base::quantities::number;
 use crate::scene::{
     Drive, Load, Material, Mount, NormalLaw, Ring, RingName, Row, Scene, Spin, Surface,
 };
-use crate::told::number;
 
 /// A moment \[N m\] that counts as none.
 const NO_MOMENT: f64 = 1e-9;

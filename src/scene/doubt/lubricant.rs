@@ -1,8 +1,8 @@
 //! Oil, as far as it is judged without an equilibrium.
 
 use super::{Doubt, millimetres};
+use crate::base::quantities::number;
 use crate::scene::{Drive, Lubricant, Probe, Scene};
-use crate::told::number;
 
 /// Temperatures at which greases and oils of bearings are used \[K\]: −30 to 150 °C.
 const TEMPERATURE: [f64; 2] = [243.0, 424.0];

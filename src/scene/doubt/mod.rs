@@ -18,7 +18,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::{Profile, Scene, TimeFunction};
-use crate::told::number;
+use crate::base::quantities::number;
 pub(crate) use lubricant::FilmJudged;
 
 /// Largest Hertz pressure of a contact of hardened steel at the static load rating of a ball bearing \[Pa\]: it leaves a

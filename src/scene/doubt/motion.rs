@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use super::{Doubt, angle, length, phase};
+use crate::base::quantities::number;
 use crate::scene::contact::extreme_slip;
 use crate::scene::{Contact, Drive, Friction, Row, Scene};
-use crate::told::number;
 
 /// Speed times pitch diameter, n d_m \[mm/min\]: bearings of aircraft engines come near it, and one of 120 mm bore on a
 /// test rig reached 3.9 million (E. N. Bamberger, E. V. Zaretsky, H. Signer, NASA TN D-7870, 1975).

@@ -1,8 +1,8 @@
 //! Rings that tilt.
 
 use super::Doubt;
+use crate::base::quantities::number;
 use crate::scene::Scene;
-use crate::told::number;
 
 /// Rings tilt by less in use \[rad\]: self-aligning ball bearings by 2.5 to 3°.
 const TILT: f64 = 0.05;

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::{Doubt, millimetres};
+use crate::base::quantities::number;
 use crate::scene::{Drive, Scene};
-use crate::told::number;
 
 /// Width of a defect \[m\]: contacts are some tenths of a millimetre wide, and roughness is flattened in them.
 const WIDTH: f64 = 20e-6;

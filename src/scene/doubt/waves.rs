@@ -1,8 +1,8 @@
 //! Listed waves that are too short for their contacts.
 
 use super::{Doubt, millimetres};
+use crate::base::quantities::number;
 use crate::scene::{Row, Scene, Waviness};
-use crate::told::number;
 
 /// n b/R from which a contact would take a tenth and more of a wave away, 1 − sin x/x.
 const SHORT: f64 = 0.8;

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use super::check::{self, positive, within};
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
+use crate::base::quantities;
 use crate::scene::{Mount, RingName, Row, Scene, Support};
-use crate::told;
 
 pub(super) fn row(path: &str, row: &Row) -> Result<()> {
     circle_of_balls(path, row)?;
@@ -41,7 +41,7 @@ fn circle_of_balls(path: &str, row: &Row) -> Result<()> {
         return Err(Error::scene(
             at("pitch_diameter"),
             dm,
-            format!("more than the ball diameter, {}", told::length(d)),
+            format!("more than the ball diameter, {}", quantities::length(d)),
         ));
     }
     let count = row.ball_count as f64;
@@ -51,8 +51,8 @@ fn circle_of_balls(path: &str, row: &Row) -> Result<()> {
     }
     let allowed = format!(
         "less than the distance of neighbouring balls, {}, for {count} balls on pitch diameter {}",
-        told::length(gap),
-        told::length(dm)
+        quantities::length(gap),
+        quantities::length(dm)
     );
     Err(Error::scene(at("ball_diameter"), d, allowed))
 }
@@ -64,7 +64,10 @@ fn angles_and_places(path: &str, row: &Row) -> Result<()> {
     conformity(&at("inner_conformity"), row.inner_conformity)?;
     let steepest = 80_f64.to_radians();
     if !(0.0..=steepest).contains(&row.contact_angle) {
-        let allowed = format!("from 0 to {} rad, which is 80°", told::number(steepest));
+        let allowed = format!(
+            "from 0 to {} rad, which is 80°",
+            quantities::number(steepest)
+        );
         return Err(Error::scene(
             at("contact_angle"),
             row.contact_angle,
@@ -159,7 +162,7 @@ pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
                     diameter,
                     format!(
                         "{word} the groove bottom of rows[{i}], {}",
-                        told::length(limit)
+                        quantities::length(limit)
                     ),
                 ));
             }

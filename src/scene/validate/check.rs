@@ -2,10 +2,10 @@
 
 use std::ops::RangeInclusive;
 
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
+use crate::base::quantities;
 use crate::scene::Mount;
 use crate::scene::path::shown;
-use crate::told;
 
 pub(super) fn finite(path: &str, value: f64) -> Result<()> {
     if value.is_finite() {
@@ -31,9 +31,9 @@ pub(super) fn within(path: &str, value: f64, range: RangeInclusive<f64>, unit: &
     }
     let ends = [*range.start(), *range.end()];
     let [from, to] = if unit == "m" {
-        ends.map(told::length)
+        ends.map(quantities::length)
     } else {
-        ends.map(told::number)
+        ends.map(quantities::number)
     };
     let allowed = match unit {
         "" | "m" => format!("from {from} to {to}"),
@@ -52,7 +52,7 @@ pub(super) fn below(path: &str, value: f64, limit: f64, what: &str) -> Result<()
     if value < limit {
         Ok(())
     } else {
-        let allowed = format!("below {what}, {}", told::length(limit));
+        let allowed = format!("below {what}, {}", quantities::length(limit));
         Err(Error::scene(path, value, allowed))
     }
 }

@@ -1,7 +1,7 @@
 //! Materials, normal law and friction.
 
 use super::check::{positive, within};
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 use crate::scene::contact::extreme_slip;
 use crate::scene::{Contact, Friction, Material, Materials, NormalLaw, Row, Slices};
 

@@ -5,9 +5,9 @@ use std::fmt::Display;
 
 use super::check::{below, finite, positive, within};
 use super::race::limits;
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
+use crate::base::quantities;
 use crate::scene::{Defect, Row, Scene, Surface, Width};
-use crate::told;
 
 pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
@@ -97,7 +97,7 @@ fn cap(path: &str, row: &Row, defect: &Defect) -> Result<()> {
     if offset.abs() < radius {
         Ok(())
     } else {
-        let limit = told::length(radius);
+        let limit = quantities::length(radius);
         Err(Error::scene(
             at("axial_offset"),
             offset,
@@ -126,7 +126,10 @@ fn width(path: &str, width: &Width) -> Result<()> {
                     return Err(Error::scene(
                         format!("{path}.positions[{}]", i + 1),
                         pair[1],
-                        format!("above the position before it, {}", told::length(pair[0])),
+                        format!(
+                            "above the position before it, {}",
+                            quantities::length(pair[0])
+                        ),
                     ));
                 }
             }
@@ -150,7 +153,7 @@ fn on_ball(path: &str, row: &Row, defect: &Defect) -> Result<()> {
     if reach >= radius {
         let allowed = format!(
             "|axial_offset| + length/2 below the ball's radius, {}",
-            told::length(radius)
+            quantities::length(radius)
         );
         return Err(Error::scene(at("length"), defect.length, allowed));
     }
@@ -179,8 +182,8 @@ fn on_race(path: &str, row: &Row, defect: &Defect, outer: bool) -> Result<()> {
     if let Some(offset) = defect.axial_offset.number() {
         let ends = format!(
             "the race ends at {} and {} from the row's plane",
-            told::length(first),
-            told::length(last)
+            quantities::length(first),
+            quantities::length(last)
         );
         if offset <= first || offset >= last {
             let allowed = format!("a place on the race: {ends}");
@@ -190,7 +193,7 @@ fn on_race(path: &str, row: &Row, defect: &Defect, outer: bool) -> Result<()> {
         if offset - half <= first || offset + half >= last {
             let allowed = format!(
                 "a defect within the race: its middle is at {}, {ends}",
-                told::length(offset)
+                quantities::length(offset)
             );
             return Err(Error::scene(at("length"), defect.length, allowed));
         }

@@ -1,9 +1,9 @@
 //! Drive, loads and values in time.
 
 use super::check::{entry_name, finite, within};
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
+use crate::base::quantities;
 use crate::scene::{Drive, Profile, Scene, TimeFunction};
-use crate::told;
 
 pub(super) fn drive(drive: &Drive) -> Result<()> {
     match drive {
@@ -103,7 +103,7 @@ pub(super) fn time_function(
                 return Err(Error::scene(
                     format!("{path}.ramp.end"),
                     end,
-                    format!("at least start, {}", told::duration(*start)),
+                    format!("at least start, {}", quantities::duration(*start)),
                 ));
             }
             Ok(())
@@ -143,7 +143,10 @@ pub(super) fn time_function(
                 Some(i) => Err(Error::scene(
                     format!("{path}.table.times[{}]", i + 1),
                     times[i + 1],
-                    format!("at least the time before it, {}", told::duration(times[i])),
+                    format!(
+                        "at least the time before it, {}",
+                        quantities::duration(times[i])
+                    ),
                 )),
                 None => Ok(()),
             }

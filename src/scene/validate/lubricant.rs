@@ -3,9 +3,9 @@
 use std::ops::RangeInclusive;
 
 use super::check::{positive, within};
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
+use crate::base::quantities::number;
 use crate::scene::{Lubricant, OilLayer, Scene, Sourced};
-use crate::told::number;
 
 /// Where formulas of oils hold \[K\].
 const TEMPERATURES: RangeInclusive<f64> = 233.0..=473.0;

@@ -11,7 +11,7 @@ mod race;
 mod tilt;
 
 use super::{Drive, RingName, Row, SCHEMA, Scene};
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 use check::{entry_name, positive, within};
 
 impl Scene {

@@ -1,7 +1,7 @@
 //! Probes.
 
 use super::check::within;
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 use crate::scene::{Component, Probe, Scene};
 
 fn known_body(scene: &Scene, path: &str, body: &str) -> Result<()> {

@@ -3,9 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::check::{positive, within};
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
+use crate::base::quantities;
 use crate::scene::{Contact, GothicArch, NormalLaw, RaceProfile, Row};
-use crate::told;
 
 /// Fewest and most points of a profile.
 const POINTS: (usize, usize) = (4, 10_000);
@@ -117,7 +117,7 @@ fn points(path: &str, row: &Row, profile: &RaceProfile) -> Result<()> {
             return Err(Error::scene(
                 format!("{path}.z[{}]", i + 1),
                 pair[1],
-                format!("above the place before it, {}", told::length(pair[0])),
+                format!("above the place before it, {}", quantities::length(pair[0])),
             ));
         }
     }
@@ -133,7 +133,7 @@ fn gothic(path: &str, arch: &GothicArch, shoulders: Option<[f64; 2]>) -> Result<
     if !(angle > 0.0 && angle <= steepest) {
         let allowed = format!(
             "above 0 and at most {} rad, which is 80°",
-            told::number(steepest)
+            quantities::number(steepest)
         );
         return Err(Error::scene(format!("{path}.shim_angle"), angle, allowed));
     }

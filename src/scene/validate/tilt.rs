@@ -4,9 +4,9 @@ use nalgebra::Matrix6;
 
 use super::check::{self, entry_name, place, positive, within};
 use super::load::{direction, time_function};
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
+use crate::base::quantities::number;
 use crate::scene::{CoupledSupport, Drive, Mount, Ring, Scene};
-use crate::told::number;
 
 /// The furthest that a ring may tilt \[rad\].
 const FURTHEST: f64 = 0.5;

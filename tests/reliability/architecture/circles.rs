@@ -6,7 +6,7 @@ use super::sources::{Source, all, code, test_files, word};
 use super::{entries, named_after};
 
 /// The one circle that stands: evaluating a contact one by one asks for defects, and these are written upon it.
-const STANDING: [&str; 1] = ["contact: fault, scalar"];
+const STANDING: [&str; 1] = ["contact: defect, scalar"];
 
 /// Who of a folder names whom.
 type Graph<'a> = BTreeMap<&'a str, BTreeSet<&'a str>>;

@@ -13,11 +13,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use sources::{Source, all, code, test_files, word};
 
 /// Rooms from the bottom to the top; a room may use those before it and itself.
-const ORDER: [&str; 28] = [
-    "told",
-    "error",
-    "memory",
-    "interrupt",
+const ORDER: [&str; 19] = [
+    "base",
     "simd",
     "integrate",
     "scene",
@@ -28,14 +25,8 @@ const ORDER: [&str; 28] = [
     "inspect",
     "reduction",
     "dynamics",
-    "implicit",
-    "equilibrium",
-    "start",
-    "pool",
-    "residual",
-    "touched",
-    "kinematics",
-    "selftest",
+    "velocities",
+    "statics",
     "signals",
     "run",
     "explain",

@@ -1,6 +1,6 @@
 //! An oil at its temperature.
 
-use crate::error::Result;
+use crate::base::error::Result;
 use crate::scene::{CENTISTOKE, Lubricant};
 
 /// 15 °C \[K\].

@@ -10,8 +10,8 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError, mpsc};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use crate::base::error::{Error, Result};
 use crate::dynamics::Dynamics;
-use crate::error::{Error, Result};
 
 /// Stack of our own threads \[bytes\]: without optimisation a frame of the vector code alone takes more than the 2 MiB that Rust
 /// gives a thread.

@@ -72,11 +72,11 @@ mod tests {
     use super::stage::Velocity;
     use super::*;
     use crate::contact;
-    use crate::equilibrium::compile;
     use crate::scene::{
         Defect, Drive, Friction, Lubricant, Mount, NormalLaw, Slices, Spin, TimeFunction, Waviness,
         presets,
     };
+    use crate::statics::compile;
     use crate::{BodyId, Dof, Model, Scene, Start, start};
 
     fn accelerations(model: &Model, y: &[f64]) -> Vec<f64> {

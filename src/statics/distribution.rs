@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use super::{BallEquilibrium, Equilibrium, doubts, equilibrium, place};
-use crate::error::{Error, Result};
-use crate::memory;
+use crate::base::error::{Error, Result};
+use crate::base::memory;
 use crate::scene::Scene;
 
 /// Exponents of the mean for a ring that turns and for one that stands under the load (ball bearings).

@@ -4,12 +4,12 @@ use nalgebra::Vector2;
 
 use super::problem::Problem;
 use super::unknowns::{self, RingStiffness, Rings};
+use crate::base::error::{Error, Result};
+use crate::base::interrupt;
+use crate::base::quantities;
 use crate::contact::Motion;
-use crate::error::{Error, Result};
 use crate::forces::cage;
-use crate::interrupt;
 use crate::model::{BodyId, DOFS, Race};
-use crate::told;
 
 /// Force left on a body, over the largest load, above which there is no equilibrium.
 const REFUSED: f64 = 1e-4;
@@ -123,11 +123,11 @@ impl Problem<'_> {
             reason: format!(
                 "{} on {} are not balanced, {} % of the largest load ({}), where {} % is allowed; \
                  check loads, clearance and cage, cut contacts by fitted nodes, or start rolling",
-                told::force(residual.force),
+                quantities::force(residual.force),
                 self.model.bodies[residual.body].name,
-                told::number(100.0 * residual.share()),
-                told::force(residual.largest),
-                told::number(100.0 * REFUSED)
+                quantities::number(100.0 * residual.share()),
+                quantities::force(residual.largest),
+                quantities::number(100.0 * REFUSED)
             ),
         })
     }
@@ -136,10 +136,10 @@ impl Problem<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::equilibrium::compile;
-    use crate::equilibrium::{RaceControl, solve};
     use crate::model::Dof;
     use crate::scene::presets;
+    use crate::statics::compile;
+    use crate::statics::{RaceControl, solve};
 
     /// Truth: the tangent stiffness. What a ring leaves that is not where it should be is told by name, and refused.
     #[test]

@@ -8,14 +8,14 @@ use std::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
+use crate::base::error::Result;
 use crate::contact::Motion;
 use crate::dynamics::Dynamics;
-use crate::equilibrium::{RaceControl, in_motion, steady::keep, steady::orbit};
-use crate::error::Result;
 use crate::inspect;
 use crate::integrate::DenseStep;
 use crate::model::{BodyId, Model, Race, RowModel};
 use crate::scene::{Drive, TimeFunction};
+use crate::statics::{RaceControl, in_motion, steady::keep, steady::orbit};
 
 /// Mean speeds of a row over a run \[Hz\], all in the positive sense about z.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

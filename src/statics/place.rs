@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::{oil, positions};
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 use crate::inspect;
 use crate::model::{BodyId, Dof, Model, Race, compile_placed};
 use crate::scene::{AxialOffset, Defect, Mount, Row, Scene, Surface, TimeFunction};

@@ -28,15 +28,16 @@ mod rings;
 pub(crate) mod rolling;
 mod search;
 mod springs;
+pub(crate) mod start;
 pub(crate) mod steady;
 mod stiffness;
 mod unknowns;
 
 use serde::Serialize;
 
-use crate::error::Result;
+use crate::base::error::Result;
+use crate::base::interrupt;
 use crate::inspect::{self, MomentOnRing, RaceFilm};
-use crate::interrupt;
 use crate::model::{Ball, BodyId, Dof, Model, Race};
 use crate::reduction::axial_places;
 use crate::scene::{Doubt, Scene};

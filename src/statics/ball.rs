@@ -7,11 +7,11 @@ use super::search::search;
 use super::springs::RowSpring;
 use super::unknowns::{self, Rings};
 use super::{FINE, TOLERANCE};
+use crate::base::error::{Error, Result};
+use crate::base::interrupt;
+use crate::base::quantities;
 use crate::contact::Pair;
-use crate::error::{Error, Result};
-use crate::interrupt;
 use crate::model::{BodyId, Dof, Race};
-use crate::told;
 
 /// Newton iterations of a ball before giving up.
 const BALL_ITERATIONS: usize = 100;
@@ -171,7 +171,7 @@ impl Problem<'_> {
             return Ok(found);
         }
         let why = if found.place.x > 0.0 {
-            format!("{} are not balanced", told::force(found.force.norm()))
+            format!("{} are not balanced", quantities::force(found.force.norm()))
         } else {
             "they lie beyond each other".to_owned()
         };

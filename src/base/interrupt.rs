@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 
 /// Stops from another thread what works under it: `equilibrium`, `stiffness`, `load_distribution`, `explain`, `start`,
 /// `compile` and the static parts of `simulate`, whose integration asks its `progress`.

@@ -8,8 +8,8 @@ use std::cell::Cell;
 use std::fs;
 use std::path::Path;
 
-use crate::error::{Error, Result};
-use crate::told::GIB;
+use crate::base::error::{Error, Result};
+use crate::base::quantities::GIB;
 
 /// What a run may take where the system does not report its memory \[bytes\].
 const UNTOLD: f64 = 8.0 * GIB;

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::told;
+use crate::base::quantities;
 
 /// What `ballrace` refuses or fails at.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -27,8 +27,8 @@ pub enum Error {
     /// The integration could not go on.
     #[error(
         "integration stopped at t = {}, step {}, at {body}: {reason}",
-        told::time(.time),
-        told::time(.step)
+        quantities::time(.time),
+        quantities::time(.step)
     )]
     Integration {
         /// Time reached \[s\].
@@ -44,7 +44,7 @@ pub enum Error {
         reason: String,
     },
     /// The observer (Ctrl-C, a callback) asked to stop.
-    #[error("interrupted at t = {}", told::time(.time))]
+    #[error("interrupted at t = {}", quantities::time(.time))]
     Interrupted {
         /// Time reached \[s\].
         time: f64,
@@ -53,7 +53,7 @@ pub enum Error {
     #[error(
         "stopped at t = {}: {name} = {limit} is spent; allow more, or make the run cheaper (`ballrace explain` \
          tells how)",
-        told::time(.time)
+        quantities::time(.time)
     )]
     Budget {
         /// Simulated time reached \[s\].
@@ -66,8 +66,8 @@ pub enum Error {
     /// More memory would be set aside than there is; nothing was computed.
     #[error(
         "{:.2} GiB of memory would be needed where {:.2} GiB are left to use: {what}",
-        .needed / told::GIB,
-        .available / told::GIB
+        .needed / quantities::GIB,
+        .available / quantities::GIB
     )]
     Memory {
         /// What would be set aside \[bytes\].
@@ -106,7 +106,7 @@ fn readable(text: String) -> String {
     if text.len() < 16 {
         return text;
     }
-    text.parse().map_or(text, told::given)
+    text.parse().map_or(text, quantities::given)
 }
 
 /// Shorthand for results of this crate.

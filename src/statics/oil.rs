@@ -1,7 +1,7 @@
 //! The loads that films are computed for: those of the equilibrium without films.
 
 use super::positions;
-use crate::error::{Error, Result};
+use crate::base::error::{Error, Result};
 use crate::inspect;
 use crate::model::{Model, Race};
 use crate::scene::Lubricant;

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::problem::Problem;
 use super::unknowns::{OF_A_RING, OF_RINGS, RingStiffness, at, degree, first};
 use super::{Equilibrium, compile, solve_with};
-use crate::error::Result;
+use crate::base::error::Result;
 use crate::model::{Dof, Race};
 use crate::scene::Scene;
 

@@ -8,11 +8,11 @@ use super::problem::Problem;
 use super::search::search;
 use super::unknowns::{self, OF_RINGS, RingStiffness, Rings};
 use super::{FINE, STALLED};
+use crate::base::error::{Error, Result};
+use crate::base::interrupt;
+use crate::base::quantities;
 use crate::contact::V2;
-use crate::error::{Error, Result};
-use crate::interrupt;
 use crate::model::{BodyId, Race};
-use crate::told;
 
 /// Newton iterations of the rings before giving up.
 const RING_ITERATIONS: usize = 200;
@@ -139,7 +139,7 @@ impl Problem<'_> {
             reason: format!(
                 "the load cannot be carried: {} % of the load is not \
                  balanced; check loads, clearance, supports and contact angle, or start rolling",
-                told::number(100.0 * self.error(&state.residual))
+                quantities::number(100.0 * self.error(&state.residual))
             ),
         })
     }
@@ -294,9 +294,9 @@ impl Problem<'_> {
                              middle, which ends at {} and {}; lower the load or widen the groove",
                             self.model.bodies[BodyId::ball(j)].name,
                             race.name(),
-                            told::length(point),
-                            told::length(lowest),
-                            told::length(highest)
+                            quantities::length(point),
+                            quantities::length(lowest),
+                            quantities::length(highest)
                         ),
                     });
                 }

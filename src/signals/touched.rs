@@ -12,10 +12,10 @@ use serde::Serialize;
 
 use crate::contact::{Fault, Pair, Sighted, Slices, Toward};
 use crate::dynamics::Dynamics;
-use crate::equilibrium::Placed;
 use crate::integrate::DenseStep;
 use crate::model::{Model, Race, ball_fault, race_fault};
 use crate::scene::{Defect, Surface};
+use crate::statics::Placed;
 
 /// What became of a defect.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -4,13 +4,13 @@ use std::sync::OnceLock;
 
 use crate::dynamics::Dynamics;
 use crate::dynamics::contributions;
-use crate::equilibrium::compile;
 use crate::integrate::System;
 use crate::model::{BodyId, Dof, Model};
 use crate::reduction::Reduction;
 use crate::scene::{Friction, Scene, presets};
 use crate::simd::{Distrust, InstructionSet};
-use crate::start::{Start, start};
+use crate::statics::compile;
+use crate::statics::start::{Start, start};
 
 /// Largest difference of a body's force, over the largest of all. Both ways agree to about 1e-13; what goes wrong loses whole
 /// contacts.

@@ -8,8 +8,8 @@ use super::TOLERANCE;
 use super::problem::Problem;
 use super::springs::CageSpring;
 use super::unknowns::{self, RingStiffness, Rings};
-use crate::error::Result;
-use crate::interrupt;
+use crate::base::error::Result;
+use crate::base::interrupt;
 use crate::model::Race;
 
 /// Iterations, at most.

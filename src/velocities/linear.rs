@@ -219,10 +219,10 @@ impl Radial {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::implicit::tests::{compiled, oiled_wheel, rolling, scenes, state};
     use crate::reduction::Reduction;
     use crate::scene::{Spin, presets};
-    use crate::start::{Start, start};
+    use crate::statics::start::{Start, start};
+    use crate::velocities::tests::{compiled, oiled_wheel, rolling, scenes, state};
 
     /// (1 − γh (∂a/∂v + ρ ∂a/∂q)) x = r holds for the correction x of any r to a share of its size, with derivatives by central
     /// differences.

@@ -163,7 +163,7 @@ pub(super) mod tests {
     };
     use crate::scene::{Defect, Floor, Material, Surface, Waviness, Width, WidthProfile};
 
-    pub(in crate::contact::fault) const RADIUS: f64 = 6e-3;
+    pub(in crate::contact::defect) const RADIUS: f64 = 6e-3;
 
     /// Energy, and what ball and ring get.
     #[derive(Default)]
@@ -198,7 +198,7 @@ pub(super) mod tests {
     }
 
     /// A race whose groove is centred at 0.1 mm, without damping and friction, and a defect of it.
-    pub(in crate::contact::fault) fn pair(
+    pub(in crate::contact::defect) fn pair(
         sigma: f64,
         is_hertz: bool,
         defect: Option<&Defect>,

@@ -1,9 +1,9 @@
 //! How a run begins: at rest in the cage's frame, or rolling from nominal places (model sections 8 and 13.5).
 
+use crate::base::error::{Error, Result};
 use crate::contact::attitude_rates;
-use crate::equilibrium::{self, RaceControl, rolling};
-use crate::error::{Error, Result};
 use crate::model::{BodyId, Dof, Layout, Model, Race};
+use crate::statics::{self, RaceControl, rolling};
 
 /// How far Euler parameters of a given state may be from length one: they are brought there. Those that are further off are a slip.
 const LENGTH: f64 = 5e-3;
@@ -41,7 +41,7 @@ pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
             Ok(y)
         }
         Start::Equilibrium => {
-            let mut y = equilibrium::in_motion(model, RaceControl::Friction)?;
+            let mut y = statics::in_motion(model, RaceControl::Friction)?;
             hold(model, &mut y);
             face(model, &mut y);
             Ok(y)
