@@ -7,10 +7,10 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::laws::elastic::{ForLaw, Load};
+use super::laws::elastic::{ElasticLaw, ForLaw};
 use super::laws::traction::{Rolling, Sliding};
 use super::profile::{Section, SurfacePoint, Zone};
-use super::{Cut, FilmEffect, Law, Rules, Slices};
+use super::{Cut, FilmEffect, Law, Rules, ZoneSlices};
 use crate::simd::Number;
 
 /// A whole contact: no shoulder, no end of the ball and no defect cuts its zone.
@@ -71,7 +71,7 @@ pub(super) fn zone<T: Number>(cut: &Cut, section: &Section<T>, half_curvature: T
 #[inline(always)]
 pub(super) fn elements<T: Number, const FMA: bool, const SYMMETRIC: bool>(
     law: &Law,
-    slices: &Slices,
+    slices: &ZoneSlices,
     rubbing: Option<&[T]>,
     contact: &Whole<T>,
     to: &mut impl Receiver<T>,
@@ -86,7 +86,7 @@ pub(super) fn elements<T: Number, const FMA: bool, const SYMMETRIC: bool>(
 
 /// The elements of a contact, for one elastic law.
 struct Elements<'a, T, R, const FMA: bool, const SYMMETRIC: bool> {
-    slices: &'a Slices,
+    slices: &'a ZoneSlices,
     rubbing: Option<&'a [T]>,
     contact: &'a Whole<T>,
     to: &'a mut R,
@@ -96,7 +96,7 @@ impl<T: Number, R: Receiver<T>, const FMA: bool, const SYMMETRIC: bool> ForLaw
     for Elements<'_, T, R, FMA, SYMMETRIC>
 {
     #[inline(always)]
-    fn run<L: Load>(self) {
+    fn run<L: ElasticLaw>(self) {
         let Self {
             slices,
             rubbing,
@@ -105,7 +105,7 @@ impl<T: Number, R: Receiver<T>, const FMA: bool, const SYMMETRIC: bool> ForLaw
         } = self;
         let (half, radius) = (contact.half, contact.section.radius);
         match slices {
-            Slices::Fitted(rules) if L::FLAT => {
+            ZoneSlices::Fitted(rules) if L::FLAT => {
                 for (k, (x, weight, times)) in nodes::<SYMMETRIC>(rules) {
                     let mut element = contact.on_tangent::<L, FMA>(half * x, half * weight);
                     if let Some(rubbing) = rubbing {
@@ -114,7 +114,7 @@ impl<T: Number, R: Receiver<T>, const FMA: bool, const SYMMETRIC: bool> ForLaw
                     to.element::<FMA, SYMMETRIC>(&element, times);
                 }
             }
-            Slices::Fitted(rules) => {
+            ZoneSlices::Fitted(rules) => {
                 let reach = half * contact.inverse;
                 for (k, (x, weight, times)) in nodes::<SYMMETRIC>(rules) {
                     let mut element =
@@ -125,7 +125,7 @@ impl<T: Number, R: Receiver<T>, const FMA: bool, const SYMMETRIC: bool> ForLaw
                     to.element::<FMA, SYMMETRIC>(&element, times);
                 }
             }
-            Slices::Fixed(count) if L::FLAT => {
+            ZoneSlices::Fixed(count) if L::FLAT => {
                 let (cos, sin) = contact.section.normal;
                 let over = cos.same(1.0) / cos;
                 let length = radius * (2.0 / *count as f64) * over;
@@ -135,7 +135,7 @@ impl<T: Number, R: Receiver<T>, const FMA: bool, const SYMMETRIC: bool> ForLaw
                     to.element::<FMA, SYMMETRIC>(&element, times);
                 }
             }
-            Slices::Fixed(count) => {
+            ZoneSlices::Fixed(count) => {
                 let width = radius * (2.0 / *count as f64);
                 for (sin, times) in contact.fixed_sines::<SYMMETRIC>(*count) {
                     let element = contact.fixed_slice::<L, FMA>(sin, width * f64::from(times));
@@ -167,7 +167,7 @@ pub(super) fn as_one<T: Number>(contact: &Whole<T>, stiffness: f64) -> Element<T
 impl<T: Number> Whole<T> {
     /// An element at u/R on the common chord that stands for a stretch of u.
     #[inline(always)]
-    pub(super) fn on_chord<L: Load, const FMA: bool, const SYMMETRIC: bool>(
+    pub(super) fn on_chord<L: ElasticLaw, const FMA: bool, const SYMMETRIC: bool>(
         &self,
         u: T,
         stretch: T,
@@ -188,7 +188,7 @@ impl<T: Number> Whole<T> {
 
     /// A fixed slice in whose middle the ball has sin α.
     #[inline(always)]
-    fn fixed_slice<L: Load, const FMA: bool>(&self, sin: f64, width: T) -> Element<T> {
+    fn fixed_slice<L: ElasticLaw, const FMA: bool>(&self, sin: f64, width: T) -> Element<T> {
         let cos = (1.0 - sin * sin).sqrt();
         let place = (width.same(sin), width.same(cos), width.same(sin / cos));
         self.on_surface::<L, FMA>(place, width)
@@ -196,7 +196,7 @@ impl<T: Number> Whole<T> {
 
     /// A slice of the ball's surface.
     #[inline(always)]
-    fn on_surface<L: Load, const FMA: bool>(
+    fn on_surface<L: ElasticLaw, const FMA: bool>(
         &self,
         (sin, cos, tan): (T, T, T),
         width: T,
@@ -220,7 +220,7 @@ impl<T: Number> Whole<T> {
 
     /// An element at u on the common tangent.
     #[inline(always)]
-    pub(super) fn on_tangent<L: Load, const FMA: bool>(&self, u: T, length: T) -> Element<T> {
+    pub(super) fn on_tangent<L: ElasticLaw, const FMA: bool>(&self, u: T, length: T) -> Element<T> {
         let (normal_cos, normal_sin) = self.section.normal;
         let sin = (u * self.inverse).mul_add::<FMA>(normal_cos, normal_sin);
         let depth = (self.section.approach - u * u * self.half_curvature).or_zero();
@@ -284,7 +284,7 @@ fn nodes<const SYMMETRIC: bool>(
 
 /// What the force of an element depends on.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct State<T> {
+pub(super) struct ElementState<T> {
     /// Elastic force \[N\].
     pub elastic: T,
     /// In-plane and axial part of the normal force over its magnitude.
@@ -309,7 +309,7 @@ pub(super) struct State<T> {
 
 /// The force of an element (model sections 4 and 5).
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Force<T> {
+pub(super) struct ElementForce<T> {
     /// On the ring along n_e, t_e and z \[N\]; the ball gets the opposite.
     pub on_ring: [T; 3],
     /// The part of friction in it, as it acts on the ball.
@@ -339,9 +339,9 @@ pub(super) fn force<
     const TURNING: bool,
 >(
     law: &Law,
-    of: &State<T>,
+    of: &ElementState<T>,
     turning: T,
-) -> Force<T> {
+) -> ElementForce<T> {
     let (in_plane, axial) = of.share;
     let [v_n, v_t, v_z] = of.velocity;
     let approach = if SYMMETRIC {
@@ -395,7 +395,7 @@ pub(super) fn force<
         pressing[1] - friction[1],
         pressing[2] - friction[2],
     ];
-    Force {
+    ElementForce {
         on_ring,
         friction,
         damped,
@@ -420,7 +420,7 @@ pub(super) fn slip_of_turning<T: Number, const FMA: bool>(
     [-(w_n * zeta), -(w_t * lever)]
 }
 
-impl<T: Number> State<T> {
+impl<T: Number> ElementState<T> {
     /// What a traction law reads, at an approach speed and the square of a slip speed.
     #[inline(always)]
     pub fn sliding(&self, approach: T, squared: T) -> Sliding<T> {

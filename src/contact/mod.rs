@@ -51,7 +51,7 @@ pub use laws::{Cut, Damping, Elastic, Law, Traction};
 pub use oil::OilTouch;
 pub(crate) use profile::{Before, Contour, Curve, Raise, Section};
 pub use profile::{Torus, Waves};
-pub use quadrature::{Rules, Slices};
+pub use quadrature::{Rules, ZoneSlices};
 pub use scalar::{BallSide, Pair, Shape};
 pub(crate) use spatial::Wrench;
 pub(crate) use stiffness::Tangent;

@@ -14,7 +14,7 @@ use super::closed_form;
 use super::dual::Dual;
 use super::kernel::{self, Element, Receiver, Whole};
 use super::profile::{SHALLOW, Section, Zone};
-use super::{Aside, BallSide, Motion, Pair, Rules, Sink, Slices, Touch, Toward, V2};
+use super::{Aside, BallSide, Motion, Pair, Rules, Sink, Touch, Toward, V2, ZoneSlices};
 
 /// Elastic force on the ball along x, y, z \[N\], and the stiffness −∂force/∂place of the ball against the ring
 /// \[N/m\]; a stiffness that only differences can give is left out.
@@ -144,10 +144,10 @@ impl Pair {
             return None;
         }
         match &self.slices {
-            Slices::Fitted(rules) if !cut.is_flat() => {
+            ZoneSlices::Fitted(rules) if !cut.is_flat() => {
                 Some(self.fitted_on_surface(rules, section, &zone))
             }
-            Slices::Fitted(_) | Slices::Fixed(_) => Some(self.differentiated(section)),
+            ZoneSlices::Fitted(_) | ZoneSlices::Fixed(_) => Some(self.differentiated(section)),
         }
     }
 
@@ -158,7 +158,7 @@ impl Pair {
         section.e > 0.0
             && zone.height >= SHALLOW * section.radius
             && zone.lowest(section.normal) > 0.0
-            && (matches!(self.slices, Slices::Fixed(_)) || fits(low) && fits(high))
+            && (matches!(self.slices, ZoneSlices::Fixed(_)) || fits(low) && fits(high))
     }
 
     /// The kernel with derivatives by e and c.
@@ -177,7 +177,7 @@ impl Pair {
             half_curvature,
             section,
         };
-        let mut sums = Sums {
+        let mut sums = ElasticSums {
             pair: self,
             section: &section,
             force: [of(0.0); 2],
@@ -256,13 +256,13 @@ impl Pair {
 }
 
 /// Adds up the elastic forces along n_e and z of elements that lie on the race.
-struct Sums<'a> {
+struct ElasticSums<'a> {
     pair: &'a Pair,
     section: &'a Section<Dual<f64, 2>>,
     force: [Dual<f64, 2>; 2],
 }
 
-impl Sums<'_> {
+impl ElasticSums<'_> {
     fn add(&mut self, element: &Element<Dual<f64, 2>>) {
         let elastic = element.load * element.length;
         self.force[0] += elastic * element.share.0;
@@ -270,7 +270,7 @@ impl Sums<'_> {
     }
 }
 
-impl Receiver<Dual<f64, 2>> for Sums<'_> {
+impl Receiver<Dual<f64, 2>> for ElasticSums<'_> {
     #[inline(always)]
     fn element<const FMA: bool, const SYMMETRIC: bool>(
         &mut self,
@@ -331,7 +331,7 @@ mod tests {
     use super::*;
     use crate::scene::{Material, Waviness};
 
-    fn pair(sigma: f64, hertz: bool, slices: Slices, waves: Waves) -> Pair {
+    fn pair(sigma: f64, hertz: bool, slices: ZoneSlices, waves: Waves) -> Pair {
         let steel = Material::default();
         let elastic = if hertz {
             Elastic::Hertz(Hertz::new(sigma, 12e-3, 60e-3, 0.52, 0.3, &steel, &steel))
@@ -374,9 +374,9 @@ mod tests {
         let mut worst = [0.0_f64; 3];
         for sigma in [1.0, -1.0] {
             for (hertz, slices) in [
-                (false, Slices::Fitted(Rules::new(6, 10.0 / 9.0))),
-                (false, Slices::Fixed(200)),
-                (true, Slices::Fitted(Rules::new(6, 1.0))),
+                (false, ZoneSlices::Fitted(Rules::new(6, 10.0 / 9.0))),
+                (false, ZoneSlices::Fixed(200)),
+                (true, ZoneSlices::Fitted(Rules::new(6, 1.0))),
             ] {
                 for waves in [Waves::default(), wavy()] {
                     let pair = pair(sigma, hertz, slices.clone(), waves);
@@ -391,7 +391,7 @@ mod tests {
                         let stiffness = pair.stiffness_by_differences(&ball, &place, 1e-8);
                         let analytic = found.stiffness.unwrap();
                         worst[0] = worst[0].max((found.force - force).norm() / force.norm());
-                        let kind = if matches!(slices, Slices::Fitted(_)) {
+                        let kind = if matches!(slices, ZoneSlices::Fitted(_)) {
                             1
                         } else {
                             2
@@ -412,7 +412,7 @@ mod tests {
     /// Truth: the kernel, differentiated by itself.
     #[test]
     fn the_form_by_hand_is_the_kernels() {
-        let slices = Slices::Fitted(Rules::new(6, 10.0 / 9.0));
+        let slices = ZoneSlices::Fitted(Rules::new(6, 10.0 / 9.0));
         for sigma in [1.0, -1.0] {
             let pair = pair(sigma, false, slices.clone(), Waves::default());
             for (tilt, approach) in [(0.0, 15e-6), (0.4, 2e-6), (-0.7, 40e-6)] {

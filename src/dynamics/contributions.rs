@@ -3,15 +3,15 @@
 use nalgebra::Vector3;
 
 use super::films::Films;
-use super::sums::Named;
+use super::sums::SumsByOrigin;
 use crate::contact::LeaningRing;
-use crate::forces::{self, Force, OnRing, State, Table, unbalance};
+use crate::forces::{self, Force, RingWrench, State, Table, unbalance};
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 
 /// Names of the contributions of [`contributions`], in their order: elastic contact forces, damping and friction, then what
 /// each other force counts to.
 pub fn contribution_names() -> Vec<&'static str> {
-    let mut names = Named::NAMES.to_vec();
+    let mut names = SumsByOrigin::NAMES.to_vec();
     for force in &forces::ALL {
         if !names.contains(&force.contribution) {
             names.push(force.contribution);
@@ -49,7 +49,7 @@ pub(crate) fn contributions_coated(
     for (j, ball) in model.balls.iter().enumerate() {
         let body = BodyId::ball(j);
         for race in Race::BOTH {
-            let mut named = Named::default();
+            let mut named = SumsByOrigin::default();
             let pair = &model.rows[ball.row].pairs[race];
             let [at, ring] = match &leaning {
                 Some(leaning) => leaning[race].facing(&state.motion(body)),
@@ -80,7 +80,7 @@ pub(crate) fn contributions_coated(
             let frame = &leaning[race].rotation.frame;
             let supported = forces::leaning::support(model, race, &state, &leaning[race], 0.0);
             let unbalanced = unbalance::on_leaning(model, t, &state, race, frame);
-            let loaded = OnRing {
+            let loaded = RingWrench {
                 force: Vector3::zeros(),
                 moment: forces::load::moment(model, t, race, |arm| frame.to_scene(arm)),
             };

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Dynamics;
-use crate::contact::{Pair, Slices};
+use crate::contact::{Pair, ZoneSlices};
 use crate::forces::{self, Use};
 use crate::model::Race;
 
@@ -68,8 +68,8 @@ impl Dynamics<'_> {
         let law = pair.law.elastic.name();
         let count = pair.slices.count();
         let slices = match &pair.slices {
-            Slices::Fixed(_) => "slices",
-            Slices::Fitted(_) => "nodes",
+            ZoneSlices::Fixed(_) => "slices",
+            ZoneSlices::Fitted(_) => "nodes",
         };
         if self.contacts.is_symmetric() {
             let half = count.div_ceil(2);

@@ -1,7 +1,7 @@
 //! The integrated states of a reduced run: from their vector to all bodies, and from forces to their rates.
 
 use super::planar::{Planar, Rates};
-use super::rolling::Rolling;
+use super::rolling::RollingRows;
 use crate::forces::{State, Table};
 use crate::model::Model;
 use crate::reduction::Reduction;
@@ -13,7 +13,7 @@ pub(super) struct Kept {
     pub reduction: Reduction,
     /// Place of the driven rotation, if it is among the states.
     pub driven: Option<usize>,
-    pub rolling: Rolling,
+    pub rolling: RollingRows,
     /// The planar right-hand side, where the scene has one.
     pub planar: Option<(InstructionSet, Planar)>,
 }

@@ -28,7 +28,7 @@ pub(crate) trait HeldContacts {
 
 /// Data of an evaluation for rotations about x and y.
 #[derive(Debug)]
-pub(super) struct Leaning {
+pub(super) struct SpatialWork {
     rings: [RingView; 2],
     /// Moments about the rings' centres of mass, in the scene's frame \[N m\].
     moments: [Vector3<f64>; 2],
@@ -36,7 +36,7 @@ pub(super) struct Leaning {
     across: Vec<[f64; 2]>,
 }
 
-impl Leaning {
+impl SpatialWork {
     /// None where nothing turns about x or y.
     pub fn new(model: &Model) -> Option<Box<Self>> {
         RingView::both(model).map(|rings| {

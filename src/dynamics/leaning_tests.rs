@@ -125,7 +125,7 @@ fn free_rings_keep_energy_and_momenta() {
         };
         let nobody = &mut |_: &mut Dynamics<'_>,
                            _: &crate::integrate::DenseStep<'_>,
-                           _: &crate::integrate::Statistics| {
+                           _: &crate::integrate::StepStatistics| {
             std::ops::ControlFlow::Continue(())
         };
         let span = (0.0, 4e-4);

@@ -26,17 +26,17 @@ use crate::integrate::System;
 use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Spring};
 use crate::reduction::Reduction;
 
-pub(crate) use batch::{Batch, Kind, OnRings, RingView, SideConstants, Touching, View};
+pub(crate) use batch::{Batch, Guarantees, OnRings, RingView, SideConstants, Touching, View};
 pub(crate) use contributions::contributions_coated;
 pub use contributions::{contribution_names, contributions};
 
 use films::Films;
 use kept::Kept;
-use leaning::Leaning;
+use leaning::SpatialWork;
 pub(crate) use leaning::{HeldContacts, turning_accelerations};
 use order::Order;
 use planar::{Ground, Planar};
-use rolling::Rolling;
+use rolling::RollingRows;
 
 /// The right-hand side of a model, with the memory that evaluating it needs. Each run has its own.
 #[derive(Debug)]
@@ -57,13 +57,13 @@ pub struct Dynamics<'m> {
     /// Films that follow the rings' speed.
     films: Option<Films>,
     /// Rings that may tilt.
-    leaning: Option<Box<Leaning>>,
+    leaning: Option<Box<SpatialWork>>,
 }
 
 impl<'m> Dynamics<'m> {
     /// For evaluations on one thread, of states as [`Model::names`] orders them.
     pub fn new(model: &'m Model) -> Self {
-        Self::with(model, Order::Bodies, Kind::whole(model))
+        Self::with(model, Order::Bodies, Guarantees::whole(model))
     }
 
     /// For the states that a reduction keeps. `start` is a state of all bodies.
@@ -71,7 +71,7 @@ impl<'m> Dynamics<'m> {
     /// # Panics
     /// If the length of `start` is not [`Model::dim`].
     pub fn reduced(model: &'m Model, reduction: Reduction, start: &[f64]) -> Self {
-        let kind = Kind {
+        let kind = Guarantees {
             rows: reduction.rows.clone(),
             symmetric: reduction.plane,
             axial_places: reduction.axial_places.clone(),
@@ -81,7 +81,7 @@ impl<'m> Dynamics<'m> {
         let driven = reduction
             .degrees()
             .position(|(body, dof)| model.bodies[body].degrees[dof] == Degree::Driven);
-        let rolling = Rolling::new(&reduction);
+        let rolling = RollingRows::new(&reduction);
         let keeps_axial_places = kind.axial_places.is_some();
         let order = Order::Kept(Box::new(Kept {
             reduction,
@@ -129,7 +129,7 @@ impl<'m> Dynamics<'m> {
         }
     }
 
-    fn with(model: &'m Model, order: Order, kind: Kind) -> Self {
+    fn with(model: &'m Model, order: Order, kind: Guarantees) -> Self {
         let bodies = model.bodies.len();
         let (mut constant, mut mobility) = (Table::zeros(bodies), Table::zeros(bodies));
         gravity::add(model, &mut constant);
@@ -149,7 +149,7 @@ impl<'m> Dynamics<'m> {
             mobility,
             pool: None,
             films: Films::new(model),
-            leaning: Leaning::new(model),
+            leaning: SpatialWork::new(model),
         }
     }
 

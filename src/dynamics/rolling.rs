@@ -6,26 +6,26 @@ use crate::reduction::Reduction;
 
 /// Directions of the balls of all rows that turn as one, at the last state.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Rolling {
-    balls: Vec<Ball>,
+pub(super) struct RollingRows {
+    balls: Vec<RollingBall>,
 }
 
 /// A ball on its radius.
 #[derive(Debug, Clone, Copy, Default)]
-struct Ball {
+struct RollingBall {
     direction: [f64; 2],
     /// r ω² \[m/s²\].
     centrifugal: f64,
 }
 
-impl Rolling {
+impl RollingRows {
     pub fn new(reduction: &Reduction) -> Self {
         let count = reduction
             .orbits()
             .map(|(orbit, _)| orbit.starts.len())
             .sum();
         Self {
-            balls: vec![Ball::default(); count],
+            balls: vec![RollingBall::default(); count],
         }
     }
 
@@ -43,7 +43,7 @@ impl Rolling {
                 let around = r * turn.speed;
                 (x[k], y[k]) = (r * cos, r * sin);
                 (vx[k], vy[k]) = (v * cos - around * sin, v * sin + around * cos);
-                *ball = Ball {
+                *ball = RollingBall {
                     direction: [cos, sin],
                     centrifugal: around * turn.speed,
                 };

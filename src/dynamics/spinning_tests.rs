@@ -58,7 +58,7 @@ fn after(model: &Model, y0: &[f64], duration: f64) -> Vec<f64> {
     };
     let nobody = &mut |_: &mut Dynamics<'_>,
                        _: &crate::integrate::DenseStep<'_>,
-                       _: &crate::integrate::Statistics| {
+                       _: &crate::integrate::StepStatistics| {
         std::ops::ControlFlow::Continue(())
     };
     let span = (0.0, duration);

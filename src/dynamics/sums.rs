@@ -90,12 +90,12 @@ impl Sink for Spatial {
 
 /// Force and moment on ball and ring, with the parts of elastic force, damping and friction apart.
 #[derive(Default)]
-pub(super) struct Named {
+pub(super) struct SumsByOrigin {
     ball: [[f64; DOFS]; 3],
     ring: [[f64; DOFS]; 3],
 }
 
-impl Named {
+impl SumsByOrigin {
     /// Names of the three.
     pub const NAMES: [&str; 3] = ["contact", "damping", "friction"];
 
@@ -105,7 +105,7 @@ impl Named {
     }
 }
 
-impl Sink for Named {
+impl Sink for SumsByOrigin {
     fn touch(&mut self, touch: &Touch) {
         let parts = [
             (touch.elastic, 0.0),

@@ -9,10 +9,10 @@ use serde::Serialize;
 use crate::base::error::Result;
 use crate::base::interrupt;
 use crate::dynamics::Dynamics;
-use crate::integrate::{DenseStep, Statistics, System};
+use crate::integrate::{DenseStep, StepStatistics, System};
 use crate::model::{BodyId, Dof, Model};
 use crate::reduction::Reduction;
-use crate::run::method::{self, Task};
+use crate::run::method::{self, Integration};
 use crate::run::{options, tolerance};
 
 /// Places of the cage over a ball's pitch.
@@ -97,7 +97,7 @@ fn steps(model: &Model, start: &[f64], count: usize) -> Result<(f64, f64)> {
         let tolerance = tolerance(&dynamics)?;
         let own = dynamics.compress(start);
         let begun = Instant::now();
-        let mut stop = |_: &mut Dynamics<'_>, step: &DenseStep<'_>, stats: &Statistics| {
+        let mut stop = |_: &mut Dynamics<'_>, step: &DenseStep<'_>, stats: &StepStatistics| {
             let now = (step.t1(), stats.nfev);
             if stats.accepted <= GROWING {
                 reached[0] = now;
@@ -109,7 +109,7 @@ fn steps(model: &Model, start: &[f64], count: usize) -> Result<(f64, f64)> {
                 ControlFlow::Continue(())
             }
         };
-        let task = Task {
+        let task = Integration {
             span: (0.0, 1.0),
             y0: &own,
             tolerance: &tolerance,

@@ -22,7 +22,7 @@ use crate::scene::{Defect, Doubt, Scene, Surface};
 use crate::signals::touched::{Touched, compiled, is_there};
 use crate::statics::compile;
 use crate::statics::start::{Start, start};
-use crate::statics::{Meeting, Placed, describe, place};
+use crate::statics::{DefectPasses, Placed, describe, place};
 
 pub use cost::Cost;
 pub use law::LawExplanation;
@@ -150,7 +150,7 @@ fn defects(scene: &Scene, placed: &BTreeMap<String, Placed>) -> Result<Vec<Touch
     defects
         .map(|(name, defect)| {
             let told = Touched::not_yet(name, defect, placed[name]);
-            let meeting = Meeting::of(scene, defect)?;
+            let meeting = DefectPasses::of(scene, defect)?;
             Ok(match meeting {
                 Some(meeting) => met(told, defect, &meeting),
                 None => told,
@@ -160,8 +160,8 @@ fn defects(scene: &Scene, placed: &BTreeMap<String, Placed>) -> Result<Vec<Touch
 }
 
 /// Adds what contacts at equilibrium carry within a defect.
-fn met(mut told: Touched, defect: &Defect, meeting: &Meeting) -> Touched {
-    let Meeting { model, y, contacts } = meeting;
+fn met(mut told: Touched, defect: &Defect, meeting: &DefectPasses) -> Touched {
+    let DefectPasses { model, y, contacts } = meeting;
     let (fault, origin) = compiled(model, defect);
     let mut most = 0.0;
     for &(j, race) in contacts {

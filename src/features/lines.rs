@@ -18,7 +18,7 @@ const HARMONICS: u8 = 3;
 
 /// The line of a fault.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Fault {
+pub(super) struct FaultOrder {
     pub name: &'static str,
     /// In turns of the shaft.
     pub order: f64,
@@ -32,14 +32,14 @@ pub(super) struct Fault {
 /// The faults of a row by their orders: the cage's, those of balls that pass a place of the outer and of the inner race, and
 /// of places of a ball that pass a race: it meets both in a turn, so twice the ball's spin. They are what the row did, or, of a
 /// record without measured kinematics, those of pure rolling at the nominal contact angle.
-pub(super) fn faults(row: &Row, did: Option<&RowKinematics>) -> [Fault; 4] {
+pub(super) fn faults(row: &Row, did: Option<&RowKinematics>) -> [FaultOrder; 4] {
     let [ftf, bpfo, bpfi, bsf] = row.orders();
     let measured = did.map(|did| did.orders(row.ball_count));
     let ([ftf, bpfo, bpfi], share) =
         measured.map_or(([ftf, bpfo, bpfi], SHARE), |(orders, _)| (orders, MEASURED));
     let spin = measured.and_then(|(_, spin)| spin);
     let (bsf, share_of_ball) = spin.map_or((bsf, SHARE), |spin| (spin, MEASURED));
-    let fault = |name, order, sidebands| Fault {
+    let fault = |name, order, sidebands| FaultOrder {
         name,
         order,
         share,
@@ -49,7 +49,7 @@ pub(super) fn faults(row: &Row, did: Option<&RowKinematics>) -> [Fault; 4] {
         fault("ftf", ftf, None),
         fault("bpfo", bpfo, None),
         fault("bpfi", bpfi, Some(1.0)),
-        Fault {
+        FaultOrder {
             share: share_of_ball,
             ..fault("2bsf", 2.0 * bsf, Some(ftf))
         },
@@ -109,15 +109,15 @@ struct Lines {
 }
 
 /// An amplitude and its standard error.
-type Line = (f64, f64);
+type Amplitude = (f64, f64);
 
 /// Times its standard error that a line stands out of the noise, so that its place is known, and with it those of its harmonics
 /// and sidebands: of another they are read at a random place, which their error does not include.
 const STANDS_OUT: f64 = 3.0;
 
 /// Root of the sum of the squares of some lines. Pulses that vary in height change all their harmonics together.
-fn together(lines: &[Line]) -> Line {
-    let sum = |of: &dyn Fn(&Line) -> f64| lines.iter().map(of).sum::<f64>();
+fn together(lines: &[Amplitude]) -> Amplitude {
+    let sum = |of: &dyn Fn(&Amplitude) -> f64| lines.iter().map(of).sum::<f64>();
     let root = sum(&|(line, _)| line * line).sqrt();
     let error = sum(&|(line, error)| line * error) / root;
     (root, if root > 0.0 { error } else { 0.0 })
@@ -126,7 +126,7 @@ fn together(lines: &[Line]) -> Line {
 impl Lines {
     /// In a spectrum over units in which the shaft has a frequency and a record has a bin. Absent where the record is too
     /// short for the line, or sampled too slowly.
-    fn of(fault: &Fault, spectrum: &Spectrum, shaft: f64, bin: f64) -> Option<Self> {
+    fn of(fault: &FaultOrder, spectrum: &Spectrum, shaft: f64, bin: f64) -> Option<Self> {
         let near = fault.order * shaft;
         let width = (fault.share * near).max(bin);
         let top = spectrum.top();
@@ -141,10 +141,10 @@ impl Lines {
         };
         let line = with_error((place, line));
         let higher = (2..=HARMONICS).filter_map(|k| beside(place * f64::from(k)));
-        let family: Vec<Line> = std::iter::once(line).chain(higher).collect();
+        let family: Vec<Amplitude> = std::iter::once(line).chain(higher).collect();
         let distance = fault.sidebands.unwrap_or(0.0) * shaft;
         let sides = [place - distance, place + distance].map(beside);
-        let sides: Vec<Line> = sides.into_iter().flatten().collect();
+        let sides: Vec<Amplitude> = sides.into_iter().flatten().collect();
         let (harmonics, sidebands) = (together(&family), together(&sides));
         let stands_out = line.0 > STANDS_OUT * line.1;
         let known = |error: f64| if stands_out { error } else { f64::NAN };
@@ -157,7 +157,12 @@ impl Lines {
     }
 
     /// Standard errors have a value where `certain`.
-    fn features(lines: Option<&Self>, prefix: &str, fault: &Fault, certain: bool) -> Vec<Feature> {
+    fn features(
+        lines: Option<&Self>,
+        prefix: &str,
+        fault: &FaultOrder,
+        certain: bool,
+    ) -> Vec<Feature> {
         let mut features = Vec::new();
         let mut add = |suffix: &str, value: fn(&Self) -> f64, error: usize| {
             let value = lines.map_or(f64::NAN, value);

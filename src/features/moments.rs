@@ -43,19 +43,21 @@ struct Errors {
 
 impl Errors {
     fn of(x: &[f64], mean: f64, batches: &Batches) -> Self {
-        let Some(parts) = batches.map(|range| Powers::of(&x[range], mean)) else {
+        let Some(parts) = batches.map(|range| MomentSums::of(&x[range], mean)) else {
             return Self {
                 rms: f64::NAN,
                 peak: f64::NAN,
                 kurtosis: f64::NAN,
             };
         };
-        let all = parts.iter().fold(Powers::default(), |all, part| Powers {
-            count: all.count + part.count,
-            sums: std::array::from_fn(|i| all.sums[i] + part.sums[i]),
-        });
-        let without = |of: &dyn Fn(&Powers) -> f64| {
-            let rest = parts.iter().map(|part| Powers {
+        let all = parts
+            .iter()
+            .fold(MomentSums::default(), |all, part| MomentSums {
+                count: all.count + part.count,
+                sums: std::array::from_fn(|i| all.sums[i] + part.sums[i]),
+            });
+        let without = |of: &dyn Fn(&MomentSums) -> f64| {
+            let rest = parts.iter().map(|part| MomentSums {
                 count: all.count - part.count,
                 sums: std::array::from_fn(|i| all.sums[i] - part.sums[i]),
             });
@@ -66,19 +68,19 @@ impl Errors {
         Self {
             rms: without(&|rest| rest.rms(mean)),
             peak: Batches::of_extreme(&peaks),
-            kurtosis: without(&Powers::kurtosis),
+            kurtosis: without(&MomentSums::kurtosis),
         }
     }
 }
 
 /// Sums of the first four powers of what samples differ from the mean of the record.
 #[derive(Default)]
-struct Powers {
+struct MomentSums {
     count: f64,
     sums: [f64; 4],
 }
 
-impl Powers {
+impl MomentSums {
     fn of(x: &[f64], mean: f64) -> Self {
         let sums = x.iter().fold([0.0; 4], |[s1, s2, s3, s4], x| {
             let (d, d2) = (x - mean, (x - mean).powi(2));

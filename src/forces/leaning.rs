@@ -9,7 +9,7 @@
 
 use nalgebra::{Vector3, Vector6};
 
-use super::{Account, OnRing, State, Table, load, unbalance};
+use super::{Account, RingWrench, State, Table, load, unbalance};
 use crate::contact::LeaningRing;
 use crate::model::{CoupledModel, Degree, Dof, Model, Race, RingModel};
 use crate::scene::Drive;
@@ -32,7 +32,7 @@ pub(crate) fn support(
     state: &State,
     leaning: &LeaningRing,
     on_spin: f64,
-) -> OnRing {
+) -> RingWrench {
     let ring = &model.rings[race];
     let [tilt, rates] = state.tilt(race);
     let mut forces = [0.0, 0.0, on_spin];
@@ -41,7 +41,7 @@ pub(crate) fn support(
             forces[i] -= stiffness * (tilt[i] - ring.tilt[i]) + damping * rates[i];
         }
     }
-    let mut sum = OnRing::default();
+    let mut sum = RingWrench::default();
     if let Some(coupled) = &ring.coupled {
         let [places, speeds] = stretched(ring, coupled, race, state, leaning);
         let pull = -(coupled.stiffness * places + coupled.damping * speeds);

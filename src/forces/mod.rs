@@ -76,7 +76,7 @@ impl Use {
 
 /// Force on a ring's centre of mass \[N\] and moment about it \[N m\], in the scene's frame.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct OnRing {
+pub(crate) struct RingWrench {
     pub force: Vector3<f64>,
     pub moment: Vector3<f64>,
 }

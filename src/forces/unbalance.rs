@@ -13,7 +13,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Force, OnRing, State, Table, Use, drive};
+use super::{Force, RingWrench, State, Table, Use, drive};
 use crate::contact::{V2, cross};
 use crate::model::{DOFS, Dof, Model, Race, UnbalanceModel};
 use crate::tilt::Frame;
@@ -78,8 +78,8 @@ pub(crate) fn on_leaning(
     state: &State,
     ring: Race,
     frame: &Frame,
-) -> OnRing {
-    let mut sum = OnRing::default();
+) -> RingWrench {
+    let mut sum = RingWrench::default();
     if model.unbalances.is_empty() {
         return sum;
     }

@@ -1,6 +1,6 @@
 //! Energies and dissipated powers of a state.
 
-use super::powers::Powers;
+use super::powers::ContactPowers;
 use crate::contact::{OilTouch, Sink, Touch};
 use crate::forces;
 use crate::model::{Dof, Model, Race};
@@ -55,7 +55,7 @@ impl Energy {
 #[derive(Default)]
 struct Contacts {
     energy: f64,
-    powers: Powers,
+    powers: ContactPowers,
 }
 
 impl Sink for Contacts {

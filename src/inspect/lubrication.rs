@@ -1,6 +1,6 @@
 //! Films and losses of a row's oil in a state.
 
-use super::powers::Powers;
+use super::powers::ContactPowers;
 use crate::contact::film::FilmNow;
 use crate::contact::{Aside, OilTouch, Sink, Touch};
 use crate::forces;
@@ -62,7 +62,7 @@ impl Lubrication {
 struct Resistance {
     /// On the ring about its centre \[N m\].
     moment: f64,
-    powers: Powers,
+    powers: ContactPowers,
 }
 
 impl Sink for Resistance {
@@ -91,7 +91,7 @@ pub fn lubrication(model: &Model, y: &[f64], row: usize) -> Lubrication {
     let speed = speed(Race::Inner) - speed(Race::Outer);
     let films = Race::BOTH.map(|race| film(model, (row, race), speed));
     let [outer, inner] = Race::BOTH.map(|race| resistance(model, y, (row, race)));
-    let lost = |of: fn(&Powers) -> f64| of(&outer.powers) + of(&inner.powers);
+    let lost = |of: fn(&ContactPowers) -> f64| of(&outer.powers) + of(&inner.powers);
     let or_none = |of: fn(&FilmNow) -> f64| films.map(|now| now.as_ref().map_or(f64::NAN, of));
     Lubrication {
         film: or_none(FilmNow::central),

@@ -17,4 +17,4 @@ pub use films::{RaceFilm, films};
 pub use lubrication::{Lubrication, lubrication};
 pub use moments::moments;
 pub(crate) use moments::{MOMENTS, MomentOnRing};
-pub(crate) use stiffest::{Element, stiffest};
+pub(crate) use stiffest::{StiffElement, stiffest};

@@ -4,7 +4,7 @@ use crate::contact::{OilTouch, Touch};
 
 /// Powers that contacts take out \[W\].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Powers {
+pub(super) struct ContactPowers {
     /// By slip.
     pub slip: f64,
     /// By damping, of steel and film.
@@ -13,7 +13,7 @@ pub(super) struct Powers {
     pub rolling: f64,
 }
 
-impl Powers {
+impl ContactPowers {
     /// Adds those of a single force.
     pub fn touch(&mut self, touch: &Touch) {
         self.slip += touch.friction_power;

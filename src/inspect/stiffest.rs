@@ -9,7 +9,7 @@ use crate::model::{BodyId, Dof, Model, Race};
 const NAMED: usize = 4;
 
 /// A contact, a cage or a support.
-pub(crate) struct Element {
+pub(crate) struct StiffElement {
     /// `row0.ball3.outer` (ball and race), `row0.cage` or `outer.support`.
     pub name: String,
     /// A body it acts on.
@@ -20,7 +20,7 @@ pub(crate) struct Element {
     rate: f64,
 }
 
-impl std::fmt::Display for Element {
+impl std::fmt::Display for StiffElement {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self {
             name, state, rate, ..
@@ -31,7 +31,7 @@ impl std::fmt::Display for Element {
 
 /// The contacts that touch, cages and supports of a body in a state, the fastest first; all without a body. An
 /// explicit step is held below about 3.3 over the rate.
-pub(crate) fn stiffest(model: &Model, y: &[f64], body: Option<BodyId>) -> Vec<Element> {
+pub(crate) fn stiffest(model: &Model, y: &[f64], body: Option<BodyId>) -> Vec<StiffElement> {
     let concerns = |touched: &[BodyId]| body.is_none_or(|b| touched.contains(&b));
     let contacts = (0..model.balls.len())
         .flat_map(|j| Race::BOTH.map(|race| (j, race)))
@@ -47,14 +47,14 @@ pub(crate) fn stiffest(model: &Model, y: &[f64], body: Option<BodyId>) -> Vec<El
     let supports = supports
         .filter(|&body| concerns(&[body]))
         .filter_map(|body| of_support(model, body));
-    let mut found: Vec<Element> = contacts.chain(cages).chain(supports).collect();
+    let mut found: Vec<StiffElement> = contacts.chain(cages).chain(supports).collect();
     found.sort_by(|a, b| b.rate.total_cmp(&a.rate));
     found.truncate(NAMED);
     found
 }
 
 /// A sliding ball's N (1/m + R²/I) μ(u)/√(u² + v_s²), and Hunt–Crossley's 3/2 α_d N/m.
-fn of_contact(model: &Model, y: &[f64], j: usize, race: Race) -> Option<Element> {
+fn of_contact(model: &Model, y: &[f64], j: usize, race: Race) -> Option<StiffElement> {
     let (ball, body) = (&model.balls[j], &model.bodies[BodyId::ball(j)]);
     let pair = &model.rows[ball.row].pairs[race];
     let contact = contact(model, y, j, race);
@@ -62,7 +62,7 @@ fn of_contact(model: &Model, y: &[f64], j: usize, race: Race) -> Option<Element>
     let traction = pair.law.traction;
     let friction = traction.map_or(0.0, |law| law.at(contact.slip) * mobility);
     let damping = pair.law.damping.rate() / body.mass[Dof::X];
-    (contact.load > 0.0).then(|| Element {
+    (contact.load > 0.0).then(|| StiffElement {
         name: format!("{}.{}", body.name, race.name()),
         body: BodyId::ball(j),
         state: format!(
@@ -75,9 +75,9 @@ fn of_contact(model: &Model, y: &[f64], j: usize, race: Race) -> Option<Element>
 }
 
 /// The links of the cage that damp a ball.
-fn of_cage(model: &Model, row: usize) -> Option<Element> {
+fn of_cage(model: &Model, row: usize) -> Option<StiffElement> {
     let rate = forces::cage::rate(model, row);
-    (rate > 0.0).then(|| Element {
+    (rate > 0.0).then(|| StiffElement {
         name: format!("row{row}.cage"),
         body: model.rows[row].first_body(),
         state: String::new(),
@@ -86,9 +86,9 @@ fn of_cage(model: &Model, row: usize) -> Option<Element> {
 }
 
 /// The fastest direction of a body's dampers.
-fn of_support(model: &Model, body: BodyId) -> Option<Element> {
+fn of_support(model: &Model, body: BodyId) -> Option<StiffElement> {
     let rate = forces::support::rate(model, body);
-    (rate > 0.0).then(|| Element {
+    (rate > 0.0).then(|| StiffElement {
         name: format!("{}.support", model.bodies[body].name),
         body,
         state: String::new(),

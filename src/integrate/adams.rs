@@ -20,8 +20,8 @@
 use super::System;
 use super::combine::{Each, pass};
 use super::control::Controller;
-use super::method::Method;
-use super::multistep::{Formulae, History, Known, NODES};
+use super::method::StepMethod;
+use super::multistep::{Formulae, History, KnownWeights, NODES};
 use super::step::{Stepper, check_finite};
 use super::tableau::Tableau;
 use crate::simd::{Simd, Vector};
@@ -57,7 +57,7 @@ const TABLEAU: Tableau = Tableau {
     stability_limit: f64::INFINITY,
 };
 
-impl<S: LinearlyImplicit> Method<S> for Adams {
+impl<S: LinearlyImplicit> StepMethod<S> for Adams {
     fn tableau(&self) -> &Tableau {
         &TABLEAU
     }
@@ -155,7 +155,7 @@ fn halves(state: &mut [f64]) -> [&mut [f64]; 2] {
 /// Position, velocity and acceleration, from those at the beginning of a step and three accelerations.
 struct Prediction {
     h: f64,
-    weights: [Known; 3],
+    weights: [KnownWeights; 3],
 }
 
 impl Each<5, 3> for Prediction {

@@ -60,7 +60,7 @@ impl<K: AsRef<[f64]>> Wide for Combination<'_, K> {
         let Self {
             out, base, h, k, ..
         } = self;
-        let fused = Fused {
+        let fused = FusedPass {
             out,
             h,
             weights: &weights,
@@ -75,7 +75,7 @@ impl<K: AsRef<[f64]>> Wide for Combination<'_, K> {
 }
 
 /// The same with the zeros gone.
-struct Fused<'a, K> {
+struct FusedPass<'a, K> {
     out: &'a mut [f64],
     h: f64,
     weights: &'a [f64; MAX_TERMS],
@@ -83,7 +83,7 @@ struct Fused<'a, K> {
     k: &'a [K],
 }
 
-impl<K: AsRef<[f64]>> Fused<'_, K> {
+impl<K: AsRef<[f64]>> FusedPass<'_, K> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn onto<S: Simd, const BASE: bool>(self, simd: S, base: &[f64], terms: usize) {

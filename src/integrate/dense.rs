@@ -14,7 +14,7 @@ pub(super) enum Weights<'a> {
     /// A Runge–Kutta method's: of every derivative in every state.
     OfDerivatives(&'a [[f64; 4]]),
     /// Of every acceleration in velocities, and integrated once more in positions.
-    OfAccelerations(&'a multistep::Weights),
+    OfAccelerations(&'a multistep::AdamsWeights),
 }
 
 /// An accepted step, as the observer sees it.
@@ -115,7 +115,7 @@ impl<'a> DenseStep<'a> {
         );
     }
 
-    fn by_accelerations(&self, theta: f64, weights: &multistep::Weights, out: &mut [f64]) {
+    fn by_accelerations(&self, theta: f64, weights: &multistep::AdamsWeights, out: &mut [f64]) {
         let half = self.y0.len() / 2;
         let (q, v) = out.split_at_mut(half.min(out.len()));
         let accelerations = [0, 1, 2, 3].map(|i| &self.k[i][half..]);

@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 use super::clock::{Clock, ulp};
 use super::control::Control;
 use super::failure::{Failure, FailureKind, Invalid};
-use super::method::Method;
+use super::method::StepMethod;
 use super::norm::{Norm, Tolerance, Worst};
 use super::options::Options;
 use super::start::first_step;
-use super::stats::Statistics;
+use super::stats::StepStatistics;
 use super::step::Stepper;
 use super::stops::{Plan, Stops};
 use super::{Observer, System};
@@ -26,7 +26,7 @@ pub struct Solution {
     /// The state at that time.
     pub y: Vec<f64>,
     /// What it has cost.
-    pub stats: Statistics,
+    pub stats: StepStatistics,
     /// Whether the observer ended it.
     pub interrupted: bool,
 }
@@ -48,7 +48,7 @@ pub struct Solution {
 ///   breakpoint is not finite, or [`Options::max_rejections`] ever smaller steps
 ///   in a row met a non-finite number or an implicit stage without a solution;
 /// * [`FailureKind::TooSmall`] — the step fell below 16 ulps of the time.
-pub fn integrate<S: System, M: Method<S>, O: Observer<S>>(
+pub fn integrate<S: System, M: StepMethod<S>, O: Observer<S>>(
     system: &mut S,
     method: &M,
     t_span: (f64, f64),
@@ -68,7 +68,7 @@ pub fn integrate<S: System, M: Method<S>, O: Observer<S>>(
     let mut norm = Norm::new(tolerance);
     let mut control = Control::new(&options.controller);
     let mut work = Stepper::new(tableau, method.is_multistep(), y0);
-    let mut stats = Statistics::default();
+    let mut stats = StepStatistics::default();
     let mut interrupted = false;
 
     let not_finite = |time, i| fail(time, 0.0, tolerance.group_of(i), FailureKind::NonFinite);

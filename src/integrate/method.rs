@@ -10,7 +10,7 @@ use super::tableau::Tableau;
 ///
 /// Its implementations are the explicit [`Tableau`] for any system, and
 /// [`Additive`] and the multistep [`Adams`](super::Adams) for systems with stiff velocities.
-pub trait Method<S> {
+pub trait StepMethod<S> {
     /// Weights, error weights and dense output.
     fn tableau(&self) -> &Tableau;
 
@@ -40,7 +40,7 @@ pub trait Method<S> {
     ) -> Result<(), usize>;
 }
 
-impl<S: System> Method<S> for Tableau {
+impl<S: System> StepMethod<S> for Tableau {
     fn tableau(&self) -> &Tableau {
         self
     }
@@ -57,7 +57,7 @@ impl<S: System> Method<S> for Tableau {
     }
 }
 
-impl<S: ImplicitVelocity> Method<S> for Additive {
+impl<S: ImplicitVelocity> StepMethod<S> for Additive {
     fn tableau(&self) -> &Tableau {
         &self.explicit
     }

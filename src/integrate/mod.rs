@@ -79,10 +79,10 @@ pub use control::Controller;
 pub use dense::DenseStep;
 pub use driver::{Solution, integrate};
 pub use failure::{Failure, FailureKind, Invalid};
-pub use method::Method;
+pub use method::StepMethod;
 pub use norm::Tolerance;
 pub use options::Options;
-pub use stats::Statistics;
+pub use stats::StepStatistics;
 pub use tableau::{DORMAND_PRINCE, Tableau};
 pub use tableau_additive::KENNEDY_CARPENTER;
 pub use tableau_verner::VERNER;
@@ -123,25 +123,25 @@ pub trait Observer<S> {
         &mut self,
         system: &mut S,
         step: &DenseStep<'_>,
-        stats: &Statistics,
+        stats: &StepStatistics,
     ) -> ControlFlow<()>;
 }
 
 impl<S> Observer<S> for () {
-    fn accepted(&mut self, _: &mut S, _: &DenseStep<'_>, _: &Statistics) -> ControlFlow<()> {
+    fn accepted(&mut self, _: &mut S, _: &DenseStep<'_>, _: &StepStatistics) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 }
 
 impl<S, F> Observer<S> for F
 where
-    F: FnMut(&mut S, &DenseStep<'_>, &Statistics) -> ControlFlow<()>,
+    F: FnMut(&mut S, &DenseStep<'_>, &StepStatistics) -> ControlFlow<()>,
 {
     fn accepted(
         &mut self,
         system: &mut S,
         step: &DenseStep<'_>,
-        stats: &Statistics,
+        stats: &StepStatistics,
     ) -> ControlFlow<()> {
         self(system, step, stats)
     }

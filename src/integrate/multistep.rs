@@ -6,10 +6,10 @@ use super::combine::combine;
 pub(super) const NODES: usize = 4;
 
 /// Weights of accelerations in a velocity, as polynomials in the share θ of the step: d₀θ + d₁θ² + d₂θ³ + d₃θ⁴.
-pub(super) type Weights = [[f64; NODES]; NODES];
+pub(super) type AdamsWeights = [[f64; NODES]; NODES];
 
 /// What the accelerations weigh that are known at the beginning of a step.
-pub(super) type Known = [f64; NODES - 1];
+pub(super) type KnownWeights = [f64; NODES - 1];
 
 /// The steps behind, as far as they are known.
 #[derive(Debug, Clone, Copy)]
@@ -61,14 +61,14 @@ pub(super) struct Formulae {
     /// Of the accelerations, that at the end of the step first.
     times: [f64; NODES],
     /// Of the known accelerations in the predicted position, velocity and acceleration.
-    pub predicted: [Known; 3],
+    pub predicted: [KnownWeights; 3],
     /// γ, of the new acceleration in the velocity.
     pub gamma: f64,
     /// Correction of the position over that of the velocity, and the errors of both over it.
     pub reach: f64,
     pub errors: [f64; 2],
     /// Of all accelerations within the step, in the order of the derivatives: the new one last.
-    pub weights: Weights,
+    pub weights: AdamsWeights,
 }
 
 impl Formulae {
@@ -106,7 +106,7 @@ fn slope(integral: [f64; NODES]) -> f64 {
 }
 
 /// Integrals from 0 to θ of Lagrange's polynomials over some times.
-pub(super) fn integrals(times: &[f64]) -> Weights {
+pub(super) fn integrals(times: &[f64]) -> AdamsWeights {
     let mut all = [[0.0; NODES]; NODES];
     for (i, weights) in all.iter_mut().enumerate().take(times.len()) {
         // Π (θ − τⱼ)/(τᵢ − τⱼ), factor by factor.
@@ -127,7 +127,7 @@ pub(super) fn integrals(times: &[f64]) -> Weights {
 }
 
 /// At a share θ of the step: what accelerations weigh in the velocity, over h, and in the position, over h².
-pub(super) fn at(theta: f64, weights: &Weights) -> ([f64; NODES], [f64; NODES]) {
+pub(super) fn at(theta: f64, weights: &AdamsWeights) -> ([f64; NODES], [f64; NODES]) {
     let velocity = weights.map(|d| theta * (d[0] + theta * (d[1] + theta * (d[2] + theta * d[3]))));
     let position = weights.map(|d| {
         let inner = d[1] / 3.0 + theta * (d[2] / 4.0 + theta * d[3] / 5.0);
@@ -141,7 +141,7 @@ pub(super) fn advance(
     (q, v): (&mut [f64], &mut [f64]),
     y: &[f64],
     h: f64,
-    (theta, weights): (f64, &Weights),
+    (theta, weights): (f64, &AdamsWeights),
     accelerations: &[&[f64]],
 ) {
     let (positions, velocities) = y.split_at(y.len() / 2);

@@ -10,7 +10,7 @@ const STIFF_SHARE: f64 = 3.25 / 3.3066;
 /// What an integration has cost and met so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct Statistics {
+pub struct StepStatistics {
     /// Steps accepted.
     pub accepted: usize,
     /// Steps rejected, for their error or for a non-finite number.
@@ -33,7 +33,7 @@ pub struct Statistics {
     pub capped: usize,
 }
 
-impl Default for Statistics {
+impl Default for StepStatistics {
     fn default() -> Self {
         Self {
             accepted: 0,
@@ -49,7 +49,7 @@ impl Default for Statistics {
     }
 }
 
-impl Statistics {
+impl StepStatistics {
     /// Share of the accepted steps that were stiff, 0 to 1; 0 without steps.
     #[must_use]
     pub fn share_stiff(&self) -> f64 {

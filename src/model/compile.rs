@@ -13,7 +13,7 @@ use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
 use crate::contact::hertz::Hertz;
 use crate::contact::{
-    BallSide, Damping, Elastic, Fault, Law, Pair, Rules, Shape, Slices, Torus, Traction, Waves,
+    BallSide, Damping, Elastic, Fault, Law, Pair, Rules, Shape, Torus, Traction, Waves, ZoneSlices,
 };
 use crate::scene::{self, Approximations, Defect, Drive, Mount, Row, Scene, Surface};
 use crate::simd::InstructionSet;
@@ -95,19 +95,12 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     Ok(model)
 }
 
-/// Gives all nodes weights for friction, and each race the fewest nodes that reach the accuracy it asks for: rows that are alike
-/// in all else the same number, so that they stay alike.
+/// Gives each race the fewest nodes that reach the accuracy it asks for: rows that are alike in all else the same number, so that
+/// they stay alike.
 fn fit_nodes(model: &mut Model) {
     let finer = nodes::finer(model);
-    for pair in model.rows.iter_mut().flat_map(|row| &mut row.pairs) {
-        pair.change(|flank| {
-            if let Slices::Fitted(rules) = &flank.slices {
-                let exponent = flank.law.elastic.exponent();
-                flank.slices = Slices::Fitted(Rules::for_friction(rules.count(), exponent, finer));
-            }
-        });
-    }
-    let fewest: Vec<Option<[Slices; 2]>> = (0..model.rows.len())
+    weigh_friction(model, finer);
+    let fewest: Vec<Option<[ZoneSlices; 2]>> = (0..model.rows.len())
         .map(|row| {
             let scene::Slices::Accuracy(accuracy) =
                 model.scene.contact_of(&model.scene.rows[row]).slices
@@ -125,6 +118,18 @@ fn fit_nodes(model: &mut Model) {
         }
     }
     classify(&mut model.rows);
+}
+
+/// Gives all nodes weights for friction.
+fn weigh_friction(model: &mut Model, finer: usize) {
+    for pair in model.rows.iter_mut().flat_map(|row| &mut row.pairs) {
+        pair.change(|flank| {
+            if let ZoneSlices::Fitted(rules) = &flank.slices {
+                let rules = Rules::for_friction(rules.count(), flank.law.elastic.exponent(), finer);
+                flank.slices = ZoneSlices::Fitted(rules);
+            }
+        });
+    }
 }
 
 /// Sorts rows into classes: contacts of one class differ in numbers that every contact has of its own, and may be evaluated
@@ -236,10 +241,10 @@ fn whole(scene: &Scene, row: &Row, race: Race, (torus, hertz): (Torus, Hertz)) -
     let elastic = Elastic::new(&contact.law, row.ball_diameter, hertz);
     let exponent = elastic.exponent();
     let slices = match contact.slices {
-        scene::Slices::Fixed(n) => Slices::Fixed(n),
-        scene::Slices::Fitted(m) => Slices::Fitted(Rules::new(m, exponent)),
+        scene::Slices::Fixed(n) => ZoneSlices::Fixed(n),
+        scene::Slices::Fitted(m) => ZoneSlices::Fitted(Rules::new(m, exponent)),
         // Until the fewest are found.
-        scene::Slices::Accuracy(_) => Slices::Fitted(Rules::new(nodes::MANY, exponent)),
+        scene::Slices::Accuracy(_) => ZoneSlices::Fitted(Rules::new(nodes::MANY, exponent)),
     };
     Pair {
         race: torus,

@@ -21,7 +21,7 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use crate::contact::hertz::Hertz;
-use crate::contact::{BallSide, Pair, Slices};
+use crate::contact::{BallSide, Pair, ZoneSlices};
 use crate::scene::{Component, Scene, TimeFunction};
 use crate::simd::{InstructionSet, LANES};
 
@@ -32,7 +32,7 @@ pub(crate) use layout::RINGS;
 pub use layout::{BodyId, BodyKind, Layout, Race};
 pub use ring::layout_of;
 pub(crate) use ring::{CoupledModel, RingModel};
-pub(crate) use rolling::{Between, Rolling};
+pub(crate) use rolling::{Between, PureRolling};
 pub use scales::Scales;
 
 /// A compiled scene. Immutable and shared by threads.
@@ -303,8 +303,8 @@ impl Model {
         let nodes = |row: &RowModel| -> usize {
             let of = |pair: &Pair| match &pair.slices {
                 // About a third of the ball touches.
-                Slices::Fixed(count) => count / 3,
-                Slices::Fitted(rules) => rules.count(),
+                ZoneSlices::Fixed(count) => count / 3,
+                ZoneSlices::Fitted(rules) => rules.count(),
             };
             row.count * row.pairs.iter().map(of).sum::<usize>()
         };

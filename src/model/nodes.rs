@@ -1,7 +1,7 @@
 //! The number of nodes that a contact needs for a requested accuracy of its force.
 
 use super::{Between, Model, Race, Scales};
-use crate::contact::{BallSide, Motion, Pair, Rules, Sink, Slices, Touch, V2, Waves};
+use crate::contact::{BallSide, Motion, Pair, Rules, Sink, Touch, V2, Waves, ZoneSlices};
 
 /// Nodes against which others are measured.
 pub(super) const MANY: usize = 64;
@@ -51,9 +51,9 @@ pub(super) fn fewest(
     rows: &[usize],
     race: Race,
     (accuracy, finer): (f64, usize),
-) -> Slices {
+) -> ZoneSlices {
     let exponent = model.rows[rows[0]].pairs[race].law.elastic.exponent();
-    let rules = |m: usize| Slices::Fitted(Rules::for_friction(m, exponent, finer));
+    let rules = |m: usize| ZoneSlices::Fitted(Rules::for_friction(m, exponent, finer));
     let error = |m: usize| {
         let errors = rows.iter().map(|row| worst(model, *row, race, &rules(m)));
         errors.fold(0.0, f64::max)
@@ -71,7 +71,7 @@ pub(super) fn fewest(
 }
 
 /// Largest error over approaches and angles.
-fn worst(model: &Model, row: usize, race: Race, rules: &Slices) -> f64 {
+fn worst(model: &Model, row: usize, race: Race, rules: &ZoneSlices) -> f64 {
     let compiled = &model.rows[row];
     let mut many = compiled.pairs[race].clone();
     many.change(|flank| {
@@ -92,7 +92,7 @@ fn worst(model: &Model, row: usize, race: Race, rules: &Slices) -> f64 {
                 + turn;
             let (b, r) = rolling(model, (row, race), &pair, (approach, angle), ball.radius);
             let [few, exact] = [&pair, &many].map(|pair| {
-                let mut force = Force::default();
+                let mut force = NodeSum::default();
                 pair.evaluate(&ball, &b, &r, &mut force);
                 force
             });
@@ -170,12 +170,12 @@ fn rolling(
 
 /// Force on the ball, and the sum of the normal forces.
 #[derive(Default)]
-struct Force {
+struct NodeSum {
     total: [f64; 3],
     normal: f64,
 }
 
-impl Sink for Force {
+impl Sink for NodeSum {
     fn touch(&mut self, touch: &Touch) {
         let (on_ball, _) = touch.wrenches(touch.normal, 1.0);
         for (total, force) in self.total.iter_mut().zip(on_ball) {

@@ -111,13 +111,18 @@ impl Model {
     }
 
     /// The geometry of a race's film.
-    pub(crate) fn film_race(&self, row: &Row, race: Race, groove_radius: f64) -> film::Race {
+    pub(crate) fn film_race(
+        &self,
+        row: &Row,
+        race: Race,
+        groove_radius: f64,
+    ) -> film::LubricatedRace {
         let scene = &self.scene;
         let compliance = |material: &crate::scene::Material| {
             (1.0 - material.poisson_ratio.powi(2)) / material.youngs_modulus
         };
         let both = compliance(scene.ball_material_of(row)) + compliance(&scene.materials.rings);
-        film::Race {
+        film::LubricatedRace {
             sigma: race.sigma(),
             ball_diameter: row.ball_diameter,
             pitch_diameter: row.pitch_diameter,

@@ -19,7 +19,7 @@ use super::Race;
 
 /// A ball that rolls without slip on the outer race, which rests, and on the inner race.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Rolling {
+pub(crate) struct PureRolling {
     pub orbit: f64,
     /// ω_z.
     pub axial: f64,
@@ -42,7 +42,7 @@ pub(crate) struct Between {
 
 impl Between {
     /// Without pivoting on one race.
-    pub fn controlled_by(&self, race: Race) -> Rolling {
+    pub fn controlled_by(&self, race: Race) -> PureRolling {
         let Self {
             radius,
             distance,
@@ -62,7 +62,7 @@ impl Between {
         let free = speed * (distance - radius * cos_i);
         let pivots = along * radius * (on_outer.1 + on_inner.1);
         let rate = -(free + pivots) / lever;
-        Rolling {
+        PureRolling {
             orbit: -radius * (rate * on_outer.0 + along * on_outer.1) / distance,
             axial: rate * cos + along * sin,
             outward: along * cos - rate * sin,
@@ -70,7 +70,7 @@ impl Between {
     }
 
     /// Pivoting rates against outer and inner race \[rad/s\].
-    pub fn pivoting(&self, of: &Rolling) -> [f64; 2] {
+    pub fn pivoting(&self, of: &PureRolling) -> [f64; 2] {
         let [(sin_o, cos_o), (sin_i, cos_i)] = self.angles.map(f64::sin_cos);
         [
             of.outward * cos_o + of.axial * sin_o,
@@ -79,7 +79,7 @@ impl Between {
     }
 
     /// With pivoting rates as one over how much the races resist it: what friction far below sliding settles to.
-    pub fn resisted(&self, [outer, inner]: [f64; 2]) -> Rolling {
+    pub fn resisted(&self, [outer, inner]: [f64; 2]) -> PureRolling {
         let [at_outer, at_inner] = Race::BOTH.map(|race| self.controlled_by(race));
         let ([_, inner_rate], [outer_rate, _]) =
             (self.pivoting(&at_outer), self.pivoting(&at_inner));
@@ -87,7 +87,7 @@ impl Between {
         let both = held_outside + held_inside;
         let share = if both > 0.0 { held_outside / both } else { 0.5 };
         let mix = |a: f64, b: f64| share * a + (1.0 - share) * b;
-        Rolling {
+        PureRolling {
             orbit: mix(at_outer.orbit, at_inner.orbit),
             axial: mix(at_outer.axial, at_inner.axial),
             outward: mix(at_outer.outward, at_inner.outward),

@@ -138,9 +138,9 @@ fn tilts(model: &Model, scales: &Scales) -> f64 {
 }
 
 /// Adds up the elastic force.
-struct Elastic(f64);
+struct ElasticTotal(f64);
 
-impl Sink for Elastic {
+impl Sink for ElasticTotal {
     fn touch(&mut self, touch: &Touch) {
         self.0 += touch.elastic * touch.share.0;
     }
@@ -176,7 +176,7 @@ impl Bottom {
             z,
             ..Motion::default()
         };
-        let mut sum = Elastic(0.0);
+        let mut sum = ElasticTotal(0.0);
         let (ball, ring) = (at(distance, z), at(0.0, 0.0));
         self.pair.evaluate(&self.ball, &ball, &ring, &mut sum);
         sum.0

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::base::error::{Error, Result};
 use crate::base::interrupt;
-use crate::integrate::Statistics;
+use crate::integrate::StepStatistics;
 
 /// Works under a limit of wall time \[s\], checked as often as `progress` is called, so about every 20 ms, and by static
 /// solves at every iteration.
@@ -67,7 +67,7 @@ impl StepBudget {
     }
 
     /// Whether no step is left after an accepted one.
-    pub fn spent(&mut self, stats: &Statistics) -> bool {
+    pub fn spent(&mut self, stats: &StepStatistics) -> bool {
         if stats.accepted == 1 {
             self.before += self.now;
         }
@@ -90,11 +90,11 @@ impl StepBudget {
 mod tests {
     use super::*;
 
-    fn counted(accepted: usize, rejected: usize) -> Statistics {
-        Statistics {
+    fn counted(accepted: usize, rejected: usize) -> StepStatistics {
+        StepStatistics {
             accepted,
             rejected,
-            ..Statistics::default()
+            ..StepStatistics::default()
         }
     }
 

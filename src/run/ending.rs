@@ -2,7 +2,7 @@
 
 use super::escape::{self, FINER};
 use crate::base::error::Error;
-use crate::inspect::{Element, stiffest};
+use crate::inspect::{StiffElement, stiffest};
 use crate::integrate::{Failure, FailureKind};
 use crate::model::{BodyId, Model};
 
@@ -77,7 +77,7 @@ fn stopped(
         },
         contacts: found
             .into_iter()
-            .map(|element: Element| element.name)
+            .map(|element: StiffElement| element.name)
             .collect(),
     }
 }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::budget::StepBudget;
 use super::ending::{Halt, broken};
-use super::method::{self, Task};
+use super::method::{self, Integration};
 use super::orbit;
 use super::runaway;
 use super::step_collapse::StepCollapse;
@@ -28,7 +28,7 @@ const ROOM: f64 = 4.0;
 
 /// A time to integrate over: it begins at 0 on the integrator's clock and, maybe before it, on that of the run \[s\].
 #[derive(Clone, Copy)]
-pub(crate) struct Stretch {
+pub(crate) struct Interval {
     pub begins: f64,
     pub length: f64,
     /// Steps that it may take.
@@ -36,7 +36,7 @@ pub(crate) struct Stretch {
 }
 
 /// Sees the first state of a stretch and every accepted step, on the integrator's clock.
-pub(crate) trait Watch: Send {
+pub(crate) trait StepWatch: Send {
     fn first(&mut self, dynamics: &mut Dynamics<'_>, y: &[f64]);
 
     /// Breaks off to end the stretch.
@@ -53,7 +53,7 @@ pub(crate) trait Watch: Send {
     }
 }
 
-impl Watch for Recorder<'_> {
+impl StepWatch for Recorder<'_> {
     fn first(&mut self, dynamics: &mut Dynamics<'_>, y: &[f64]) {
         Recorder::first(self, dynamics, 0.0, y);
     }
@@ -74,13 +74,13 @@ impl Watch for Recorder<'_> {
 /// Integrates over a stretch from a state of all bodies; returns the last one.
 pub(crate) fn follow(
     mut dynamics: Dynamics<'_>,
-    watch: &mut dyn Watch,
+    watch: &mut dyn StepWatch,
     y0: &[f64],
-    stretch: Stretch,
+    stretch: Interval,
     options: &Options,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<(Vec<f64>, Statistics, &'static str)> {
-    let Stretch {
+    let Interval {
         begins,
         length,
         max_steps,
@@ -98,7 +98,7 @@ pub(crate) fn follow(
     let (mut last, mut last_time) = (own.clone(), 0.0);
     watch.first(&mut dynamics, &own);
     let mut observe =
-        |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, stats: &integrate::Statistics| {
+        |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, stats: &integrate::StepStatistics| {
             // The last evaluation was at the accepted state.
             pulls += dynamics.pulls();
             truncated += dynamics.truncated();
@@ -128,7 +128,7 @@ pub(crate) fn follow(
         };
     let solved = method::run(
         &mut dynamics,
-        Task {
+        Integration {
             span: (0.0, length),
             y0: &own,
             tolerance: &tolerance,
@@ -166,7 +166,7 @@ pub(crate) fn follow(
 /// Results of a stretch from the integration and from the states of all bodies at its start and end.
 fn statistics(
     model: &Model,
-    stats: &integrate::Statistics,
+    stats: &integrate::StepStatistics,
     (first, last): (&[f64], &[f64]),
 ) -> Statistics {
     let share = |steps: usize| steps as f64 / stats.accepted.max(1) as f64;
@@ -200,7 +200,7 @@ fn statistics(
 /// Where it cannot go on, the samples make do with what there is.
 fn go_on(
     dynamics: &mut Dynamics<'_>,
-    watch: &mut dyn Watch,
+    watch: &mut dyn StepWatch,
     (end, y): (f64, &[f64]),
     (tolerance, options): (&Tolerance, &Options),
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
@@ -212,7 +212,7 @@ fn go_on(
     let mut collapse = StepCollapse::new(dynamics.model(), options.max_step);
     let (mut told, mut stopped) = (Instant::now(), false);
     let mut observe =
-        |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &integrate::Statistics| {
+        |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &integrate::StepStatistics| {
             if dynamics.lost().is_some() || collapse.after(step.h()) {
                 return ControlFlow::Break(());
             }
@@ -227,7 +227,7 @@ fn go_on(
                 ControlFlow::Continue(())
             }
         };
-    let task = Task {
+    let task = Integration {
         span: (end, until),
         y0: y,
         tolerance,
@@ -241,7 +241,7 @@ fn go_on(
 }
 
 /// There are no more steps of a stretch that ends at a time \[s\].
-fn finish(watch: &mut dyn Watch, time: f64) -> Result<()> {
+fn finish(watch: &mut dyn StepWatch, time: f64) -> Result<()> {
     match watch.finish() {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(Error::Interrupted { time }),

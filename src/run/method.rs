@@ -5,14 +5,14 @@ use std::ops::ControlFlow;
 use crate::dynamics::Dynamics;
 use crate::integrate::{
     self, Adams, DORMAND_PRINCE, DenseStep, Failure, KENNEDY_CARPENTER, Observer, Options,
-    Solution, Statistics, System, Tolerance, VERNER, integrate,
+    Solution, StepStatistics, System, Tolerance, VERNER, integrate,
 };
 use crate::scene::Method;
 use crate::velocities::{Damped, ImplicitDynamics};
 
 /// From where to where, and how well.
 #[derive(Clone, Copy)]
-pub(crate) struct Task<'a> {
+pub(crate) struct Integration<'a> {
     pub span: (f64, f64),
     pub y0: &'a [f64],
     pub tolerance: &'a Tolerance,
@@ -22,7 +22,7 @@ pub(crate) struct Task<'a> {
 /// Integrates by the scene's method, and says what that is called.
 pub(crate) fn run<'m, O: Observer<Dynamics<'m>>>(
     dynamics: &mut Dynamics<'m>,
-    task: Task<'_>,
+    task: Integration<'_>,
     observer: &mut O,
 ) -> Result<(Solution, &'static str), Failure> {
     match dynamics.model().scene().solver.method {
@@ -43,15 +43,15 @@ pub(crate) fn run<'m, O: Observer<Dynamics<'m>>>(
 fn by<S, M, O>(
     method: &M,
     system: &mut S,
-    task: Task<'_>,
+    task: Integration<'_>,
     observer: &mut O,
 ) -> Result<(Solution, &'static str), Failure>
 where
     S: System,
-    M: integrate::Method<S>,
+    M: integrate::StepMethod<S>,
     O: Observer<S>,
 {
-    let Task {
+    let Integration {
         span,
         y0,
         tolerance,
@@ -73,7 +73,7 @@ impl<'m, O: Observer<Dynamics<'m>>> Observer<ImplicitDynamics<'_, 'm>> for Throu
         &mut self,
         system: &mut ImplicitDynamics<'_, 'm>,
         step: &DenseStep<'_>,
-        stats: &Statistics,
+        stats: &StepStatistics,
     ) -> ControlFlow<()> {
         self.0.accepted(system.dynamics, step, stats)
     }
@@ -84,7 +84,7 @@ impl<'m, O: Observer<Dynamics<'m>>> Observer<Damped<'_, 'm>> for Through<'_, O> 
         &mut self,
         system: &mut Damped<'_, 'm>,
         step: &DenseStep<'_>,
-        stats: &Statistics,
+        stats: &StepStatistics,
     ) -> ControlFlow<()> {
         self.0.accepted(system.dynamics, step, stats)
     }

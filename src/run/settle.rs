@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use super::Run;
-use super::follow::{Stretch, Watch, follow, options, threads};
+use super::follow::{Interval, StepWatch, follow, options, threads};
 use crate::base::error::Result;
 use crate::contact::Pair;
 use crate::dynamics::Dynamics;
@@ -72,7 +72,7 @@ pub(crate) fn settle(
         ..options(&model)
     };
     let dynamics = Dynamics::begin(&model, Reduction::of(&model, &before).as_ref(), &before);
-    let stretch = Stretch {
+    let stretch = Interval {
         begins: -seconds,
         length: seconds,
         max_steps: run.max_steps,
@@ -94,7 +94,7 @@ pub(crate) fn settle(
 /// Without an observer while the start settles.
 struct Unseen;
 
-impl Watch for Unseen {
+impl StepWatch for Unseen {
     fn first(&mut self, _: &mut Dynamics<'_>, _: &[f64]) {}
     fn step(&mut self, _: &mut Dynamics<'_>, _: &DenseStep<'_>) -> ControlFlow<()> {
         ControlFlow::Continue(())

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::Run;
 use super::budget;
-use super::follow::{Stretch, follow, options, threads};
+use super::follow::{Interval, follow, options, threads};
 use super::prepare::{Prepared, check_memory, prepare};
 use super::provenance::{Done, provenance};
 use crate::base::error::Result;
@@ -13,7 +13,7 @@ use crate::reduction::Reduction;
 use crate::run::pool::on;
 use crate::run::selftest;
 use crate::scene::Scene;
-use crate::signals::{Block, Recorder, Sampling, Signals, Sink};
+use crate::signals::{Block, BlockSink, Recorder, Sampling, Signals};
 use crate::statics::compile;
 use crate::statics::start::start;
 
@@ -98,7 +98,7 @@ pub fn simulate_into<'a>(
 fn limited(
     scene: &Scene,
     run: &Run,
-    sink: Option<Sink<'_>>,
+    sink: Option<BlockSink<'_>>,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Signals> {
     run.validate()?;
@@ -111,7 +111,7 @@ fn limited(
 fn unlimited(
     scene: &Scene,
     run: &Run,
-    sink: Option<Sink<'_>>,
+    sink: Option<BlockSink<'_>>,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Signals> {
     let in_blocks = sink.is_some();
@@ -130,7 +130,7 @@ fn unlimited(
 
     let threads = threads(&model, run.threads)?;
     let options = options(&model);
-    let stretch = Stretch {
+    let stretch = Interval {
         begins: 0.0,
         length: run.duration,
         max_steps: run.max_steps,

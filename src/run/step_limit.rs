@@ -10,7 +10,7 @@ use crate::model::Model;
 use crate::scene::Method;
 
 /// What a method bears.
-struct Bounds {
+struct MethodBounds {
     /// Largest ωh.
     oscillation: f64,
     /// c and p: an undamped oscillation is wrong by c (ωh)^p a radian.
@@ -28,25 +28,25 @@ const LIGHTEST: f64 = 60.0;
 
 /// Measured over 3 ms against Dormand–Prince at rtol 1e-10 with a tenth of its step, on the presets and random scenes
 /// (`tests/accuracy/method_defaults.rs`).
-fn bounds(method: Method) -> Bounds {
+fn bounds(method: Method) -> MethodBounds {
     match method {
         // Dormand–Prince is stable to 1 on the imaginary axis and further when damped. On the faulted wheel bearing,
         // 6 ms with an impact, the outer ring's acceleration is wrong by 0.06 to 0.3 % at 1 for any rtol from 1e-3 to
         // 1e-6; without the cap by 6 % at rtol 1e-3.
-        Method::DormandPrince | Method::Verner => Bounds {
+        Method::DormandPrince | Method::Verner => MethodBounds {
             oscillation: 1.0,
             lag: (0.0, 1.0),
             rings: LIGHTEST,
         },
         // With contact stiffness in its matrix stable to 0.88 with half a percent of damping, to 1.5 with five. Undamped an
         // oscillation grows by 5.3e-3 (ωh)⁴ a radian, which any damping of note takes away.
-        Method::Adams => Bounds {
+        Method::Adams => MethodBounds {
             oscillation: 0.9,
             lag: (5.3e-3, 4.0),
             rings: 10.0,
         },
         // Of order four: arg R(iz) = z − z⁵/120.
-        Method::ImplicitFriction => Bounds {
+        Method::ImplicitFriction => MethodBounds {
             oscillation: 1.0,
             lag: (1.0 / 120.0, 4.0),
             rings: LIGHTEST,
@@ -60,7 +60,7 @@ pub(crate) fn largest(method: Method, model: &Model) -> f64 {
 }
 
 fn at_damping(method: Method, frequency: f64, damping: f64) -> f64 {
-    let Bounds {
+    let MethodBounds {
         oscillation,
         lag: (factor, power),
         rings,

@@ -177,11 +177,11 @@ impl<'de> Deserializer<'de> for Reader<'de> {
         visitor: V,
     ) -> Read<V::Value> {
         match self.0 {
-            Value::String(name) => visitor.visit_enum(Variant { name, value: None }),
+            Value::String(name) => visitor.visit_enum(VariantReader { name, value: None }),
             Value::Object(fields) if fields.len() == 1 => {
                 let (name, value) = fields.iter().next().expect("it has one");
                 let value = Some(Reader(value));
-                visitor.visit_enum(Variant { name, value })
+                visitor.visit_enum(VariantReader { name, value })
             }
             Value::Object(_) => Err(Misread::invalid_value(
                 Unexpected::Map,
@@ -255,12 +255,12 @@ impl<'de> MapAccess<'de> for Fields<'de> {
 }
 
 /// A name, alone or with what belongs to it.
-struct Variant<'de> {
+struct VariantReader<'de> {
     name: &'de str,
     value: Option<Reader<'de>>,
 }
 
-impl<'de> Variant<'de> {
+impl<'de> VariantReader<'de> {
     fn within(&self, misread: Misread) -> Misread {
         match self.value {
             Some(_) => misread.within(Segment::Field(self.name.to_owned())),
@@ -274,7 +274,7 @@ impl<'de> Variant<'de> {
     }
 }
 
-impl<'de> EnumAccess<'de> for Variant<'de> {
+impl<'de> EnumAccess<'de> for VariantReader<'de> {
     type Error = Misread;
     type Variant = Self;
 
@@ -284,7 +284,7 @@ impl<'de> EnumAccess<'de> for Variant<'de> {
     }
 }
 
-impl<'de> VariantAccess<'de> for Variant<'de> {
+impl<'de> VariantAccess<'de> for VariantReader<'de> {
     type Error = Misread;
 
     fn unit_variant(self) -> Read<()> {

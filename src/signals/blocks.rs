@@ -25,7 +25,7 @@ pub struct Block {
 }
 
 /// Takes the blocks of a record in their order, and may stop the run.
-pub(crate) type Sink<'a> = &'a mut (dyn FnMut(Block) -> ControlFlow<()> + Send + 'a);
+pub(crate) type BlockSink<'a> = &'a mut (dyn FnMut(Block) -> ControlFlow<()> + Send + 'a);
 
 /// Samples of a block of so many columns.
 fn block_rows(columns: usize) -> usize {
@@ -44,7 +44,7 @@ pub(crate) struct Held<'a> {
     count: usize,
     /// The sample in row 0.
     first: usize,
-    sink: Option<Sink<'a>>,
+    sink: Option<BlockSink<'a>>,
     /// Samples of a block.
     pub(super) block: usize,
     pub t: Vec<f64>,
@@ -53,7 +53,7 @@ pub(crate) struct Held<'a> {
 
 impl<'a> Held<'a> {
     /// Of `count` samples, which go to `sink` block by block, or stay.
-    pub fn new(columns: Vec<Column>, count: usize, sink: Option<Sink<'a>>) -> Self {
+    pub fn new(columns: Vec<Column>, count: usize, sink: Option<BlockSink<'a>>) -> Self {
         Self {
             count,
             first: 0,

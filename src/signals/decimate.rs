@@ -4,7 +4,7 @@
 use std::collections::VecDeque;
 
 use super::Column;
-use super::filter::{Kind, Taps, signed};
+use super::filter::{SampleKind, Taps, signed};
 
 /// Columns on their way from the grid to their samples.
 ///
@@ -14,7 +14,7 @@ use super::filter::{Kind, Taps, signed};
 pub(super) struct Decimator {
     taps: Taps,
     /// The columns that are filtered, and how.
-    columns: Vec<(usize, Kind)>,
+    columns: Vec<(usize, SampleKind)>,
     /// The point of the grid where row 0 of the columns stands.
     row0: i64,
     /// The first point, and the values there.
@@ -25,7 +25,7 @@ pub(super) struct Decimator {
 }
 
 impl Decimator {
-    pub fn new(taps: Taps, columns: Vec<(usize, Kind)>) -> Self {
+    pub fn new(taps: Taps, columns: Vec<(usize, SampleKind)>) -> Self {
         Self {
             taps,
             columns,
@@ -115,7 +115,7 @@ mod tests {
             values: vec![0.0; COUNT],
         };
         let mut out = vec![column(), column()];
-        let columns = vec![(0, Kind::Smooth), (1, Kind::Slope)];
+        let columns = vec![(0, SampleKind::Smooth), (1, SampleKind::Slope)];
         let mut decimator = Decimator::new(Taps::new(OVER, FS), columns);
         for point in first..=last {
             let x = x(point as f64 / (OVER as f64 * FS));

@@ -94,11 +94,11 @@ impl Taps {
     }
 
     /// Adds what a value at a point of the grid gives to the samples around it, or to those there are.
-    pub fn spread(&self, how: Kind, point: i64, value: f64, samples: &mut [f64]) {
+    pub fn spread(&self, how: SampleKind, point: i64, value: f64, samples: &mut [f64]) {
         let (first, at) = self.place(point);
         let taps = match how {
-            Kind::Smooth => &self.smooth[at..at + 2 * HALF],
-            Kind::Slope => &self.slope[at..at + 2 * HALF],
+            SampleKind::Smooth => &self.smooth[at..at + 2 * HALF],
+            SampleKind::Slope => &self.slope[at..at + 2 * HALF],
         };
         // Before sample 0 there is none.
         let skipped = index((-first).clamp(0, signed(taps.len())));
@@ -111,7 +111,7 @@ impl Taps {
 
 /// How values on the grid become samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum SampleKind {
     /// Filtered.
     Smooth,
     /// Filtered and differentiated in time.
@@ -186,7 +186,7 @@ mod tests {
                 })
                 .collect()
         };
-        let found = [of(Kind::Smooth), of(Kind::Slope)];
+        let found = [of(SampleKind::Smooth), of(SampleKind::Slope)];
         (taps, found)
     }
 
@@ -236,8 +236,8 @@ mod tests {
             let reach = taps.reach();
             for point in -reach..=reach + 2 * signed(oversampling) {
                 let x = 4.0 + 3.0 * point as f64 / (10.0 * oversampling as f64);
-                taps.spread(Kind::Smooth, point, x, &mut value);
-                taps.spread(Kind::Slope, point, x, &mut slope);
+                taps.spread(SampleKind::Smooth, point, x, &mut value);
+                taps.spread(SampleKind::Slope, point, x, &mut slope);
             }
             for k in 0..3 {
                 assert!(

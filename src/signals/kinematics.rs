@@ -77,11 +77,11 @@ pub(crate) struct Orbits {
     times: Option<[f64; 2]>,
     /// Angles of the rings at the first and at the last look \[rad\].
     rings: [[f64; 2]; 2],
-    balls: Vec<Ball>,
+    balls: Vec<BallCourse>,
 }
 
 #[derive(Clone, Copy)]
-struct Ball {
+struct BallCourse {
     /// Where it was seen last, and how far it has come since the first look \[rad\].
     direction: f64,
     advance: f64,
@@ -118,7 +118,7 @@ impl Orbits {
             let spin = motion.attitude.is_none().then(|| against(&motion, orbit));
             let direction = motion.direction();
             let Some(ball) = self.balls.get_mut(j) else {
-                self.balls.push(Ball {
+                self.balls.push(BallCourse {
                     direction,
                     advance: 0.0,
                     spin,

@@ -33,7 +33,7 @@ use crate::simd::Distrust;
 
 pub use accuracy::Accuracy;
 pub use blocks::Block;
-pub(crate) use blocks::Sink;
+pub(crate) use blocks::BlockSink;
 pub(crate) use demand::Demand;
 pub(crate) use probes::columns;
 pub(crate) use recorder::Recorder;

@@ -1,7 +1,7 @@
 //! The probes of a scene with their indices looked up, and how their columns are sampled.
 
 use super::Column;
-use super::filter::Kind;
+use super::filter::SampleKind;
 use crate::base::error::Result;
 use crate::dynamics::{Dynamics, contribution_names, contributions_coated};
 use crate::inspect::{self, Energy, Lubrication, MOMENTS};
@@ -22,7 +22,7 @@ pub(crate) fn columns(scene: &Scene) -> Result<Vec<Column>> {
 }
 
 /// A probe with its indices looked up.
-pub(super) enum Reader {
+pub(super) enum ProbeReader {
     Motion {
         body: BodyId,
         components: Vec<Component>,
@@ -56,12 +56,12 @@ pub(super) struct Listing {
 #[derive(Default)]
 pub(super) struct Probes {
     /// What is read, each with how many columns it has.
-    pub readers: Vec<(Reader, usize)>,
+    pub readers: Vec<(ProbeReader, usize)>,
     pub columns: Vec<Column>,
     /// Latest first.
     pub listings: Vec<Listing>,
     /// How each column is decimated; absent for a reading of a state.
-    pub kinds: Vec<Option<Kind>>,
+    pub kinds: Vec<Option<SampleKind>>,
     /// Whether accelerations or torques are read, for which the model has to be evaluated.
     pub needs_rhs: bool,
 }
@@ -96,36 +96,36 @@ impl Probes {
             Probe::Cage { row } => {
                 if model.scene.cage.is_some() {
                     for link in 0..model.rows[*row].links().count() {
-                        self.column(format!("{name}.link{link}"), "N", Some(Kind::Smooth));
+                        self.column(format!("{name}.link{link}"), "N", Some(SampleKind::Smooth));
                     }
                 }
-                Reader::Cage { row: *row }
+                ProbeReader::Cage { row: *row }
             }
             Probe::Energy {} => {
                 for (label, unit, _) in Energy::default().entries() {
                     self.column(format!("{name}.{label}"), unit, None);
                 }
-                Reader::Energy
+                ProbeReader::Energy
             }
             Probe::Torque {} => {
                 for race in Race::BOTH {
                     let column = format!("{name}.{}", race.name());
-                    self.column(column, "N m", Some(Kind::Smooth));
+                    self.column(column, "N m", Some(SampleKind::Smooth));
                 }
                 self.needs_rhs = true;
-                Reader::Torque
+                ProbeReader::Torque
             }
             Probe::Moments {} => {
                 for label in MOMENTS {
                     self.column(format!("{name}.{label}"), "N m", None);
                 }
-                Reader::Moments
+                ProbeReader::Moments
             }
             Probe::Lubrication { row } => {
                 for (label, unit) in Lubrication::LABELS {
                     self.column(format!("{name}.{label}"), unit, None);
                 }
-                Reader::Lubrication { row: *row }
+                ProbeReader::Lubrication { row: *row }
             }
             Probe::Forces { body } => self.forces(name, body_of(body)),
             Probe::Slices {
@@ -152,17 +152,21 @@ impl Probes {
         name: &str,
         body: BodyId,
         components: Option<&[Component]>,
-    ) -> Reader {
+    ) -> ProbeReader {
         let all = model.scene.components_of(&model.bodies[body].name);
         let components = components.map_or(all, <[_]>::to_vec);
         for component in &components {
             let (label, unit) = component.label();
             let derived = component.derivative() == 2;
-            let kind = if derived { Kind::Slope } else { Kind::Smooth };
+            let kind = if derived {
+                SampleKind::Slope
+            } else {
+                SampleKind::Smooth
+            };
             self.column(format!("{name}.{label}"), unit, Some(kind));
             self.needs_rhs |= derived;
         }
-        Reader::Motion { body, components }
+        ProbeReader::Motion { body, components }
     }
 
     fn contacts(
@@ -171,7 +175,7 @@ impl Probes {
         name: &str,
         contacts: Vec<(usize, Race)>,
         quantities: Option<&[ContactQuantity]>,
-    ) -> Reader {
+    ) -> ProbeReader {
         let quantities = quantities.unwrap_or(&ContactQuantity::ALL).to_vec();
         for (j, race) in &contacts {
             let ball = model.balls[*j].index;
@@ -181,23 +185,23 @@ impl Probes {
                 self.column(format!("{name}.ball{ball}.{race}.{label}"), unit, None);
             }
         }
-        Reader::Contacts {
+        ProbeReader::Contacts {
             contacts,
             quantities,
         }
     }
 
-    fn forces(&mut self, name: &str, body: BodyId) -> Reader {
+    fn forces(&mut self, name: &str, body: BodyId) -> ProbeReader {
         for part in contribution_names() {
             for dof in Dof::ALL {
                 let unit = if dof.is_rotation() { "N m" } else { "N" };
                 self.column(format!("{name}.{part}.{}", dof.name()), unit, None);
             }
         }
-        Reader::Forces { body }
+        ProbeReader::Forces { body }
     }
 
-    fn column(&mut self, name: String, unit: &'static str, kind: Option<Kind>) {
+    fn column(&mut self, name: String, unit: &'static str, kind: Option<SampleKind>) {
         self.columns.push(Column {
             name,
             unit,
@@ -207,7 +211,7 @@ impl Probes {
     }
 }
 
-impl Reader {
+impl ProbeReader {
     /// Whether its columns are signals, which are filtered, rather than readings of a state.
     pub fn is_signal(&self) -> bool {
         matches!(self, Self::Motion { .. } | Self::Cage { .. } | Self::Torque)

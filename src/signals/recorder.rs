@@ -2,10 +2,10 @@
 
 use std::ops::ControlFlow;
 
-use super::blocks::{Held, Sink};
+use super::blocks::{BlockSink, Held};
 use super::decimate::Decimator;
 use super::filter::{HALF, Taps, signed};
-use super::probes::{Probes, Reader};
+use super::probes::{ProbeReader, Probes};
 use super::{Sampling, SliceRow};
 use crate::base::error::{Error, Result};
 use crate::base::memory;
@@ -14,13 +14,13 @@ use crate::inspect;
 use crate::integrate::{DenseStep, System};
 use crate::model::Model;
 use crate::signals::kinematics::Orbits;
-use crate::signals::residual::Residual;
-use crate::signals::touched::Watch;
+use crate::signals::residual::AccelerationResidual;
+use crate::signals::touched::DefectWatch;
 
 /// What is read at one kind of times: some readers, and the columns that theirs are.
 #[derive(Default)]
 struct Reading {
-    readers: Vec<Reader>,
+    readers: Vec<ProbeReader>,
     columns: Vec<usize>,
     values: Vec<f64>,
 }
@@ -48,8 +48,8 @@ pub(crate) struct Recorder<'s> {
     /// Those of all bodies.
     y: Vec<f64>,
     dy: Vec<f64>,
-    pub residual: Residual,
-    pub watch: Watch,
+    pub residual: AccelerationResidual,
+    pub watch: DefectWatch,
     pub orbits: Orbits,
     pub held: Held<'s>,
     pub slices: Vec<SliceRow>,
@@ -57,7 +57,12 @@ pub(crate) struct Recorder<'s> {
 
 impl<'s> Recorder<'s> {
     /// For `count` samples, which go to `sink` block by block, or stay.
-    pub fn new(model: &Model, sampling: Sampling, count: usize, sink: Option<Sink<'s>>) -> Self {
+    pub fn new(
+        model: &Model,
+        sampling: Sampling,
+        count: usize,
+        sink: Option<BlockSink<'s>>,
+    ) -> Self {
         let filtered = sampling.oversampling > 1;
         let probes = Probes::new(model);
         let (mut points, mut grid) = (Reading::default(), Reading::default());
@@ -73,7 +78,10 @@ impl<'s> Recorder<'s> {
             reading.readers.push(reader);
             reading.columns.extend(columns);
         }
-        let needs_rhs_on_grid = grid.readers.iter().any(|r| matches!(r, Reader::Torque));
+        let needs_rhs_on_grid = grid
+            .readers
+            .iter()
+            .any(|r| matches!(r, ProbeReader::Torque));
         let grid = (!kinds.is_empty()).then(|| {
             let taps = Taps::new(sampling.oversampling, sampling.fs);
             (grid, Decimator::new(taps, kinds))
@@ -90,8 +98,8 @@ impl<'s> Recorder<'s> {
             own: (Vec::new(), Vec::new()),
             y: Vec::new(),
             dy: Vec::new(),
-            residual: Residual::default(),
-            watch: Watch::new(model),
+            residual: AccelerationResidual::default(),
+            watch: DefectWatch::new(model),
             orbits: Orbits::default(),
             held: Held::new(probes.columns, count, sink),
             slices: Vec::new(),
@@ -122,7 +130,7 @@ impl<'s> Recorder<'s> {
         self.own = (zeros.clone(), zeros);
         (self.y, self.dy) = (start.to_vec(), vec![0.0; start.len()]);
         let filtered = self.grid.as_ref().map(|_| self.sampling.fs);
-        self.residual = Residual::new(dynamics, filtered);
+        self.residual = AccelerationResidual::new(dynamics, filtered);
         self.watch.prepare(dynamics, start);
         self.orbits.prepare(start);
         self.open(0.0);
@@ -176,7 +184,7 @@ impl<'s> Recorder<'s> {
                 break;
             }
             step.interpolate(t, &mut self.own.0);
-            let judged = self.judges && Residual::wants(self.held.sampled());
+            let judged = self.judges && AccelerationResidual::wants(self.held.sampled());
             self.sample(dynamics, t, judged);
             if judged {
                 self.residual.add(step, t, &self.own.1);
@@ -282,7 +290,7 @@ impl<'s> Recorder<'s> {
 }
 
 impl Reading {
-    /// Reads a value for each of its columns; see [`Reader::read`].
+    /// Reads a value for each of its columns; see [`ProbeReader::read`].
     fn read(&mut self, dynamics: &Dynamics<'_>, t: f64, y: &[f64], accelerations: &[f64]) {
         self.values.clear();
         for reader in &self.readers {
@@ -309,7 +317,7 @@ mod tests {
         scene: &Scene,
         from: f64,
         bandwidth: Bandwidth,
-        sink: Option<Sink<'_>>,
+        sink: Option<BlockSink<'_>>,
     ) -> Vec<(String, Vec<f64>)> {
         let model = compile(scene).unwrap();
         let y0 = start(&model, &Start::Rolling).unwrap();
@@ -331,9 +339,9 @@ mod tests {
             &y0,
             &Tolerance::uniform(y0.len(), 1e-9, 1e-9).unwrap(),
             &options,
-            &mut |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &integrate::Statistics| {
-                recorder.step(dynamics, step)
-            },
+            &mut |dynamics: &mut Dynamics<'_>,
+                  step: &DenseStep<'_>,
+                  _: &integrate::StepStatistics| { recorder.step(dynamics, step) },
         )
         .unwrap();
         assert!(recorder.finish().is_continue());

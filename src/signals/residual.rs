@@ -38,7 +38,7 @@ const REACH: f64 = 0.01;
 
 /// The sums over a run, for the outer ring or, where that is held, for the inner one.
 #[derive(Default)]
-pub(crate) struct Residual {
+pub(crate) struct AccelerationResidual {
     /// Places of its velocities among the run's states.
     velocities: Vec<usize>,
     before: Vec<f64>,
@@ -49,7 +49,7 @@ pub(crate) struct Residual {
     band: Option<f64>,
 }
 
-impl Residual {
+impl AccelerationResidual {
     /// Of a record that is filtered down to a sampling rate \[Hz\], or not filtered.
     pub fn new(dynamics: &Dynamics<'_>, filtered: Option<f64>) -> Self {
         let model = dynamics.model();

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::contact::{Fault, Pair, Sighted, Slices, Toward};
+use crate::contact::{Fault, Pair, Sighted, Toward, ZoneSlices};
 use crate::dynamics::Dynamics;
 use crate::integrate::DenseStep;
 use crate::model::{Model, Race, ball_fault, race_fault};
@@ -80,7 +80,7 @@ const WITHIN: f64 = 4.0;
 const FINEST: usize = 1000;
 
 /// Follows a run.
-pub(crate) struct Watch {
+pub(crate) struct DefectWatch {
     defects: Vec<Watched>,
     /// States of all bodies.
     y: Vec<f64>,
@@ -128,7 +128,7 @@ enum Pass {
 }
 
 /// How a contact stands to a defect.
-struct Look {
+struct DefectView {
     /// How far its direction is from the defect's \[rad\].
     aside: f64,
     /// How fast that changes \[rad/s\].
@@ -137,7 +137,7 @@ struct Look {
     half: f64,
 }
 
-impl Watch {
+impl DefectWatch {
     /// For a run of a model that has begun nowhere yet.
     pub fn new(model: &Model) -> Self {
         let defects = model.scene().defects.iter();
@@ -245,7 +245,7 @@ impl Watched {
         let pairs = pairs.entry((defect.row, slices)).or_insert_with(|| {
             Arc::new(row.pairs.each_ref().map(|pair| {
                 let mut finer = pair.clone();
-                finer.change(|flank| flank.slices = Slices::Fixed(slices));
+                finer.change(|flank| flank.slices = ZoneSlices::Fixed(slices));
                 finer
             }))
         });
@@ -269,7 +269,7 @@ impl Watched {
         let mut wait = f64::INFINITY;
         for i in 0..self.eyes.len() {
             let eye = &mut self.eyes[i];
-            let Look { aside, rate, half } = eye.look(model, y, &self.fault, self.on);
+            let DefectView { aside, rate, half } = eye.look(model, y, &self.fault, self.on);
             let before = std::mem::replace(&mut eye.aside, aside);
             // A narrow one may lie between two steps.
             let across = before.signum() != aside.signum() && (before - aside).abs() < PI;
@@ -319,7 +319,7 @@ impl Watched {
 }
 
 impl Eye {
-    fn look(&self, model: &Model, y: &[f64], fault: &Fault, on: Surface) -> Look {
+    fn look(&self, model: &Model, y: &[f64], fault: &Fault, on: Surface) -> DefectView {
         let [ball, ring] = model.facing(y, self.ball, self.race);
         let seen = ball.seen_from(&ring);
         let n = seen.centre / seen.centre.norm();
@@ -331,7 +331,7 @@ impl Eye {
             }
             _ => (Toward::race(ring.angle_of(seen.direction())), ring.omega),
         };
-        Look {
+        DefectView {
             aside: toward.aside(fault),
             rate: seen.orbit_speed() - toward.turning(fault, omega),
             half: toward.half(fault),

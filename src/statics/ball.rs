@@ -71,17 +71,17 @@ impl Problem<'_> {
     }
 
     /// The line of the groove centres, of those flanks that press the ball most.
-    fn line(&self, j: usize, rings: &Rings) -> Line {
+    fn line(&self, j: usize, rings: &Rings) -> CentreLine {
         let (centres, reach) = self.grooves(j, rings);
-        Line::between(centres, reach)
+        CentreLine::between(centres, reach)
     }
 
     /// The lines between the centres of all grooves that may press a ball: one, or of gothic arches those whose ends lie on
     /// the flanks.
-    pub(super) fn lines(&self, j: usize, rings: &Rings) -> impl Iterator<Item = Line> {
+    pub(super) fn lines(&self, j: usize, rings: &Rings) -> impl Iterator<Item = CentreLine> {
         let all = self.groove_pairs(j, rings);
         all.filter(|grooves| grooves.meet)
-            .map(|grooves| Line::between(grooves.centres, grooves.reach))
+            .map(|grooves| CentreLine::between(grooves.centres, grooves.reach))
     }
 
     /// How far out and in a ball between whole races can be; none for a ball that both press.
@@ -276,7 +276,7 @@ impl Grooves {
 }
 
 /// The line of a ball's groove centres in its meridional plane, from the outer to the inner one.
-pub(super) struct Line {
+pub(super) struct CentreLine {
     from: Vector2<f64>,
     pub(super) unit: Vector2<f64>,
     pub(super) length: f64,
@@ -286,7 +286,7 @@ pub(super) struct Line {
     pub(super) approach: f64,
 }
 
-impl Line {
+impl CentreLine {
     fn between(centres: [Vector2<f64>; 2], reach: [f64; 2]) -> Self {
         let apart = centres[1] - centres[0];
         let length = apart.norm();

@@ -42,7 +42,7 @@ use crate::model::{Ball, BodyId, Dof, Model, Race};
 use crate::reduction::axial_places;
 use crate::scene::{Doubt, Scene};
 pub use distribution::{EquivalentLoads, LoadDistribution, load_distribution};
-pub(crate) use place::Meeting;
+pub(crate) use place::DefectPasses;
 pub use place::{Placed, compile, place};
 use problem::Problem;
 use residual::Residual;

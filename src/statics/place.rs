@@ -63,7 +63,7 @@ pub fn place(scene: &Scene) -> Result<(Cow<'_, Scene>, BTreeMap<String, Placed>)
         if is_given(defect) {
             continue;
         }
-        let found = Meeting::of(scene, defect)?.and_then(|meeting| meeting.place(defect));
+        let found = DefectPasses::of(scene, defect)?.and_then(|meeting| meeting.place(defect));
         let (number, placed) = match found {
             Some(number) => (number, Placed::Contact),
             None => (nominal(defect, &scene.rows[defect.row]), Placed::Nominal),
@@ -99,7 +99,7 @@ fn hold_tilts(scene: &mut Scene) -> Result<()> {
 }
 
 /// The healthy bearing at equilibrium, and the contacts that meet a defect over a turn of the balls.
-pub(crate) struct Meeting {
+pub(crate) struct DefectPasses {
     pub model: Model,
     /// A state vector with zero velocities.
     pub y: Vec<f64>,
@@ -107,7 +107,7 @@ pub(crate) struct Meeting {
     pub contacts: Vec<(usize, Race)>,
 }
 
-impl Meeting {
+impl DefectPasses {
     /// Under the largest value of every load, with a ball at the angle of a defect on the outer race; none without
     /// equilibrium.
     ///

@@ -20,7 +20,7 @@ const HALVINGS: usize = 12;
 const LOOSE: f64 = 1e-9;
 
 /// Forces on all bodies, rings first and then radius and z of each ball, and the stiffness against them.
-struct Whole {
+struct WholeSystem {
     force: DVector<f64>,
     stiffness: DMatrix<f64>,
 }
@@ -91,7 +91,7 @@ impl Problem<'_> {
         (rings, places.collect())
     }
 
-    fn whole(&self, rings: &Rings, places: &[Vector2<f64>]) -> Whole {
+    fn whole(&self, rings: &Rings, places: &[Vector2<f64>]) -> WholeSystem {
         let first = self.free.len();
         let count = first + 2 * places.len();
         let mut force = DVector::zeros(count);
@@ -133,7 +133,7 @@ impl Problem<'_> {
             }
             stiffness[(a, a)] += support;
         }
-        Whole { force, stiffness }
+        WholeSystem { force, stiffness }
     }
 
     /// Adds what the cage has against the balls' radii, by differences.

@@ -3,7 +3,7 @@
 use crate::contact::V2;
 use crate::inspect;
 use crate::inspect::ContactSummary;
-use crate::model::{Between, BodyId, Dof, Layout, Model, Race, Rolling};
+use crate::model::{Between, BodyId, Dof, Layout, Model, PureRolling, Race};
 
 /// What decides about which axis a ball spins that spins freely, and so how fast its row goes round.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -171,7 +171,7 @@ fn between_races(
     control: RaceControl,
     y: &[f64],
     j: usize,
-) -> Option<(f64, Rolling)> {
+) -> Option<(f64, PureRolling)> {
     let contacts = Race::BOTH.map(|race| inspect::contact(model, y, j, race));
     let load = contacts[0].load.min(contacts[1].load);
     if load == 0.0 {

@@ -9,8 +9,8 @@ use std::array::from_fn;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::carrier::{Block, Carrier, Turn};
-use super::factors::{Factors, Rings};
+use super::carrier::{Carrier, LaneMatrix, RingRotation};
+use super::factors::{Factors, OnBothRings};
 use crate::contact::AXIAL;
 use crate::simd::Lanes;
 
@@ -21,41 +21,41 @@ use crate::simd::Lanes;
 #[derive(Debug, Clone)]
 pub(super) struct Arrow<const N: usize> {
     /// What the balls put into each ring's rows for either ring, before L and J, and into their right-hand side.
-    rings: [[Block<N>; 2]; 2],
+    rings: [[LaneMatrix<N>; 2]; 2],
     right: [[Lanes; N]; 2],
     factors: Option<Factors>,
     carriers: [Carrier<N>; 2],
-    eights: Vec<Eight<N>>,
+    eights: Vec<EightBalls<N>>,
 }
 
 /// Of the balls' rows A x + B J X = r and the rings' C x.
 #[derive(Debug, Clone)]
-struct Eight<const N: usize> {
+struct EightBalls<const N: usize> {
     /// A⁻¹.
-    inverse: Block<N>,
+    inverse: LaneMatrix<N>,
     /// A⁻¹ B, by ring.
-    wide: [Block<N>; 2],
+    wide: [LaneMatrix<N>; 2],
     /// Tᵀ S Φᵀ, and whether there is any.
-    from: [Block<N>; 2],
+    from: [LaneMatrix<N>; 2],
     touches: [bool; 2],
     /// A⁻¹ r.
     part: [Lanes; N],
 }
 
 /// Eight contacts with a ring.
-pub(super) struct Contacts<'a, const N: usize> {
+pub(super) struct EightOnRing<'a, const N: usize> {
     /// S, in the ring's frame.
-    pub slope: &'a Block<N>,
+    pub slope: &'a LaneMatrix<N>,
     /// From the origin of that frame to the balls, in it.
     pub apart: [Lanes; 3],
     /// Φ, where it is not 1.
-    pub turn: Option<Turn<'a>>,
+    pub turn: Option<RingRotation<'a>>,
 }
 
 impl<const N: usize> Arrow<N> {
     pub fn new(eights: usize) -> Self {
         let none = [[Lanes::ZERO; N]; N];
-        let eight = Eight {
+        let eight = EightBalls {
             inverse: none,
             wide: [none; 2],
             from: [none; 2],
@@ -81,7 +81,7 @@ impl<const N: usize> Arrow<N> {
     pub fn eliminate<const FMA: bool>(
         &mut self,
         eight: usize,
-        contacts: &[Option<Contacts<'_, N>>; 2],
+        contacts: &[Option<EightOnRing<'_, N>>; 2],
         scale: &[Lanes; N],
     ) {
         let eight = &mut self.eights[eight];
@@ -89,7 +89,7 @@ impl<const N: usize> Arrow<N> {
         let mut to = [[[Lanes::ZERO; N]; N]; 2];
         for (s, contact) in contacts.iter().enumerate() {
             eight.touches[s] = contact.is_some();
-            let Some(Contacts { slope, apart, turn }) = contact else {
+            let Some(EightOnRing { slope, apart, turn }) = contact else {
                 continue;
             };
             // Of the ring: Tᵀ S, and Tᵀ S T.
@@ -156,7 +156,7 @@ impl<const N: usize> Arrow<N> {
     }
 
     /// Ends the matrix with the rings' 1 + d, and what carries them.
-    pub fn factorise(&mut self, diagonal: &Rings<N>, carriers: &[Carrier<N>; 2]) {
+    pub fn factorise(&mut self, diagonal: &OnBothRings<N>, carriers: &[Carrier<N>; 2]) {
         let blocks: [[SMatrix<f64, N, N>; 2]; 2] = from_fn(|s| {
             from_fn(|other| {
                 let of = SMatrix::from_fn(|i, j| self.rings[s][other][i][j].sum());
@@ -189,8 +189,8 @@ impl<const N: usize> Arrow<N> {
     }
 
     /// The rings' unknowns for their R; none if the system is singular.
-    pub fn rings(&self, right: &Rings<N>) -> Option<Rings<N>> {
-        let known: Rings<N> = from_fn(|s| {
+    pub fn rings(&self, right: &OnBothRings<N>) -> Option<OnBothRings<N>> {
+        let known: OnBothRings<N> = from_fn(|s| {
             let sums = SVector::from_fn(|i, _| self.right[s][i].sum());
             (SVector::from(right[s]) - self.carriers[s].scale * sums).into()
         });
@@ -198,14 +198,14 @@ impl<const N: usize> Arrow<N> {
     }
 
     /// The rings' unknowns as the contacts see them, J X.
-    pub fn seen(&self, rings: &Rings<N>) -> Rings<N> {
+    pub fn seen(&self, rings: &OnBothRings<N>) -> OnBothRings<N> {
         from_fn(|s| (self.carriers[s].seen * SVector::from(rings[s])).into())
     }
 
     /// The unknowns of eight balls, once the rings' are known as the contacts see them.
     #[inline(always)]
-    pub fn balls<const FMA: bool>(&self, eight: usize, rings: &Rings<N>) -> [Lanes; N] {
-        let Eight { part, wide, .. } = &self.eights[eight];
+    pub fn balls<const FMA: bool>(&self, eight: usize, rings: &OnBothRings<N>) -> [Lanes; N] {
+        let EightBalls { part, wide, .. } = &self.eights[eight];
         let mut x = *part;
         for i in 0..N {
             for s in 0..2 {
@@ -219,7 +219,7 @@ impl<const N: usize> Arrow<N> {
 }
 
 #[inline(always)]
-fn product<const FMA: bool, const N: usize>(a: &Block<N>, x: &[Lanes; N]) -> [Lanes; N] {
+fn product<const FMA: bool, const N: usize>(a: &LaneMatrix<N>, x: &[Lanes; N]) -> [Lanes; N] {
     let mut product = [Lanes::ZERO; N];
     for i in 0..N {
         product[i] = a[i][0] * x[0];
@@ -248,7 +248,10 @@ fn carried<const FMA: bool, const N: usize>(row: &[Lanes; N], a: &[Lanes; 3]) ->
 
 /// Tᵀ times a matrix.
 #[inline(always)]
-fn carried_back<const FMA: bool, const N: usize>(of: &Block<N>, a: &[Lanes; 3]) -> Block<N> {
+fn carried_back<const FMA: bool, const N: usize>(
+    of: &LaneMatrix<N>,
+    a: &[Lanes; 3],
+) -> LaneMatrix<N> {
     let mut carried = *of;
     for k in 0..N {
         let mut column = [Lanes::ZERO; N];
@@ -267,7 +270,7 @@ fn carried_back<const FMA: bool, const N: usize>(of: &Block<N>, a: &[Lanes; 3]) 
 ///
 /// There is no pivoting: 1 − D S is the unit matrix and what friction and damping add to its definite side.
 #[inline(always)]
-fn invert<const FMA: bool, const N: usize>(a: &mut Block<N>) {
+fn invert<const FMA: bool, const N: usize>(a: &mut LaneMatrix<N>) {
     for k in 0..N {
         let inverse = Lanes::all(1.0) / a[k][k];
         a[k][k] = Lanes::all(1.0);
@@ -346,20 +349,20 @@ mod tests {
             seen: block::<N>(3.0 + f64::from(s)) * 0.2 + SMatrix::identity(),
             scale: block::<N>(8.0 + f64::from(s)) * 0.3,
         });
-        let ring_right: Rings<N> = from_fn(|s| from_fn(|i| (s * N + i) as f64));
+        let ring_right: OnBothRings<N> = from_fn(|s| from_fn(|i| (s * N + i) as f64));
         let mut arrow = Arrow::<N>::new(2);
         arrow.begin();
         arrow.begin_right();
         let has = |eight: usize, s: usize| eight == 0 || s == 1;
         for eight in 0..2 {
-            let blocks: [Block<N>; 2] = [0, 1].map(|s| {
+            let blocks: [LaneMatrix<N>; 2] = [0, 1].map(|s| {
                 from_fn(|i| from_fn(|j| Lanes::from_fn(|lane| slope(eight, s, lane)[(i, j)])))
             });
             let contacts = [0, 1].map(|s| {
                 let apart = [0, 1, 2].map(|k| Lanes::from_fn(|lane| apart(s, lane)[k]));
-                let turn = (N > AXIAL).then_some(Turn::of(&frames[s]));
+                let turn = (N > AXIAL).then_some(RingRotation::of(&frames[s]));
                 let slope = &blocks[s];
-                has(eight, s).then_some(Contacts { slope, apart, turn })
+                has(eight, s).then_some(EightOnRing { slope, apart, turn })
             });
             let right = from_fn(|i| Lanes::from_fn(|lane| right(eight, lane)[i]));
             arrow.eliminate::<true>(eight, &contacts, &scale.map(Lanes::all));

@@ -17,7 +17,7 @@ use crate::simd::Lanes;
 use crate::tilt::{Frame, Rotation};
 
 /// A matrix for each of eight balls, of which a row is a direction of the ball.
-pub(super) type Block<const N: usize> = [[Lanes; N]; N];
+pub(super) type LaneMatrix<const N: usize> = [[Lanes; N]; N];
 
 /// Where directions along x, y and z stand: of forces, and of moments about them.
 const ALONG: [usize; 3] = [0, 1, 2];
@@ -109,12 +109,12 @@ impl<const N: usize> Carrier<N> {
 /// Φ: a twist or wrench of balls in a ring's frame and in the scene's. Balls that do not spin freely turn about the axis of the ring that
 /// they touch.
 #[derive(Clone, Copy)]
-pub(super) struct Turn<'a> {
+pub(super) struct RingRotation<'a> {
     frame: &'a Frame,
     balls_turn: bool,
 }
 
-impl<'a> Turn<'a> {
+impl<'a> RingRotation<'a> {
     /// Of a ring that may tilt.
     pub fn new(view: &'a RingView) -> Self {
         Self {
@@ -147,7 +147,7 @@ impl<'a> Turn<'a> {
 
     /// Φ times a matrix.
     #[inline(always)]
-    pub fn rows<const FMA: bool, const N: usize>(&self, of: &mut Block<N>) {
+    pub fn rows<const FMA: bool, const N: usize>(&self, of: &mut LaneMatrix<N>) {
         for k in 0..N {
             let mut column = [Lanes::ZERO; N];
             for i in 0..N {
@@ -162,7 +162,7 @@ impl<'a> Turn<'a> {
 
     /// A matrix times Φᵀ.
     #[inline(always)]
-    pub fn columns<const FMA: bool, const N: usize>(&self, of: &mut Block<N>) {
+    pub fn columns<const FMA: bool, const N: usize>(&self, of: &mut LaneMatrix<N>) {
         for i in 0..N {
             self.out::<FMA, N>(&mut of[i]);
         }

@@ -5,9 +5,9 @@ use nalgebra::{Const, LU, SMatrix, SVector};
 use crate::contact::{AXIAL, FREE};
 
 /// A number for each direction of both rings.
-pub(super) type Rings<const N: usize> = [[f64; N]; 2];
+pub(super) type OnBothRings<const N: usize> = [[f64; N]; 2];
 
-type Matrix<const R: usize> = SMatrix<f64, R, R>;
+type RingMatrix<const R: usize> = SMatrix<f64, R, R>;
 type Factorised<const R: usize> = LU<f64, Const<R>, Const<R>>;
 
 /// Of both rings' directions: those of parallel rings, or all.
@@ -23,14 +23,14 @@ impl Factors {
     /// Of a matrix for N directions a ring, by its entries.
     pub fn of<const N: usize>(entry: impl Fn(usize, usize) -> f64) -> Self {
         if N == AXIAL {
-            Self::Axial(Matrix::<{ 2 * AXIAL }>::from_fn(entry).lu())
+            Self::Axial(RingMatrix::<{ 2 * AXIAL }>::from_fn(entry).lu())
         } else {
-            Self::Free(Matrix::<{ 2 * FREE }>::from_fn(entry).lu())
+            Self::Free(RingMatrix::<{ 2 * FREE }>::from_fn(entry).lu())
         }
     }
 
     /// The unknowns for a right-hand side; none if the matrix is singular.
-    pub fn solve<const N: usize>(&self, right: &Rings<N>) -> Option<Rings<N>> {
+    pub fn solve<const N: usize>(&self, right: &OnBothRings<N>) -> Option<OnBothRings<N>> {
         let mut unknowns = *right;
         let of = |i: usize, _: usize| right.as_flattened()[i];
         match self {

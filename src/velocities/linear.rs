@@ -41,7 +41,7 @@ trait Corrects: std::fmt::Debug {
 
 /// A matrix of all bodies, also where the run leaves some out.
 #[derive(Debug)]
-struct Matrix<const N: usize> {
+struct BodyMatrix<const N: usize> {
     stage: Stage<N>,
     /// The velocities of the run that are corrected, along axes and about them.
     corrected: Vec<Velocity>,
@@ -71,9 +71,9 @@ impl<'d, 'm> Damped<'d, 'm> {
     pub fn new(dynamics: &'d mut Dynamics<'m>, longest: f64) -> Self {
         let matrix = is_stiff(dynamics, longest).then(|| {
             if dynamics.leans() {
-                Matrix::<FREE>::boxed(dynamics)
+                BodyMatrix::<FREE>::boxed(dynamics)
             } else {
-                Matrix::<AXIAL>::boxed(dynamics)
+                BodyMatrix::<AXIAL>::boxed(dynamics)
             }
         });
         Self { dynamics, matrix }
@@ -108,7 +108,7 @@ impl LinearlyImplicit for Damped<'_, '_> {
     }
 }
 
-impl<const N: usize> Corrects for Matrix<N> {
+impl<const N: usize> Corrects for BodyMatrix<N> {
     fn correct(
         &mut self,
         dynamics: &Dynamics<'_>,
@@ -125,7 +125,7 @@ impl<const N: usize> Corrects for Matrix<N> {
     }
 }
 
-impl<const N: usize> Matrix<N> {
+impl<const N: usize> BodyMatrix<N> {
     fn boxed(dynamics: &Dynamics<'_>) -> Box<dyn Corrects> {
         let (model, state) = (dynamics.model(), dynamics.state().clone());
         let mut full = vec![0.0; model.dim()];

@@ -90,10 +90,10 @@ mod tests {
     pub(super) fn compiled(scene: &Scene) -> Model {
         let mut model = compile(scene).unwrap();
         for pair in model.rows.iter_mut().flat_map(|row| &mut row.pairs) {
-            if let contact::Slices::Fitted(rules) = &pair.slices {
+            if let contact::ZoneSlices::Fitted(rules) = &pair.slices {
                 let exponent = pair.law.elastic.exponent();
                 let plain = contact::Rules::for_friction(rules.count(), exponent, 0);
-                pair.slices = contact::Slices::Fitted(plain);
+                pair.slices = contact::ZoneSlices::Fitted(plain);
             }
         }
         model

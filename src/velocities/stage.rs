@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::arrow::{Arrow, Contacts};
-use super::carrier::{Carrier, Turn};
-use super::stage_batch::{Meeting, StageBatch};
+use super::arrow::{Arrow, EightOnRing};
+use super::carrier::{Carrier, RingRotation};
+use super::stage_batch::{Met, StageBatch};
 use crate::contact::{AXIAL, Slopes};
-use crate::dynamics::{Batch, Dynamics, HeldContacts, Kind, OnRings, View};
+use crate::dynamics::{Batch, Dynamics, Guarantees, HeldContacts, OnRings, View};
 use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Dof, Layout, Model, Race};
 use crate::simd::{LANES, Lanes, Task};
@@ -22,7 +22,7 @@ pub(super) struct Stage<const N: usize> {
     /// Used to search what touches.
     search: Batch,
     /// What every ball may meet at both rings.
-    meetings: Vec<[Meeting; 2]>,
+    meetings: Vec<[Met; 2]>,
     /// The balls that meet something, by eights: the first `active` of these.
     batches: Vec<StageBatch<N>>,
     active: usize,
@@ -43,15 +43,15 @@ pub(super) struct Stage<const N: usize> {
 impl<const N: usize> Stage<N> {
     /// For the contacts of some rows.
     pub fn new(model: &Model, rows: Range<usize>) -> Self {
-        let kind = Kind {
+        let kind = Guarantees {
             rows,
-            ..Kind::whole(model)
+            ..Guarantees::whole(model)
         };
         let balls = model.balls.len();
         let eights = model.classes().map(|class| model.eights(class)).sum();
         Self {
             search: Batch::new(model, kind),
-            meetings: vec![<[Meeting; 2]>::default(); balls],
+            meetings: vec![<[Met; 2]>::default(); balls],
             batches: vec![StageBatch::default(); eights],
             active: 0,
             arrow: Arrow::new(eights),
@@ -83,27 +83,27 @@ impl<const N: usize> Stage<N> {
     /// The balls that meet something, by eights of one class of rows: first those between both rings, so that others may go
     /// without one.
     fn gather(&mut self, model: &Model) {
-        self.meetings.fill(<[Meeting; 2]>::default());
+        self.meetings.fill(<[Met; 2]>::default());
         for race in Race::BOTH {
             for contact in self.search.touching(race) {
                 // The elements of a stage are those of a torus.
                 let row = &model.rows[model.balls[contact.ball].row];
                 self.meetings[contact.ball][race] = if row.pairs[race].shape.is_torus() {
-                    Meeting::Whole(contact.raise)
+                    Met::Whole(contact.raise)
                 } else {
-                    Meeting::Faulted
+                    Met::Faulted
                 };
             }
         }
         for (race, ball) in self.search.faulted() {
-            self.meetings[ball][race] = Meeting::Faulted;
+            self.meetings[ball][race] = Met::Faulted;
         }
         self.active = 0;
         for class in model.classes() {
             let mut taken = 0;
             for wanted in [2, 1] {
                 for (ball, meetings) in self.meetings.iter().enumerate() {
-                    let meets = |meeting: &&Meeting| **meeting != Meeting::Nothing;
+                    let meets = |meeting: &&Met| **meeting != Met::Nothing;
                     let is_wanted = meetings.iter().filter(meets).count() == wanted;
                     if !is_wanted || model.rows[model.balls[ball].row].class != class {
                         continue;
@@ -147,7 +147,7 @@ impl<const N: usize> Stage<N> {
         });
         self.kept = Some(gamma_h);
         for (kept, meetings) in self.kept_meetings.iter_mut().zip(&self.meetings) {
-            *kept = meetings.map(|meeting| meeting != Meeting::Nothing);
+            *kept = meetings.map(|meeting| meeting != Met::Nothing);
         }
     }
 
@@ -159,7 +159,7 @@ impl<const N: usize> Stage<N> {
 
     /// Whether the matrix that is there was made for nearly the same equations.
     pub fn is_kept(&self, gamma_h: f64) -> bool {
-        let meets = |meeting: Meeting| meeting != Meeting::Nothing;
+        let meets = |meeting: Met| meeting != Met::Nothing;
         self.is_like(gamma_h)
             && self
                 .kept_meetings
@@ -312,7 +312,7 @@ impl<const N: usize> Task for Factorise<'_, N> {
             ..
         } = self.work;
         arrow.begin();
-        let turns = Race::BOTH.map(|race| views[race].leaning.map(Turn::new));
+        let turns = Race::BOTH.map(|race| views[race].leaning.map(RingRotation::new));
         let turning = if model.balls_turn() { gamma_h } else { 0.0 };
         for (eight, batch) in batches[..*active].iter().enumerate() {
             let mut scale = [Lanes::ZERO; N];
@@ -329,7 +329,7 @@ impl<const N: usize> Task for Factorise<'_, N> {
             let contacts = Race::BOTH.map(|race| {
                 let (side, turn) = (&batch.sides[race], turns[race]);
                 let (slope, apart) = (&side.wrenches.slope, side.apart());
-                side.touches.then_some(Contacts { slope, apart, turn })
+                side.touches.then_some(EightOnRing { slope, apart, turn })
             });
             arrow.eliminate::<FMA>(eight, &contacts, &scale);
         }

@@ -14,7 +14,7 @@ use crate::simd::{LANES, Lanes, Mask, Task};
 
 /// What a ball may meet at one ring.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) enum Meeting {
+pub(super) enum Met {
     #[default]
     Nothing,
     /// A race without a defect in reach, raised by its waves.
@@ -30,7 +30,7 @@ pub(super) struct StageBatch<const N: usize> {
     class: usize,
     pub balls: [usize; LANES],
     pub count: usize,
-    meetings: [[Meeting; LANES]; 2],
+    meetings: [[Met; LANES]; 2],
     pub sides: [Side<N>; 2],
 }
 
@@ -79,11 +79,11 @@ impl<const N: usize> StageBatch<N> {
     /// Empties it, for balls of a class of rows.
     pub fn clear(&mut self, class: usize) {
         (self.class, self.count) = (class, 0);
-        self.meetings = [[Meeting::Nothing; LANES]; 2];
+        self.meetings = [[Met::Nothing; LANES]; 2];
     }
 
     /// Takes another ball.
-    pub fn push(&mut self, ball: usize, meetings: [Meeting; 2]) {
+    pub fn push(&mut self, ball: usize, meetings: [Met; 2]) {
         self.balls[self.count..].fill(ball);
         for (lanes, meeting) in self.meetings.iter_mut().zip(meetings) {
             lanes[self.count] = meeting;
@@ -104,12 +104,12 @@ impl<const N: usize> StageBatch<N> {
             side.nodes.clear();
             side.packs.clear();
             side.singles.clear();
-            side.touches = meetings.iter().any(|m| *m != Meeting::Nothing);
+            side.touches = meetings.iter().any(|m| *m != Met::Nothing);
             if !side.touches {
                 side.wrenches = StageWrench::default();
                 continue;
             }
-            let whole = |lane: usize| matches!(meetings[lane], Meeting::Whole(_));
+            let whole = |lane: usize| matches!(meetings[lane], Met::Whole(_));
             side.held = model.instructions.run(FindElements {
                 class: self.class,
                 nodes: &mut side.nodes,
@@ -117,8 +117,8 @@ impl<const N: usize> StageBatch<N> {
                 contacts: &from_fn(|lane| Touching {
                     ball: self.balls[lane],
                     raise: match meetings[lane] {
-                        Meeting::Whole(raise) => raise,
-                        Meeting::Nothing | Meeting::Faulted => Raise::default(),
+                        Met::Whole(raise) => raise,
+                        Met::Nothing | Met::Faulted => Raise::default(),
                     },
                 }),
                 whole: Mask::from_fn(whole),
@@ -133,7 +133,7 @@ impl<const N: usize> StageBatch<N> {
             let place = |ball: usize| q.get(BodyId::ball(ball), Dof::Z) - ring.z;
             side.raised = Lanes::from_fn(|lane| place(self.balls[lane]));
             for (lane, ball) in self.balls[..self.count].iter().enumerate() {
-                if meetings[lane] != Meeting::Nothing && !side.held.regular.lane(lane) {
+                if meetings[lane] != Met::Nothing && !side.held.regular.lane(lane) {
                     side.single(lane, model, *ball, race, &views[race]);
                 }
             }

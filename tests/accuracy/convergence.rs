@@ -5,7 +5,7 @@
 use std::ops::ControlFlow;
 
 use ballrace::integrate::{
-    DORMAND_PRINCE, DenseStep, Failure, FailureKind, Observer, Options, Solution, Statistics,
+    DORMAND_PRINCE, DenseStep, Failure, FailureKind, Observer, Options, Solution, StepStatistics,
     System, Tableau, Tolerance, VERNER, integrate,
 };
 
@@ -87,7 +87,7 @@ fn slope(points: &[(f64, f64)]) -> f64 {
 /// Errors at the end and, largest over the run, between the steps.
 fn errors(tableau: &Tableau, h: f64) -> (f64, f64) {
     let mut between: f64 = 0.0;
-    let mut watch = |_: &mut _, step: &DenseStep<'_>, _: &Statistics| {
+    let mut watch = |_: &mut _, step: &DenseStep<'_>, _: &StepStatistics| {
         for part in 0..=10 {
             let t = step.t0() + f64::from(part) / 10.0 * (step.t1() - step.t0());
             let mut y = [0.0];
@@ -223,7 +223,7 @@ fn jumps_at_breakpoints_integrate_exactly() {
     };
     let mut ends = Vec::new();
     let mut from_left = true;
-    let mut watch = |_: &mut _, step: &DenseStep<'_>, _: &Statistics| {
+    let mut watch = |_: &mut _, step: &DenseStep<'_>, _: &StepStatistics| {
         ends.push(step.t1());
         from_left &= step.t1() >= 1.0 || step.dy1()[0] == staircase(step.t1().next_down());
         ControlFlow::Continue(())
@@ -264,7 +264,7 @@ fn step_size_is_restored_after_a_stop() {
         ..Options::default()
     };
     let mut sizes = Vec::new();
-    let mut watch = |_: &mut _, step: &DenseStep<'_>, _: &Statistics| {
+    let mut watch = |_: &mut _, step: &DenseStep<'_>, _: &StepStatistics| {
         sizes.push(step.h());
         ControlFlow::Continue(())
     };
@@ -294,7 +294,7 @@ fn no_growth_right_after_a_rejection() {
         ..Options::default()
     };
     let mut log = Vec::new();
-    let mut watch = |_: &mut _, step: &DenseStep<'_>, stats: &Statistics| {
+    let mut watch = |_: &mut _, step: &DenseStep<'_>, stats: &StepStatistics| {
         log.push((stats.rejected, step.h()));
         ControlFlow::Continue(())
     };
@@ -323,7 +323,7 @@ fn circle_and(
     });
     let tolerance = Tolerance::new(1e-6, vec![1e-6; 3], &[true; 3], vec![0, 3, 7]).unwrap();
     let (mut reached, mut rejected) = (0.0, 0);
-    let mut watch = |_: &mut _, step: &DenseStep<'_>, stats: &Statistics| {
+    let mut watch = |_: &mut _, step: &DenseStep<'_>, stats: &StepStatistics| {
         reached = step.t1();
         rejected = stats.rejected;
         ControlFlow::Continue(())
@@ -453,7 +453,7 @@ fn time_does_not_drift() {
     let h = 1e-6;
     let mut system = Ode::new(1, |_, _: &[f64], dy: &mut [f64]| dy[0] = 1.0);
     let (mut n, mut worst) = (0.0, 0.0_f64);
-    let mut watch = |_: &mut _, step: &DenseStep<'_>, _: &Statistics| {
+    let mut watch = |_: &mut _, step: &DenseStep<'_>, _: &StepStatistics| {
         n += 1.0;
         worst = worst.max((step.t1() - n * h).abs() / (step.t1().next_up() - step.t1()));
         ControlFlow::Continue(())
@@ -472,7 +472,7 @@ fn observer_finds_the_system_at_the_accepted_state() {
         breakpoints: vec![0.5],
         ..Options::default()
     };
-    let mut watch = |system: &mut Ode<_>, step: &DenseStep<'_>, _: &Statistics| {
+    let mut watch = |system: &mut Ode<_>, step: &DenseStep<'_>, _: &StepStatistics| {
         let seen = if step.t1() == 0.5 {
             0.5_f64.next_down()
         } else {
@@ -508,7 +508,7 @@ fn observer_finds_the_system_at_the_accepted_state() {
 fn observer_ends_the_run() {
     let mut system = Ode::new(4, kepler);
     let mut at = (0.0, Vec::new());
-    let mut watch = |_: &mut _, step: &DenseStep<'_>, stats: &Statistics| {
+    let mut watch = |_: &mut _, step: &DenseStep<'_>, stats: &StepStatistics| {
         at = (step.t1(), step.y1().to_vec());
         if stats.accepted == 3 {
             ControlFlow::Break(())
@@ -540,7 +540,7 @@ fn evaluations_are_counted_exactly() {
         };
         let mut accepted = 0;
         let mut smallest = (f64::INFINITY, f64::NAN);
-        let mut watch = |_: &mut _, step: &DenseStep<'_>, _: &Statistics| {
+        let mut watch = |_: &mut _, step: &DenseStep<'_>, _: &StepStatistics| {
             accepted += 1;
             if step.h() < smallest.0 {
                 smallest = (step.h(), step.t0());
@@ -659,7 +659,7 @@ fn first_step_follows_the_formula() {
             breakpoints: vec![breakpoint],
             ..Options::default()
         };
-        let mut watch = |_: &mut _, step: &DenseStep<'_>, stats: &Statistics| {
+        let mut watch = |_: &mut _, step: &DenseStep<'_>, stats: &StepStatistics| {
             let right = (step.h() / expected - 1.0).abs() < 1e-6;
             assert!(right && stats.rejected == 0, "{} {expected}", step.h());
             ControlFlow::Break(())

@@ -8,8 +8,8 @@ use std::ops::ControlFlow;
 use ballrace::compile;
 use ballrace::integrate::{
     self, Adams, Additive, Controller, DORMAND_PRINCE, DenseStep, ImplicitVelocity,
-    KENNEDY_CARPENTER, LinearlyImplicit, Options, Statistics, Stuck, System, Tableau, Tolerance,
-    VERNER, integrate,
+    KENNEDY_CARPENTER, LinearlyImplicit, Options, StepStatistics, Stuck, System, Tableau,
+    Tolerance, VERNER, integrate,
 };
 use ballrace::scene::{Friction, Method, presets};
 use ballrace::{Bandwidth, Run, Scene, Signals, simulate};
@@ -91,20 +91,20 @@ fn fixed(h: f64) -> Options {
 }
 
 /// End state, largest difference between dense output and `truth`, and effort.
-fn follow<M: integrate::Method<Rubbed>>(
+fn follow<M: integrate::StepMethod<Rubbed>>(
     method: &M,
     rate: f64,
     end: f64,
     options: &Options,
     truth: impl Fn(f64) -> f64,
-) -> (Vec<f64>, f64, Statistics) {
+) -> (Vec<f64>, f64, StepStatistics) {
     let mut system = Rubbed {
         rate,
         slip_speed: 0.5,
         asked: 0,
     };
     let mut between: f64 = 0.0;
-    let mut watch = |_: &mut _, step: &DenseStep<'_>, _: &Statistics| {
+    let mut watch = |_: &mut _, step: &DenseStep<'_>, _: &StepStatistics| {
         for part in 0..5 {
             let t = step.t0() + f64::from(part) / 5.0 * (step.t1() - step.t0());
             let mut y = [0.0; 2];
@@ -129,7 +129,7 @@ fn follow<M: integrate::Method<Rubbed>>(
 }
 
 /// Slopes of the errors of the end state over halved steps.
-fn orders<M: integrate::Method<Rubbed>>(method: &M, rate: f64, steps: &[f64]) -> Vec<f64> {
+fn orders<M: integrate::StepMethod<Rubbed>>(method: &M, rate: f64, steps: &[f64]) -> Vec<f64> {
     let exact = follow(&VERNER, rate, 1.0, &fixed(1e-3), |_| 0.0).0;
     let error = |h: f64| {
         let end = follow(method, rate, 1.0, &fixed(h), |_| 0.0).0;
@@ -143,7 +143,7 @@ fn orders<M: integrate::Method<Rubbed>>(method: &M, rate: f64, steps: &[f64]) ->
         .collect()
 }
 
-fn has_order<M: integrate::Method<Rubbed>>(method: &M, order: f64, steps: &[f64]) {
+fn has_order<M: integrate::StepMethod<Rubbed>>(method: &M, order: f64, steps: &[f64]) {
     let measured = orders(method, 6.0, steps);
     for slope in &measured {
         let name = method.tableau().name;
@@ -173,7 +173,7 @@ fn dense_outputs_have_their_order() {
             slip_speed: 0.5,
             asked: 0,
         };
-        let mut watch = |_: &mut Rubbed, step: &DenseStep<'_>, _: &Statistics| {
+        let mut watch = |_: &mut Rubbed, step: &DenseStep<'_>, _: &StepStatistics| {
             places.push(step.y0()[0]);
             ControlFlow::Continue(())
         };
@@ -229,7 +229,7 @@ fn stiff_velocities_do_not_hold_implicit_steps() {
 }
 
 /// Adams' method with its own way to follow the error.
-fn by_adams(rate: f64, end: f64, rtol: f64) -> (f64, Statistics) {
+fn by_adams(rate: f64, end: f64, rtol: f64) -> (f64, StepStatistics) {
     let mut system = Rubbed {
         rate,
         slip_speed: 0.5,
@@ -237,7 +237,7 @@ fn by_adams(rate: f64, end: f64, rtol: f64) -> (f64, Statistics) {
     };
     let tolerance = Tolerance::uniform(2, rtol, rtol).unwrap();
     let options = Options {
-        controller: integrate::Method::<Rubbed>::controller(&Adams),
+        controller: integrate::StepMethod::<Rubbed>::controller(&Adams),
         ..Options::default()
     };
     let found = integrate(
@@ -363,7 +363,7 @@ impl LinearlyImplicit for Pushed {
 fn accelerations_that_end_are_zero() {
     let tolerance = Tolerance::uniform(2, 1e-9, 1e-9).unwrap();
     let mut after = 0;
-    let mut watch = |_: &mut Pushed, step: &DenseStep<'_>, _: &Statistics| {
+    let mut watch = |_: &mut Pushed, step: &DenseStep<'_>, _: &StepStatistics| {
         if step.t1() > 0.105 {
             assert_eq!(step.dy1()[1], 0.0, "at {}", step.t1());
             after += 1;

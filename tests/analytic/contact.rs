@@ -4,7 +4,7 @@ use ballrace::compile;
 use ballrace::contact::Shape;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::{
-    BallSide, Elastic, Law, Motion, Pair, Rules, Sink, Slices, Torus, Touch, Waves,
+    BallSide, Elastic, Law, Motion, Pair, Rules, Sink, Torus, Touch, Waves, ZoneSlices,
 };
 use ballrace::inspect;
 use ballrace::scene::{Component, Friction, NormalLaw, Probe, presets};
@@ -28,7 +28,7 @@ fn still(x: f64, z: f64) -> Motion {
 }
 
 /// Magnitude of the force of the Hertz law at an approach and an operating angle.
-fn hertz_force(slices: Slices, approach: f64, angle: f64) -> (f64, Hertz) {
+fn hertz_force(slices: ZoneSlices, approach: f64, angle: f64) -> (f64, Hertz) {
     let steel = ballrace::scene::Material::default();
     let law = Hertz::new(1.0, 11.9e-3, 63e-3, 0.53, 0.0, &steel, &steel);
     let (r, radius) = (0.53 * 11.9e-3, 5.95e-3);
@@ -65,7 +65,8 @@ fn hertz_law_is_hertz() {
     for approach in [2e-6, 10e-6, 50e-6] {
         for degrees in [0.0_f64, 15.0, 40.0] {
             let angle = degrees.to_radians();
-            let (fitted, law) = hertz_force(Slices::Fitted(Rules::new(4, 1.0)), approach, angle);
+            let (fitted, law) =
+                hertz_force(ZoneSlices::Fitted(Rules::new(4, 1.0)), approach, angle);
             let exact = law.stiffness * approach.powf(1.5);
             assert!(
                 (fitted / exact - 1.0).abs() < 1e-10,
@@ -74,7 +75,7 @@ fn hertz_law_is_hertz() {
             );
             // A contact of a micrometre is as wide as a slice.
             if approach > 20e-6 {
-                let (fixed, _) = hertz_force(Slices::Fixed(50), approach, angle);
+                let (fixed, _) = hertz_force(ZoneSlices::Fixed(50), approach, angle);
                 assert!(
                     (fixed / exact - 1.0).abs() < 5e-3,
                     "{degrees}: {}",
@@ -91,13 +92,14 @@ fn hertz_law_has_no_pole() {
     for approach in [10e-6, 50e-6] {
         for degrees in [55.0_f64, 70.0, 80.0, 85.0] {
             let rules = Rules::new(6, 1.0);
-            let (fitted, law) = hertz_force(Slices::Fitted(rules), approach, degrees.to_radians());
+            let (fitted, law) =
+                hertz_force(ZoneSlices::Fitted(rules), approach, degrees.to_radians());
             let exact = law.stiffness * approach.powf(1.5);
             let off = fitted / exact - 1.0;
             assert!(off.abs() < 1e-10, "{approach} {degrees}: {off}");
         }
     }
-    let (_, law) = hertz_force(Slices::Fitted(Rules::new(6, 1.0)), 50e-6, 1.2);
+    let (_, law) = hertz_force(ZoneSlices::Fitted(Rules::new(6, 1.0)), 50e-6, 1.2);
     assert!(law.half_zone(50e-6) > 20_f64.to_radians() * 5.95e-3);
 }
 

@@ -4,8 +4,8 @@ use crate::common;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::iso16281::Iso16281;
 use ballrace::contact::{
-    BallSide, Damping, Elastic, Fault, Law, Motion, Pair, Rules, Shape, Sink, Slices, Torus, Touch,
-    Traction, Waves,
+    BallSide, Damping, Elastic, Fault, Law, Motion, Pair, Rules, Shape, Sink, Torus, Touch,
+    Traction, Waves, ZoneSlices,
 };
 use ballrace::dynamics::contributions;
 use ballrace::scene::{Defect, Friction, Material, Surface};
@@ -78,7 +78,7 @@ impl Case {
                     },
                     ..Law::elastic(elastic)
                 },
-                slices: Slices::Fixed(10),
+                slices: ZoneSlices::Fixed(10),
                 faults: Vec::new(),
             },
         }
@@ -96,7 +96,7 @@ impl Case {
     fn sum(&self, nodes: usize, finer: usize) -> Sum {
         let mut pair = self.pair.clone();
         let exponent = pair.law.elastic.exponent();
-        pair.slices = Slices::Fitted(Rules::for_friction(nodes, exponent, finer));
+        pair.slices = ZoneSlices::Fitted(Rules::for_friction(nodes, exponent, finer));
         let mut sum = Sum::default();
         let side = BallSide {
             radius: RADIUS,

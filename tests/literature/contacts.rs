@@ -20,7 +20,7 @@ use ballrace::contact::Shape;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::iso16281::Iso16281;
 use ballrace::contact::{
-    BallSide, Elastic, Fault, Law, Motion, Pair, Sink, Slices, Torus, Touch, Waves,
+    BallSide, Elastic, Fault, Law, Motion, Pair, Sink, Torus, Touch, Waves, ZoneSlices,
 };
 use ballrace::scene::{Defect, Material, Surface};
 use common::meets;
@@ -217,7 +217,7 @@ fn iso_pair(sigma: f64, d: f64, pitch: f64, conformity: f64) -> Pair {
         shape: Shape::default(),
         waves: Waves::default(),
         law: Law::elastic(Elastic::Iso16281(Iso16281::new(3.5948e10, 0.5, d))),
-        slices: Slices::Fixed(20_001),
+        slices: ZoneSlices::Fixed(20_001),
         faults: Vec::new(),
     }
 }

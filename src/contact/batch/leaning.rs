@@ -12,7 +12,7 @@ use crate::contact::{Motion, Pair};
 use crate::simd::{InstructionSet, Lanes, Mask};
 
 /// Sums over the elements of contacts whose balls turn across the ring's axis.
-pub(super) struct Leaning<'a> {
+pub(super) struct SpatialSums<'a> {
     pub sums: Sums<'a>,
     /// Angular velocities along n_e and t_e \[rad/s\].
     pub turning: Across,
@@ -32,7 +32,7 @@ impl Pair {
     ) -> (BatchForces, [Across; 2]) {
         let (whole, moves, place) = self.place::<FMA, false>(eight, ring, Mask::default());
         let turning = place.along_contact(turning, self.race.sigma);
-        let mut sums = Leaning {
+        let mut sums = SpatialSums {
             sums: Sums::new(self, &whole, &moves),
             turning,
             moments: [Lanes::ZERO; 2],
@@ -55,7 +55,7 @@ impl Place {
     }
 }
 
-impl Leaning<'_> {
+impl SpatialSums<'_> {
     /// What they put on balls and ring, with the moments about x and y.
     #[inline(always)]
     pub fn on_bodies(&self, eight: &EightContacts, place: &Place) -> (BatchForces, [Across; 2]) {
@@ -74,7 +74,7 @@ impl Leaning<'_> {
     }
 }
 
-impl Receiver<Lanes> for Leaning<'_> {
+impl Receiver<Lanes> for SpatialSums<'_> {
     #[inline(always)]
     fn element<const FMA: bool, const SYMMETRIC: bool>(
         &mut self,

@@ -15,7 +15,7 @@ mod rubbing;
 pub(crate) use gather::{Across, Constants, EightContacts, Places};
 pub(crate) use rubbing::Rubbing;
 
-use super::kernel::{self, Element, Force, Receiver, State, Whole};
+use super::kernel::{self, Element, ElementForce, ElementState, Receiver, Whole};
 use super::laws::traction::Rolling;
 use super::oil::RollingResistance;
 use super::profile::{SHALLOW, Section, Zone};
@@ -251,13 +251,13 @@ impl<'a> Sums<'a> {
 impl Sums<'_> {
     /// What the force of an element depends on, whose elastic force is counted.
     #[inline(always)]
-    fn state<const FMA: bool>(&mut self, element: &Element<Lanes>) -> State<Lanes> {
+    fn state<const FMA: bool>(&mut self, element: &Element<Lanes>) -> ElementState<Lanes> {
         let moves = self.moves;
         let sigma = Lanes::all(self.sigma);
         let arm = element.groove.mul_add::<FMA>(sigma, moves.arm);
         let elastic = element.load * element.length;
         self.elastic += elastic * element.share.0;
-        State {
+        ElementState {
             elastic,
             share: element.share,
             rubbing: element.rubbing,
@@ -278,7 +278,7 @@ impl Sums<'_> {
 
     /// Adds the force of so many elements at an arm.
     #[inline(always)]
-    fn add<const SYMMETRIC: bool>(&mut self, force: &Force<Lanes>, arm: Lanes, times: u32) {
+    fn add<const SYMMETRIC: bool>(&mut self, force: &ElementForce<Lanes>, arm: Lanes, times: u32) {
         self.pulls.add(Lanes::ZERO.above(force.damped), times);
         let [normal, tangential, axial] = force.on_ring;
         self.normal = self.normal - normal;

@@ -6,12 +6,12 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::leaning::Leaning;
+use super::leaning::SpatialSums;
 use super::{Across, BatchForces, EightContacts, Moves, Place, Rubbing, Sums};
 use crate::contact::kernel::{Element, Receiver, Whole};
-use crate::contact::laws::elastic::{ForLaw, Load};
+use crate::contact::laws::elastic::{ElasticLaw, ForLaw};
 use crate::contact::profile::{Contour, FLAT, REACH, SHALLOW, SNUG, Section, SurfacePoint, Zone};
-use crate::contact::{Cut, FilmEffect, Motion, Pair, Slices};
+use crate::contact::{Cut, FilmEffect, Motion, Pair, ZoneSlices};
 use crate::simd::{InstructionSet, Lanes, Mask};
 
 /// Newton steps before a contact is left out.
@@ -72,7 +72,7 @@ impl Pair {
         let turns = (&moves, turning);
         let rubbing =
             rubbing.at_nodes_turning::<FMA, true>(instructions, self, &whole, turns, Some(middle));
-        let mut sums = Leaning {
+        let mut sums = SpatialSums {
             sums: Sums::new(self, &whole, &moves),
             turning,
             moments: [Lanes::ZERO; 2],
@@ -135,7 +135,7 @@ impl Pair {
     ) {
         // What is not evaluated here stands clear of the race.
         let clear = Lanes::all(-1e3 * self.race.sigma);
-        self.law.elastic.choose(Elements::<_, FMA> {
+        self.law.elastic.choose(CurveElements::<_, FMA> {
             slices: &self.slices,
             curve,
             whole,
@@ -311,8 +311,8 @@ impl Meetings {
 }
 
 /// The elements of eight contacts with a curve, for one elastic law.
-struct Elements<'a, R, const FMA: bool> {
-    slices: &'a Slices,
+struct CurveElements<'a, R, const FMA: bool> {
+    slices: &'a ZoneSlices,
     curve: &'a OnCurve<'a>,
     whole: &'a Whole<Lanes>,
     /// Distances from the ring's axis less the waves \[m\].
@@ -324,13 +324,13 @@ struct Elements<'a, R, const FMA: bool> {
     to: &'a mut R,
 }
 
-impl<R: Receiver<Lanes>, const FMA: bool> ForLaw for Elements<'_, R, FMA> {
+impl<R: Receiver<Lanes>, const FMA: bool> ForLaw for CurveElements<'_, R, FMA> {
     #[inline(always)]
-    fn run<L: Load>(self) {
+    fn run<L: ElasticLaw>(self) {
         let whole = self.whole;
         let (half, radius) = (whole.half, whole.section.radius);
         match self.slices {
-            Slices::Fitted(rules) => {
+            ZoneSlices::Fitted(rules) => {
                 for (k, &(x, weight)) in rules.on([true; 2]).iter().enumerate() {
                     let (u, length) = (half * x + self.middle, half * weight);
                     let mut element = if L::FLAT {
@@ -347,7 +347,7 @@ impl<R: Receiver<Lanes>, const FMA: bool> ForLaw for Elements<'_, R, FMA> {
                     self.to.element::<FMA, false>(&element, 1);
                 }
             }
-            Slices::Fixed(count) => {
+            ZoneSlices::Fixed(count) => {
                 let width = radius * (2.0 / *count as f64);
                 let (cos, sin) = whole.section.normal;
                 for (place, _) in whole.fixed_sines::<false>(*count) {
@@ -366,7 +366,7 @@ impl<R: Receiver<Lanes>, const FMA: bool> ForLaw for Elements<'_, R, FMA> {
     }
 }
 
-impl<R, const FMA: bool> Elements<'_, R, FMA> {
+impl<R, const FMA: bool> CurveElements<'_, R, FMA> {
     /// σ R under the points of the balls at sin α \[m\].
     #[inline(always)]
     fn height(&self, sin: Lanes) -> Lanes {
@@ -381,7 +381,7 @@ impl<R, const FMA: bool> Elements<'_, R, FMA> {
 
     /// A slice of the ball's surface.
     #[inline(always)]
-    fn on_surface<L: Load>(
+    fn on_surface<L: ElasticLaw>(
         &self,
         (sin, cos, tan): (Lanes, Lanes, Lanes),
         width: Lanes,
@@ -403,7 +403,7 @@ impl<R, const FMA: bool> Elements<'_, R, FMA> {
 
     /// An element of the common tangent.
     #[inline(always)]
-    fn on_tangent<L: Load>(&self, u: Lanes, length: Lanes) -> Element<Lanes> {
+    fn on_tangent<L: ElasticLaw>(&self, u: Lanes, length: Lanes) -> Element<Lanes> {
         let whole = self.whole;
         let (normal_cos, normal_sin) = whole.section.normal;
         let sin = (u * whole.inverse).mul_add::<FMA>(normal_cos, normal_sin);

@@ -7,7 +7,7 @@ use super::Across;
 use crate::contact::kernel::Whole;
 use crate::contact::quadrature::Halves;
 use crate::contact::slip::{Moves, Slip};
-use crate::contact::{Pair, Slices};
+use crate::contact::{Pair, ZoneSlices};
 use crate::simd::{InstructionSet, LANES, Lanes, Simd, Vector, Wide};
 
 /// Memory for it.
@@ -40,7 +40,7 @@ impl Rubbing {
         (moves, turning): (&Moves<Lanes>, Across),
         middle: Option<Lanes>,
     ) -> Option<&[Lanes]> {
-        let Slices::Fitted(rules) = &pair.slices else {
+        let ZoneSlices::Fitted(rules) = &pair.slices else {
             return None;
         };
         let halves = rules.halves()?;

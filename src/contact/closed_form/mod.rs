@@ -16,7 +16,7 @@ pub(crate) use axially_fixed::{AxiallyFixedBalls, AxiallyFixedRace};
 
 use super::laws::elastic::ten_ninths;
 use super::profile::{SHALLOW, Section, Zone};
-use super::{Elastic, Pair, Rules, Slices, kernel};
+use super::{Elastic, Pair, Rules, ZoneSlices, kernel};
 use crate::simd::{Simd, Vector};
 
 /// Share of the ball's radius at which a zone ends with the ball.
@@ -49,7 +49,7 @@ pub(crate) fn hertz_stiffness(pair: &Pair) -> Option<f64> {
 /// The same for elastic forces alone.
 pub(super) fn elastic_stiffness(pair: &Pair) -> Option<f64> {
     match (&pair.slices, &pair.law.elastic) {
-        (Slices::Fitted(_), Elastic::Hertz(law)) => {
+        (ZoneSlices::Fitted(_), Elastic::Hertz(law)) => {
             Some(4.0 / 3.0 * law.slope * (2.0 / law.curvature).sqrt())
         }
         _ => None,
@@ -59,7 +59,7 @@ pub(super) fn elastic_stiffness(pair: &Pair) -> Option<f64> {
 /// The nodes of a contact that could have a closed form: of a torus without friction and oil.
 fn rules(pair: &Pair) -> Option<&Rules> {
     match &pair.slices {
-        Slices::Fitted(rules) if pair.law.is_elastic_or_damped() && pair.shape.is_torus() => {
+        ZoneSlices::Fitted(rules) if pair.law.is_elastic_or_damped() && pair.shape.is_torus() => {
             Some(rules)
         }
         _ => None,
@@ -97,7 +97,7 @@ impl InPlane {
     /// bound.
     pub fn new(pair: &Pair, radius: f64, offset: f64) -> Option<Self> {
         let rules = rules(pair)?;
-        let place = Place {
+        let place = BallInGroove {
             pair,
             radius,
             offset,
@@ -124,13 +124,13 @@ impl InPlane {
 }
 
 /// A ball at some axial place in a groove.
-struct Place<'a> {
+struct BallInGroove<'a> {
     pair: &'a Pair,
     radius: f64,
     offset: f64,
 }
 
-impl Place<'_> {
+impl BallInGroove<'_> {
     fn bound(&self) -> f64 {
         if self.offset == 0.0 { BOUND.0 } else { BOUND.1 }
     }
@@ -183,7 +183,7 @@ impl Place<'_> {
     /// The force in the plane by the nodes.
     fn force(&self, rules: &Rules, approach: f64) -> f64 {
         let (_, Zone { half, .. }) = self.at(approach);
-        let circles = Profile {
+        let circles = TwoCircles {
             radius: self.radius,
             r: self.pair.race.r,
             approach,
@@ -204,13 +204,13 @@ impl Place<'_> {
 }
 
 /// Ball and groove as two circles.
-struct Profile {
+struct TwoCircles {
     radius: f64,
     r: f64,
     approach: f64,
 }
 
-impl Profile {
+impl TwoCircles {
     /// Penetration of a ball level with the groove, δ + (r − √(r² − ζ²)) − (R − √(R² − ζ²)), without the cancellation
     /// of places that are alike.
     fn depth(&self, zeta: f64) -> f64 {
@@ -355,10 +355,10 @@ mod tests {
                     0.5,
                     2.0 * radius,
                 ))),
-                slices: Slices::Fitted(rules.clone()),
+                slices: ZoneSlices::Fitted(rules.clone()),
                 faults: Vec::new(),
             };
-            let place = Place {
+            let place = BallInGroove {
                 pair: &pair,
                 radius,
                 offset,

@@ -4,8 +4,8 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::gradient::tests::{RADIUS, pair};
 use crate::contact::{
-    Aside, BallSide, Damping, Fault, Motion, Pair, Sink, Slices, Torus, Touch, Traction, V2,
-    Wrench, cross,
+    Aside, BallSide, Damping, Fault, Motion, Pair, Sink, Torus, Touch, Traction, V2, Wrench,
+    ZoneSlices, cross,
 };
 use crate::scene::{Defect, Floor, Friction, Surface, WidthProfile};
 
@@ -335,7 +335,7 @@ fn a_patch_of_the_same_outline_does_the_same() {
         }
     };
     for (mut pair, name) in pairs() {
-        pair.slices = Slices::Fixed(2000);
+        pair.slices = ZoneSlices::Fixed(2000);
         for (width, angle, beside) in [(1.4e-3, 0.35, [0.02, 0.1]), (0.2e-3, 0.0, [0.01, 0.0])] {
             let pressed = Pressed::at(&pair.race, angle);
             let e = pressed.beside(beside);

@@ -2,12 +2,12 @@
 
 use super::Edge;
 use super::depth::Depth;
-use super::elements::{Lean, RingElement, Shape, WITH_RING_AXIS};
+use super::elements::{FeatureShape, Lean, RingElement, WITH_RING_AXIS};
 use crate::contact::profile::Raise;
-use crate::contact::scalar::{Contact, Node};
+use crate::contact::scalar::{Node, OneContact};
 use crate::contact::{V2, turned};
 
-impl Contact<'_> {
+impl OneContact<'_> {
     /// A fault circle of the ring against the smooth slice.
     pub(super) fn ring_circle<D: Depth>(
         &self,
@@ -32,7 +32,7 @@ impl Contact<'_> {
             V2::zeros()
         };
         RingElement {
-            shape: Shape::Circle {
+            shape: FeatureShape::Circle {
                 from_ring,
                 radius: edge.radius,
                 slope,
@@ -66,8 +66,8 @@ impl Contact<'_> {
         let turn = edge.turn(node.rho, rho_slope);
         let slope = u * rho_slope + turned(u) * (lever * turn);
         let mut met = match feature.shape {
-            Shape::Race => self.circle_on_race(node, feature, edge, arm),
-            Shape::Circle { .. } => self.circle_on_circle(feature, edge, arm),
+            FeatureShape::Race => self.circle_on_race(node, feature, edge, arm),
+            FeatureShape::Circle { .. } => self.circle_on_circle(feature, edge, arm),
         };
         let tan = met.lean.force.dot(&slope) - met.n_e.dot(&slope);
         met.s = met.s.along_ball(-tan);
@@ -114,7 +114,7 @@ impl Contact<'_> {
         edge: &Edge,
         arm: V2,
     ) -> RingElement<D> {
-        let Shape::Circle {
+        let FeatureShape::Circle {
             from_ring: other,
             radius,
             slope,

@@ -19,12 +19,12 @@ use nalgebra::Vector3;
 
 use super::depth::Depth;
 use super::{Arc, Edge, Toward, absent, floors};
-use crate::contact::scalar::{Contact, Node};
+use crate::contact::scalar::{Node, OneContact};
 use crate::contact::{V2, turned};
 
 /// The ring's side of a feature.
 #[derive(Clone, Copy)]
-pub(super) enum Shape {
+pub(super) enum FeatureShape {
     Race,
     Circle {
         from_ring: V2,
@@ -44,7 +44,7 @@ pub(super) struct Lean {
 /// A surface of the ring that a slice can meet.
 #[derive(Clone, Copy)]
 pub(super) struct RingElement<D> {
-    pub(super) shape: Shape,
+    pub(super) shape: FeatureShape,
     /// Unit vector out of the ball.
     pub(super) n_e: V2,
     /// Penetration of the smooth ball against it, by geometry.
@@ -93,7 +93,7 @@ pub(in crate::contact) struct Penetrations {
 /// Penetrations that are kept; a bed of floor circles can have more, at some loss of accuracy.
 const MOST_KEPT: usize = 24;
 
-impl Contact<'_> {
+impl OneContact<'_> {
     /// Whether a surface is absent where the slice meets it.
     pub(in crate::contact) fn is_open(&self, node: &Node) -> bool {
         let direction = self.n * self.race.sigma;
@@ -189,7 +189,7 @@ impl Contact<'_> {
     fn race_element<D: Depth>(&self, node: &Node) -> RingElement<D> {
         let sigma = self.race.sigma;
         RingElement {
-            shape: Shape::Race,
+            shape: FeatureShape::Race,
             n_e: self.n * sigma,
             s: D::new(
                 self.section.penetration(node.rho, node.groove),

@@ -33,7 +33,7 @@
 
 use super::depth::Sloped;
 use super::elements::{ElementPair, WITH_RING_AXIS};
-use crate::contact::scalar::{Contact, Line, Node};
+use crate::contact::scalar::{Line, Node, OneContact};
 use crate::contact::{Aside, Sink, V2, turned};
 
 /// To which body an axial end of a defect belongs.
@@ -46,7 +46,7 @@ pub(in crate::contact) enum Owner {
 /// How far beside an end its two sides are looked at \[m\]: rounding only.
 pub(in crate::contact) const HAIR: f64 = 1e-12;
 
-impl Contact<'_> {
+impl OneContact<'_> {
     /// What the meridional direction and the axial place have to say to an element's energy under the Hertz law.
     pub(super) fn tilt<S: Sink + ?Sized>(
         &self,
@@ -159,7 +159,7 @@ pub(super) mod tests {
     use crate::contact::hertz::Hertz;
     use crate::contact::iso16281::Iso16281;
     use crate::contact::{
-        BallSide, Elastic, Fault, Law, Motion, Pair, Rules, Shape, Slices, Torus, Touch, Waves,
+        BallSide, Elastic, Fault, Law, Motion, Pair, Rules, Shape, Torus, Touch, Waves, ZoneSlices,
     };
     use crate::scene::{Defect, Floor, Material, Surface, Waviness, Width, WidthProfile};
 
@@ -232,7 +232,7 @@ pub(super) mod tests {
             waves: Waves(if waves > 0 { vec![wave] } else { Vec::new() }),
             law: Law::elastic(elastic),
             // Inside a defect forces like s^{10/9} end within pieces, without a weight for them.
-            slices: Slices::Fitted(Rules::new(24, elastic.exponent())),
+            slices: ZoneSlices::Fitted(Rules::new(24, elastic.exponent())),
             faults: defect.map(fault).into_iter().collect(),
         }
     }

@@ -2,11 +2,11 @@
 
 use super::depth::{Depth, Sloped};
 use super::elements::{ElementPair, Lean, RingElement};
-use crate::contact::kernel::{self, State};
-use crate::contact::scalar::{Contact, Node};
+use crate::contact::kernel::{self, ElementState};
+use crate::contact::scalar::{Node, OneContact};
 use crate::contact::{Aside, Sink, Touch, V2, cross, turned};
 
-impl Contact<'_> {
+impl OneContact<'_> {
     /// One slice against whatever it meets.
     pub(in crate::contact) fn slice<S: Sink + ?Sized>(&self, node: &Node, sink: &mut S) {
         if node.depth <= 0.0 {
@@ -116,7 +116,7 @@ impl Contact<'_> {
         feature: &RingElement<D>,
         tan: f64,
         (elastic, depth): (f64, f64),
-    ) -> State<f64> {
+    ) -> ElementState<f64> {
         let (b, r, n_e) = (self.b, self.r, feature.n_e);
         let arm_ball = feature.arm_ring - self.apart;
         let v_p = b.velocity - r.velocity + turned(arm_ball) * b.omega
@@ -137,7 +137,7 @@ impl Contact<'_> {
         };
         let share = self.common().unwrap_or((1.0, tan));
         let velocity = [v_p.dot(&n_e), v_p.dot(&turned(n_e)), b.vz - r.vz];
-        State {
+        ElementState {
             elastic,
             share,
             rubbing: node.rubbing,
@@ -153,14 +153,14 @@ impl Contact<'_> {
     }
 }
 
-impl Contact<'_> {
+impl OneContact<'_> {
     /// Adds what the ball does that turns across the ring's axis to the velocities of an element, but for the slip along the meridian,
     /// which is returned \[m/s\].
     fn turning_across<D: Depth>(
         &self,
         node: &Node,
         feature: &RingElement<D>,
-        state: &mut State<f64>,
+        state: &mut ElementState<f64>,
     ) -> f64 {
         let (n_e, across) = (feature.n_e, self.b.across);
         let arm = feature.arm_ring - self.apart;

@@ -26,7 +26,7 @@ pub(crate) struct LoadWithin {
     pub place: f64,
 }
 
-struct Sum<'a> {
+struct LoadSum<'a> {
     defect: &'a Sighted<'a>,
     radius: f64,
     pair: &'a Pair,
@@ -35,7 +35,7 @@ struct Sum<'a> {
     moment: f64,
 }
 
-impl Sink for Sum<'_> {
+impl Sink for LoadSum<'_> {
     fn touch(&mut self, touch: &Touch) {
         let (place, radius) = if self.defect.on_ball {
             let square = self.radius * self.radius - touch.zeta * touch.zeta;
@@ -64,7 +64,7 @@ impl Pair {
         r: &Motion,
         defect: &Sighted<'_>,
     ) -> LoadWithin {
-        let mut sum = Sum {
+        let mut sum = LoadSum {
             defect,
             radius: ball.radius,
             pair: self,

@@ -18,14 +18,14 @@ pub(crate) use packs::{SlicePack, SlicePacking};
 pub(crate) use wrench::{AXIAL, FREE, PlaneVector, StageWrench, in_contact};
 
 use super::batch::{Across, EightContacts, Rubbing};
-use super::kernel::{self, Element, Force, Receiver, State, Whole};
+use super::kernel::{self, Element, ElementForce, ElementState, Receiver, Whole};
 use super::laws::traction::Rolling;
 use super::slip::Moves;
 use super::{FilmEffect, Motion, Pair};
 use crate::simd::{InstructionSet, Lanes, Mask};
 use wrench::Slope;
 
-/// An element of eight contacts, or eight slices of one: what of its [`State`] does not depend on velocities.
+/// An element of eight contacts, or eight slices of one: what of its [`ElementState`] does not depend on velocities.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct StageElement {
     elastic: Lanes,
@@ -224,7 +224,7 @@ impl Pair {
             velocity[1] = twist[AXIAL].mul_add::<FMA>(turns[0], velocity[1]);
             across = twist[AXIAL].mul_add::<FMA>(beside, twist[AXIAL + 1] * turns[1]);
         }
-        let state = State {
+        let state = ElementState {
             elastic: element.elastic,
             share: element.share,
             rubbing: element.rubbing,
@@ -266,8 +266,8 @@ impl Pair {
     #[inline(always)]
     fn slope<const FMA: bool>(
         &self,
-        state: &State<Lanes>,
-        force: &Force<Lanes>,
+        state: &ElementState<Lanes>,
+        force: &ElementForce<Lanes>,
         hardening: Lanes,
         Slopes { secant, reach }: Slopes,
     ) -> Slope {

@@ -4,10 +4,10 @@ use super::*;
 use crate::contact::dual::Dual;
 use crate::contact::iso16281::Iso16281;
 use crate::contact::laws::traction::tests::laws;
-use crate::contact::{Damping, Elastic, Law, Shape, Slices, Torus, Waves};
+use crate::contact::{Damping, Elastic, Law, Shape, Torus, Waves, ZoneSlices};
 
-fn state<T: crate::simd::Number>(of: impl Fn(f64) -> T, velocity: [T; 3]) -> State<T> {
-    State {
+fn state<T: crate::simd::Number>(of: impl Fn(f64) -> T, velocity: [T; 3]) -> ElementState<T> {
+    ElementState {
         elastic: of(120.0),
         share: (of(0.8), of(0.6)),
         rubbing: of(0.9),
@@ -57,7 +57,7 @@ fn the_slope_is_the_kernels() {
                 shape: Shape::default(),
                 waves: Waves::default(),
                 law,
-                slices: Slices::Fixed(10),
+                slices: ZoneSlices::Fixed(10),
                 faults: Vec::new(),
             };
             let lanes = state(Lanes::all, velocity.map(Lanes::all));

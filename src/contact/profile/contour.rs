@@ -15,7 +15,7 @@
 //! into the curve itself.
 
 use super::curve::Curve;
-use super::meeting::{Meeting, Part, STEPS, Surface};
+use super::meeting::{Meeting, Part, RaceSurface, STEPS};
 use super::{Section, Torus};
 use crate::simd::{Lanes, Mask};
 
@@ -160,7 +160,7 @@ impl Contour {
         let (e, c) = (l * normal.0, -l * normal.1);
         let centre = ball.z + c;
         Some(Meeting {
-            surface: Surface {
+            surface: RaceSurface {
                 curve: &self.curve,
                 part,
             },

@@ -21,12 +21,12 @@ pub(in crate::contact) struct Part {
 
 /// The part of a race that a contact is with.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::contact) struct Surface<'a> {
+pub(in crate::contact) struct RaceSurface<'a> {
     pub curve: &'a Curve,
     pub part: Part,
 }
 
-impl Surface<'_> {
+impl RaceSurface<'_> {
     /// The race at a place of the ring's frame; none outside the part.
     #[inline]
     pub fn at(&self, z: f64) -> Option<RacePoint> {
@@ -39,7 +39,7 @@ impl Surface<'_> {
 /// One contact of a ball with a race through points.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::contact) struct Meeting<'a> {
-    pub surface: Surface<'a>,
+    pub surface: RaceSurface<'a>,
     /// The circle of curvature at the foot, as a race.
     pub torus: Torus,
     /// The ball before it.

@@ -13,7 +13,7 @@ mod zone;
 pub(crate) use contour::{Before, Contour};
 pub(super) use contour::{FLAT, SNUG};
 pub(crate) use curve::Curve;
-pub(super) use meeting::{Meeting, REACH, Surface};
+pub(super) use meeting::{Meeting, REACH, RaceSurface};
 pub(crate) use section::Section;
 pub(crate) use waves::Raise;
 pub use waves::Waves;

@@ -16,14 +16,14 @@ pub(super) use product::Product;
 
 /// Fixed slices or fitted nodes.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Slices {
+pub enum ZoneSlices {
     /// n slices of width D/n over the ball, at fixed places in it.
     Fixed(usize),
     /// Nodes on every smooth piece of the zone.
     Fitted(Rules),
 }
 
-impl Slices {
+impl ZoneSlices {
     /// Slices of a ball, or nodes of a whole zone.
     // At most thousands.
     #[allow(clippy::cast_possible_truncation)]

@@ -58,7 +58,7 @@ impl<T: Number> Needles<T> {
     /// Those of the slip along a zone about a centre, `half` to both sides \[m\].
     #[inline(always)]
     pub fn of<const FMA: bool>(slip: &Slip<T>, centre: T, half: T) -> Self {
-        let zone = Zone::new::<FMA>(slip, centre, half);
+        let zone = CutZone::new::<FMA>(slip, centre, half);
         let [c_0, c_1, c_2, ..] = zone.along;
         let one = half.same(1.0);
         let square = c_1 * c_1 - c_0 * c_2 * 4.0;
@@ -118,7 +118,7 @@ impl<T: Number> Needles<T> {
 }
 
 /// Slip by the place in a zone.
-struct Zone<'a, T> {
+struct CutZone<'a, T> {
     slip: &'a Slip<T>,
     centre: T,
     half: T,
@@ -126,7 +126,7 @@ struct Zone<'a, T> {
     across: [T; 3],
 }
 
-impl<'a, T: Number> Zone<'a, T> {
+impl<'a, T: Number> CutZone<'a, T> {
     #[inline(always)]
     fn new<const FMA: bool>(slip: &'a Slip<T>, centre: T, half: T) -> Self {
         let (along, across) = slip.over_zone::<FMA>(centre, half);
@@ -150,7 +150,7 @@ impl<T: Number> Needle<T> {
     /// Near x = over/under, if that lies near the zone, and where it is `there`.
     #[inline(always)]
     fn of<const FMA: bool>(
-        zone: &Zone<'_, T>,
+        zone: &CutZone<'_, T>,
         (over, under): (T, T),
         (there, limit): (T, T),
     ) -> Self {

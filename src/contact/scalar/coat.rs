@@ -2,7 +2,7 @@
 
 use super::Pair;
 use crate::contact::laws::film::Oiled;
-use crate::contact::{Rules, Slices, Traction};
+use crate::contact::{Rules, Traction, ZoneSlices};
 
 impl Pair {
     /// Gives the race its film.
@@ -10,9 +10,9 @@ impl Pair {
         self.law.film = Some(*oiled);
         if traction {
             self.law.traction = Some(Traction::of_film(&oiled.now));
-            if let Slices::Fitted(rules) = &self.slices {
+            if let ZoneSlices::Fitted(rules) = &self.slices {
                 let exponent = self.law.elastic.exponent();
-                self.slices = Slices::Fitted(Rules::for_films(rules.count(), exponent));
+                self.slices = ZoneSlices::Fitted(Rules::for_films(rules.count(), exponent));
             }
         }
         self.coat(oiled.now.thickness());

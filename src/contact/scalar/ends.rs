@@ -4,14 +4,14 @@
 //! zero, the extremum of the penetration, which is nearly a parabola, is found. Otherwise a zone shorter than a step, such as that
 //! of a far edge or of what is left of the race, would begin with a jump of the force, and an equilibrium there could not be found.
 
-use super::{Contact, Line};
+use super::{Line, OneContact};
 
 /// Places at which a piece inside a defect is looked at for the ends of the elements' zones.
 const LOOKS: usize = 12;
 /// Ends of zones in one piece that are kept; a bed of floor circles can have more, at some loss of accuracy.
 const MOST_ENDS: usize = 16;
 
-impl Contact<'_> {
+impl OneContact<'_> {
     /// Where a penetration of any element changes its sign within a piece, in order.
     pub(super) fn zone_ends(
         &self,

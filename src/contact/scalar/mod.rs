@@ -11,11 +11,11 @@ pub use shape::Shape;
 pub(super) use slices::{Line, Node};
 
 use super::laws::traction::Rolling;
-use super::profile::{Before, Meeting, Raise, Section, Surface};
+use super::profile::{Before, Meeting, RaceSurface, Raise, Section};
 use super::slip::{Moves, Slip};
 use super::{
-    Cut, Fault, FilmEffect, FilmNumbers, Law, Motion, OilTouch, Oiled, Sink, Slices, Torus, Touch,
-    Toward, V2, Waves, turned,
+    Cut, Fault, FilmEffect, FilmNumbers, Law, Motion, OilTouch, Oiled, Sink, Torus, Touch, Toward,
+    V2, Waves, ZoneSlices, turned,
 };
 
 /// What all contacts of a row's balls with one race share.
@@ -30,7 +30,7 @@ pub struct Pair {
     /// What they follow.
     pub law: Law,
     /// Slices or nodes of a contact.
-    pub slices: Slices,
+    pub slices: ZoneSlices,
     /// Defects of the race, in the ring's frame.
     pub faults: Vec<Fault>,
 }
@@ -131,7 +131,7 @@ impl Pair {
         if meeting.ends_within(line.ends()) {
             sink.truncated();
         }
-        let contact = Contact {
+        let contact = OneContact {
             race: meeting.torus,
             surface: Some(meeting.surface),
             middle: line.middle(),
@@ -147,7 +147,7 @@ impl Pair {
         [b, r]: [&'a Motion; 2],
         facing: &Facing,
         section: Section<f64>,
-    ) -> Contact<'a> {
+    ) -> OneContact<'a> {
         let Facing {
             apart,
             distance,
@@ -160,7 +160,7 @@ impl Pair {
         let toward = Toward::ball(b, n * self.race.sigma, self.outwards(angle));
         let ring_open = self.is_near(on_ring);
         let ball_near = ball.faults.iter().any(|fault| fault.in_reach(&toward));
-        Contact {
+        OneContact {
             pair: self,
             race: self.race,
             surface: None,
@@ -257,12 +257,12 @@ struct Facing {
 
 /// A contact being evaluated.
 #[derive(Clone, Copy)]
-pub(super) struct Contact<'a> {
+pub(super) struct OneContact<'a> {
     pub(super) pair: &'a Pair,
     /// The torus, or that of the circle of curvature of another shape where it is met.
     pub(super) race: Torus,
     /// The race where it is a curve through points.
-    pub(super) surface: Option<Surface<'a>>,
+    pub(super) surface: Option<RaceSurface<'a>>,
     pub(super) ball: &'a BallSide,
     pub(super) b: &'a Motion,
     pub(super) r: &'a Motion,
@@ -289,7 +289,7 @@ pub(super) struct Contact<'a> {
     pub(super) oil: FilmEffect<f64>,
 }
 
-impl Contact<'_> {
+impl OneContact<'_> {
     /// Hands all its forces to the sink.
     fn press<S: Sink + ?Sized>(
         mut self,
@@ -332,7 +332,7 @@ impl Contact<'_> {
             return r;
         }
         // Cut at the same places, so that nothing jumps where a defect comes into reach.
-        let healthy = Contact {
+        let healthy = OneContact {
             ring_open: false,
             ball_open: false,
             ..*self

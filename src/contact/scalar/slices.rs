@@ -8,12 +8,12 @@
 //! cuts the zone, the outer pieces keep the weight at their free end only. Inside a defect the elements have
 //! zones of their own: their ends are searched for, and plain Gauss nodes lie on every smooth piece.
 
-use super::Contact;
+use super::OneContact;
 use crate::contact::defect::Station;
 use crate::contact::defect::gradient::{HAIR, Owner};
 use crate::contact::profile::{Chord, Ends, Section, Zone};
 use crate::contact::quadrature::MOST;
-use crate::contact::{Fault, Rules, Sink, Slices, Toward};
+use crate::contact::{Fault, Rules, Sink, Toward, ZoneSlices};
 
 /// The line along which a contact is cut, over the zone low … high of u.
 pub(in crate::contact) struct Line {
@@ -170,7 +170,7 @@ impl Node {
 
 /// A stretch of the zone and how the penetration ends on both sides.
 #[derive(Clone, Copy)]
-struct Piece {
+struct ZonePiece {
     low: f64,
     high: f64,
     sealed: [bool; 2],
@@ -179,12 +179,12 @@ struct Piece {
 /// Approach over the ball's radius from which a ball is being lost rather than pressed, and its zone ends with its surface.
 const DEEPEST: f64 = 0.05;
 
-impl Contact<'_> {
+impl OneContact<'_> {
     /// Hands the forces of all slices to the sink.
     pub(super) fn slices<S: Sink + ?Sized>(&self, line: &Line, sink: &mut S) {
         match &self.pair.slices {
-            Slices::Fixed(count) => self.fixed(line, *count, sink),
-            Slices::Fitted(rules) => self.fitted(line, rules, sink),
+            ZoneSlices::Fixed(count) => self.fixed(line, *count, sink),
+            ZoneSlices::Fitted(rules) => self.fitted(line, rules, sink),
         }
         if self.ring_open && self.feels_ring_ends() {
             // Of all: one out of reach may overlap one in reach.
@@ -257,12 +257,12 @@ impl Contact<'_> {
                 line.sealed[0] && low == line.low,
                 line.sealed[1] && high == line.high,
             ];
-            self.piece(line, Piece { low, high, sealed }, rules, sink);
+            self.piece(line, ZonePiece { low, high, sealed }, rules, sink);
             low = high;
         }
     }
 
-    fn piece<S: Sink + ?Sized>(&self, line: &Line, piece: Piece, rules: &Rules, sink: &mut S) {
+    fn piece<S: Sink + ?Sized>(&self, line: &Line, piece: ZonePiece, rules: &Rules, sink: &mut S) {
         let open = (self.ring_open || self.ball_open)
             && self
                 .node(line, f64::midpoint(piece.low, piece.high), 0.0)
@@ -276,7 +276,7 @@ impl Contact<'_> {
         for high in ends[..count].iter().copied().chain([piece.high]) {
             self.nodes(
                 line,
-                Piece {
+                ZonePiece {
                     low,
                     high,
                     sealed: [false; 2],
@@ -288,7 +288,7 @@ impl Contact<'_> {
         }
     }
 
-    fn nodes<S: Sink + ?Sized>(&self, line: &Line, piece: Piece, rules: &Rules, sink: &mut S) {
+    fn nodes<S: Sink + ?Sized>(&self, line: &Line, piece: ZonePiece, rules: &Rules, sink: &mut S) {
         let (centre, half) = (
             f64::midpoint(piece.low, piece.high),
             (piece.high - piece.low) / 2.0,

@@ -1,6 +1,6 @@
 //! Rows whose balls keep their axial places and touch both races in closed form: one loop along the balls.
 
-use super::{Kind, Single, View};
+use super::{Guarantees, Single, View};
 use crate::contact::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, Pair, Sight};
 use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
@@ -29,7 +29,7 @@ struct AxiallyFixedSide {
 
 impl AxiallyFixedRow {
     /// None where a contact has no closed form.
-    pub fn new(model: &Model, row: usize, kind: &Kind) -> Option<Self> {
+    pub fn new(model: &Model, row: usize, kind: &Guarantees) -> Option<Self> {
         let compiled = &model.rows[row];
         let balls = compiled.balls();
         let radius = model.balls[compiled.first].side.radius;

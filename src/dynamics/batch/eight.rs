@@ -255,12 +255,12 @@ struct Eight<'a, const LEAN: bool> {
 /// Turns forces on balls into the scene's frame, and moments on those that spin freely; on others they act about the ring's axis.
 ///
 /// A program of its own: in that of the contacts the compiler would split whole registers.
-pub(super) struct Turn<'a> {
+pub(super) struct ToScene<'a> {
     pub group: &'a mut Group,
     pub ring: &'a RingView,
 }
 
-impl Task for Turn<'_> {
+impl Task for ToScene<'_> {
     type Output = ();
 
     // Compiled for the instruction set that runs it.

@@ -8,7 +8,7 @@ use crate::simd::{LANES, Lanes, Mask, Task};
 
 /// Up to eight neighbours of a row.
 #[derive(Debug, Clone)]
-pub(super) struct Stretch {
+pub(super) struct Neighbours {
     pub row: usize,
     pub first: usize,
     radius: Lanes,
@@ -20,7 +20,7 @@ pub(super) struct Stretch {
     constants: [Constants<Lanes>; 2],
 }
 
-impl Stretch {
+impl Neighbours {
     pub fn new(
         model: &Model,
         constants: &[SideConstants; 2],

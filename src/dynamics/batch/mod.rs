@@ -29,9 +29,9 @@ use crate::reduction::AxialPlaces;
 use crate::simd::{LANES, Lanes};
 
 use axially_fixed::{AxiallyFixedRow, AxiallyFixedSums, EvaluateAxiallyFixed};
-use eight::{EvaluateEight, Group, Turn, leave};
+use eight::{EvaluateEight, Group, ToScene, leave};
 pub(crate) use eight::{SideConstants, Touching};
-use find::{Find, Stretch};
+use find::{Find, Neighbours};
 use single::Single;
 pub(crate) use view::{RingView, View};
 
@@ -40,7 +40,7 @@ pub(crate) type OnRings = [[Vector3<f64>; 2]; 2];
 
 /// What a reduction guarantees, so that a batch may use it.
 #[derive(Debug, Clone)]
-pub(crate) struct Kind {
+pub(crate) struct Guarantees {
     /// Rows whose contacts are evaluated.
     pub rows: Range<usize>,
     /// All bodies stay in the planes of their rows.
@@ -53,7 +53,7 @@ pub(crate) struct Kind {
     pub closed: bool,
 }
 
-impl Kind {
+impl Guarantees {
     /// All rows, anything possible.
     pub fn whole(model: &Model) -> Self {
         Self {
@@ -81,11 +81,11 @@ impl Kind {
 /// The memory for all contacts of a model, and their sums after an evaluation.
 #[derive(Debug, Clone)]
 pub(crate) struct Batch {
-    kind: Kind,
+    kind: Guarantees,
     /// Rows whose balls keep their axial places: evaluated ball by ball without a search.
     fixed_rows: Vec<AxiallyFixedRow>,
     /// The balls of the other rows by eights, for the search.
-    stretches: Vec<Stretch>,
+    stretches: Vec<Neighbours>,
     /// Hertz's stiffness where it is all there is to a contact, by row and race.
     stiffness: Vec<[Option<f64>; 2]>,
     /// Constants of the contacts with the outer and with the inner race.
@@ -105,7 +105,7 @@ pub(crate) struct Batch {
 }
 
 impl Batch {
-    pub fn new(model: &Model, kind: Kind) -> Self {
+    pub fn new(model: &Model, kind: Guarantees) -> Self {
         let constants: [SideConstants; 2] = Race::BOTH.map(|race| SideConstants::new(model, race));
         let fixed_rows: Vec<AxiallyFixedRow> = kind
             .rows
@@ -119,7 +119,7 @@ impl Batch {
             }
             for start in (0..compiled.count).step_by(LANES) {
                 let (first, count) = (compiled.first + start, LANES.min(compiled.count - start));
-                stretches.push(Stretch::new(model, &constants, row, first, count));
+                stretches.push(Neighbours::new(model, &constants, row, first, count));
             }
         }
         let balls = model.balls.len();
@@ -232,7 +232,7 @@ impl Batch {
             let balls = group.contacts.iter().map(|contact| contact.ball);
             group.turning = views[group.race].turning(balls);
             all.run::<true>(group);
-            model.instructions.run(Turn { group, ring });
+            model.instructions.run(ToScene { group, ring });
         };
         let one = |single: &mut Single| single.evaluate(model, &views[single.race]);
         let (groups, singles) = (&mut self.groups[..self.active], &mut self.singles);

@@ -11,7 +11,7 @@ use crate::scene::{Contact, GothicArch, NormalLaw, RaceProfile, Row};
 const POINTS: (usize, usize) = (4, 10_000);
 
 /// What a row says of one of its races.
-struct Fields<'a> {
+struct RaceFields<'a> {
     name: &'a str,
     shoulders: Option<[f64; 2]>,
     edge: Option<f64>,
@@ -21,14 +21,14 @@ struct Fields<'a> {
 
 /// The races of a row whose balls follow a contact law.
 pub(super) fn races(path: &str, row: &Row, contact: &Contact) -> Result<()> {
-    let outer = Fields {
+    let outer = RaceFields {
         name: "outer",
         shoulders: row.outer_shoulders,
         edge: row.outer_shoulder_radius,
         profile: &row.outer_profile,
         arch: &row.outer_arch,
     };
-    let inner = Fields {
+    let inner = RaceFields {
         name: "inner",
         shoulders: row.inner_shoulders,
         edge: row.inner_shoulder_radius,
@@ -39,7 +39,7 @@ pub(super) fn races(path: &str, row: &Row, contact: &Contact) -> Result<()> {
     race(path, row, contact, &inner)
 }
 
-fn race(path: &str, row: &Row, contact: &Contact, of: &Fields<'_>) -> Result<()> {
+fn race(path: &str, row: &Row, contact: &Contact, of: &RaceFields<'_>) -> Result<()> {
     let at = |field: &str| format!("{path}.{}_{field}", of.name);
     shoulders(&at("shoulders"), of.shoulders)?;
     if let Some(profile) = of.profile {

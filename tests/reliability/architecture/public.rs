@@ -169,7 +169,7 @@ fn leaks_are_seen() {
 }
 
 /// Enums that are complete: nobody will name a third ring without rewriting the model.
-const CLOSED: [&str; 4] = ["Race", "BodyKind", "Degree", "Slices"];
+const CLOSED: [&str; 4] = ["Race", "BodyKind", "Degree", "ZoneSlices"];
 
 /// Public structs and enums of scenes, and enums of all rooms, that a later version could not extend.
 fn frozen(sources: &[Source]) -> (Vec<String>, usize) {

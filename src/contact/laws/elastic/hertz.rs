@@ -3,7 +3,7 @@
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
 
-use super::{Load, elliptic};
+use super::{ElasticLaw, elliptic};
 use crate::scene::Material;
 use crate::simd::Number;
 
@@ -131,7 +131,7 @@ impl Hertz {
     }
 }
 
-impl Load for Hertz {
+impl ElasticLaw for Hertz {
     const FLAT: bool = true;
 
     /// k' p.

@@ -3,7 +3,7 @@
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
 
-use super::Load;
+use super::ElasticLaw;
 use super::power::ten_ninths;
 use crate::simd::Number;
 
@@ -52,7 +52,7 @@ impl Iso16281 {
     }
 }
 
-impl Load for Iso16281 {
+impl ElasticLaw for Iso16281 {
     const FLAT: bool = false;
 
     /// (C/D) s^{10/9}.

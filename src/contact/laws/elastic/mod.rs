@@ -19,7 +19,7 @@ use hertz::Hertz;
 use iso16281::Iso16281;
 
 /// An elastic law as loops over elements are compiled for it, so that no choice of a law stands in them.
-pub(in crate::contact) trait Load: Copy {
+pub(in crate::contact) trait ElasticLaw: Copy {
     /// Whether elements lie on the common tangent and press along the common normal ([`Cut::CommonTangent`]); else they
     /// are slices of the ball's surface.
     const FLAT: bool;
@@ -31,7 +31,7 @@ pub(in crate::contact) trait Load: Copy {
 /// Something that is compiled for every elastic law.
 pub(in crate::contact) trait ForLaw {
     /// Does it. Wants `#[inline(always)]`.
-    fn run<L: Load>(self);
+    fn run<L: ElasticLaw>(self);
 }
 
 /// An elastic law.

@@ -6,7 +6,7 @@ use crate::contact::laws::elastic::hertz::Hertz;
 
 /// A race of a row as its film sees it, without coat.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Race {
+pub struct LubricatedRace {
     /// σ: +1 outer, −1 inner.
     pub sigma: f64,
     /// D \[m\].
@@ -21,7 +21,7 @@ pub struct Race {
     pub reduced_modulus: f64,
 }
 
-impl Race {
+impl LubricatedRace {
     /// γ = D cos α₀/d_m.
     fn gamma(&self) -> f64 {
         self.ball_diameter * self.contact_angle.cos() / self.pitch_diameter
@@ -71,7 +71,7 @@ pub(super) struct Conjunction {
 }
 
 impl Conjunction {
-    pub fn new(race: &Race, load: f64, speed: f64) -> Self {
+    pub fn new(race: &LubricatedRace, load: f64, speed: f64) -> Self {
         let [along, across] = race.curvatures();
         let hertz = Hertz::of_curvatures(along, across, 0.5 * race.reduced_modulus);
         let axis_ratio = hertz.half_width / hertz.half_length;

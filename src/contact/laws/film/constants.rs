@@ -1,10 +1,10 @@
 //! Constants of the film between a row's balls and one race.
 
-use super::conjunction::{Conjunction, Groups, Race};
-use super::damping::{Damping, DampingNow};
+use super::conjunction::{Conjunction, Groups, LubricatedRace};
+use super::damping::{DampingNow, FilmDamping};
 use super::now::FilmNow;
 use super::oil::Oil;
-use super::rolling::{Rolling, RollingNow};
+use super::rolling::{FilmRolling, RollingNow};
 use super::speed::SpeedPowers;
 use super::thickness::Thickness;
 use super::traction::TractionNow;
@@ -61,11 +61,11 @@ pub struct Limits {
 /// Constants of the film between a row's balls and one race.
 ///
 /// ```
-/// use ballrace::contact::film::{Effects, Film, Oil, Race, Reference};
+/// use ballrace::contact::film::{Effects, Film, LubricatedRace, Oil, Reference};
 /// use ballrace::scene::Lubricant;
 /// let oil = Oil::new(&Lubricant::named("vg68", 328.15))?;
 /// // The outer race of a 6205 under 250 N a ball, at 1797 rev/min.
-/// let race = Race {
+/// let race = LubricatedRace {
 ///     sigma: 1.0, ball_diameter: 7.94e-3, pitch_diameter: 39.04e-3, groove_radius: 0.525 * 7.94e-3,
 ///     contact_angle: 0.0, reduced_modulus: 206e9 / 0.91,
 /// };
@@ -82,13 +82,13 @@ pub struct Film {
     pub(super) conjunction: Conjunction,
     pub(super) groups: Groups,
     thickness: Thickness,
-    pub(super) damping: Damping,
-    rolling: Rolling,
+    pub(super) damping: FilmDamping,
+    rolling: FilmRolling,
 }
 
 impl Film {
     /// Of an oil on a race, computed for a reference, with the effects that are asked for.
-    pub fn new(oil: &Oil, race: &Race, reference: Reference, effects: Effects) -> Self {
+    pub fn new(oil: &Oil, race: &LubricatedRace, reference: Reference, effects: Effects) -> Self {
         let conjunction = Conjunction::new(race, reference.load, reference.speed);
         let groups = conjunction.groups(oil);
         let thickness = Thickness::new(&conjunction, &groups, oil.layer);
@@ -101,14 +101,14 @@ impl Film {
             conjunction,
             groups,
             thickness,
-            damping: Damping::new(
+            damping: FilmDamping::new(
                 &conjunction,
                 &groups,
                 reference.approach,
                 film,
                 oil.damping_frequency,
             ),
-            rolling: Rolling::new(&conjunction, &groups, oil.hysteresis),
+            rolling: FilmRolling::new(&conjunction, &groups, oil.hysteresis),
         }
     }
 

@@ -21,12 +21,12 @@ use crate::simd::{Lanes, Number};
 /// Source: Y. H. Wijnant 1998; Y. H. Wijnant, J. A. Wensing, G. C. van Nijen, J. Sound Vib. 222 (1999) 579, for L from 2
 /// to 20; that it ends at separation, and the slow part c_0, are this model's.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Damping {
+pub(super) struct FilmDamping {
     /// c_ref \[N s/m\], with the slow part where a frequency asks for it.
     pub coefficient: f64,
 }
 
-impl Damping {
+impl FilmDamping {
     /// Of a conjunction with approach δ_ref \[m\], a film of h₁ \[m\] and f_d \[Hz\].
     pub fn new(
         at: &Conjunction,

@@ -21,7 +21,7 @@ mod tests;
 mod thickness;
 mod traction;
 
-pub use conjunction::Race;
+pub use conjunction::LubricatedRace;
 pub use constants::{Effects, Film, Limits, Reference};
 pub use in_contact::Oiled;
 pub(crate) use in_contact::{FilmEffect, FilmNumbers};

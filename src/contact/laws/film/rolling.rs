@@ -26,7 +26,7 @@ use crate::simd::{Lanes, Number};
 /// elastohydrodynamic asymptote; heat of the inlet after S. Aihara 1987; hysteresis after K. L. Johnson. That the film's
 /// part ends smoothly, r²/(r² + ζ_h), is this model's.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Rolling {
+pub(super) struct FilmRolling {
     /// 2 a E'R_x \[N\].
     scale: f64,
     /// A/Y and B/X.
@@ -40,7 +40,7 @@ pub(super) struct Rolling {
     hysteresis: f64,
 }
 
-impl Rolling {
+impl FilmRolling {
     pub fn new(at: &Conjunction, groups: &Groups, hysteresis: f64) -> Self {
         let [along, across] = at.radii;
         let (epsilon, speed) = (at.axis_ratio, groups.sum_speed());
@@ -172,7 +172,7 @@ mod tests {
             load,
             heat: 0.0,
         };
-        let rolling = Rolling::new(&at, &groups, 0.0);
+        let rolling = FilmRolling::new(&at, &groups, 0.0);
         let found = rolling.scale * rolling.elastic;
         assert!((found / 10.97e-9 - 1.0).abs() < 1e-3, "{found:e}");
         assert!((found / 10.9e-9 - 1.0).abs() < 1e-2, "{found:e}");

@@ -7,7 +7,7 @@ use crate::simd::Number;
 ///
 /// Source: P. K. Gupta, *Advanced Dynamics of Rolling Elements*, Springer 1984.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Curve {
+pub struct TractionCurve {
     /// A.
     pub a: f64,
     /// B \[s/m\].
@@ -20,7 +20,7 @@ pub struct Curve {
     pub slip_speed: f64,
 }
 
-impl Curve {
+impl TractionCurve {
     #[inline]
     pub(super) fn factor<T: Number>(&self, element: &Sliding<T>) -> T {
         let slip = element.squared.sqrt();

@@ -15,7 +15,7 @@ use crate::contact::laws::film::FilmNow;
 use crate::scene::Friction;
 use crate::simd::Number;
 use coulomb::Coulomb;
-use curve::Curve;
+use curve::TractionCurve;
 use film::FilmTraction;
 use stribeck::Stribeck;
 
@@ -101,7 +101,7 @@ pub enum Traction {
     /// One that falls from rest to sliding.
     Stribeck(Stribeck),
     /// A measured curve of a lubricated contact.
-    Curve(Curve),
+    TractionCurve(TractionCurve),
     /// Of an oil film.
     Film(FilmTraction),
 }
@@ -135,7 +135,7 @@ impl Traction {
                 c,
                 d,
                 slip_speed,
-            } => Some(Self::Curve(Curve {
+            } => Some(Self::TractionCurve(TractionCurve {
                 a,
                 b,
                 c,
@@ -156,7 +156,7 @@ impl Traction {
     /// Whether the law asks how the surfaces roll: only then it is found out.
     pub(in crate::contact) fn reads_rolling(&self) -> bool {
         match self {
-            Self::Coulomb(_) | Self::Stribeck(_) | Self::Curve(_) | Self::Film(_) => false,
+            Self::Coulomb(_) | Self::Stribeck(_) | Self::TractionCurve(_) | Self::Film(_) => false,
         }
     }
 
@@ -165,7 +165,7 @@ impl Traction {
         match self {
             Self::Coulomb(law) => law.slip_speed,
             Self::Stribeck(law) => law.slip_speed,
-            Self::Curve(law) => law.slip_speed,
+            Self::TractionCurve(law) => law.slip_speed,
             Self::Film(law) => law.bend,
         }
     }
@@ -174,7 +174,7 @@ impl Traction {
     fn limit(&self) -> f64 {
         match self {
             Self::Film(law) => law.coefficient,
-            Self::Coulomb(_) | Self::Stribeck(_) | Self::Curve(_) => 0.0,
+            Self::Coulomb(_) | Self::Stribeck(_) | Self::TractionCurve(_) => 0.0,
         }
     }
 
@@ -189,7 +189,7 @@ impl Traction {
         match self {
             Self::Coulomb(law) => law.factor(element),
             Self::Stribeck(law) => apart(element, |element| law.factor(element)),
-            Self::Curve(law) => apart(element, |element| law.factor(element)),
+            Self::TractionCurve(law) => apart(element, |element| law.factor(element)),
             Self::Film(_) => FilmTraction::factor(element),
         }
     }
@@ -200,7 +200,7 @@ impl Traction {
         match self {
             Self::Coulomb(law) => law.factor_and_bend(element),
             Self::Film(_) => FilmTraction::factor_and_bend(element),
-            Self::Stribeck(_) | Self::Curve(_) => {
+            Self::Stribeck(_) | Self::TractionCurve(_) => {
                 let apart = *element;
                 self.differentiated(&apart)
             }

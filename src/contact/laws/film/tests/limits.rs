@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use super::super::{FilmEffect, FilmNumbers, Oiled};
 use super::{
-    Effects, Film, FilmNow, Oil, Race, SPEED, answers, film, film_of, near, race, reference, vg68,
+    Effects, Film, FilmNow, LubricatedRace, Oil, SPEED, answers, film, film_of, near, race,
+    reference, vg68,
 };
 use crate::simd::{LANES, Lanes};
 
@@ -147,7 +148,7 @@ fn units_scale_exactly() {
             ..oil
         };
         let race = race(1.0);
-        let large = Race {
+        let large = LubricatedRace {
             ball_diameter: race.ball_diameter * m,
             pitch_diameter: race.pitch_diameter * m,
             groove_radius: race.groove_radius * m,

@@ -6,7 +6,7 @@ mod reference;
 use std::f64::consts::TAU;
 
 use super::conjunction::Conjunction;
-use super::{Effects, Film, FilmNow, Oil, Race, Reference};
+use super::{Effects, Film, FilmNow, LubricatedRace, Oil, Reference};
 use crate::contact::laws::elastic::hertz::Hertz;
 use crate::scene::Lubricant;
 
@@ -21,9 +21,9 @@ fn vg68(celsius: f64) -> Oil {
 }
 
 /// Outer or inner race of the 6205.
-fn race(sigma: f64) -> Race {
+fn race(sigma: f64) -> LubricatedRace {
     let conformity = if sigma > 0.0 { 0.525 } else { 0.515 };
-    Race {
+    LubricatedRace {
         sigma,
         ball_diameter: 7.94e-3,
         pitch_diameter: 39.04e-3,
@@ -33,14 +33,14 @@ fn race(sigma: f64) -> Race {
     }
 }
 
-fn hertz(race: &Race) -> Hertz {
+fn hertz(race: &LubricatedRace) -> Hertz {
     let at = Conjunction::new(race, 1.0, 1.0);
     let [along, across] = at.radii.map(f64::recip);
     Hertz::of_curvatures(along, across, 0.5 * race.reduced_modulus)
 }
 
 /// What a load \[N\] and a speed \[rad/s\] are to Hertz's law.
-fn reference(race: &Race, load: f64, speed: f64) -> Reference {
+fn reference(race: &LubricatedRace, load: f64, speed: f64) -> Reference {
     let hertz = hertz(race);
     Reference {
         load,

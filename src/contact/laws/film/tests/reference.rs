@@ -2,12 +2,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::super::rolling::Rolling;
+use super::super::rolling::FilmRolling;
 use super::super::speed::SpeedPowers;
 use super::super::thickness::Thickness;
 use super::{
-    Conjunction, Effects, Film, Lubricant, MODULUS, Oil, Race, SPEED, answers, film, hertz, near,
-    race, reference, vg68,
+    Conjunction, Effects, Film, Lubricant, LubricatedRace, MODULUS, Oil, SPEED, answers, film,
+    hertz, near, race, reference, vg68,
 };
 
 /// Literature: the formulas of section 12.1 as printed.
@@ -118,7 +118,7 @@ fn bare_rolling(at: &Conjunction, oil: &Oil) -> f64 {
         temperature_viscosity: 0.0,
         ..*oil
     };
-    let rolling = Rolling::new(at, &at.groups(&oil), 0.0);
+    let rolling = FilmRolling::new(at, &at.groups(&oil), 0.0);
     // w̃ = 1.
     let powers = SpeedPowers::new((1.0_f64 - 1.0 / 400.0).sqrt());
     let [film, _] = rolling.at(&powers, 1.0, 0.0, None).parts(1.0);
@@ -151,7 +151,7 @@ fn rolling_resistance_is_that_of_biboulet_and_houpert() {
 #[test]
 fn thrust_bearing_turns_as_hard_as_measured() {
     let radius = 18e-3;
-    let race = Race {
+    let race = LubricatedRace {
         sigma: 1.0,
         ball_diameter: 6.35e-3,
         pitch_diameter: 2.0 * radius,
