@@ -5,16 +5,16 @@ use nalgebra::Vector3;
 use super::films::Films;
 use super::sums::SumsByOrigin;
 use crate::contact::LeaningRing;
-use crate::forces::{self, Force, RingWrench, State, Table, unbalance};
+use crate::forces::{self, Force, ForceSums, Instant, State, Table};
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 
 /// Names of the contributions of [`contributions`], in their order: elastic contact forces, damping and friction, then what
 /// each other force counts to.
 pub fn contribution_names() -> Vec<&'static str> {
     let mut names = SumsByOrigin::NAMES.to_vec();
-    for force in &forces::ALL {
-        if !names.contains(&force.contribution) {
-            names.push(force.contribution);
+    for force in forces::ALL {
+        if !names.contains(&force.contribution()) {
+            names.push(force.contribution());
         }
     }
     names
@@ -66,40 +66,43 @@ pub(crate) fn contributions_coated(
             }
         }
     }
-    let part = |force: &Force| {
-        let named = |name: &&str| *name == force.contribution;
+    let part = |force: &dyn Force| {
+        let named = |name: &&str| *name == force.contribution();
         names.iter().position(named).unwrap_or_default()
     };
-    let depends = |force: &&Force| force.name == unbalance::FORCE.name;
-    for force in forces::ALL.iter().filter(|force| !depends(force)) {
-        (force.add)(model, t, &state, &mut parts[part(force)]);
-    }
-    for race in Race::BOTH {
-        let ring = race.ring();
-        if let Some(leaning) = &leaning {
-            let frame = &leaning[race].rotation.frame;
-            let supported = forces::leaning::support(model, race, &state, &leaning[race], 0.0);
-            let unbalanced = unbalance::on_leaning(model, t, &state, race, frame);
-            let loaded = RingWrench {
-                force: Vector3::zeros(),
-                moment: forces::load::moment(model, t, race, |arm| frame.to_scene(arm)),
-            };
-            let all = [
-                ("support", supported),
-                ("load", unbalanced),
-                ("load", loaded),
-            ];
-            for (name, on) in all {
-                let at = names.iter().position(|known| *known == name);
-                let [x, y, z] = on.force.into();
-                let about = on.moment.dot(&frame.axis());
-                parts[at.unwrap_or_default()].add(ring, &[x, y, z, about]);
-            }
-            continue;
+    let at = Instant {
+        t,
+        state: &state,
+        rows: 0..model.rows.len(),
+        springs: &model.springs,
+        rings: leaning.as_ref().map(<[_; 2]>::each_ref),
+    };
+    let into = |table: &mut Table, add: &dyn Fn(&mut ForceSums<'_>)| {
+        let mut moments = [Vector3::zeros(); 2];
+        let spatial = at.rings.is_some();
+        add(&mut ForceSums {
+            on: table,
+            moments: spatial.then_some(&mut moments),
+        });
+        for (race, moment) in Race::BOTH.into_iter().zip(moments) {
+            let about = moment.dot(&at.frame(race).axis());
+            table.add(race.ring(), &[0.0, 0.0, 0.0, about]);
         }
-        let all = Dof::ALL.map(|dof| parts.iter().map(|part| part.get(ring, dof)).sum());
-        let unbalance = unbalance::on(model, t, &state, race, &all);
-        parts[part(&unbalance::FORCE)].add(ring, &unbalance);
+    };
+    for force in forces::ALL {
+        into(&mut parts[part(force)], &|sums| {
+            force.add_constant(model, sums);
+            force.add(model, &at, sums);
+        });
+    }
+    for force in forces::ALL {
+        for race in Race::BOTH {
+            let ring = race.ring();
+            let all = Dof::ALL.map(|dof| parts.iter().map(|part| part.get(ring, dof)).sum());
+            if let Some(wrench) = force.given_others(model, &at, race, &all) {
+                into(&mut parts[part(force)], &|sums| sums.add(race, &wrench));
+            }
+        }
     }
     let bodies = model.layout().bodies();
     let listed = |part: Table| bodies.clone().flat_map(|body| part.of(body)).collect();

@@ -8,7 +8,7 @@ use rayon::ThreadPool;
 
 use super::batch::{Batch, OnRings, RingView, View};
 use crate::contact::{LeaningRing, attitude_accelerations};
-use crate::forces::{self, State, Table, drive};
+use crate::forces::{State, Table, drive};
 use crate::model::{BodyId, Degree, Dof, Model, Race};
 
 /// Contacts that were found at a state and are held there while velocities change.
@@ -104,10 +104,12 @@ impl SpatialWork {
         self.moments
     }
 
-    /// Adds what else acts on the rings.
-    pub fn add_applied(&mut self, model: &Model, t: f64, state: &State, forces: &mut Table) {
+    /// The rings, and the moments on them to add to.
+    pub fn rings_and_moments(
+        &mut self,
+    ) -> (Option<[&LeaningRing; 2]>, Option<&mut [Vector3<f64>; 2]>) {
         let rings = self.rings.each_ref().map(|view| &view.ring);
-        forces::leaning::add(model, t, state, rings, (forces, &mut self.moments));
+        (Some(rings), Some(&mut self.moments))
     }
 
     /// Writes the accelerations of the rings' rotations, and of balls that spin freely: a sphere has no gyroscopic moment.

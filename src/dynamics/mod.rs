@@ -21,9 +21,10 @@ use std::sync::Arc;
 
 use rayon::ThreadPool;
 
-use crate::forces::{State, Table, cage, drag, drive, gravity, load, support, unbalance};
+use crate::forces::cage::CageLinks;
+use crate::forces::{self, Force, ForceSums, Instant, State, Table, Use, drive};
 use crate::integrate::System;
-use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Spring};
+use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Race, Spring};
 use crate::reduction::Reduction;
 
 pub(crate) use batch::{Batch, Guarantees, OnRings, RingView, SideConstants, Touching, View};
@@ -47,7 +48,9 @@ pub struct Dynamics<'m> {
     contacts: Batch,
     contact_torques: [f64; 2],
     forces: Table,
-    /// Gravity and loads that stay the same.
+    /// Forces that have a part in the motion, beside contacts.
+    acting: Vec<&'static dyn Force>,
+    /// What of them stays the same.
     constant: Table,
     /// Supports of the directions that are integrated; the other directions never strain theirs.
     springs: Vec<Spring>,
@@ -92,6 +95,7 @@ impl<'m> Dynamics<'m> {
         let mut dynamics = Self::with(model, order, kind);
         // Only scenes that stay in the plane are reduced: what tilts or spins freely in them rests.
         dynamics.leaning = None;
+        dynamics.constant = constant(model, false);
         if keeps_axial_places {
             dynamics.mobility.along_mut(Dof::Z).fill(0.0);
         }
@@ -131,9 +135,7 @@ impl<'m> Dynamics<'m> {
 
     fn with(model: &'m Model, order: Order, kind: Guarantees) -> Self {
         let bodies = model.bodies.len();
-        let (mut constant, mut mobility) = (Table::zeros(bodies), Table::zeros(bodies));
-        gravity::add(model, &mut constant);
-        load::add(model, true, 0.0, &mut constant);
+        let mut mobility = Table::zeros(bodies);
         for body in model.layout().bodies() {
             mobility.add(body, &model.mobility[body]);
         }
@@ -144,7 +146,8 @@ impl<'m> Dynamics<'m> {
             contacts: Batch::new(model, kind),
             contact_torques: [0.0; 2],
             forces: Table::zeros(bodies),
-            constant,
+            acting: acting(model),
+            constant: constant(model, model.is_spatial()),
             springs: model.springs.clone(),
             mobility,
             pool: None,
@@ -295,25 +298,43 @@ impl<'m> Dynamics<'m> {
         };
     }
 
-    /// Adds the forces of the cage, and of oil in the balls' way, at the state last read.
+    /// Adds the forces of the cage at the state last read.
     pub(crate) fn evaluate_cage(&mut self) {
-        let rows = self.contacts.rows();
-        cage::add(self.model, rows.clone(), &self.state, &mut self.forces);
-        drag::add(self.model, rows, &self.state, &mut self.forces);
+        self.apply(0.0, &[&CageLinks]);
     }
 
     /// Adds the forces that are neither contacts nor constant.
     fn add_applied_forces(&mut self, t: f64) {
-        self.evaluate_cage();
-        let (state, forces) = (&self.state, &mut self.forces);
-        support::add(&self.springs, state, forces);
-        load::add(self.model, false, t, forces);
-        if let Some(leaning) = &mut self.leaning {
-            leaning.add_applied(self.model, t, state, forces);
-            return;
+        let acting = std::mem::take(&mut self.acting);
+        self.apply(t, &acting);
+        self.acting = acting;
+    }
+
+    fn apply(&mut self, t: f64, acting: &[&dyn Force]) {
+        let (rings, moments) = match &mut self.leaning {
+            Some(leaning) => leaning.rings_and_moments(),
+            None => (None, None),
+        };
+        let at = Instant {
+            t,
+            state: &self.state,
+            rows: self.contacts.rows(),
+            springs: &self.springs,
+            rings,
+        };
+        let on = &mut self.forces;
+        let mut sums = ForceSums { on, moments };
+        for force in acting {
+            force.add(self.model, &at, &mut sums);
         }
-        drive::add(self.model, t, forces);
-        unbalance::add(self.model, t, state, forces);
+        for force in acting {
+            for race in Race::BOTH {
+                let others = sums.on.of(race.ring());
+                if let Some(wrench) = force.given_others(self.model, &at, race, &others) {
+                    sums.add(race, &wrench);
+                }
+            }
+        }
     }
 
     /// M⁻¹ F of all bodies.
@@ -371,6 +392,27 @@ impl System for Dynamics<'_> {
             }
         }
     }
+}
+
+/// The forces that a scene has, beside contacts.
+fn acting(model: &Model) -> Vec<&'static dyn Force> {
+    let all = forces::ALL.into_iter();
+    all.filter(|force| force.used(model) != Use::Absent)
+        .collect()
+}
+
+/// What of them stays the same, with moments about z where rings stay parallel.
+fn constant(model: &Model, spatial: bool) -> Table {
+    let mut on = Table::zeros(model.bodies.len());
+    let mut moments = Default::default();
+    let mut sums = ForceSums {
+        on: &mut on,
+        moments: spatial.then_some(&mut moments),
+    };
+    for force in forces::ALL {
+        force.add_constant(model, &mut sums);
+    }
+    on
 }
 
 /// Time derivative of a state vector, both of length [`Model::dim`]. Allocates its own memory; a run uses [`Dynamics`].

@@ -5,20 +5,61 @@
 //! F = k_c (ℓ − ℓ₀ ∓ p/2) + c_c dℓ/dt        energy k_c (ℓ − ℓ₀ ∓ p/2)²/2        power c_c (dℓ/dt)²
 //! ```
 
-use std::ops::Range;
-
-use super::{Account, Force, State, Table, Use};
+use super::{Account, Damper, Force, ForceSums, Instant, State, Table, Use};
 use crate::contact::Motion;
 use crate::model::{BodyId, Dof, Model, RowModel};
 use crate::scene::Cage;
 use crate::simd::{Simd, Vector, Wide};
 
-pub(crate) const FORCE: Force = Force {
-    name: "cage",
-    contribution: "cage",
-    used: |model| Use::evaluated(model.scene.cage.is_some()),
-    add: |model, _, state, forces| add(model, 0..model.rows.len(), state, forces),
-};
+/// All links of the cage.
+#[derive(Debug)]
+pub(crate) struct CageLinks;
+
+impl Force for CageLinks {
+    fn name(&self) -> &'static str {
+        "cage"
+    }
+
+    fn used(&self, model: &Model) -> Use {
+        Use::evaluated(model.scene.cage.is_some())
+    }
+
+    #[inline]
+    fn add(&self, model: &Model, at: &Instant<'_>, sums: &mut ForceSums<'_>) {
+        if let Some(cage) = &model.scene.cage {
+            for row in &model.rows[at.rows.clone()] {
+                model.instructions.run_wide(Links {
+                    cage,
+                    row,
+                    state: at.state,
+                    forces: sums.on,
+                });
+            }
+        }
+    }
+
+    fn account(&self, model: &Model, y: &[f64]) -> Account {
+        let mut account = Account::default();
+        for link in model.rows.iter().flat_map(|row| of_row(model, y, row)) {
+            account.cage += link.energy;
+            account.power += link.power;
+        }
+        account
+    }
+
+    fn dampers(&self, model: &Model) -> Vec<Damper> {
+        let of = |row: usize| Damper {
+            name: format!("row{row}.cage"),
+            body: model.rows[row].first_body(),
+            rate: rate(model, row),
+        };
+        (0..model.rows.len()).map(of).collect()
+    }
+
+    fn has_planar_form(&self) -> bool {
+        true
+    }
+}
 
 /// A cage link between two balls: force on the first (positive in tension), stored energy and dissipated power.
 pub(crate) struct Link {
@@ -46,21 +87,6 @@ pub(crate) fn link(cage: &Cage, nominal: f64, first: &Motion, second: &Motion) -
         force: cage.stiffness * beyond + cage.damping * rate,
         energy: 0.5 * cage.stiffness * beyond * beyond,
         power: cage.damping * rate * rate,
-    }
-}
-
-/// Those of some rows.
-#[inline]
-pub(crate) fn add(model: &Model, rows: Range<usize>, state: &State, forces: &mut Table) {
-    if let Some(cage) = &model.scene.cage {
-        for row in &model.rows[rows] {
-            model.instructions.run_wide(Links {
-                cage,
-                row,
-                state,
-                forces,
-            });
-        }
     }
 }
 
@@ -148,16 +174,6 @@ pub(crate) fn pull<S: Simd>(
     [tension * nx, tension * ny]
 }
 
-/// Of all links in a state.
-pub(crate) fn account(model: &Model, y: &[f64]) -> Account {
-    let mut account = Account::default();
-    for link in model.rows.iter().flat_map(|row| of_row(model, y, row)) {
-        account.energy += link.energy;
-        account.power += link.power;
-    }
-    account
-}
-
 /// The links of a row in a state; none without a cage.
 pub(crate) fn of_row(model: &Model, y: &[f64], row: &RowModel) -> Vec<Link> {
     let motion = |ball| model.layout().motion(y, BodyId::ball(ball));
@@ -169,7 +185,7 @@ pub(crate) fn of_row(model: &Model, y: &[f64], row: &RowModel) -> Vec<Link> {
 }
 
 /// Rate at which the cage damps a ball of a row \[1/s\]: by two links, at most 4 c_c/m.
-pub(crate) fn rate(model: &Model, row: usize) -> f64 {
+fn rate(model: &Model, row: usize) -> f64 {
     let ball = &model.bodies[model.rows[row].first_body()];
     let cage = model.scene.cage.as_ref();
     cage.map_or(0.0, |cage| 4.0 * cage.damping / ball.mass[Dof::X])

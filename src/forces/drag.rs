@@ -1,25 +1,34 @@
 //! Drag of oil in the balls' way: −½ ρ X C_d (π D²/4) |v| v on a ball, seen from the housing (model section 12.9).
 
-use std::ops::Range;
-
-use super::{Force, State, Table, Use};
+use super::{Force, ForceSums, Instant, Use};
 use crate::model::{BodyId, Dof, Model};
 
-pub(crate) const FORCE: Force = Force {
-    name: "drag",
-    contribution: "friction",
-    used: |model| Use::evaluated(model.rows.iter().any(|row| row.drag > 0.0)),
-    add: |model, _, state, forces| add(model, 0..model.rows.len(), state, forces),
-};
+/// On the balls of all rows.
+#[derive(Debug)]
+pub(crate) struct Drag;
 
-/// On the balls of some rows.
-pub(crate) fn add(model: &Model, rows: Range<usize>, state: &State, forces: &mut Table) {
-    for row in model.rows[rows].iter().filter(|row| row.drag > 0.0) {
-        for ball in row.balls() {
-            let body = BodyId::ball(ball);
-            let velocity = Dof::TRANSLATIONS.map(|dof| state.v.get(body, dof));
-            for (dof, force) in Dof::TRANSLATIONS.into_iter().zip(on(row.drag, velocity)) {
-                *forces.get_mut(body, dof) += force;
+impl Force for Drag {
+    fn name(&self) -> &'static str {
+        "drag"
+    }
+
+    fn contribution(&self) -> &'static str {
+        "friction"
+    }
+
+    fn used(&self, model: &Model) -> Use {
+        Use::evaluated(model.rows.iter().any(|row| row.drag > 0.0))
+    }
+
+    fn add(&self, model: &Model, at: &Instant<'_>, sums: &mut ForceSums<'_>) {
+        let rows = &model.rows[at.rows.clone()];
+        for row in rows.iter().filter(|row| row.drag > 0.0) {
+            for ball in row.balls() {
+                let body = BodyId::ball(ball);
+                let velocity = Dof::TRANSLATIONS.map(|dof| at.state.v.get(body, dof));
+                for (dof, force) in Dof::TRANSLATIONS.into_iter().zip(on(row.drag, velocity)) {
+                    *sums.on.get_mut(body, dof) += force;
+                }
             }
         }
     }

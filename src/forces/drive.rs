@@ -1,24 +1,34 @@
 //! The drive of the inner ring: a torque, or a prescribed speed, whose motion is known without a force.
 
-use super::{Force, Table, Use};
-use crate::model::{BodyId, Dof, Model};
+use super::{Force, ForceSums, Instant, RingWrench, Use};
+use crate::model::{Model, Race};
 use crate::scene::Drive;
 
-pub(crate) const FORCE: Force = Force {
-    name: "drive",
-    contribution: "drive",
-    used: |model| match &model.scene.drive {
-        Drive::Torque { value, .. } => Use::evaluated(value.peak() > 0.0),
-        Drive::Speed(_) => Use::Absent,
-    },
-    add: |model, t, _, forces| add(model, t, forces),
-};
-
 /// The torque on the inner ring.
-#[inline]
-pub(crate) fn add(model: &Model, t: f64, forces: &mut Table) {
-    if let Drive::Torque { value, .. } = &model.scene.drive {
-        *forces.get_mut(BodyId::INNER, Dof::Theta) += value.at(t);
+#[derive(Debug)]
+pub(crate) struct DriveTorque;
+
+impl Force for DriveTorque {
+    fn name(&self) -> &'static str {
+        "drive"
+    }
+
+    fn used(&self, model: &Model) -> Use {
+        match &model.scene.drive {
+            Drive::Torque { value, .. } => Use::evaluated(value.peak() > 0.0),
+            Drive::Speed(_) => Use::Absent,
+        }
+    }
+
+    fn add(&self, model: &Model, at: &Instant<'_>, sums: &mut ForceSums<'_>) {
+        if let Drive::Torque { value, .. } = &model.scene.drive {
+            let moment = at.frame(Race::Inner).axis() * value.at(at.t);
+            let torque = RingWrench {
+                moment,
+                ..RingWrench::default()
+            };
+            sums.add(Race::Inner, &torque);
+        }
     }
 }
 

@@ -1,21 +1,45 @@
 //! Gravity: F = m g on every body, energy −m g · r.
 
-use super::{Force, Table, Use};
-use crate::model::{BodyId, Dof, Model};
-
-pub(crate) const FORCE: Force = Force {
-    name: "gravity",
-    contribution: "gravity",
-    used: |model| Use::constant(model.scene.gravity != [0.0; 3]),
-    add: |model, _, _, forces| add(model, forces),
-};
+use super::{Account, Force, ForceSums, RingWrench, Use};
+use crate::model::{BodyId, Dof, Model, Race};
 
 /// On all bodies.
-pub(crate) fn add(model: &Model, forces: &mut Table) {
-    for body in model.layout().bodies() {
-        for (dof, force) in Dof::TRANSLATIONS.into_iter().zip(on(model, body)) {
-            *forces.get_mut(body, dof) += force;
+#[derive(Debug)]
+pub(crate) struct Gravity;
+
+impl Force for Gravity {
+    fn name(&self) -> &'static str {
+        "gravity"
+    }
+
+    fn used(&self, model: &Model) -> Use {
+        Use::constant(model.scene.gravity != [0.0; 3])
+    }
+
+    fn add_constant(&self, model: &Model, sums: &mut ForceSums<'_>) {
+        for body in model.layout().bodies() {
+            for (dof, force) in Dof::TRANSLATIONS.into_iter().zip(on(model, body)) {
+                *sums.on.get_mut(body, dof) += force;
+            }
         }
+    }
+
+    fn account(&self, model: &Model, y: &[f64]) -> Account {
+        Account {
+            gravity: energy(model, y),
+            ..Account::default()
+        }
+    }
+
+    fn at_start(&self, model: &Model, race: Race) -> RingWrench {
+        RingWrench {
+            force: on(model, race.ring()).into(),
+            ..RingWrench::default()
+        }
+    }
+
+    fn along_z(&self, model: &Model) -> Option<String> {
+        (model.scene.gravity[2] != 0.0).then(|| "gravity acts along z".to_owned())
     }
 }
 
@@ -34,7 +58,7 @@ pub(crate) fn along(model: &Model, body: BodyId, [x, y]: [f64; 2]) -> f64 {
 }
 
 /// Energy of all bodies, 0 at the origin \[J\].
-pub(crate) fn energy(model: &Model, y: &[f64]) -> f64 {
+fn energy(model: &Model, y: &[f64]) -> f64 {
     let mut energy = 0.0;
     for body in model.layout().bodies() {
         let place = model.layout().centre(y, body);

@@ -1,4 +1,4 @@
-//! Moments on a ring that tilts, and supports of its tilts.
+//! Supports of a ring that tilts.
 //!
 //! ```text
 //! Q_x = −k τ_x − c τ̇_x …        coupled: ξ = (c + F p − F₀ p, τ_x − τ_x₀, τ_y − τ_y₀, θ),  Q = −(K ξ + C ξ̇),  energy ½ ξ·K ξ
@@ -7,12 +7,11 @@
 //! p leads from the centre of mass to the point of the axis where a coupled support holds, F₀ is the nominal frame. Off the axis
 //! a spring would hold a point that does not spin, and drive the spin.
 
-use nalgebra::{Vector3, Vector6};
+use nalgebra::Vector6;
 
-use super::{Account, RingWrench, State, Table, load, unbalance};
+use super::{Account, RingWrench, State};
 use crate::contact::LeaningRing;
-use crate::model::{CoupledModel, Degree, Dof, Model, Race, RingModel};
-use crate::scene::Drive;
+use crate::model::{CoupledModel, Degree, Model, Race, RingModel};
 use crate::tilt::Frame;
 
 /// Whether springs or dampers hold any tilt.
@@ -105,51 +104,16 @@ pub(crate) fn account(model: &Model, y: &[f64]) -> Account {
         let [tilt, rates] = state.tilt(race);
         for i in 0..2 {
             if let Degree::Free { stiffness, damping } = ring.degrees[i] {
-                account.energy += 0.5 * stiffness * (tilt[i] - ring.tilt[i]).powi(2);
+                account.support += 0.5 * stiffness * (tilt[i] - ring.tilt[i]).powi(2);
                 account.power += damping * rates[i] * rates[i];
             }
         }
         if let Some(coupled) = &ring.coupled {
             let leaning = state.leaning(model, race);
             let [places, speeds] = stretched(ring, coupled, race, &state, &leaning);
-            account.energy += 0.5 * places.dot(&(coupled.stiffness * places));
+            account.support += 0.5 * places.dot(&(coupled.stiffness * places));
             account.power += speeds.dot(&(coupled.damping * speeds));
         }
     }
     account
-}
-
-/// Adds all that acts on rings that tilt, beside contacts and supports of single directions: forces to those on all bodies,
-/// moments about the rings' centres of mass to theirs.
-pub(crate) fn add(
-    model: &Model,
-    t: f64,
-    state: &State,
-    rings: [&LeaningRing; 2],
-    (forces, moments): (&mut Table, &mut [Vector3<f64>; 2]),
-) {
-    for race in Race::BOTH {
-        if model.is_parallel_and_held(race) {
-            continue;
-        }
-        let frame = &rings[race].rotation.frame;
-        let ring = race.ring();
-        moments[race] += load::moment(model, t, race, |arm| frame.to_scene(arm));
-        if let (Race::Inner, Drive::Torque { value, .. }) = (race, &model.scene.drive) {
-            moments[race] += frame.axis() * value.at(t);
-        }
-        let unbalanced = unbalance::on_leaning(model, t, state, race, frame);
-        let supported = support(
-            model,
-            race,
-            state,
-            rings[race],
-            forces.get(ring, Dof::Theta),
-        );
-        for part in [unbalanced, supported] {
-            let [x, y, z] = part.force.into();
-            forces.add(ring, &[x, y, z, 0.0]);
-            moments[race] += part.moment;
-        }
-    }
 }

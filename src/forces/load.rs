@@ -2,26 +2,85 @@
 //!
 //! They do work on the bearing and store no energy.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
-use super::{Force, Table, Use};
-use crate::model::{Dof, LoadModel, Model, MomentModel, Race};
+use super::{Force, ForceSums, Instant, RingWrench, Use};
+use crate::model::{LoadModel, Model, Race};
 use crate::scene::TimeFunction;
 
-pub(crate) const FORCE: Force = Force {
-    name: "load",
-    contribution: "load",
-    used,
-    add: |model, t, _, forces| {
-        add(model, true, 0.0, forces);
-        add(model, false, t, forces);
-    },
-};
+/// Loads and moments on rings.
+#[derive(Debug)]
+pub(crate) struct Loads;
 
-/// Whether one stays the same.
-#[inline]
-pub(crate) fn is_steady(load: &LoadModel) -> bool {
-    matches!(load.force, TimeFunction::Constant(_))
+impl Force for Loads {
+    fn name(&self) -> &'static str {
+        "load"
+    }
+
+    fn used(&self, model: &Model) -> Use {
+        let mut sizes = sizes(model).filter(|size| size.peak() > 0.0);
+        if sizes.clone().all(is_constant) {
+            Use::constant(sizes.next().is_some())
+        } else {
+            Use::Evaluated
+        }
+    }
+
+    fn add_constant(&self, model: &Model, sums: &mut ForceSums<'_>) {
+        add(model, true, 0.0, sums);
+    }
+
+    fn add(&self, model: &Model, at: &Instant<'_>, sums: &mut ForceSums<'_>) {
+        add(model, false, at.t, sums);
+        if sums.moments.is_some() {
+            for race in Race::BOTH {
+                let frame = at.frame(race);
+                let wrench = RingWrench {
+                    moment: moment(model, at.t, race, |arm| frame.to_scene(arm)),
+                    ..RingWrench::default()
+                };
+                sums.add(race, &wrench);
+            }
+        }
+    }
+
+    /// The forces; moments depend on how a ring tilts ([`moment`]).
+    fn at_start(&self, model: &Model, race: Race) -> RingWrench {
+        let mut sum = RingWrench::default();
+        for load in model.loads.iter().filter(|load| load.ring == race) {
+            sum.force += at(load, 0.0);
+        }
+        sum
+    }
+
+    fn along_z(&self, model: &Model) -> Option<String> {
+        let mut loads = model.scene.loads.keys().zip(&model.loads);
+        let found = loads.find(|(_, load)| load.direction[2] != 0.0 && load.force.peak() != 0.0)?;
+        Some(format!("load {:?} acts along z", found.0))
+    }
+
+    fn tilting(&self, model: &Model) -> Option<String> {
+        let tilts = |moment: Vector3<f64>| moment.xy() != Vector2::zeros();
+        let mut loads = model.scene.loads.keys().zip(&model.loads);
+        let load = loads.find(|(_, load)| {
+            let tilts = |arm: Vector3<f64>| tilts(arm.cross(&Vector3::from(load.direction)));
+            load.arm.is_some_and(tilts) && load.force.peak() != 0.0
+        });
+        let mut moments = model.scene.moments.keys().zip(&model.moments);
+        let moment =
+            moments.find(|(_, of)| tilts(Vector3::from(of.direction)) && of.moment.peak() != 0.0);
+        load.map(|(name, _)| format!("load {name:?} acts off the ring's centre"))
+            .or(moment.map(|(name, _)| format!("moment {name:?} tilts a ring")))
+    }
+}
+
+fn sizes(model: &Model) -> impl Iterator<Item = &TimeFunction> + Clone {
+    let forces = model.loads.iter().map(|load| &load.force);
+    forces.chain(model.moments.iter().map(|moment| &moment.moment))
+}
+
+fn is_constant(size: &TimeFunction) -> bool {
+    matches!(size, TimeFunction::Constant(_))
 }
 
 /// One at a time \[s\], along x, y and z \[N\].
@@ -30,38 +89,27 @@ pub(crate) fn at(load: &LoadModel, t: f64) -> Vector3<f64> {
     Vector3::from(load.direction) * load.force.at(t)
 }
 
-fn used(model: &Model) -> Use {
-    let forces = model.loads.iter().map(|load| &load.force);
-    let moments = model.moments.iter().map(|moment| &moment.moment);
-    let mut sizes = forces.chain(moments).filter(|size| size.peak() > 0.0);
-    let steady = |size: &TimeFunction| matches!(size, TimeFunction::Constant(_));
-    if sizes.clone().all(steady) {
-        Use::constant(sizes.next().is_some())
-    } else {
-        Use::Evaluated
-    }
-}
-
-/// Loads that stay the same, or those that change.
-#[inline]
-pub(crate) fn add(model: &Model, steady: bool, t: f64, forces: &mut Table) {
-    for load in model.loads.iter().filter(|load| is_steady(load) == steady) {
+/// Loads that stay the same, or those that change; with their moments about z where rings stay parallel.
+fn add(model: &Model, steady: bool, t: f64, sums: &mut ForceSums<'_>) {
+    let parallel = sums.moments.is_none();
+    for load in model
+        .loads
+        .iter()
+        .filter(|load| is_constant(&load.force) == steady)
+    {
         let force = at(load, t);
-        forces.add(load.ring.ring(), &[force.x, force.y, force.z, 0.0]);
+        let arm = load.arm.filter(|_| parallel);
+        let moment = arm.map_or_else(Vector3::zeros, |arm| arm.cross(&force));
+        sums.add(load.ring, &RingWrench { force, moment });
     }
-    if model.is_spatial() {
-        // Moments come with those of all else.
-        return;
-    }
-    for load in model.loads.iter().filter(|load| is_steady(load) == steady) {
-        if let Some(arm) = &load.arm {
-            *forces.get_mut(load.ring.ring(), Dof::Theta) += arm.cross(&at(load, t)).z;
-        }
-    }
-    let is_steady = |of: &MomentModel| matches!(of.moment, TimeFunction::Constant(_));
-    for moment in model.moments.iter().filter(|of| is_steady(of) == steady) {
-        *forces.get_mut(moment.ring.ring(), Dof::Theta) +=
-            moment.direction[2] * moment.moment.at(t);
+    let moments = model.moments.iter().filter(|_| parallel);
+    for of in moments.filter(|of| is_constant(&of.moment) == steady) {
+        let moment = Vector3::from(of.direction) * of.moment.at(t);
+        let wrench = RingWrench {
+            moment,
+            ..RingWrench::default()
+        };
+        sums.add(of.ring, &wrench);
     }
 }
 

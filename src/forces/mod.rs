@@ -1,6 +1,8 @@
-//! Forces that are not contacts, one file each: force, energy or power, rate for step control, and its part in a run.
+//! Forces that are not contacts, one file each, and the one list of them.
 //!
-//! [`ALL`] lists them; contributions by origin, explanations and energies go through that list and these files.
+//! [`Force`] is all that is asked of a force: what it adds, what it stores and takes, how fast it damps, what it does at rest, and what
+//! it leaves of a scene's symmetry. The right-hand side, contributions by origin, statics, energies, scales, reductions and explanations
+//! go through [`ALL`]: a force that is entered there is in all of them, but for the scales of a model, which are estimated before ([`crate::model::Scales`]). Forces of a user's own code are one entry ([`outside`]).
 
 pub(crate) mod cage;
 pub(crate) mod drag;
@@ -8,40 +10,106 @@ pub(crate) mod drive;
 pub(crate) mod gravity;
 pub(crate) mod leaning;
 pub(crate) mod load;
+pub(crate) mod outside;
 mod rates;
 mod state;
+mod sums;
 pub(crate) mod support;
 pub(crate) mod unbalance;
 
-use nalgebra::Vector3;
+use std::fmt::Debug;
+use std::ops::AddAssign;
 
-use crate::model::Model;
+use crate::model::{BodyId, DOFS, Model, Race};
+use crate::scene::RingMotion;
 
 pub(crate) use rates::damping;
 pub(crate) use state::{State, Table};
+pub(crate) use sums::{ForceSums, Instant, RingWrench};
 
-/// A force as an entry of the lists.
-pub(crate) struct Force {
-    /// Its name in an explanation.
-    pub name: &'static str,
-    /// The name of the contribution that it counts to.
-    pub contribution: &'static str,
-    /// What becomes of it in a run.
-    pub used: fn(&Model) -> Use,
-    /// Adds it to the forces on all bodies at a time \[s\]; what depends on all other forces comes last.
-    pub add: fn(&Model, f64, &State, &mut Table),
-}
-
-/// All of them, in the order in which they are listed.
-pub(crate) const ALL: [Force; 7] = [
-    cage::FORCE,
-    drag::FORCE,
-    support::FORCE,
-    gravity::FORCE,
-    load::FORCE,
-    unbalance::FORCE,
-    drive::FORCE,
+/// All forces that are not contacts, in the order in which they are summed and listed.
+pub(crate) const ALL: [&dyn Force; 8] = [
+    &cage::CageLinks,
+    &drag::Drag,
+    &support::Supports,
+    &gravity::Gravity,
+    &load::Loads,
+    &drive::DriveTorque,
+    &outside::Outside,
+    &unbalance::Unbalances,
 ];
+
+/// What is asked of a force.
+pub(crate) trait Force: Debug + Sync {
+    /// Its name in an explanation.
+    fn name(&self) -> &'static str;
+
+    /// The name of the contribution that it counts to.
+    fn contribution(&self) -> &'static str {
+        self.name()
+    }
+
+    /// What becomes of it in a run.
+    fn used(&self, model: &Model) -> Use;
+
+    /// Adds what of it neither time nor state changes.
+    fn add_constant(&self, _model: &Model, _sums: &mut ForceSums<'_>) {}
+
+    /// Adds the rest of it.
+    fn add(&self, _model: &Model, _at: &Instant<'_>, _sums: &mut ForceSums<'_>) {}
+
+    /// What it does to a ring where that depends on the sum of all other forces on the ring, x, y, z and about z.
+    fn given_others(
+        &self,
+        _model: &Model,
+        _at: &Instant<'_>,
+        _race: Race,
+        _others: &[f64; DOFS],
+    ) -> Option<RingWrench> {
+        None
+    }
+
+    /// What it stores and takes in a state.
+    fn account(&self, _model: &Model, _y: &[f64]) -> Account {
+        Account::default()
+    }
+
+    /// Its dampers, for what is said of a run whose steps collapse.
+    fn dampers(&self, _model: &Model) -> Vec<Damper> {
+        Vec::new()
+    }
+
+    /// What it does to a ring at the start, wherever the ring is: the force, and a moment in the ring's frame about its centre of
+    /// mass. Springs of supports are no part of it.
+    fn at_start(&self, _model: &Model, _race: Race) -> RingWrench {
+        RingWrench::default()
+    }
+
+    /// What it does at the start to a ring that is elsewhere, of a force that depends on the ring's place.
+    fn at_place(&self, _model: &Model, _race: Race, _ring: &RingMotion) -> RingWrench {
+        RingWrench::default()
+    }
+
+    /// What of it acts along z, in words.
+    fn along_z(&self, _model: &Model) -> Option<String> {
+        None
+    }
+
+    /// What of it tilts a ring, in words.
+    fn tilting(&self, _model: &Model) -> Option<String> {
+        None
+    }
+
+    /// Whether it depends on the angle of the inner ring.
+    fn turns_with_ring(&self, _model: &Model) -> bool {
+        false
+    }
+
+    /// Whether the loop for frictionless motion in a plane has it.
+    fn has_planar_form(&self) -> bool {
+        false
+    }
+}
 
 /// What becomes of a force in a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,18 +142,33 @@ impl Use {
     }
 }
 
-/// Force on a ring's centre of mass \[N\] and moment about it \[N m\], in the scene's frame.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct RingWrench {
-    pub force: Vector3<f64>,
-    pub moment: Vector3<f64>,
-}
-
-/// What a force keeps and takes.
+/// What a force stores \[J\], by the field of [`crate::inspect::Energy`] that it counts to, and takes \[W\].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Account {
-    /// Stored \[J\].
-    pub energy: f64,
-    /// Dissipated \[W\].
+    pub kinetic: f64,
+    pub support: f64,
+    pub cage: f64,
+    pub gravity: f64,
+    /// Dissipated in supports and cage.
     pub power: f64,
+}
+
+impl AddAssign for Account {
+    fn add_assign(&mut self, other: Self) {
+        self.kinetic += other.kinetic;
+        self.support += other.support;
+        self.cage += other.cage;
+        self.gravity += other.gravity;
+        self.power += other.power;
+    }
+}
+
+/// What damps a body.
+pub(crate) struct Damper {
+    /// `row0.cage` or `outer.support`.
+    pub name: String,
+    /// A body it acts on.
+    pub body: BodyId,
+    /// Rate at which it ends the body's motion \[1/s\].
+    pub rate: f64,
 }

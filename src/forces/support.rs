@@ -7,15 +7,55 @@
 // Everything in the loop must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::{Account, Force, State, Table, Use, leaning};
-use crate::model::{Body, BodyId, Degree, Dof, Model, Spring};
+use super::{Account, Damper, Force, ForceSums, Instant, State, Table, Use, leaning};
+use crate::model::{Body, BodyId, Degree, Dof, Model, Race, Spring};
 
-pub(crate) const FORCE: Force = Force {
-    name: "support",
-    contribution: "support",
-    used: |model| Use::evaluated(!model.springs.is_empty() || leaning::holds(model)),
-    add: |model, _, state, forces| add(&model.springs, state, forces),
-};
+/// Springs and dampers of all bodies, of tilts too.
+#[derive(Debug)]
+pub(crate) struct Supports;
+
+impl Force for Supports {
+    fn name(&self) -> &'static str {
+        "support"
+    }
+
+    fn used(&self, model: &Model) -> Use {
+        Use::evaluated(!model.springs.is_empty() || leaning::holds(model))
+    }
+
+    fn add(&self, model: &Model, at: &Instant<'_>, sums: &mut ForceSums<'_>) {
+        add(at.springs, at.state, sums.on);
+        let Some(rings) = at.rings else { return };
+        for race in Race::BOTH {
+            if model.is_parallel_and_held(race) {
+                continue;
+            }
+            // The spin's own mount turns the ring about its axis.
+            let on_spin = std::mem::take(sums.on.get_mut(race.ring(), Dof::Theta));
+            let supported = leaning::support(model, race, at.state, rings[race], on_spin);
+            sums.add(race, &supported);
+        }
+    }
+
+    fn account(&self, model: &Model, y: &[f64]) -> Account {
+        let mut account = account(model, y);
+        account += leaning::account(model, y);
+        account
+    }
+
+    fn dampers(&self, model: &Model) -> Vec<Damper> {
+        let of = |body: BodyId| Damper {
+            name: format!("{}.support", model.bodies[body].name),
+            body,
+            rate: rate(model, body),
+        };
+        model.layout().bodies().map(of).collect()
+    }
+
+    fn has_planar_form(&self) -> bool {
+        true
+    }
+}
 
 /// Force of a spring and its damper against their direction \[N\], about z \[N m\].
 #[inline(always)]
@@ -25,7 +65,7 @@ pub(crate) fn resistance(spring: &Spring, place: f64, speed: f64) -> f64 {
 
 /// Those of some springs.
 #[inline]
-pub(crate) fn add(springs: &[Spring], state: &State, forces: &mut Table) {
+fn add(springs: &[Spring], state: &State, forces: &mut Table) {
     for spring in springs {
         let (body, dof) = (spring.body, spring.dof);
         let resistance = resistance(spring, state.q.get(body, dof), state.v.get(body, dof));
@@ -40,19 +80,19 @@ pub(crate) fn at_rest(body: &Body, dof: Dof, place: f64) -> f64 {
 }
 
 /// Of all supports in a state.
-pub(crate) fn account(model: &Model, y: &[f64]) -> Account {
+fn account(model: &Model, y: &[f64]) -> Account {
     let (layout, mut account) = (model.layout(), Account::default());
     for spring in &model.springs {
         let position = y[layout.at(spring.body, spring.dof)] - spring.nominal;
         let speed = y[layout.speed_at(spring.body, spring.dof)];
-        account.energy += 0.5 * spring.stiffness * position * position;
+        account.support += 0.5 * spring.stiffness * position * position;
         account.power += spring.damping * speed * speed;
     }
     account
 }
 
 /// Rate of the fastest of a body's own dampers \[1/s\].
-pub(crate) fn rate(model: &Model, body: BodyId) -> f64 {
+fn rate(model: &Model, body: BodyId) -> f64 {
     let body = &model.bodies[body];
     let rates = body.degrees.iter().zip(body.mass);
     let rates = rates.map(|(degree, mass)| match degree {

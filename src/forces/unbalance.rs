@@ -13,27 +13,81 @@
 
 use nalgebra::Vector3;
 
-use super::{Force, RingWrench, State, Table, Use, drive};
+use super::{Account, Force, Instant, RingWrench, State, Use, drive};
 use crate::contact::{V2, cross};
 use crate::model::{DOFS, Dof, Model, Race, UnbalanceModel};
 use crate::tilt::Frame;
 
-pub(crate) const FORCE: Force = Force {
-    name: "unbalance",
-    contribution: "load",
-    used: |model| Use::evaluated(!model.unbalances.is_empty()),
-    add,
-};
+/// Unbalances of both rings.
+#[derive(Debug)]
+pub(crate) struct Unbalances;
 
-/// What the unbalances of a ring do, x, y, z and about z, from all other forces on it.
-pub(crate) fn on(
-    model: &Model,
-    t: f64,
-    state: &State,
-    ring: Race,
-    others: &[f64; DOFS],
-) -> [f64; DOFS] {
-    let mut sum = [0.0; DOFS];
+impl Force for Unbalances {
+    fn name(&self) -> &'static str {
+        "unbalance"
+    }
+
+    fn contribution(&self) -> &'static str {
+        "load"
+    }
+
+    fn used(&self, model: &Model) -> Use {
+        Use::evaluated(!model.unbalances.is_empty())
+    }
+
+    fn given_others(
+        &self,
+        model: &Model,
+        at: &Instant<'_>,
+        race: Race,
+        others: &[f64; DOFS],
+    ) -> Option<RingWrench> {
+        Some(match at.rings {
+            None => on(model, at.t, at.state, race, others),
+            Some(_) => on_leaning(model, at.t, at.state, race, &at.frame(race)),
+        })
+    }
+
+    fn account(&self, model: &Model, y: &[f64]) -> Account {
+        let [kinetic, gravity] = energies(model, y);
+        Account {
+            kinetic,
+            gravity,
+            ..Account::default()
+        }
+    }
+
+    /// Centrifugal forces, the ring at angle 0.
+    fn at_start(&self, model: &Model, race: Race) -> RingWrench {
+        let speed = match race {
+            Race::Inner => model.scene.drive.initial_speed(),
+            Race::Outer => 0.0,
+        };
+        let mut sum = RingWrench::default();
+        for unbalance in model.unbalances.iter().filter(|u| u.ring == race) {
+            let (sin, cos) = unbalance.angle.sin_cos();
+            let size = unbalance.moment * speed * speed;
+            let force = Vector3::new(size * cos, size * sin, 0.0);
+            sum.force += force;
+            sum.moment += (Vector3::z() * unbalance.place).cross(&force);
+        }
+        sum
+    }
+
+    fn tilting(&self, model: &Model) -> Option<String> {
+        let off = |unbalance: &UnbalanceModel| unbalance.place != 0.0;
+        let is_off = model.unbalances.iter().any(off);
+        is_off.then(|| "an unbalance is off the ring's centre of mass".to_owned())
+    }
+
+    fn turns_with_ring(&self, model: &Model) -> bool {
+        !model.unbalances.is_empty()
+    }
+}
+
+/// What the unbalances of a ring that stays parallel do, from all other forces on it.
+fn on(model: &Model, t: f64, state: &State, ring: Race, others: &[f64; DOFS]) -> RingWrench {
+    let mut sum = RingWrench::default();
     let of_ring = model.unbalances.iter().filter(|u| u.ring == ring);
     if of_ring.clone().next().is_none() {
         return sum;
@@ -63,26 +117,17 @@ pub(crate) fn on(
     });
     for unbalance in of_ring {
         let (sin, cos) = direction(unbalance);
-        sum[Dof::X] += unbalance.moment * (square * cos + spin * sin);
-        sum[Dof::Y] += unbalance.moment * (square * sin - spin * cos);
+        sum.force.x += unbalance.moment * (square * cos + spin * sin);
+        sum.force.y += unbalance.moment * (square * sin - spin * cos);
     }
-    sum[Dof::Theta] = weight - cross(whole, accelerate(spin));
+    sum.moment.z = weight - cross(whole, accelerate(spin));
     sum
 }
 
 /// The same for a ring that tilts, whose rotation is driven or held: the force of a ring that does not, turned with it, and its
 /// moment about the centre of mass.
-pub(crate) fn on_leaning(
-    model: &Model,
-    t: f64,
-    state: &State,
-    ring: Race,
-    frame: &Frame,
-) -> RingWrench {
+fn on_leaning(model: &Model, t: f64, state: &State, ring: Race, frame: &Frame) -> RingWrench {
     let mut sum = RingWrench::default();
-    if model.unbalances.is_empty() {
-        return sum;
-    }
     let motion = state.motion(ring.ring());
     let driven = drive::acceleration(model, t).filter(|_| ring == Race::Inner);
     let (square, spin) = (motion.omega * motion.omega, driven.unwrap_or(0.0));
@@ -96,30 +141,8 @@ pub(crate) fn on_leaning(
     sum
 }
 
-/// On both rings, after all other forces.
-#[inline]
-pub(crate) fn add(model: &Model, t: f64, state: &State, forces: &mut Table) {
-    if !(model.unbalances.is_empty() || model.is_spatial()) {
-        for race in Race::BOTH {
-            let others = forces.of(race.ring());
-            forces.add(race.ring(), &on(model, t, state, race, &others));
-        }
-    }
-}
-
-/// The centrifugal force of one at the start, its ring at angle 0 \[N\].
-pub(crate) fn at_start(model: &Model, unbalance: &UnbalanceModel) -> [f64; 2] {
-    let speed = match unbalance.ring {
-        Race::Inner => model.scene.drive.initial_speed(),
-        Race::Outer => 0.0,
-    };
-    let (sin, cos) = unbalance.angle.sin_cos();
-    let force = unbalance.moment * speed * speed;
-    [force * cos, force * sin]
-}
-
 /// What they add to kinetic energy and to that in the field of gravity \[J\].
-pub(crate) fn energies(model: &Model, y: &[f64]) -> [f64; 2] {
+fn energies(model: &Model, y: &[f64]) -> [f64; 2] {
     let mut energies = [0.0; 2];
     let [gx, gy, _] = model.scene.gravity;
     for unbalance in &model.unbalances {

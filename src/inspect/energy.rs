@@ -2,7 +2,7 @@
 
 use super::powers::ContactPowers;
 use crate::contact::{OilTouch, Sink, Touch};
-use crate::forces;
+use crate::forces::{self, Account};
 use crate::model::{Dof, Model, Race};
 
 /// Energies \[J\] and dissipated powers \[W\]. Loads and drive do work on top of these.
@@ -91,17 +91,13 @@ pub fn energy(model: &Model, y: &[f64]) -> Energy {
     if model.leans() {
         energy.kinetic += leaning(model, y);
     }
-    let [cage, support, tilts] = [
-        forces::cage::account,
-        forces::support::account,
-        forces::leaning::account,
-    ]
-    .map(|of| of(model, y));
-    let [kinetic, gravity] = forces::unbalance::energies(model, y);
-    energy.kinetic += kinetic;
-    energy.gravity = forces::gravity::energy(model, y) + gravity;
-    (energy.cage, energy.support) = (cage.energy, support.energy + tilts.energy);
-    energy.support_power = cage.power + support.power + tilts.power;
+    let mut account = Account::default();
+    for force in forces::ALL {
+        account += force.account(model, y);
+    }
+    energy.kinetic += account.kinetic;
+    (energy.cage, energy.support) = (account.cage, account.support);
+    (energy.gravity, energy.support_power) = (account.gravity, account.power);
     let mut contacts = Contacts::default();
     for (j, ball) in model.balls.iter().enumerate() {
         for race in Race::BOTH {

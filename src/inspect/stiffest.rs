@@ -1,7 +1,7 @@
 //! The elements that limit an explicit step: contacts, cages and supports with the highest rates.
 
 use crate::base::quantities::{force, number};
-use crate::forces;
+use crate::forces::{self, Damper};
 use crate::inspect::contact;
 use crate::model::{BodyId, Dof, Model, Race};
 
@@ -37,17 +37,17 @@ pub(crate) fn stiffest(model: &Model, y: &[f64], body: Option<BodyId>) -> Vec<St
         .flat_map(|j| Race::BOTH.map(|race| (j, race)))
         .filter(|&(j, race)| concerns(&[BodyId::ball(j), race.ring()]))
         .filter_map(|(j, race)| of_contact(model, y, j, race));
-    let cages = (0..model.rows.len())
-        .filter(|&row| {
-            let links = |ball: usize| model.balls[ball].row == row;
-            body.is_none_or(|body| body.as_ball().is_some_and(links))
-        })
-        .filter_map(|row| of_cage(model, row));
-    let supports = model.layout().bodies();
-    let supports = supports
-        .filter(|&body| concerns(&[body]))
-        .filter_map(|body| of_support(model, body));
-    let mut found: Vec<StiffElement> = contacts.chain(cages).chain(supports).collect();
+    let others = forces::ALL
+        .into_iter()
+        .flat_map(|force| force.dampers(model));
+    let others = others.filter(|damper| damper.rate > 0.0 && concerned(model, body, damper.body));
+    let others = others.map(|Damper { name, body, rate }| StiffElement {
+        name,
+        body,
+        state: String::new(),
+        rate,
+    });
+    let mut found: Vec<StiffElement> = contacts.chain(others).collect();
     found.sort_by(|a, b| b.rate.total_cmp(&a.rate));
     found.truncate(NAMED);
     found
@@ -74,24 +74,8 @@ fn of_contact(model: &Model, y: &[f64], j: usize, race: Race) -> Option<StiffEle
     })
 }
 
-/// The links of the cage that damp a ball.
-fn of_cage(model: &Model, row: usize) -> Option<StiffElement> {
-    let rate = forces::cage::rate(model, row);
-    (rate > 0.0).then(|| StiffElement {
-        name: format!("row{row}.cage"),
-        body: model.rows[row].first_body(),
-        state: String::new(),
-        rate,
-    })
-}
-
-/// The fastest direction of a body's dampers.
-fn of_support(model: &Model, body: BodyId) -> Option<StiffElement> {
-    let rate = forces::support::rate(model, body);
-    (rate > 0.0).then(|| StiffElement {
-        name: format!("{}.support", model.bodies[body].name),
-        body,
-        state: String::new(),
-        rate,
-    })
+/// Whether a body is the one that is asked for, or a ball of the same row; all are where none is asked for.
+fn concerned(model: &Model, asked: Option<BodyId>, body: BodyId) -> bool {
+    let row = |of: BodyId| of.as_ball().map(|ball| model.balls[ball].row);
+    asked.is_none_or(|asked| asked == body || row(asked).is_some() && row(asked) == row(body))
 }

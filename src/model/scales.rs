@@ -36,6 +36,11 @@ impl Scales {
         for unbalance in &model.unbalances {
             radial += unbalance.moment * speed * speed;
         }
+        for (_, force) in scene.ring_forces.iter() {
+            let peak = force.peak();
+            radial += peak[0];
+            axial += peak[1];
+        }
         for body in &model.bodies {
             radial += body.mass[Dof::X] * scene.gravity[0].hypot(scene.gravity[1]);
             axial += body.mass[Dof::Z] * scene.gravity[2].abs();
@@ -84,6 +89,11 @@ impl Scales {
             }
         }
         scales.frequency = scales.frequency.max(tilts(model, &scales));
+        for (_, force) in scene.ring_forces.iter() {
+            let ring = &model.bodies[Race::from(force.ring()).ring()];
+            let square = force.stiffness() / ring.mass[Dof::X];
+            scales.frequency = scales.frequency.max(square.sqrt());
+        }
         for body in &model.bodies {
             for (degree, mass) in body.degrees.iter().zip(body.mass) {
                 if let Degree::Free { stiffness, .. } = degree {

@@ -3,6 +3,7 @@
 use super::AxialPlaces;
 use super::course::{Course, Prescribed};
 use crate::contact::Pair;
+use crate::forces;
 use crate::model::{BodyId, Degree, Dof, Model, Race};
 
 /// Why a degree of freedom is not integrated.
@@ -138,7 +139,7 @@ pub(super) fn is_felt(model: &Model, motion: &Prescribed, reason: Reason) -> boo
                 pair.law.turns_balls() || !pair.faults.is_empty() || !pair.waves.is_round()
             };
             let inner = model.rows.iter().any(|row| told(&row.pairs[Race::Inner]));
-            inner || !model.unbalances.is_empty()
+            inner || forces::ALL.iter().any(|force| force.turns_with_ring(model))
         }
         // Only a defect makes the angle of a ball matter.
         Reason::Rolling => {

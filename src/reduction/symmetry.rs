@@ -2,9 +2,8 @@
 //!
 //! They are searched in the compiled model, so that anything that breaks one is found, whichever field it comes from.
 
-use nalgebra::Vector3;
-
 use crate::contact::{Fault, Pair, Torus};
+use crate::forces;
 use crate::model::{Ball, BodyId, Dof, Model, Race, RowModel};
 
 /// How far places may be apart that are the same but for rounding \[m\].
@@ -20,7 +19,7 @@ fn require(holds: bool, otherwise: impl FnOnce() -> String) -> Symmetry {
 
 /// Whether every row is symmetric about the plane of its ball centres, and stays so.
 pub(super) fn about_rows(model: &Model, start: &[f64]) -> Symmetry {
-    forces(model)?;
+    nothing_axial(model)?;
     for (i, row) in model.rows.iter().enumerate() {
         let plane = model.scene.rows[i].axial_position;
         for race in Race::BOTH {
@@ -65,7 +64,7 @@ pub(super) fn of_rows(model: &Model, start: &[f64]) -> Option<Symmetry> {
 }
 
 fn images(model: &Model, first: &RowModel, second: &RowModel, start: &[f64]) -> Symmetry {
-    forces(model)?;
+    nothing_axial(model)?;
     let rows = &model.scene.rows;
     let sum = rows[0].axial_position + rows[1].axial_position;
     require(
@@ -123,8 +122,7 @@ fn images(model: &Model, first: &RowModel, second: &RowModel, start: &[f64]) -> 
 }
 
 /// Whether rings that may tilt stay parallel in a motion that is its own mirror image: they start so, have their centres of mass in
-/// the mirror's plane, and nothing acts on them off it. Moments of loads about z and unbalances are not known to the code for parallel
-/// rings where a scene has tilts.
+/// the mirror's plane, and nothing acts on them off it.
 pub(super) fn of_tilts(model: &Model, start: &[f64], mirrored: bool) -> Symmetry {
     let rows = &model.scene.rows;
     let (low, high) = rows
@@ -152,24 +150,10 @@ pub(super) fn of_tilts(model: &Model, start: &[f64], mirrored: bool) -> Symmetry
     parallel_at_start(model, start)
 }
 
-/// No load and no unbalance may turn a ring.
+/// No force may tilt a ring.
 fn no_moments(model: &Model) -> Symmetry {
-    for ((name, _), load) in model.scene.loads.iter().zip(&model.loads) {
-        let turns = load
-            .arm
-            .is_some_and(|arm| arm.cross(&Vector3::from(load.direction)) != Vector3::zeros());
-        require(!turns || load.force.peak() == 0.0, || {
-            format!("load {name:?} acts off the ring's centre")
-        })?;
-    }
-    for ((name, _), moment) in model.scene.moments.iter().zip(&model.moments) {
-        require(moment.moment.peak() == 0.0, || {
-            format!("moment {name:?} turns a ring")
-        })?;
-    }
-    require(model.unbalances.is_empty(), || {
-        "a ring is unbalanced".to_owned()
-    })
+    let found = forces::ALL.iter().find_map(|force| force.tilting(model));
+    found.map_or(Ok(()), Err)
 }
 
 /// Balls must not begin to spin about another axis than the bearing's, nor have a cap, which they carry with them as they turn.
@@ -208,16 +192,9 @@ fn parallel_at_start(model: &Model, start: &[f64]) -> Symmetry {
 }
 
 /// Nothing may act along z.
-fn forces(model: &Model) -> Symmetry {
-    require(model.scene.gravity[2] == 0.0, || {
-        "gravity acts along z".to_owned()
-    })?;
-    for ((name, _), load) in model.scene.loads.iter().zip(&model.loads) {
-        require(load.direction[2] == 0.0 || load.force.peak() == 0.0, || {
-            format!("load {name:?} acts along z")
-        })?;
-    }
-    Ok(())
+fn nothing_axial(model: &Model) -> Symmetry {
+    let found = forces::ALL.iter().find_map(|force| force.along_z(model));
+    found.map_or(Ok(()), Err)
 }
 
 /// The first bodies must start at these middles and not leave them.

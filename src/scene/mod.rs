@@ -31,6 +31,7 @@ mod path;
 pub mod presets;
 mod probe;
 mod recorded;
+mod ring_force;
 mod solver;
 mod spin;
 mod tilt;
@@ -61,6 +62,7 @@ pub use material::{Material, Materials};
 pub(crate) use oils::CENTISTOKE;
 pub use oils::{Base, NAMED_OILS, NamedOil, OilSheet, OilSource, Sourced, named_oil};
 pub use probe::{Component, ContactQuantity, Probe};
+pub use ring_force::{RingForce, RingForces, RingMotion};
 pub use solver::{Method, Solver};
 pub use spin::Spin;
 pub use time::{Profile, TimeFunction};
@@ -119,6 +121,9 @@ pub struct Scene {
     /// Unbalances by name.
     #[serde(default)]
     pub unbalances: BTreeMap<String, Unbalance>,
+    /// Forces on rings by code of a program's own; a document has none.
+    #[serde(default, skip_serializing_if = "RingForces::is_empty")]
+    pub ring_forces: RingForces,
     /// Defects by name.
     #[serde(default)]
     pub defects: BTreeMap<String, Defect>,
@@ -181,6 +186,7 @@ impl Scene {
             loads: BTreeMap::new(),
             moments: BTreeMap::new(),
             unbalances: BTreeMap::new(),
+            ring_forces: RingForces::default(),
             defects: BTreeMap::new(),
             probes: BTreeMap::new(),
             approximations: Approximations::default(),
@@ -310,12 +316,19 @@ impl Scene {
     /// # Panics
     /// Never: every scene has a JSON form.
     pub fn with(&self, changes: &[(&str, serde_json::Value)]) -> Result<Self> {
-        let mut document = serde_json::to_value(self).expect("a scene is a JSON document");
+        // The copy has the same forces of its program.
+        let bare = Self {
+            ring_forces: RingForces::default(),
+            ..self.clone()
+        };
+        let mut document = serde_json::to_value(bare).expect("a scene is a JSON document");
         path::show_absent(&mut document);
         for (path, value) in changes {
             path::set(&mut document, path, value.clone())?;
         }
-        Self::read(&document)
+        let mut scene = Self::read(&document)?;
+        scene.ring_forces.clone_from(&self.ring_forces);
+        Ok(scene)
     }
 
     fn read(document: &serde_json::Value) -> Result<Self> {

@@ -72,6 +72,9 @@ const AWAY: f64 = 1.2;
 const HALFWAY: f64 = 0.5;
 /// The most, since speeds change \[s\].
 const LONGEST: f64 = 1e-3;
+/// Looks while a contact passes, at least, and the longest time between them \[s\].
+const LOOKS: f64 = 32.0;
+const OVER: f64 = 20e-6;
 
 /// Slices that contacts are looked at with, at least: loads to about a percent, for a fifth of an evaluation's cost.
 const SLICES: usize = 48;
@@ -170,7 +173,7 @@ impl DefectWatch {
         dynamics.expand(t, step.y1(), &mut self.y);
         let (model, y) = (dynamics.model(), &self.y);
         let waits = self.defects.iter_mut().map(|of| of.look(model, y));
-        self.next = t + (HALFWAY * waits.fold(f64::INFINITY, f64::min)).min(LONGEST);
+        self.next = t + waits.fold(f64::INFINITY, f64::min).min(LONGEST);
     }
 
     /// What became of the defects, given where they were placed.
@@ -264,7 +267,7 @@ impl Watched {
         }
     }
 
-    /// Looks at all contacts in a state of all bodies; the least time until one comes to the defect \[s\].
+    /// Looks at all contacts in a state of all bodies; how long until the next look \[s\].
     fn look(&mut self, model: &Model, y: &[f64]) -> f64 {
         let mut wait = f64::INFINITY;
         for i in 0..self.eyes.len() {
@@ -283,7 +286,9 @@ impl Watched {
                 let pass = std::mem::replace(&mut self.eyes[i].pass, Pass::None);
                 self.passes += usize::from(pass == Pass::Untouched);
             }
-            wait = wait.min((aside.abs() - half).max(0.0) / rate.abs());
+            let until = HALFWAY * (aside.abs() - half).max(0.0);
+            let over = (2.0 * half / LOOKS).min(OVER * rate.abs());
+            wait = wait.min(until.max(over) / rate.abs());
         }
         wait
     }

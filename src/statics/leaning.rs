@@ -6,8 +6,9 @@ use nalgebra::{Matrix3x2, SMatrix, Vector3, Vector6};
 use super::arms::{Arm, OfRing, OnRing};
 use super::problem::Problem;
 use super::unknowns::{self, OF_A_RING, RingStiffness, Rings};
-use crate::forces::load;
+use crate::forces::{self, load};
 use crate::model::{Dof, Model, Race, RingModel};
+use crate::scene::RingMotion;
 use crate::tilt::{Frame, Rotation};
 
 impl Problem<'_> {
@@ -52,14 +53,19 @@ impl Problem<'_> {
         self.frame(rings, race).to_ring(&(from - of_ring)) + of_ring
     }
 
-    /// Adds what loads, moments and coupled supports do to tilts, and their stiffness.
+    /// Adds what loads, moments and coupled supports do to tilts, what forces do that depend on a ring's place, and their stiffness.
     pub(super) fn apply(&self, rings: &Rings, forces: &mut Rings, stiffness: &mut RingStiffness) {
-        if !self.model.leans() {
-            return;
-        }
         for race in Race::BOTH {
             let k = unknowns::first(race);
-            let (more, against) = self.applied(rings, race);
+            let (more, against) = match (self.model.leans(), self.placed) {
+                (false, false) => continue,
+                (true, false) => self.applied(rings, race),
+                (false, true) => self.by_place(rings, race),
+                (true, true) => {
+                    let (applied, placed) = (self.applied(rings, race), self.by_place(rings, race));
+                    (applied.0 + placed.0, applied.1 + placed.1)
+                }
+            };
             let mut on_ring = forces.fixed_rows_mut::<OF_A_RING>(k);
             on_ring += more;
             let mut own = stiffness.fixed_view_mut::<OF_A_RING, OF_A_RING>(k, k);
@@ -73,7 +79,7 @@ impl Problem<'_> {
         let (mut forces, mut stiffness) = (OnRing::zeros(), OfRing::zeros());
         let (frame, turning) = (self.frame(rings, race), self.turning(rings, race));
         let moment = load::moment(self.model, 0.0, race, |arm| frame.to_scene(arm))
-            + frame.to_scene(&self.unbalanced[race])
+            + frame.to_scene(&self.turning[race])
             + self.couples[race];
         let on_tilts = turning.tr_mul(&moment);
         forces.fixed_rows_mut::<2>(3).copy_from(&on_tilts);
@@ -86,6 +92,43 @@ impl Problem<'_> {
         }
         let (coupled, against) = self.coupled(rings, race, &frame);
         (forces + coupled, stiffness + against)
+    }
+
+    /// What forces do that depend on a ring's place, along its unknowns; and their stiffness by differences.
+    fn by_place(&self, rings: &Rings, race: Race) -> (OnRing, OfRing) {
+        let step = 1e-3 * self.model.scales.approach;
+        let at = |offset: usize, by: f64| {
+            let mut moved = *rings;
+            moved[unknowns::first(race) + offset] += by;
+            self.placed_forces(&moved, race)
+        };
+        let mut stiffness = OfRing::zeros();
+        for i in 0..OF_A_RING {
+            let slope = (at(i, -step) - at(i, step)) / (2.0 * step);
+            stiffness.set_column(i, &slope);
+        }
+        (self.placed_forces(rings, race), stiffness)
+    }
+
+    fn placed_forces(&self, rings: &Rings, race: Race) -> OnRing {
+        let [x, y] = self.tilt(rings, race);
+        let omega = self.model.scene.drive.initial_speed();
+        let centre = unknowns::of(rings, race);
+        let ring = RingMotion {
+            place: [centre.x, centre.y, centre.z],
+            angles: [x, y, 0.0],
+            rates: [0.0, 0.0, if race == Race::Inner { omega } else { 0.0 }],
+            ..RingMotion::default()
+        };
+        let mut sum = OnRing::zeros();
+        for force in forces::ALL {
+            let wrench = force.at_place(self.model, race, &ring);
+            let mut force = sum.fixed_rows_mut::<3>(0);
+            force += wrench.force;
+            let mut tilts = sum.fixed_rows_mut::<2>(3);
+            tilts += self.turning(rings, race).tr_mul(&wrench.moment);
+        }
+        sum
     }
 
     /// What a coupled support does, −Gᵀ K ξ with G = ∂ξ/∂(places, tilts), and its stiffness Gᵀ K G.

@@ -7,7 +7,7 @@ use super::rolling::RaceControl;
 use super::springs::{CageSpring, RowSpring};
 use super::unknowns::{self, OF_A_RING, OF_RINGS, RingStiffness, Rings};
 use crate::contact::{Tangent, V2, centrifugal};
-use crate::forces::{gravity, load, support, unbalance};
+use crate::forces::{self, gravity, load, support};
 use crate::model::{BodyId, Dof, Model, Race};
 use crate::reduction::AxialPlaces;
 
@@ -42,8 +42,10 @@ pub(super) struct Problem<'m> {
     nominal: Rings,
     /// Loads that act off the rings' centres of mass.
     pub(super) pushes: Vec<Push>,
-    /// Moments of unbalances, in the rings' frames \[N m\].
-    pub(super) unbalanced: [Vector3<f64>; 2],
+    /// Constant moments in the rings' frames \[N m\].
+    pub(super) turning: [Vector3<f64>; 2],
+    /// Whether forces depend on a ring's place, beside contacts and springs.
+    pub(super) placed: bool,
     /// Whether the stiffness against tilts is looked for: of rings that may lean, or where somebody asks.
     pub(super) spatial: bool,
 }
@@ -63,18 +65,12 @@ impl<'m> Problem<'m> {
             directions.push(direction);
             magnitude += outwards[j] * place.norm() + weight.abs();
         }
-        let (mut loads, mut unbalanced) = (Rings::zeros(), [Vector3::zeros(); 2]);
-        for load in &model.loads {
-            unknowns::add(&mut loads, load.ring, &load::at(load, 0.0));
-        }
+        let (mut loads, mut turning) = (Rings::zeros(), [Vector3::zeros(); 2]);
         for race in Race::BOTH {
-            let weight = gravity::on(model, race.ring());
-            unknowns::add(&mut loads, race, &weight.into());
-        }
-        for unbalance in &model.unbalances {
-            let [x, y] = unbalance::at_start(model, unbalance);
-            unknowns::add(&mut loads, unbalance.ring, &Vector3::new(x, y, 0.0));
-            unbalanced[unbalance.ring] += Vector3::new(-y, x, 0.0) * unbalance.place;
+            for wrench in forces::ALL.map(|force| force.at_start(model, race)) {
+                unknowns::add(&mut loads, race, &wrench.force);
+                turning[race] += wrench.moment;
+            }
         }
         let free = unknowns::all()
             .filter(|(_, race, dof)| model.degree(*race, *dof).is_free())
@@ -108,7 +104,8 @@ impl<'m> Problem<'m> {
             axial_places: None,
             nominal: Self::nominal(model),
             pushes: Push::all(model),
-            unbalanced,
+            turning,
+            placed: !model.scene.ring_forces.is_empty(),
             spatial: model.leans(),
         }
     }

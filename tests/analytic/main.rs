@@ -16,6 +16,7 @@ mod lubrication;
 mod oil_contact;
 mod oil_run;
 mod profiles;
+mod ring_force;
 mod start;
 mod tilt;
 mod tilt_random;

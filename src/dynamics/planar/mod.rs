@@ -7,7 +7,7 @@
 mod rates;
 
 use crate::contact::InPlane;
-use crate::forces::{State, Table, load};
+use crate::forces::{self, Force, State, Table, Use};
 use crate::model::{BodyId, BodyKind, Dof, Model, Race, Spring};
 use crate::reduction::Reduction;
 use crate::scene::Drive;
@@ -74,8 +74,9 @@ impl Planar {
         let Ground {
             model, reduction, ..
         } = ground;
-        let is_timed = !model.loads.iter().all(load::is_steady)
-            || !model.unbalances.is_empty()
+        let is_known =
+            |force: &dyn Force| force.has_planar_form() || force.used(model) != Use::Evaluated;
+        let is_timed = !forces::ALL.into_iter().all(is_known)
             || matches!(model.scene.drive, Drive::Torque { .. })
             || !reduction.felt().is_empty();
         let is_plane = reduction

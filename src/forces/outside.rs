@@ -1,0 +1,111 @@
+//! Forces on rings by a user's own code ([`crate::scene::RingForce`]), as one entry of the list.
+
+use nalgebra::Vector3;
+
+use super::{Account, Damper, Force, ForceSums, Instant, RingWrench, State, Use};
+use crate::model::{Dof, Model, Race};
+use crate::scene::{RingForce, RingMotion};
+
+/// All of them.
+#[derive(Debug)]
+pub(crate) struct Outside;
+
+impl Force for Outside {
+    fn name(&self) -> &'static str {
+        "ring forces"
+    }
+
+    fn contribution(&self) -> &'static str {
+        "load"
+    }
+
+    fn used(&self, model: &Model) -> Use {
+        Use::evaluated(!model.scene.ring_forces.is_empty())
+    }
+
+    fn add(&self, model: &Model, at: &Instant<'_>, sums: &mut ForceSums<'_>) {
+        for (_, force) in model.scene.ring_forces.iter() {
+            let race = Race::from(force.ring());
+            let motion = motion(at.state, race);
+            sums.add(race, &wrench(force, at.t, &motion));
+        }
+    }
+
+    fn at_place(&self, model: &Model, race: Race, ring: &RingMotion) -> RingWrench {
+        let mut sum = RingWrench::default();
+        let each = model.scene.ring_forces.iter();
+        for (_, force) in each.filter(|(_, force)| Race::from(force.ring()) == race) {
+            let found = wrench(force, 0.0, ring);
+            sum.force += found.force;
+            sum.moment += found.moment;
+        }
+        sum
+    }
+
+    fn account(&self, model: &Model, y: &[f64]) -> Account {
+        let mut account = Account::default();
+        if model.scene.ring_forces.is_empty() {
+            return account;
+        }
+        let mut state = State::new(model);
+        state.read(y);
+        for (_, force) in model.scene.ring_forces.iter() {
+            account.support += force.energy(&motion(&state, Race::from(force.ring())));
+        }
+        account
+    }
+
+    fn dampers(&self, model: &Model) -> Vec<Damper> {
+        let each = model.scene.ring_forces.iter();
+        each.map(|(name, force)| {
+            let body = Race::from(force.ring()).ring();
+            Damper {
+                name: format!("ring_forces.{name}"),
+                body,
+                rate: force.damping() / model.bodies[body].mass[Dof::X],
+            }
+        })
+        .collect()
+    }
+
+    fn along_z(&self, model: &Model) -> Option<String> {
+        off_plane(model)
+    }
+
+    fn tilting(&self, model: &Model) -> Option<String> {
+        off_plane(model)
+    }
+
+    fn turns_with_ring(&self, model: &Model) -> bool {
+        !model.scene.ring_forces.is_empty()
+    }
+}
+
+fn off_plane(model: &Model) -> Option<String> {
+    let mut each = model.scene.ring_forces.iter();
+    let (name, _) = each.find(|(_, force)| !force.keeps_plane())?;
+    Some(format!("ring force {name:?} may act off the plane"))
+}
+
+/// Where a ring is in a state.
+fn motion(state: &State, race: Race) -> RingMotion {
+    let [tilt, rates] = state.tilt(race);
+    let ring = state.motion(race.ring());
+    let [x, y] = ring.centre.into();
+    let [vx, vy] = ring.velocity.into();
+    RingMotion {
+        place: [x, y, ring.z],
+        angles: [tilt[0], tilt[1], ring.theta],
+        velocity: [vx, vy, ring.vz],
+        rates: [rates[0], rates[1], ring.omega],
+    }
+}
+
+/// What a force does at a time \[s\].
+fn wrench(force: &dyn RingForce, t: f64, motion: &RingMotion) -> RingWrench {
+    let [x, y, z, mx, my, mz] = force.wrench(t, motion);
+    RingWrench {
+        force: Vector3::new(x, y, z),
+        moment: Vector3::new(mx, my, mz),
+    }
+}

@@ -1,0 +1,144 @@
+//! Forces on rings by a user's own code: magnetic pull, seals, squeeze films, whatever is outside of the bearing.
+
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+
+use super::RingName;
+
+/// Where a ring is and how it moves, in the scene's frame.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
+pub struct RingMotion {
+    /// Centre of mass \[m\].
+    pub place: [f64; 3],
+    /// Tilt about x and y, 0 where the ring stays parallel, and angle about its axis \[rad\].
+    pub angles: [f64; 3],
+    /// Of the centre of mass \[m/s\].
+    pub velocity: [f64; 3],
+    /// Rates of the angles \[rad/s\].
+    pub rates: [f64; 3],
+}
+
+/// A force on a ring that depends on time and on the ring's motion.
+///
+/// It takes part in runs, their start, equilibria, stiffness, energies and explanations like every force of the scene. Give it to a
+/// scene by [`crate::Scene::ring_forces`].
+///
+/// ```
+/// use std::sync::Arc;
+/// use ballrace::equilibrium;
+/// use ballrace::scene::{RingForce, RingMotion, RingName, presets};
+///
+/// /// A spring along y.
+/// #[derive(Debug)]
+/// struct Spring(f64);
+///
+/// impl RingForce for Spring {
+///     fn ring(&self) -> RingName {
+///         RingName::Inner
+///     }
+///
+///     fn wrench(&self, _t: f64, ring: &RingMotion) -> [f64; 6] {
+///         [0.0, -self.0 * ring.place[1], 0.0, 0.0, 0.0, 0.0]
+///     }
+///
+///     fn stiffness(&self) -> f64 {
+///         self.0
+///     }
+/// }
+///
+/// let mut scene = presets::deep_groove_6205(1000.0, 0.0, 1800.0);
+/// let alone = equilibrium(&scene)?.inner[1];
+/// scene.ring_forces.insert("spring", Arc::new(Spring(1e8)));
+/// assert!(equilibrium(&scene)?.inner[1].abs() < 0.6 * alone.abs());
+/// # Ok::<(), ballrace::Error>(())
+/// ```
+pub trait RingForce: Debug + Send + Sync {
+    /// The ring it acts on.
+    fn ring(&self) -> RingName;
+
+    /// Force on the ring's centre of mass along x, y and z \[N\] and moment about it \[N m\], in the scene's frame, at a time \[s\].
+    /// Moments about x and y have an effect where the ring may tilt. Finite, and smooth in time and motion but for a few places.
+    fn wrench(&self, t: f64, ring: &RingMotion) -> [f64; 6];
+
+    /// Bound of its stiffness \[N/m\], moments over half of the pitch diameter: what a run's step is told.
+    fn stiffness(&self) -> f64 {
+        0.0
+    }
+
+    /// Bound of its damping \[N s/m\], likewise.
+    fn damping(&self) -> f64 {
+        0.0
+    }
+
+    /// The energy that it stores \[J\], which counts to that of supports.
+    fn energy(&self, _ring: &RingMotion) -> f64 {
+        0.0
+    }
+
+    /// The largest of its forces along x and y, and along z \[N\], from which scales of the contacts are estimated.
+    fn peak(&self) -> [f64; 2] {
+        [0.0; 2]
+    }
+
+    /// Whether it neither acts along z nor tilts the ring, so that a run may leave these directions out.
+    fn keeps_plane(&self) -> bool {
+        false
+    }
+}
+
+/// Forces on rings by name, each with code of its own.
+///
+/// A document has their names only, and is not read again while it has any: forces are given to the scene that was read.
+#[derive(Debug, Clone, Default)]
+#[non_exhaustive]
+pub struct RingForces(BTreeMap<String, Arc<dyn RingForce>>);
+
+impl RingForces {
+    /// Adds a force, or replaces the one of this name.
+    pub fn insert(&mut self, name: impl Into<String>, force: Arc<dyn RingForce>) {
+        self.0.insert(name.into(), force);
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Names and forces, in the order of the names.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &dyn RingForce)> {
+        let each = self.0.iter();
+        each.map(|(name, force)| (name.as_str(), force.as_ref()))
+    }
+}
+
+/// The same forces, not only such that do the same.
+impl PartialEq for RingForces {
+    fn eq(&self, other: &Self) -> bool {
+        let mut both = self.0.iter().zip(&other.0);
+        self.0.len() == other.0.len()
+            && both.all(|((name, force), (named, of))| name == named && Arc::ptr_eq(force, of))
+    }
+}
+
+impl Serialize for RingForces {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.keys())
+    }
+}
+
+impl<'de> Deserialize<'de> for RingForces {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let names = Vec::<String>::deserialize(deserializer)?;
+        if names.is_empty() {
+            return Ok(Self::default());
+        }
+        let names = names.join(", ");
+        Err(de::Error::custom(format!(
+            "none: {names} is code of the program that wrote the document; take the field out and give the forces to the scene"
+        )))
+    }
+}

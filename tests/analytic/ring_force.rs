@@ -1,0 +1,161 @@
+//! Analytic: a force of a program's own code is a force like those of the scene. A spring by code equals a support of the same
+//! stiffness in equilibria, runs, energies and reductions; a pull that grows with the displacement softens a mount by its slope.
+
+use std::sync::Arc;
+
+use ballrace::inspect::energy;
+use ballrace::scene::{Mount, RingForce, RingMotion, RingName, Scene, presets};
+use ballrace::{Run, compile, equilibrium, explain, simulate};
+
+const STIFFNESS: f64 = 3e7;
+const DAMPING: f64 = 300.0;
+
+/// Stiffness and damping of the outer ring along y.
+#[derive(Debug)]
+struct Linear {
+    stiffness: f64,
+    damping: f64,
+    plane: bool,
+}
+
+impl RingForce for Linear {
+    fn ring(&self) -> RingName {
+        RingName::Outer
+    }
+
+    fn wrench(&self, _: f64, ring: &RingMotion) -> [f64; 6] {
+        let force = -self.stiffness * ring.place[1] - self.damping * ring.velocity[1];
+        [0.0, force, 0.0, 0.0, 0.0, 0.0]
+    }
+
+    fn stiffness(&self) -> f64 {
+        self.stiffness.abs()
+    }
+
+    fn damping(&self) -> f64 {
+        self.damping
+    }
+
+    fn energy(&self, ring: &RingMotion) -> f64 {
+        0.5 * self.stiffness * ring.place[1].powi(2)
+    }
+
+    fn keeps_plane(&self) -> bool {
+        self.plane
+    }
+}
+
+fn spring(stiffness: f64, damping: f64) -> Mount {
+    Mount::Spring { stiffness, damping }
+}
+
+/// A 6205 whose outer ring moves along x and y.
+fn mounted(y: Mount) -> Scene {
+    let mut scene = presets::deep_groove_6205(800.0, 0.0, 1800.0);
+    let support = &mut scene.outer_ring.support;
+    (support.x, support.y) = (Some(spring(STIFFNESS, DAMPING)), Some(y));
+    scene
+}
+
+fn by_code(plane: bool) -> Scene {
+    let mut scene = mounted(Mount::Free);
+    let force = Linear {
+        stiffness: STIFFNESS,
+        damping: DAMPING,
+        plane,
+    };
+    scene.ring_forces.insert("spring", Arc::new(force));
+    scene
+}
+
+/// The scene that is known, and the same by code.
+fn both() -> [Scene; 2] {
+    [mounted(spring(STIFFNESS, DAMPING)), by_code(true)]
+}
+
+#[test]
+fn a_spring_by_code_has_the_equilibrium_of_a_support() {
+    let [known, coded] = both().map(|scene| equilibrium(&scene).unwrap());
+    for (known, coded) in [(known.outer, coded.outer), (known.inner, coded.inner)] {
+        for i in 0..3 {
+            assert!((known[i] - coded[i]).abs() < 1e-11, "{known:?} {coded:?}");
+        }
+    }
+    assert!(known.outer[1] < -1e-5);
+}
+
+#[test]
+fn a_spring_by_code_runs_as_a_support_does() {
+    let run = Run {
+        duration: 2e-3,
+        settle: Some(0.0),
+        rtol: Some(1e-9),
+        ..Run::default()
+    };
+    let [known, coded] = both().map(|scene| simulate(&scene, &run).unwrap());
+    let [known, coded] = [&known, &coded].map(|out| out.get("outer.ay").unwrap());
+    let size = known.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+    for (known, coded) in known.iter().zip(coded) {
+        assert!((known - coded).abs() < 1e-5 * size, "{known} {coded}");
+    }
+}
+
+#[test]
+fn a_spring_by_code_stores_what_a_support_does() {
+    let [known, coded] = both().map(|scene| {
+        let model = compile(&scene).unwrap();
+        let mut y = vec![0.0; model.dim()];
+        for (i, (place, moved)) in y.iter_mut().zip([1e-5, -2e-5, 0.0]).enumerate() {
+            *place = moved * (1.0 + i as f64);
+        }
+        energy(&model, &y).support
+    });
+    assert!((known - coded).abs() < 1e-12 * known && known > 0.0);
+}
+
+#[test]
+fn a_run_leaves_out_what_a_force_leaves_alone() {
+    let kept = |scene: &Scene| explain(scene).unwrap();
+    let [known, coded] = both().map(|scene| kept(&scene));
+    assert_eq!(known.kept, coded.kept);
+    assert!(coded.evaluated.contains(&"ring forces"));
+    assert!(!known.evaluated.contains(&"ring forces"));
+    let off = kept(&by_code(false));
+    assert!(off.kept > coded.kept);
+    let because = "may act off the plane";
+    assert!(
+        off.obstacles
+            .iter()
+            .any(|of| format!("{of:?}").contains(because))
+    );
+}
+
+/// A magnetic pull k_m y on a ring on a mount of stiffness k, which carries all of a load F: y = F/(k − k_m).
+#[test]
+fn a_pull_softens_a_mount() {
+    let mut scene = mounted(spring(STIFFNESS, DAMPING));
+    scene.gravity = [0.0; 3];
+    let pull = Linear {
+        stiffness: -0.4 * STIFFNESS,
+        damping: 0.0,
+        plane: true,
+    };
+    scene.ring_forces.insert("pull", Arc::new(pull));
+    let sunk = equilibrium(&scene).unwrap().outer[1];
+    // What the cage holds of the contacts' forces along the orbit is not in the sum: some u/r of it.
+    let closed = -800.0 / (0.6 * STIFFNESS);
+    assert!(
+        (sunk - closed).abs() < 2e-3 * closed.abs(),
+        "{sunk} {closed}"
+    );
+}
+
+#[test]
+fn a_document_has_no_code() {
+    let scene = by_code(true);
+    let text = scene.to_json();
+    let refused = Scene::from_json(&text).unwrap_err().to_string();
+    assert!(refused.contains("ring_forces") && refused.contains("spring"));
+    let wider = scene.with(&[("rows[0].clearance", 2e-5.into())]).unwrap();
+    assert_eq!(wider.ring_forces, scene.ring_forces);
+}
