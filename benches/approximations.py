@@ -39,14 +39,12 @@ ROLLING = Approximations(rolling=True)
 PLANE = Approximations(plane=True)
 FLAT = Approximations(rolling=True, plane=True)
 ONE_ROW = Approximations(one_row=True)
-TILT = Approximations(tilt=True)
 NAMES = {
     FREE: "a nanometre away",
     ROLLING: "rolling",
     PLANE: "plane",
     FLAT: "rolling, plane",
     ONE_ROW: "one_row",
-    TILT: "tilt",
 }
 
 
@@ -74,8 +72,6 @@ def scenes() -> dict[str, tuple[br.Scene, list[Approximations]]]:
         "wheel bearing, +3 kN": (wheel, angled),
         "wheel bearing, +3 kN, healthy": (replace(wheel, defects={}), angled),
         "wheel bearing, 0.5 kN, 20 kN of thrust": (lifted, [*angled, ONE_ROW]),
-        "cornering wheel, −0.3 g": (br.presets.cornering_wheel(-0.3), [TILT]),
-        "cornering wheel, 0.3 g": (br.presets.cornering_wheel(0.3), [TILT]),
     }
 
 
@@ -145,7 +141,7 @@ def draw(table: pl.DataFrame, path: Path) -> None:
     silent = table.filter(~pl.col("faulted") & (pl.col("rms") < SILENT))["scene"].unique().to_list()
     names = table.filter(~pl.col("scene").is_in(silent))["scene"].unique(maintain_order=True)
     colours = dict(zip(names, plt.get_cmap("tab10").colors[: len(names)], strict=True))
-    marks = {"rolling": "o", "plane": "s", "rolling, plane": "D", "one_row": "^", "tilt": "v"}
+    marks = {"rolling": "o", "plane": "s", "rolling, plane": "D", "one_row": "^"}
     for row in table.iter_rows(named=True):
         mark, colour = marks.get(row["approximation"]), colours.get(row["scene"])
         if mark and row["scene"] not in silent:

@@ -116,7 +116,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         bodies: model.body_count(),
         states: model.dim(),
         kept: reduction.as_ref().map_or(model.dim(), Reduction::dim),
-        omissions: Reduction::left_out(reduction.as_ref(), &model),
+        omissions: listed(reduction.as_ref(), Reduction::omissions),
         obstacles: if model.is_spatial() && reduction.is_none() {
             Reduction::in_space(&model, &y0).err().unwrap_or_default()
         } else {

@@ -42,7 +42,7 @@ const SHORT: f64 = 0.25;
 type Change = fn(&Scene) -> Option<Scene>;
 
 /// Changes by name, and what they do to the answer.
-const CHANGES: [(&str, &str, Change); 15] = [
+const CHANGES: [(&str, &str, Change); 14] = [
     (
         "with approximations.rolling",
         "of faulted races: rms to 20 %, rate of impacts to 0.3 %",
@@ -68,15 +68,6 @@ const CHANGES: [(&str, &str, Change); 15] = [
             let mut changed = scene.clone();
             changed.approximations.one_row = true;
             (changed != *scene).then_some(changed)
-        },
-    ),
-    (
-        "with approximations.tilt",
-        "rings lean as at equilibrium and do not rock: rms to 4 %",
-        |scene| {
-            let mut changed = scene.clone();
-            changed.approximations.tilt = true;
-            (scene.rocks() && changed != *scene).then_some(changed)
         },
     ),
     (

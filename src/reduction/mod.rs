@@ -12,7 +12,7 @@ mod symmetry;
 
 use std::ops::Range;
 
-use crate::model::{BodyId, BodyKind, DOFS, Dof, Layout, Model, Race};
+use crate::model::{BodyId, BodyKind, DOFS, Dof, Layout, Model};
 use crate::scene::Method;
 
 use course::{Orbit, Prescribed};
@@ -276,21 +276,6 @@ impl Reduction {
     /// Number of states of a run: a place and a speed for each degree of freedom that is kept.
     pub fn dim(&self) -> usize {
         2 * self.kept
-    }
-
-    /// What a run leaves out with a reduction or without, and what it holds by request.
-    pub(crate) fn left_out(of: Option<&Self>, model: &Model) -> Vec<Omission> {
-        let mut found = of.map_or_else(Vec::new, |reduction| reduction.omissions.clone());
-        let leaning = Race::BOTH.iter().filter(|race| model.ring_leans(**race));
-        let leaning = leaning.count();
-        if model.scene.approximations.tilt && leaning > 0 {
-            found.push(Omission {
-                what: "tilts".to_owned(),
-                degrees: Dof::TILTS.len() * leaning,
-                reason: "held as at equilibrium, by request".to_owned(),
-            });
-        }
-        found
     }
 
     /// What is left out.

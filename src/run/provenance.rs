@@ -47,7 +47,10 @@ pub(super) fn provenance(run: &Run, done: Done<'_>) -> Provenance {
         duration: run.duration,
         threads: done.threads,
         states: done.reduction.as_ref().map_or(model.dim(), Reduction::dim),
-        left_out: Reduction::left_out(done.reduction.as_ref(), model),
+        left_out: done
+            .reduction
+            .as_ref()
+            .map_or_else(Vec::new, |reduction| reduction.omissions().to_vec()),
         simd: model.instructions().name(),
         distrust: done.distrust,
         architecture: std::env::consts::ARCH,

@@ -22,9 +22,6 @@ pub struct Approximations {
     pub plane: bool,
     /// Of two rows the one that carries next to nothing at the start is left out, for thrust that unloads it.
     pub one_row: bool,
-    /// Rings keep the tilts of equilibrium under the loads at the start. For loads that do not change.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub tilt: bool,
 }
 
 impl Approximations {
@@ -33,7 +30,6 @@ impl Approximations {
         rolling: false,
         plane: false,
         one_row: false,
-        tilt: false,
     };
 
     /// Whether any is asked for.
@@ -61,11 +57,7 @@ impl Approximations {
             ))
         };
         let method = scene.solver.method;
-        let of_states = Self {
-            tilt: false,
-            ..self
-        };
-        if of_states.any() && method == Method::ImplicitFriction {
+        if self.any() && method == Method::ImplicitFriction {
             return Err(Error::scene(
                 "approximations",
                 "asked for",
@@ -90,11 +82,6 @@ impl Approximations {
         }
         if self.one_row && scene.rows.len() != 2 {
             return refuse("one_row", "false unless there are two rows".to_owned());
-        }
-        if self.tilt {
-            scene
-                .check_held_tilts()
-                .or_else(|allowed| refuse("tilt", allowed))?;
         }
         Ok(())
     }

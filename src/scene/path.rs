@@ -80,9 +80,6 @@ pub(super) fn show_absent(scene: &mut Value) {
     }
     show(&["loads", ALL], &["at"]);
     show(&["unbalances", ALL], &["axial_position"]);
-    for approximations in all_of(scene, &["approximations"]) {
-        approximations.entry("tilt").or_insert(json!(false));
-    }
     if let Some(scene) = scene.as_object_mut() {
         scene.entry("moments").or_insert_with(|| json!({}));
     }

@@ -1,7 +1,7 @@
 //! Rings that tilt: which may, and what scenes with one need.
 
 use super::bearing::{Mount, Ring, Support};
-use super::{Approximations, Component, Scene, TimeFunction};
+use super::{Approximations, Component, Scene};
 use crate::base::error::{Error, Result};
 
 impl Support {
@@ -45,47 +45,12 @@ impl Scene {
         self.outer_ring.leans() || self.inner_ring.leans()
     }
 
-    /// Whether tilts of any ring move.
-    pub(crate) fn rocks(&self) -> bool {
-        [&self.outer_ring, &self.inner_ring]
-            .iter()
-            .any(|ring| ring.support.tilt_mounts() != [Mount::Fixed; 2])
-    }
-
-    /// Whether tilts may be held as they are at equilibrium.
-    ///
-    /// # Errors
-    /// What is allowed instead.
-    pub(super) fn check_held_tilts(&self) -> std::result::Result<(), String> {
-        let is_steady = |of: &TimeFunction| matches!(of, TimeFunction::Constant(_));
-        let loads = self
-            .loads
-            .iter()
-            .map(|(name, load)| ("loads", name, &load.force));
-        let moments = self
-            .moments
-            .iter()
-            .map(|(name, of)| ("moments", name, &of.moment));
-        if let Some((kind, name, _)) = loads.chain(moments).find(|(_, _, of)| !is_steady(of)) {
-            return Err(format!("false with {kind}.{name}, which changes in time"));
-        }
-        for (name, ring) in [("outer", &self.outer_ring), ("inner", &self.inner_ring)] {
-            if ring.support.coupled.is_some() {
-                return Err(format!(
-                    "false with {name}_ring.support.coupled, whose springs hold tilts"
-                ));
-            }
-        }
-        Ok(())
-    }
-
     /// Refuses what reductions by request do not support.
     pub(super) fn check_leaning(&self) -> Result<()> {
         let Approximations {
             rolling,
             plane,
             one_row,
-            tilt: _,
         } = self.approximations;
         let asked = [("rolling", rolling), ("plane", plane), ("one_row", one_row)];
         let Some((name, _)) = asked.into_iter().find(|(_, asked)| *asked) else {

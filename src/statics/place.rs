@@ -12,7 +12,7 @@ use super::{oil, positions};
 use crate::base::error::{Error, Result};
 use crate::inspect;
 use crate::model::{BodyId, Dof, Model, Race, compile_placed};
-use crate::scene::{AxialOffset, Defect, Mount, Row, Scene, Surface, TimeFunction};
+use crate::scene::{AxialOffset, Defect, Row, Scene, Surface, TimeFunction};
 
 /// Where the number of a defect's axial place comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -41,8 +41,7 @@ pub fn compile(scene: &Scene) -> Result<Model> {
     oil::lubricated(compile_placed(&place(scene)?.0)?)
 }
 
-/// The scene with a number for the axial place of every defect, and where the numbers come from, by the defects' names; and with
-/// tilts that are held by request as they are at equilibrium.
+/// The scene with a number for the axial place of every defect, and where the numbers come from, by the defects' names.
 ///
 /// # Errors
 /// [`crate::Error::Scene`] for a scene that is not usable.
@@ -53,8 +52,7 @@ pub fn place(scene: &Scene) -> Result<(Cow<'_, Scene>, BTreeMap<String, Placed>)
         .keys()
         .map(|name| (name.clone(), Placed::Given))
         .collect();
-    let holds_tilts = scene.approximations.tilt && scene.rocks();
-    if scene.defects.values().all(is_given) && !holds_tilts {
+    if scene.defects.values().all(is_given) {
         return Ok((Cow::Borrowed(scene), from));
     }
     scene.validate()?;
@@ -72,30 +70,7 @@ pub fn place(scene: &Scene) -> Result<(Cow<'_, Scene>, BTreeMap<String, Placed>)
         defect.axial_offset = ((number * FINEST).round() / FINEST + 0.0).into();
         from.insert(name.clone(), placed);
     }
-    if holds_tilts {
-        hold_tilts(&mut all)?;
-    }
     Ok((Cow::Owned(all), from))
-}
-
-/// Fixes the rings' tilts as they are at equilibrium.
-fn hold_tilts(scene: &mut Scene) -> Result<()> {
-    let model = oil::lubricated(compile_placed(scene)?)?;
-    let y = positions(&model).map_err(|error| match error {
-        Error::Interrupted { .. } => error,
-        _ => Error::scene(
-            "approximations.tilt",
-            true,
-            format!("false where no equilibrium is found: {error}"),
-        ),
-    })?;
-    let rings = [&mut scene.outer_ring, &mut scene.inner_ring];
-    for (race, ring) in Race::BOTH.into_iter().zip(rings) {
-        let [tilt, _] = model.tilt(&y, race);
-        ring.tilt = Some(tilt);
-        (ring.support.tilt_x, ring.support.tilt_y) = (Some(Mount::Fixed), Some(Mount::Fixed));
-    }
-    Ok(())
 }
 
 /// The healthy bearing at equilibrium, and the contacts that meet a defect over a turn of the balls.

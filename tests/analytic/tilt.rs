@@ -4,12 +4,10 @@ use crate::common;
 use ballrace::dynamics::Dynamics;
 use ballrace::integrate::System;
 use ballrace::scene::{
-    Component, CoupledSupport, Friction, Load, Lubricant, Method, Moment, Mount, Probe, Profile,
-    RingName, Scene, Spin, TimeFunction, Unbalance, presets,
+    Component, CoupledSupport, Friction, Load, Lubricant, Method, Moment, Mount, Probe, RingName,
+    Scene, Spin, Unbalance, presets,
 };
-use ballrace::{
-    Explanation, Reduction, Run, Start, Warning, compile, equilibrium, explain, simulate, start,
-};
+use ballrace::{Explanation, Reduction, Run, Start, Warning, compile, explain, simulate, start};
 use common::{apart, oiled, run, short};
 
 /// A 6205 under 500 N and 300 N whose inner ring tilts, damped.
@@ -286,46 +284,6 @@ fn stiff_friction_in_space_costs_an_implicit_step_nothing() {
         counts.push(found.stats.nfev as f64);
     }
     assert!(counts[1] < 1.2 * counts[0], "{counts:?}");
-}
-
-/// Limits: tilts that are held by request are those of equilibrium, with the forces that they have there; what rocks no more is told.
-#[test]
-fn tilts_are_held_by_request() {
-    let mut scene = presets::cornering_wheel(0.3);
-    let free = compile(&scene).unwrap();
-    scene.approximations.tilt = true;
-    let held = compile(&scene).unwrap();
-    assert_eq!(held.dim() + 4, free.dim());
-    let tilt = equilibrium(&presets::cornering_wheel(0.3))
-        .unwrap()
-        .inner_tilt;
-    assert!(tilt[0].abs() > 1e-3);
-    let found = held.scene().inner_ring.tilt.unwrap();
-    for (found, tilt) in found.into_iter().zip(tilt) {
-        assert!((found - tilt).abs() < 1e-9, "{found} {tilt}");
-    }
-    let forces = |model: &ballrace::Model| {
-        let y = start(model, &Start::Equilibrium).unwrap();
-        ballrace::dynamics::Dynamics::new(model)
-            .forces(0.0, &y)
-            .concat()
-    };
-    let off = apart(&forces(&held), &forces(&free));
-    assert!(off < 1e-6, "{off:e}");
-    let out = run(&scene, &short(5e-4));
-    let left = &out.provenance.left_out[0];
-    assert_eq!((left.what.as_str(), left.degrees), ("tilts", 2));
-    assert!(left.reason.contains("by request"), "{left:?}");
-    let about = out.get("inner.tilt_x").unwrap();
-    assert!(about.iter().all(|x| *x == found[0]));
-    let load = scene.loads.values_mut().next().unwrap();
-    load.force = TimeFunction::Profile(Profile::Ramp {
-        from: 0.0,
-        to: 1e3,
-        start: 0.0,
-        end: 1.0,
-    });
-    refused(&scene, "approximations.tilt");
 }
 
 /// A field that breaks a mirror symmetry, and what is said of it.

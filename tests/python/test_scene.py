@@ -175,7 +175,7 @@ def scenes() -> list[s.Scene]:
         full.replace({"friction": s.Coulomb(coefficient=0.1, slip_speed=0.1)}),
         dataclasses.replace(
             br.presets.wheel_bearing(),
-            approximations=s.Approximations(rolling=True, plane=True, one_row=True, tilt=True),
+            approximations=s.Approximations(rolling=True, plane=True, one_row=True),
         ),
         full.replace(
             {

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
-from .._document import LEFT_OUT, Part
+from .._document import Part
 
 __all__ = ["Approximations"]
 
@@ -28,12 +28,8 @@ class Approximations(Part):
     one_row : bool
         Of two rows the one that carries less than 2 % of the load at the start is left out, where loads do not
         change.
-    tilt : bool
-        Rings keep the tilts of equilibrium under the loads at the start. Needs loads
-        that do not change.
     """
 
     rolling: bool = False
     plane: bool = False
     one_row: bool = False
-    tilt: bool = field(default=False, metadata=LEFT_OUT)

@@ -28,10 +28,6 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
 
 /// Moments, and loads off the centre, about directions in which their ring is held.
 fn moments(scene: &Scene, found: &mut Vec<Doubt>) {
-    // Held as they are at equilibrium, on which the field has an effect.
-    if scene.approximations.tilt {
-        return;
-    }
     let mut tell = |path: String, ring: RingName, moment: [f64; 3], about: &[usize]| {
         let [.., theta, tilt_x, tilt_y, _, _] = scene.moves(ring as usize);
         let driven = ring == RingName::Inner && matches!(scene.drive, Drive::Speed(_));
