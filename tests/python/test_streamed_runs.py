@@ -8,7 +8,6 @@ import pickle
 import signal
 import subprocess
 import sys
-import time
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -257,9 +256,9 @@ def test_ctrl_c_leaves_nothing(tmp_path: Path) -> None:
             assert child.stdout.readline() == "a block\n"
         assert len(list(tmp_path.iterdir())) == 1
         child.send_signal(signal.SIGINT)
-        began = time.monotonic()
+        # At most the block that is being written, and what stands in the pipe.
+        assert child.stdout.read().count("a block") <= 2
         child.wait(timeout=10.0)
-        assert time.monotonic() - began < 2.0
         assert "KeyboardInterrupt" in child.stderr.read()
     assert not list(tmp_path.iterdir())
 
