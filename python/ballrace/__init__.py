@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from .bearings import Bearing, Catalogue, Pedestal, bearing, catalogue
     from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
     from .channel import Channel
+    from .datasets import BearingDataset, bearing_split, read_bearing_dataset
     from .diagnosis import Diagnosis, diagnose
     from .explanation import Explanation, explain
     from .friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf
@@ -70,6 +71,7 @@ else:
             "bearings": ("Bearing", "Catalogue", "Pedestal", "bearing", "catalogue"),
             "campaigns": ("Campaign", "campaign", "grid", "latin_hypercube", "scatter", "sobol"),
             "channel": ("Channel",),
+            "datasets": ("BearingDataset", "bearing_split", "read_bearing_dataset"),
             "diagnosis": ("Diagnosis", "diagnose"),
             "explanation": ("Explanation", "explain"),
             "friction": ("FrictionTorque", "friction_torque_palmgren", "friction_torque_skf"),
@@ -100,6 +102,7 @@ __all__ = [
     "AccuracyWarning",
     "BallraceError",
     "Bearing",
+    "BearingDataset",
     "BudgetError",
     "Campaign",
     "CampaignError",
@@ -131,6 +134,7 @@ __all__ = [
     "Stiffness",
     "Touched",
     "bearing",
+    "bearing_split",
     "campaign",
     "catalogue",
     "defects",
@@ -153,6 +157,7 @@ __all__ = [
     "presets",
     "rating_life",
     "read",
+    "read_bearing_dataset",
     "scatter",
     "scene",
     "simulate",

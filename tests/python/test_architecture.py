@@ -30,6 +30,7 @@ STANDING = {
     ("ballrace._record", "ballrace.signals"),
     ("ballrace.signals", "ballrace.report"),
     ("ballrace.campaigns.result", "ballrace.report"),
+    ("ballrace.campaigns.result", "ballrace.datasets.campaign"),
     ("ballrace.diagnosis.result", "ballrace.diagnosis.page"),
     ("ballrace.diagnosis.result", "ballrace.diagnosis.picture"),
 }

@@ -307,6 +307,60 @@ class Campaign:
         table = windows_table(lines, length, hop, skip)
         return table.join(labelled, on="case_id", how="left", maintain_order="left")
 
+    def to_bearing_datasets(
+        self,
+        path: str | os.PathLike[str],
+        chains: Chains | None = None,
+        *,
+        licence: str = "unspecified",
+        title: str = "",
+        seed: int = 0,
+        per_case: int | None = None,
+    ) -> None:
+        """Write the kept signals as a labelled set in the layout of the package ``bearing-datasets`` (0.3.0).
+
+        ``bearing_datasets.open(name, root)`` opens it beside the public measured sets, where ``path`` is
+        ``root/name``; :func:`ballrace.read_bearing_dataset` needs no such package. Labels are those of defects
+        that a loaded contact *met* in the run; cases in which no ball came to one in time have none and are left
+        out. The table has the fault orders, the ``bearing_id`` (of the campaign's table, else a hash of rows and
+        defects), units, the place of the sensor and the rank of the width; the card the hash of each scene.
+
+        Parameters
+        ----------
+        path : path
+            Folder to make; there must be none of this name. It appears when it is whole.
+        chains : Chain, mapping of str to Chain, or sequence of Chain, optional
+            Measuring chains, a recording a case and chain, as for :meth:`measurements`. By default the signals are
+            the accelerations of the outer ring, which no sensor would show.
+        licence : str
+            Under which licence you give the set away, such as ``"CC-BY-4.0"``.
+        title : str
+            What the set is, in a line.
+        seed, per_case
+            As for :meth:`measurements`.
+
+        Raises
+        ------
+        SceneError
+            An argument is not usable, or there is no signal with a label.
+        FileNotFoundError
+            No signals were kept.
+        CampaignError
+            A shard is missing or damaged.
+        OSError
+            The folder cannot be written; nothing is left of it.
+
+        Warns
+        -----
+        CampaignWarning
+            Some cases were left out.
+        """
+        from ..datasets.campaign import write_campaign
+
+        write_campaign(
+            self, path, chains, title=title, licence=licence, seed=seed, per_case=per_case
+        )
+
     def _labels(self, names: Sequence[str]) -> pl.DataFrame:
         """Return columns of the manifest beside the id of the case, a line a case.
 

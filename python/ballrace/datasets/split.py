@@ -1,0 +1,157 @@
+"""Rows for training and for testing, with no bearing on both sides."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .._numbers import real
+from ..errors import SceneError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import polars as pl
+    from numpy.typing import NDArray
+
+__all__ = ["bearing_split"]
+
+_KNOWN = (
+    ("fault_type",),
+    ("label",),
+    ("fault_outer_race", "fault_inner_race", "fault_ball"),
+)
+"""Columns that tell classes: of data sets, of windows of a run, of campaigns and their windows."""
+
+_TRIES = 200
+"""Orders in which bearings are dealt out; the most even result counts."""
+
+
+def bearing_split(
+    manifest: pl.DataFrame,
+    test: float = 0.25,
+    groups: str = "bearing_id",
+    *,
+    balance: str | Sequence[str] | None = None,
+    seed: int = 0,
+) -> tuple[pl.DataFrame, pl.DataFrame]:
+    """Part a table for training and testing: no bearing is on both sides, and every class is on each.
+
+    Windows of a run, and runs of a bearing, resemble each other, so that a random split tests what was learnt by
+    heart. Bearings are dealt out by chance in 200 orders, each to the side that lacks most of its classes, and the
+    most even result is taken.
+
+    Parameters
+    ----------
+    manifest : polars.DataFrame
+        A manifest, a table of windows, or the table of a data set.
+    test : float
+        Share of the rows of each class that are for testing, above 0 and below 1; met as closely as whole
+        bearings allow.
+    groups : str
+        Column that tells bearings apart.
+    balance : str or sequence of str, optional
+        Columns that tell classes apart; by default ``fault_type``, ``label`` or the three ``fault_…`` of a
+        campaign, whichever are there. ``()``: all rows are one class.
+    seed : int
+        Which orders are tried.
+
+    Returns
+    -------
+    train, test : polars.DataFrame
+        The rows, in the order of the table.
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable, a row has no bearing, or a class has too few bearings to be on both sides.
+
+    Examples
+    --------
+    >>> import polars as pl
+    >>> table = pl.DataFrame({"bearing_id": [0, 0, 1, 1, 2, 2, 3, 3], "label": ["healthy", "ball"] * 4})
+    >>> train, test = bearing_split(table, test=0.25)
+    >>> train.height, test.height, set(train["bearing_id"]) & set(test["bearing_id"])
+    (6, 2, set())
+    """
+    if not 0.0 < real(test) < 1.0:
+        raise SceneError("test", repr(test), "a share of the rows, above 0 and below 1")
+    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
+        raise SceneError("seed", repr(seed), "a whole number from 0")
+    bearing, names = _bearings(manifest, groups)
+    count = _counts(bearing, _classes(manifest, balance), names)
+    chosen = _most_even(count, float(test), np.random.default_rng(seed))
+    tested = chosen[bearing]
+    return manifest.filter(~tested), manifest.filter(tested)
+
+
+def _bearings(manifest: pl.DataFrame, groups: str) -> tuple[NDArray[np.intp], int]:
+    """Return the number of the bearing of each row, and how many there are."""
+    if groups not in manifest.columns:
+        raise SceneError("groups", repr(groups), f"one of {', '.join(manifest.columns)}")
+    if manifest[groups].null_count():
+        raise SceneError("groups", f"{groups} with empty cells", "a bearing in every row")
+    number = (manifest[groups].rank("dense") - 1).to_numpy().astype(np.intp)
+    found = int(number.max(initial=-1)) + 1
+    if found < 2:
+        raise SceneError("groups", f"{groups} with {found} bearings", "two bearings and more")
+    return number, found
+
+
+def _classes(manifest: pl.DataFrame, balance: str | Sequence[str] | None) -> NDArray[np.intp]:
+    """Return the number of the class of each row."""
+    if balance is None:
+        there = (names for names in _KNOWN if set(names) <= set(manifest.columns))
+        balance = next(there, ())
+    names = (balance,) if isinstance(balance, str) else tuple(balance)
+    for name in names:
+        if name not in manifest.columns:
+            raise SceneError("balance", repr(name), f"some of {', '.join(manifest.columns)}")
+    if not names:
+        return np.zeros(manifest.height, dtype=np.intp)
+    return manifest.select(names).to_struct("of").rank("dense").to_numpy().astype(np.intp) - 1
+
+
+def _counts(
+    bearing: NDArray[np.intp], kind: NDArray[np.intp], bearings: int
+) -> NDArray[np.float64]:
+    """Return how many rows of each class a bearing has, shape (bearings, classes)."""
+    count = np.zeros((bearings, int(kind.max()) + 1))
+    np.add.at(count, (bearing, kind), 1.0)
+    lonely = int(((count > 0).sum(axis=0) < 2).sum())
+    if lonely:
+        raise SceneError(
+            "manifest", f"{lonely} of {count.shape[1]} classes with one bearing",
+            "two bearings and more of each class, or balance=()",
+        )  # fmt: skip
+    return count
+
+
+def _most_even(
+    count: NDArray[np.float64], test: float, rng: np.random.Generator
+) -> NDArray[np.bool_]:
+    """Return which bearings are for testing."""
+    share = count / count.sum(axis=0)
+    best, chosen = np.inf, np.zeros(count.shape[0], dtype=bool)
+    for _ in range(_TRIES):
+        tried = _dealt(share, test, rng)
+        part = share[tried].sum(axis=0)
+        # A class that one side lacks altogether weighs more than any unevenness.
+        off = np.abs(part - test).max() + ((part < 1e-9) | (part > 1.0 - 1e-9)).sum()
+        if off < best:
+            best, chosen = off, tried
+    if best >= 1.0:
+        raise SceneError("manifest", "bearings of mixed classes", "more bearings of each class")
+    return chosen
+
+
+def _dealt(share: NDArray[np.float64], test: float, rng: np.random.Generator) -> NDArray[np.bool_]:
+    """Deal bearings out in an order by chance, to testing where that brings the classes nearer to the share."""
+    tried = np.zeros(share.shape[0], dtype=bool)
+    part = np.zeros(share.shape[1])
+    for one in rng.permutation(share.shape[0]):
+        after = part + share[one]
+        if np.sum((after - test) ** 2) < np.sum((part - test) ** 2):
+            tried[one], part = True, after
+    return tried
