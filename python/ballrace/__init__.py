@@ -35,7 +35,7 @@ from .scene import Scene
 from .scene.lubricant import lubricants
 
 if TYPE_CHECKING:
-    from . import diagnosis, measuring, plot, spectra
+    from . import diagnosis, learn, measuring, plot, spectra
     from ._features import features
     from .bearings import Bearing, Catalogue, Pedestal, bearing, catalogue
     from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
@@ -75,6 +75,7 @@ else:
             "diagnosis": ("Diagnosis", "diagnose"),
             "explanation": ("Explanation", "explain"),
             "friction": ("FrictionTorque", "friction_torque_palmgren", "friction_torque_skf"),
+            "learn": (),
             "life": ("RatingLife", "rating_life"),
             "life_factor": ("LifeFactor",),
             "measuring": ("measure",),
@@ -149,6 +150,7 @@ __all__ = [
     "friction_torque_skf",
     "grid",
     "latin_hypercube",
+    "learn",
     "load_distribution",
     "lubricants",
     "measure",

@@ -32,7 +32,8 @@ def names() -> dict[str, list[str]]:
 
 def _behind(value: object) -> list[str]:
     if isinstance(value, type):
-        inherited = {name for base in (*Exception.__mro__, dict) for name in vars(base)}
+        others = [base for base in value.__mro__ if base.__module__.startswith("sklearn.")]
+        inherited = {name for base in (*Exception.__mro__, dict, *others) for name in vars(base)}
         fields = dataclasses.fields(value) if dataclasses.is_dataclass(value) else ()
         members = {*dir(value), *(field.name for field in fields)}
         if issubclass(value, Exception) and inspect.isfunction(value.__init__):

@@ -63,7 +63,7 @@ def test_windows_are_cut_from_the_measurement(done: br.Campaign) -> None:
     assert table.height == 6 * each
     row = table.row(2, named=True)
     assert row["start"] == pytest.approx(first.start + 64 / 12_500.0)
-    assert np.array_equal(row["x"], first.x[64:128])
+    assert np.array_equal(row["x"], np.float32(first.x[64:128]))
 
 
 def test_what_clips_is_told_once_and_in_the_manifest(done: br.Campaign) -> None:
@@ -95,7 +95,7 @@ def test_windows_leave_out_the_ring_up_and_know_their_labels(done: br.Campaign) 
     # Windows begin at the next sample behind what is left out: 302.5 samples of 500.
     assert later["start"].unique().to_list() == [pytest.approx(303 / 25_000.0)]
     first = next(iter(done.measurements(chain))).measurement
-    assert np.array_equal(later.row(0, named=True)["x"], first.x[303:403])
+    assert np.array_equal(later.row(0, named=True)["x"], np.float32(first.x[303:403]))
     faults = ["fault_outer_race", "fault_inner_race", "fault_ball"]
     assert all_.columns[-3:] == faults
     assert all_["fault_inner_race"].to_list() == [False] * all_.height

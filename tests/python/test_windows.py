@@ -30,8 +30,8 @@ def test_windows_are_the_samples(run: br.Signals) -> None:
     starts = range(0, 200 - 64 + 1, 48)
     assert table.height == len(starts)
     for row, start in zip(table.to_dicts(), starts, strict=True):
-        assert row["outer.ay"] == run["outer.ay"][start : start + 64].tolist()
-        assert row["outer.ax"] == run["outer.ax"][start : start + 64].tolist()
+        assert row["outer.ay"] == np.float32(run["outer.ay"][start : start + 64]).tolist()
+        assert row["outer.ax"] == np.float32(run["outer.ax"][start : start + 64]).tolist()
         assert row["start"] == pytest.approx(start / 20_000)
     assert run.to_windows(64).height == 3
 
@@ -105,9 +105,12 @@ def test_windows_of_many_records_are_one_table(run: br.Signals, tmp_path: Path) 
     pl.concat(tables).write_parquet(path)
     again = pl.read_parquet(path)
     assert again.height == 8
-    assert again.schema["outer.ay"] == pl.List(pl.Float64)
+    assert again.schema["outer.ay"] == pl.Array(pl.Float32, 50)
     parquet = pytest.importorskip("pyarrow.parquet")
-    assert parquet.read_table(path).to_pylist()[0]["outer.ay"] == run["outer.ay"][:50].tolist()
+    assert (
+        parquet.read_table(path).to_pylist()[0]["outer.ay"]
+        == np.float32(run["outer.ay"][:50]).tolist()
+    )
 
 
 def test_bad_arguments_are_refused(run: br.Signals) -> None:

@@ -131,7 +131,7 @@ def windows_table(
         if cut is not None:
             labels = {name: [value] * starts.size for name, value in line.labels().items()}
             times = line.measurement.start + starts / line.measurement.fs
-            frames.append(pl.DataFrame(labels | {"start": times, "x": cut}))
+            frames.append(pl.DataFrame(labels | {"start": times, "x": cut.astype(np.float32)}))
     if not frames:
         raise SceneError("length", str(length), "at most the samples of a measurement behind skip")
     return pl.concat(frames)

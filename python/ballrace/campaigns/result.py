@@ -295,7 +295,8 @@ class Campaign:
         -------
         DataFrame
             ``case_id``, ``chain``, ``seed``, ``sampling_rate`` [Hz], ``range`` [m/s²] and ``clipped`` (of the
-            whole measurement), ``start`` of the window [s], ``x``, an array of ``length`` [m/s²], and the labels.
+            whole measurement), ``start`` of the window [s], ``x``, an array of ``length`` 32-bit numbers [m/s²],
+            and the labels. :func:`ballrace.learn.examples` makes writable arrays of it.
 
         Raises
         ------

@@ -8,6 +8,7 @@ import numpy as np
 
 from .._numbers import real
 from ..errors import SceneError
+from .classes import classes_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -16,13 +17,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 __all__ = ["bearing_split"]
-
-_KNOWN = (
-    ("fault_type",),
-    ("label",),
-    ("fault_outer_race", "fault_inner_race", "fault_ball"),
-)
-"""Columns that tell classes: of data sets, of windows of a run, of campaigns and their windows."""
 
 _TRIES = 200
 """Orders in which bearings are dealt out; the most even result counts."""
@@ -53,7 +47,7 @@ def bearing_split(
         Column that tells bearings apart.
     balance : str or sequence of str, optional
         Columns that tell classes apart; by default ``fault_type``, ``label`` or the three ``fault_…`` of a
-        campaign, whichever are there. ``()``: all rows are one class.
+        campaign, whichever are there, or none. ``()``: all rows are one class.
     seed : int
         Which orders are tried.
 
@@ -80,7 +74,8 @@ def bearing_split(
     if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
         raise SceneError("seed", repr(seed), "a whole number from 0")
     bearing, names = _bearings(manifest, groups)
-    count = _counts(bearing, _classes(manifest, balance), names)
+    kinds = classes_of(manifest, balance, "balance").fill_null("not known").rank("dense") - 1
+    count = _counts(bearing, kinds.to_numpy().astype(np.intp), names)
     chosen = _most_even(count, float(test), np.random.default_rng(seed))
     tested = chosen[bearing]
     return manifest.filter(~tested), manifest.filter(tested)
@@ -97,20 +92,6 @@ def _bearings(manifest: pl.DataFrame, groups: str) -> tuple[NDArray[np.intp], in
     if found < 2:
         raise SceneError("groups", f"{groups} with {found} bearings", "two bearings and more")
     return number, found
-
-
-def _classes(manifest: pl.DataFrame, balance: str | Sequence[str] | None) -> NDArray[np.intp]:
-    """Return the number of the class of each row."""
-    if balance is None:
-        there = (names for names in _KNOWN if set(names) <= set(manifest.columns))
-        balance = next(there, ())
-    names = (balance,) if isinstance(balance, str) else tuple(balance)
-    for name in names:
-        if name not in manifest.columns:
-            raise SceneError("balance", repr(name), f"some of {', '.join(manifest.columns)}")
-    if not names:
-        return np.zeros(manifest.height, dtype=np.intp)
-    return manifest.select(names).to_struct("of").rank("dense").to_numpy().astype(np.intp) - 1
 
 
 def _counts(

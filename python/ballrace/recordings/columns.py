@@ -89,7 +89,7 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         ImportError
             pandas is not installed.
         """
-        pandas = needed("pandas", "a pandas table", extra=False)
+        pandas = needed("pandas", "a pandas table", extra=None)
         return pandas.DataFrame({"t": self.t, **self})
 
     def to_xarray(self) -> xr.Dataset:
@@ -102,7 +102,7 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         ImportError
             xarray is not installed.
         """
-        xarray = needed("xarray", "an xarray data set", extra=False)
+        xarray = needed("xarray", "an xarray data set", extra=None)
         variables = {name: ("t", self[name], {"units": self.units.get(name, "")}) for name in self}
         time = ("t", self.t, {"units": "s"})
         attributes = {"sampling_rate": self.fs, "told": self._samples().told()}
@@ -140,8 +140,8 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         Returns
         -------
         polars.DataFrame
-            A list of samples a column by its name, ``start`` [s], ``label``, ``bearing_id``, ``speed`` of the
-            inner ring [rad/s], ``load``, ``geometry`` and ``defect`` (lists of the scene's loads, rows and
+            An array of 32-bit samples a column by its name, ``start`` [s], ``label``, ``bearing_id``, ``speed`` of
+            the inner ring [rad/s], ``load``, ``geometry`` and ``defect`` (lists of the scene's loads, rows and
             defects, in SI units), ``sampling_rate`` [Hz], ``units`` by column, and the ``version`` that
             simulated it. Loads and speed are those at the window's middle; null is what is not known.
 

@@ -6,8 +6,8 @@ import importlib
 from typing import Any
 
 
-def needed(module: str, what: str, extra: bool = True) -> Any:
-    """Import a library; where it is missing, say how to install it: by the extra ``io``, or by itself.
+def needed(module: str, what: str, extra: str | None = "io") -> Any:
+    """Import a library; where it is missing, say how to install it: by an extra, or by itself.
 
     Raises
     ------
@@ -17,6 +17,6 @@ def needed(module: str, what: str, extra: bool = True) -> Any:
     try:
         return importlib.import_module(module)
     except ImportError as error:
-        install = '"ballrace[io]"' if extra else module
+        install = f'"ballrace[{extra}]"' if extra else module
         text = f"{what} needs {module} ({error}): pip install {install}"
         raise ImportError(text, name=module) from error

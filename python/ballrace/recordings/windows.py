@@ -116,7 +116,7 @@ def _pieces(x: NDArray[np.float64], length: int, hop: int) -> pl.Series:
     from .._polars import pl
 
     view = np.lib.stride_tricks.sliding_window_view(x, length)[::hop]
-    return pl.Series(values=np.ascontiguousarray(view)).cast(pl.List(pl.Float64))
+    return pl.Series(values=view.astype(np.float32))
 
 
 def _types() -> dict[str, Any]:

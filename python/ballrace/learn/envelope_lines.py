@@ -1,0 +1,165 @@
+"""Features of a bearing's faults as a transformer of scikit-learn."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .._numbers import real
+from ..channel import Channel, Recorded
+from ..diagnosis.kinematics import kinematics_of
+from ..errors import SceneError
+from ..recordings.libraries import needed
+from .features import features_of, names_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from ..diagnosis.kinematics import AnyBearing
+
+__all__ = ["EnvelopeLines"]
+
+_base = needed("sklearn.base", "ballrace.learn", extra="learn")
+_checks = needed("sklearn.utils.validation", "ballrace.learn", extra="learn")
+
+
+class EnvelopeLines(_base.TransformerMixin, _base.BaseEstimator):  # type: ignore[misc, name-defined]
+    """How high the envelope lines of each fault stand, with moments and, if wanted, the envelope's orders.
+
+    A transformer of scikit-learn's conventions. All features are ratios or levels in decibels, at orders of the
+    shaft: they change neither with the unit nor, as far as an envelope can be free of it, with the housing and the
+    sensor, and are the same quantities of simulated and measured records.
+
+    ====================  =====================================================================================
+    ``<part>.height``     mean level of a fault's lines over the running median beside them, the largest over
+                          bands and a common factor of 0.985 to 1.015 [dB]
+    ``<part>.depth``      largest depth of modulation of a band at the rate of those lines
+    ``kurtosis``          largest kurtosis of a band
+    ``crest_factor``      largest crest factor of a band
+    ``order <o>``         highest level within a step of the envelope's orders, a mean over bands [dB]
+    ====================  =====================================================================================
+
+    Parts are ``outer_race``, ``inner_race``, ``ball`` and ``cage``. What the first two rows mean stands in
+    :mod:`ballrace.diagnosis`. A record that is too short for a feature, or silent, has 0 there; lines of a fault
+    want ten turns of the shaft and more.
+
+    Parameters
+    ----------
+    bearing : str, Bearing, Scene, Row, Orders, FaultFrequencies or mapping
+        As of :func:`ballrace.diagnose`.
+    fs : float, optional
+        Sampling rate of arrays [Hz]; records know theirs.
+    speed_rpm : float, optional
+        Speed of the inner ring in arrays, and in records that do not know theirs [rev/min].
+    highest : float, optional
+        Highest order of the envelope's spectrum that is a feature; by default there are none of it.
+    step : float
+        Step of these orders.
+    row : int
+        Row of balls of a scene, from 0.
+
+    Attributes
+    ----------
+    orders_ : ndarray
+        Middles of the steps of orders; empty without ``highest``.
+
+    Examples
+    --------
+    >>> import ballrace as br, numpy as np
+    >>> noise = np.random.default_rng(1).normal(size=(3, 12_000))
+    >>> lines = EnvelopeLines("6205", fs=12_000.0, speed_rpm=1797.0)
+    >>> lines.fit_transform(noise).shape, lines.get_feature_names_out()[0]
+    ((3, 10), 'outer_race.height')
+    """
+
+    def __init__(
+        self,
+        bearing: AnyBearing,
+        *,
+        fs: float | None = None,
+        speed_rpm: float | None = None,
+        highest: float | None = None,
+        step: float = 0.1,
+        row: int = 0,
+    ) -> None:
+        self.bearing = bearing
+        self.fs = fs
+        self.speed_rpm = speed_rpm
+        self.highest = highest
+        self.step = step
+        self.row = row
+
+    def fit(self, X: ArrayLike | Sequence[Recorded], y: object = None) -> EnvelopeLines:
+        """Check the parameters and what is given; nothing is learnt.
+
+        Parameters
+        ----------
+        X : array_like, shape (n, length), or sequence of Signals, Measurement, Recording or Channel
+            Windows, all at ``fs`` and ``speed_rpm``, or records that know theirs.
+        y : ignored
+            For scikit-learn.
+
+        Raises
+        ------
+        SceneError
+            A parameter is not usable, or missing for what is given.
+        """
+        self.orders_ = self._orders()
+        self.kinematics_ = kinematics_of(self.bearing, self.row)
+        self._channels(X, reset=True)
+        return self
+
+    def transform(self, X: ArrayLike | Sequence[Recorded]) -> NDArray[np.float64]:
+        """Return the features of each window or record, shape (n, features).
+
+        Raises
+        ------
+        SceneError
+            A sampling rate or a speed is missing.
+        """
+        _checks.check_is_fitted(self)
+        rows = [self._features(channel) for channel in self._channels(X, reset=False)]
+        return np.array(rows)
+
+    def get_feature_names_out(self, input_features: object = None) -> NDArray[np.object_]:
+        """Return the names of the features."""
+        _checks.check_is_fitted(self)
+        return np.array(names_of(self.orders_), dtype=object)
+
+    def __sklearn_tags__(self) -> Any:
+        tags = super().__sklearn_tags__()
+        # Arrays do not tell their sampling rate: without one only records are taken.
+        tags.input_tags.two_d_array = self.fs is not None and self.speed_rpm is not None
+        return tags
+
+    def _orders(self) -> NDArray[np.float64]:
+        """Return the middles of the steps of orders; the first is two steps off 0, where the mean was removed."""
+        if self.highest is None:
+            return np.zeros(0)
+        for name, most in (("highest", 1000.0), ("step", 0.25 * real(self.highest))):
+            if not 0.01 <= real(getattr(self, name)) <= most:
+                raise SceneError(name, repr(getattr(self, name)), f"an order, 0.01 to {most:g}")
+        return np.arange(2.0 * self.step, self.highest + 0.5 * self.step, self.step)
+
+    def _channels(self, X: Any, *, reset: bool) -> list[Channel]:
+        if isinstance(X, Recorded):
+            raise SceneError("X", type(X).__name__, "a list of records")
+        if isinstance(X, list | tuple) and X and all(isinstance(x, Recorded) for x in X):
+            return [x.channel() for x in X]
+        for name in ("fs", "speed_rpm"):
+            if not 0.0 < real(getattr(self, name)) < np.inf:
+                allowed = "above 0 for arrays; records know theirs"
+                raise SceneError(name, repr(getattr(self, name)), allowed)
+        x = _checks.validate_data(self, X, reset=reset, dtype=np.float64)
+        return [Channel(x=row, fs=float(self.fs or 0.0)) for row in x]
+
+    def _features(self, channel: Channel) -> NDArray[np.float64]:
+        shaft = channel.shaft if channel.shaft else real(self.speed_rpm) / 60.0
+        if not abs(shaft) > 0.0:
+            allowed = "the speed [rev/min], which a record does not know"
+            raise SceneError("speed_rpm", repr(self.speed_rpm), allowed)
+        x = np.asarray(channel.x, dtype=np.float64)
+        return features_of(x, channel.fs, abs(shaft), self.kinematics_.orders, self.orders_)
