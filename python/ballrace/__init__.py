@@ -62,6 +62,7 @@ if TYPE_CHECKING:
         load_distribution,
         stiffness,
     )
+    from .trending import Trend, trend
 else:
     # What describes a scene is there; what is done with it is imported when it is first asked for.
     __getattr__ = later(
@@ -96,6 +97,7 @@ else:
                 "load_distribution",
                 "stiffness",
             ),
+            "trending": ("Trend", "trend"),
         },
     )
 
@@ -134,6 +136,7 @@ __all__ = [
     "Signals",
     "Stiffness",
     "Touched",
+    "Trend",
     "bearing",
     "bearing_split",
     "campaign",
@@ -166,6 +169,7 @@ __all__ = [
     "sobol",
     "spectra",
     "stiffness",
+    "trend",
 ]
 
 

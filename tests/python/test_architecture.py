@@ -32,6 +32,8 @@ STANDING = {
     ("ballrace.campaigns.result", "ballrace.report"),
     ("ballrace.campaigns.result", "ballrace.datasets.campaign"),
     ("ballrace.diagnosis.result", "ballrace.diagnosis.page"),
+    ("ballrace.diagnosis.result", "ballrace.diagnosis.reference"),
+    ("ballrace.trending.result", "ballrace.trending.picture"),
     ("ballrace.diagnosis.result", "ballrace.diagnosis.picture"),
 }
 """Who names whom against the order: for a type alone, or in a method that only hands on what it was given."""

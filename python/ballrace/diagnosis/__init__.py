@@ -15,7 +15,8 @@
 ``strength``    how strong the vibration of a fault is
 ``evidence``    all of that for one part
 ``verdict``     healthy, damaged or undecided
-``severity``    velocity and zone by ISO 20816-3, crest factor, kurtosis
+``severity``    velocity and zone by ISO 20816-3, crest factor, kurtosis; ``reference``: their change
+``rows``        the same for each row of a bearing
 ``procedure``   the way from a record to a verdict
 ``result``      what comes out; ``picture`` and ``page`` show it
 ==============  ======================================================================================
@@ -26,8 +27,17 @@ from __future__ import annotations
 from .evidence import Evidence, Line
 from .procedure import diagnose
 from .result import Diagnosis
-from .severity import Severity
+from .severity import Change, Severity
 from .shaft import ShaftRate
 from .strength import Strength
 
-__all__ = ["Diagnosis", "Evidence", "Line", "Severity", "ShaftRate", "Strength", "diagnose"]
+__all__ = [
+    "Change",
+    "Diagnosis",
+    "Evidence",
+    "Line",
+    "Severity",
+    "ShaftRate",
+    "Strength",
+    "diagnose",
+]

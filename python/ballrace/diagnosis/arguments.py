@@ -22,11 +22,11 @@ if TYPE_CHECKING:
 __all__ = ["check_chances", "checked_channel", "known_bearing", "nominal_rate", "other_rates"]
 
 
-def checked_channel(channel: Channel, unit: str | None) -> Channel:
+def checked_channel(channel: Channel, unit: str | None, name: str = "record") -> Channel:
     """Return the channel in m/s² where its unit is known, cut to a length that transforms quickly."""
     from scipy.fft import prev_fast_len
 
-    x = checked_signal(channel.x, channel.fs, "record")
+    x = checked_signal(channel.x, channel.fs, name)
     channel = replace(channel, x=x[: prev_fast_len(x.size, real=True)])
     if unit is not None:
         channel = replace(channel, unit=_checked_unit(unit, channel.unit))

@@ -84,6 +84,8 @@ def _long_enough(channel: Channel, shaft: float, kinematics: Kinematics) -> list
 def notes_of(channel: Channel, kinematics: Kinematics) -> tuple[str, ...]:
     """Return what the record was warned of, and why its lines' size was not judged."""
     notes = list(channel.warnings)
+    if _unclipped(channel.x) and not any("clipped" in note for note in notes):
+        notes.append("the record is clipped: levels, lines and blows are larger than they look")
     if channel.unit != "m/s^2":
         known = f"{channel.unit} is no acceleration; give the record of one"
         unit = known if channel.unit in VELOCITIES else "its unit is not known; give unit="

@@ -95,3 +95,8 @@ def _add_severity(page: Page, of: Diagnosis) -> None:
         ("Crest factor in the deciding band", number(found.crest_factor, 3)),
         ("Kurtosis there (3: noise)", number(found.kurtosis, 3)),
     ])  # fmt: skip
+    if found.change is not None:
+        ratios = (("velocity", found.change.velocity), ("crest factor", found.change.crest_factor),
+                  ("kurtosis", found.change.kurtosis))  # fmt: skip
+        told = ", ".join(f"{name} {number(ratio, 3)}" for name, ratio in ratios)
+        page.text(f"Times those of the reference record: {told}.")

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from ..channel import channel_of
+from ..scene import Scene
 from .arguments import (
     check_chances,
     checked_channel,
@@ -19,6 +21,7 @@ from .evidence import evidence_of
 from .lacking import HELD, lack_of, notes_of, wanting_of
 from .null import ACCUSED, largest_z
 from .result import Diagnosis
+from .rows import judged_by_rows
 from .severity import checked_machine, severity_of
 from .shaft import ShaftRate, shaft_rate
 from .strength import Envelopes, has_background, limits_of
@@ -46,7 +49,7 @@ def diagnose(
     fs: float | None = None,
     column: str | None = None,
     unit: str | None = None,
-    row: int = 0,
+    row: int | None = None,
     false_alarm: float = 0.01,
     exclude: Iterable[float] = (),
     mains: float | None = None,
@@ -80,8 +83,9 @@ def diagnose(
     unit : {"m/s^2", "g"}, optional
         Unit, where the record does not tell it, as of an array. Without one the size of lines is not judged, and
         lines without blows, or in a record without noise, are left open.
-    row : int
-        Row of balls of a scene, from 0.
+    row : int, optional
+        Row of balls of a scene, from 0; by default all rows whose orders differ, and the verdict on the one that
+        is worst off (``bearing`` tells which; a note the others).
     false_alarm : float
         Share of healthy records that may be called damaged, from 1e-6 to 0.2.
     exclude : iterable of float
@@ -121,9 +125,22 @@ def diagnose(
     ('damaged', ('inner_race',))
     """
     channel = checked_channel(channel_of(record, fs, column, name="record"), unit)
-    kinematics = known_bearing(channel, bearing, row)
-    nominal = nominal_rate(channel, speed_rpm)
     check_chances(false_alarm, seed)
+    scene = channel.scene if bearing is None else bearing
+    if row is None and isinstance(scene, Scene) and len(scene.rows) > 1:
+        again = partial(
+            diagnose,
+            channel,
+            scene,
+            speed_rpm,
+            exclude=exclude,
+            mains=mains,
+            machine=machine,
+            seed=seed,
+        )
+        return judged_by_rows(scene, false_alarm, lambda k, share: again(row=k, false_alarm=share))
+    kinematics = known_bearing(channel, bearing, row or 0)
+    nominal = nominal_rate(channel, speed_rpm)
     orders, rates = other_rates(exclude, mains)
     machine = checked_machine(machine)
     bands = bands_of(channel.fs, HELD * kinematics.orders.bpfi * nominal)

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     import plotly.graph_objects as go
 
+    from ..spectra.checks import Given
 
 __all__ = ["Diagnosis"]
 
@@ -132,6 +133,40 @@ class Diagnosis:
         from .picture import picture
 
         return picture(self, self._levels, part, fig, layout)
+
+    def against(
+        self,
+        reference: Given,
+        *,
+        fs: float | None = None,
+        column: str | None = None,
+        unit: str | None = None,
+    ) -> Diagnosis:
+        """Return the diagnosis with the change of its severity since another record of the same machine.
+
+        Parameters
+        ----------
+        reference : Signals, Measurement, Recording, Channel or array_like, shape (n,)
+            A record from when it was new.
+        fs, column, unit
+            As of :func:`ballrace.diagnose`.
+
+        Returns
+        -------
+        Diagnosis
+            The same, but for ``severity.change``: ratios to the reference, of crest factor and kurtosis in the
+            deciding band of this record. ``report`` tells them.
+
+        Raises
+        ------
+        SceneError
+            The record allowed no evidence, or the reference has another unit or does not reach that band.
+        KeyError
+            There is no such column.
+        """
+        from .reference import against
+
+        return against(self, reference, fs, column, unit)
 
     def report(self, path: str | os.PathLike[str], *, title: str | None = None) -> None:
         """Write a page that needs no network: verdict, evidence, picture, severity, and what to trust.

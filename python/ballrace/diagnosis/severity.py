@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ..channel import Channel
     from .strength import Envelopes
 
-__all__ = ["Machine", "Severity", "checked_machine", "severity_of"]
+__all__ = ["Change", "Machine", "Severity", "checked_machine", "severity_of"]
 
 Machine = Literal["large_rigid", "large_flexible", "medium_rigid", "medium_flexible"]
 """Class of a machine: large, above 300 kW, or medium, 15 to 300 kW; on a rigid or a flexible foundation."""
@@ -36,6 +36,23 @@ _SLOW = 10.0
 
 
 @dataclass(frozen=True, kw_only=True)
+class Change:
+    """What has become of a vibration: the record over the reference.
+
+    Attributes
+    ----------
+    velocity : float or None
+        Ratio of the velocities; None where the unit is not known.
+    crest_factor, kurtosis : float
+        Ratios in the deciding band of the record.
+    """
+
+    velocity: float | None
+    crest_factor: float
+    kurtosis: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class Severity:
     """Size of a vibration.
 
@@ -51,6 +68,8 @@ class Severity:
         The class that was given.
     crest_factor, kurtosis : float
         Of the deciding band: peak over root mean square, and 3 for Gaussian noise.
+    change : Change or None
+        All of it over that of the reference record; None without one.
     """
 
     velocity: float | None
@@ -59,6 +78,17 @@ class Severity:
     machine: Machine | None
     crest_factor: float
     kurtosis: float
+    change: Change | None = None
+
+    def over(self, before: Severity) -> Severity:
+        """Return the severity with its change since another one, of the same bands."""
+        known = self.velocity is not None and before.velocity
+        change = Change(
+            velocity=self.velocity / before.velocity if known else None,  # type: ignore[operator]
+            crest_factor=self.crest_factor / before.crest_factor,
+            kurtosis=self.kurtosis / before.kurtosis,
+        )
+        return replace(self, change=change)
 
 
 def checked_machine(machine: Machine | None) -> Machine | None:

@@ -1,0 +1,55 @@
+"""When a quantity departs from what it was at first."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["departure_of", "limit_of"]
+
+_DEVIATIONS = 3.0
+
+_ROUNDING = 1e-9
+"""Part of the mean that a deviation is at least, so that rounding is none."""
+
+
+def limit_of(first: NDArray[np.float64]) -> float:
+    """Return what a quantity exceeds by chance as seldom as a normal one exceeds three deviations.
+
+    A baseline of few values knows neither its mean nor its deviation well: the distance is that of Student's
+    distribution with one value more, 7.2 of its deviations after five records, 4.3 after ten, 3.5 after twenty
+    and 3 after many (W. A. Shewhart's limits for single values; G. J. Hahn, J. Qual. Technol. 1 (1969) 168).
+
+    Parameters
+    ----------
+    first : ndarray, shape (n,)
+        The quantity of the baseline, three values and more.
+
+    Examples
+    --------
+    >>> round(limit_of(np.array([1.0, 2.0, 3.0, 2.0, 2.0])), 2)
+    7.13
+    """
+    from scipy.stats import norm, t
+
+    distance = t.ppf(norm.cdf(_DEVIATIONS), first.size - 1) * np.sqrt(1.0 + 1.0 / first.size)
+    mean = float(first.mean())
+    return mean + float(distance) * max(float(first.std(ddof=1)), _ROUNDING * abs(mean))
+
+
+def departure_of(value: NDArray[np.float64], baseline: int, limit: float) -> int | None:
+    """Return the first value behind the baseline that exceeds a limit, as the next one does; None without.
+
+    Examples
+    --------
+    >>> departure_of(np.array([1.0, 1.0, 1.0, 9.0, 1.0, 9.0, 8.0]), 3, 5.0)
+    5
+    """
+    above = value > limit
+    twice = above[:-1] & above[1:]
+    twice[:baseline] = False
+    return int(np.argmax(twice)) if twice.any() else None

@@ -1,0 +1,172 @@
+"""From records to a trend."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .._numbers import real_row
+from .._polars import pl
+from ..channel import Recorded, channel_of
+from ..diagnosis import diagnose
+from ..diagnosis.arguments import checked_channel
+from ..diagnosis.null import ACCUSED
+from ..errors import SceneError
+from .departure import departure_of, limit_of
+from .quantities import FOLLOWED, numbers_of, shapes_of
+from .result import Trend
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from ..channel import Channel
+    from ..diagnosis import Diagnosis
+    from ..diagnosis.kinematics import AnyBearing
+    from ..diagnosis.severity import Machine
+    from ..spectra.checks import Given
+
+__all__ = ["trend"]
+
+
+def trend(
+    records: Iterable[Given],
+    bearing: AnyBearing | None = None,
+    speed_rpm: float | None = None,
+    *,
+    times: ArrayLike | None = None,
+    baseline: int = 10,
+    fs: float | None = None,
+    column: str | None = None,
+    unit: str | None = None,
+    row: int | None = None,
+    false_alarm: float = 0.01,
+    machine: Machine | None = None,
+    seed: int = 0,
+) -> Trend:
+    """Follow a bearing over its records: a table, and the first record that departs from how it was.
+
+    Of every record :func:`ballrace.diagnose` gives verdict, z and strength of each part, and the severity. Root
+    mean square, velocity, crest factor, kurtosis and the accelerations at the rates of the faults are compared
+    with their own baseline, the first records: a departure is the first record above the baseline's mean by three
+    of its deviations whose next record is, too. Where the baseline has few records, the three become more
+    (:func:`ballrace.trending.departure.limit_of`). Crest factor and kurtosis are those of one band in all records:
+    the deciding one of the record with the largest z.
+
+    Parameters
+    ----------
+    records : iterable of Signals, Measurement, Recording, Channel or array_like
+        In the order of time, one after the other, all at one sampling rate; a generator that reads files will do.
+    bearing, speed_rpm, fs, column, unit, row, false_alarm, machine, seed
+        As of :func:`ballrace.diagnose`.
+    times : array_like, shape (n,), optional
+        When they were taken, rising, in any unit; by default 0, 1, 2, …
+    baseline : int
+        How many of the first records are known to be good, 3 and more.
+
+    Returns
+    -------
+    Trend
+        ``table``, ``departed``, ``limits``; ``plot()``.
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable, there are too few records, or their sampling rates differ.
+    KeyError
+        There is no such column.
+
+    Examples
+    --------
+    Noise of one second, in which blows at the rate of the outer race begin with the ninth record:
+
+    >>> import ballrace as br, numpy as np
+    >>> def taken(k):
+    ...     x = np.random.default_rng(k).normal(size=12_000)
+    ...     x[::112] += 0.0 if k < 8 else 8.0
+    ...     return x
+    >>> found = br.trend(map(taken, range(12)), "6205", 1797.0, fs=12_000.0, baseline=6)
+    >>> found.departed, found.table["parts"][-1]
+    (8, 'outer_race')
+    """
+    one = isinstance(records, Recorded | str) or getattr(records, "ndim", 2) == 1
+    if one or not isinstance(records, Iterable):
+        raise SceneError("records", type(records).__name__, "several records, in the order of time")
+    if isinstance(baseline, bool) or not isinstance(baseline, int | np.integer) or baseline < 3:
+        raise SceneError("baseline", repr(baseline), "a whole number of records, 3 and more")
+    options: Any = {"row": row, "false_alarm": false_alarm, "machine": machine, "seed": seed}
+    taken: list[_Taken] = []
+    for number, record in enumerate(records):
+        at = f"records[{number}]"
+        channel = checked_channel(channel_of(record, fs, column, name=at), unit, at)
+        _check_alike(at, channel, taken[0] if taken else None)
+        taken.append(_Taken(channel, diagnose(channel, bearing, speed_rpm, **options)))
+    if len(taken) < baseline + 2:
+        wanted = f"{baseline + 2} and more: the baseline and two"
+        raise SceneError("records", f"{len(taken)} records", wanted)
+    band = max(taken, key=lambda one: one.z).band
+    table = _table(taken, band, _checked_times(times, len(taken)))
+    limits, departures = _departures(table, int(baseline))
+    return Trend(
+        table=table, baseline=int(baseline), limits=limits, departures=departures, band=band,
+        bearing=taken[0].bearing, unit=taken[0].unit,
+    )  # fmt: skip
+
+
+class _Taken:
+    """What is kept of a record: not its samples, so that many may follow each other."""
+
+    def __init__(self, channel: Channel, found: Diagnosis) -> None:
+        accused = [found.evidence[part] for part in ACCUSED if part in found.evidence]
+        first = max(accused, key=lambda one: one.z, default=None)
+        self.fs, self.unit, self.bearing = channel.fs, channel.unit, found.bearing
+        self.numbers = numbers_of(channel, found)
+        self.shapes = shapes_of(channel, found._bands)
+        self.z = -np.inf if first is None else first.z
+        self.band = None if first is None else first.band
+
+
+def _check_alike(at: str, channel: Channel, first: _Taken | None) -> None:
+    """Refuse a record whose numbers cannot be compared with those of the first."""
+    if first is not None and (channel.fs, channel.unit) != (first.fs, first.unit):
+        told = f"{channel.fs:g} Hz in {channel.unit or 'no unit'}"
+        raise SceneError(
+            at, told, f"as the first record, {first.fs:g} Hz in {first.unit or 'no unit'}"
+        )
+
+
+def _checked_times(times: ArrayLike | None, count: int) -> NDArray[np.float64]:
+    if times is None:
+        return np.arange(float(count))
+    found = real_row("times", times)
+    if found.shape != (count,) or not np.isfinite(found).all() or not (np.diff(found) > 0.0).all():
+        raise SceneError("times", f"an array of shape {found.shape}", f"{count} rising numbers")
+    return found
+
+
+def _table(
+    taken: list[_Taken], band: tuple[float, float] | None, times: NDArray[np.float64]
+) -> pl.DataFrame:
+    rows = []
+    for time, one in zip(times.tolist(), taken, strict=True):
+        shape = one.shapes.get(band) if band is not None else None
+        of_band = {name: getattr(shape, name, None) for name in ("crest_factor", "kurtosis")}
+        rows.append({"time": time} | one.numbers | of_band)
+    found = pl.DataFrame(rows, infer_schema_length=None)
+    return found.with_columns(pl.col(name).cast(pl.Float64) for name in FOLLOWED)
+
+
+def _departures(table: pl.DataFrame, baseline: int) -> tuple[dict[str, float], dict[str, int]]:
+    """Return the limit of each quantity that all records have, and the record at which it departs."""
+    limits: dict[str, float] = {}
+    departures: dict[str, int] = {}
+    for name in FOLLOWED:
+        if table[name].null_count():
+            continue
+        value = table[name].to_numpy()
+        limits[name] = limit_of(value[:baseline])
+        at = departure_of(value, baseline, limits[name])
+        if at is not None:
+            departures[name] = at
+    return limits, departures
