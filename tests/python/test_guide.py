@@ -131,6 +131,17 @@ def test_what_pages_link_to_is_there() -> None:
                 assert (page.parent / target).is_file(), f"{page.name} links to {target}"
 
 
+def test_the_gallery_has_every_picture() -> None:
+    """Each function that draws is in a block of the gallery, and each block's picture is there."""
+    text = (GUIDE / "gallery.md").read_text(encoding="utf-8")
+    drawing = {name for name in br.plot.__all__ if name.islower()} - {"probes", "write"}
+    assert drawing == {name for name in drawing if f"br.plot.{name}(" in text}
+    pictures = re.findall(r"\((figures/gallery/\w+\.webp)\)", text)
+    assert len(set(pictures)) == len(pictures) > len(drawing)
+    for picture in pictures:
+        assert (GUIDE / picture).stat().st_size > 1000, picture
+
+
 def told_columns() -> list[tuple[re.Pattern[str], str]]:
     """Return the rows of the tables of columns as patterns with units."""
     anything, word = r".+", r"[^.]+"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -363,3 +364,35 @@ def test_a_page_of_one_figure_is_whole(tmp_path: Path, wheel: br.Scene) -> None:
     assert '"displaylogo": false' in text
     with pytest.raises(FileNotFoundError):
         plot.write(plot.section(wheel), tmp_path / "nowhere" / "section.html")
+
+
+def test_marks_of_many_hits_are_thinned() -> None:
+    """Of 300 hits in a second every third is marked, and the legend says so."""
+    rates = br.fault_frequencies(
+        br.bearing("6205"), 300.0 / br.catalogue["6205"].orders.bpfo * 60.0
+    )
+    x = np.random.default_rng(1).normal(size=6000)
+    marks = br.plot.impacts(x, fs=6000.0, rates=rates, faults=["outer_race"]).data[1]
+    assert len(marks.x) == 100
+    assert marks.name.endswith("every 3 hits")
+    np.testing.assert_allclose(np.diff(marks.x), 3.0 / rates.bpfo)
+
+
+def test_a_picture_is_written_as_its_ending_says(tmp_path: Path) -> None:
+    pytest.importorskip("kaleido", reason="kaleido is not installed")
+    if not any(map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))):
+        pytest.skip("there is no browser in which kaleido draws")
+    fig = br.plot.section(br.bearing("6205"))
+    br.plot.write(fig, tmp_path / "section.png")
+    br.plot.write(fig, tmp_path / "section.svg")
+    assert (tmp_path / "section.png").read_bytes().startswith(b"\x89PNG")
+    assert b"<svg" in (tmp_path / "section.svg").read_bytes()
+
+
+def test_a_picture_without_kaleido_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "kaleido", None)
+    with pytest.raises(ImportError, match=r'pip install "ballrace\[image\]"'):
+        br.plot.write(br.plot.section(br.bearing("6205")), tmp_path / "section.png")
+    assert list(tmp_path.iterdir()) == []

@@ -53,7 +53,7 @@ def picture(
     # Room above for labels and below for the marks of what was expected.
     fig.update_yaxes(title_text="level over median / dB", range=[_MARKS - 2.0, highest + 5.0])
     band = f"{NAMES[one.part]}, {one.band[0]:.0f} to {one.band[1]:.0f} Hz"
-    own = f"{band}: z {one.z:.1f}, threshold {of.threshold:.1f}"
+    own = f"{band}:<br>z {one.z:.1f}, threshold {of.threshold:.1f}"
     return finished(fig, {"title": {"text": own, "font": {"size": 15}}} | layout, height=420)
 
 

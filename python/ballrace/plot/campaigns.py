@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import SceneError
 from .maps import SHADES
 from .names import feature, parameter
-from .style import COLOURS, MARKERS, finished
+from .style import COLOURS, MARKERS, finished, wrapped
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -79,14 +79,19 @@ def campaign_map(
     fig.add_trace(
         Heatmap(
             x=[f"{v:.6g}" for v in across], y=[f"{v:.6g}" for v in up], z=shown, colorscale=SHADES,
-            text=labels, colorbar={"thickness": 14, "title": {"text": named, "side": "right"}},
+            text=labels, colorbar={"thickness": 14},
             texttemplate="%{text}" if few else None,
             hovertemplate=f"{x} %{{x}}, {y} %{{y}}: %{{text}}<extra></extra>",
         )
     )  # fmt: skip
     fig.update_xaxes(title_text=parameter(x), type="category")
     fig.update_yaxes(title_text=parameter(y), type="category")
-    return finished(fig, layout, height=420)
+    # Beside the bar there is no room for so many words.
+    fig.add_annotation(
+        text=wrapped(named, _LINE), x=0.0, y=1.02, xref="x domain", yref="y domain", xanchor="left",
+        yanchor="bottom", align="left", showarrow=False,
+    )  # fmt: skip
+    return finished(fig, layout, height=440, margin={"t": 64 + 24 * ("title" in layout)})
 
 
 def distribution(
@@ -138,8 +143,16 @@ def distribution(
         points = "all" if part.height <= 200 else "outliers"
         box = Box(y=part[value].to_numpy(), name=name, boxpoints=points, marker=style, jitter=0.5)
         fig.add_trace(box)
-    fig.update_yaxes(title_text=feature(value))
+    fig.update_yaxes(title_text=wrapped(feature(value), _LINE))
+    if by is not None:
+        ticks = [name.rpartition(": ")[2] for name in groups]
+        title = wrapped(of, _LINE)
+        fig.update_xaxes(title_text=title, tickvals=list(groups), ticktext=ticks)
     return finished(fig, layout, height=400, showlegend=False)
+
+
+_LINE = 40
+"""Characters of a line of words beside a picture as wide as a phone."""
 
 
 _FAULTS = {

@@ -165,12 +165,14 @@ def order_map(
     fig.add_trace(
         _shaded(t, f[shown], power[shown], "turn %{x:.1f}, order %{y:.2f}: %{z:.1f} dB", 40.0)
     )
+    # Between map and bar is room for the names of the lines.
+    fig.update_traces(colorbar_xpad=58, selector={"type": "heatmap"})
     _fault_orders(fig, of, faults=faults, rates=rates, row=row, highest=highest)
     what = "the squared envelope" if envelope else "the signal"
     since = "" if turning.start == 0 else _since(turning.start, signal, rate)
     fig.update_xaxes(title_text=f"turns of the shaft{since}")
     fig.update_yaxes(title_text=f"order of {what} / per turn")
-    return finished(fig, layout, height=440, margin={"r": 64})
+    return finished(fig, layout, height=440)
 
 
 def _since(first: int, signal: Source, rate: float | None) -> str:
@@ -252,15 +254,15 @@ def kurtogram(found: Kurtogram, fig: go.Figure | None = None, **layout: Any) -> 
     fig.add_shape(
         type="rect", x0=low, x1=high, y0=at - 0.5, y1=at + 0.5, line={"color": "#c8452f", "width": 3}
     )  # fmt: skip
-    text = f"best band: {low:.0f} to {high:.0f} Hz, kurtosis {found.highest:.2f}"
+    text = f"best band: {low:.0f} to {high:.0f} Hz,<br>kurtosis {found.highest:.2f}"
     fig.add_annotation(
         text=text, x=0.0, y=1.02, xref="x domain", yref="y domain", xanchor="left", yanchor="bottom",
-        showarrow=False,
+        align="left", showarrow=False,
     )  # fmt: skip
     fig.update_xaxes(title_text="frequency / Hz")
     fig.update_yaxes(title_text="width of the bands", tickvals=list(range(len(levels))),
                      ticktext=names, autorange="reversed")  # fmt: skip
-    return finished(fig, layout, height=420)
+    return finished(fig, layout, height=430, margin={"t": 52 + 24 * ("title" in layout)})
 
 
 def _level(found: Kurtogram, level: float, at: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .._files import whole
+from .._files import as_path, whole
+from ..recordings.libraries import needed
 
 if TYPE_CHECKING:
     import os
@@ -21,6 +23,7 @@ __all__ = [
     "finished",
     "unit",
     "words",
+    "wrapped",
     "write",
 ]
 
@@ -44,6 +47,9 @@ CONFIG = {
     "plotlyServerURL": "",
 }
 """For ``fig.show(config=...)`` and ``fig.to_html(config=...)``: no logo, and no button that sends data away."""
+
+_IMAGES = ("png", "jpeg", "jpg", "webp", "svg", "pdf")
+"""Endings of pictures."""
 
 _QUANTITIES = {
     "x": ("horizontal displacement", "µm", 1e6),
@@ -101,6 +107,17 @@ def title(what: str, units: str) -> str:
     return f"{what} / {unit(units)}" if units else what
 
 
+def wrapped(text: str, width: int) -> str:
+    """Return a text in lines of at most ``width`` characters, so that no picture cuts it.
+
+    Examples
+    --------
+    >>> wrapped("kurtosis, vertical acceleration, outer ring", 32)
+    'kurtosis, vertical acceleration,<br>outer ring'
+    """
+    return "<br>".join(textwrap.wrap(text, width, break_long_words=False))
+
+
 def finished(fig: go.Figure, layout: dict[str, Any], **own: Any) -> go.Figure:
     """Give a figure the look of all, then its own settings, and at last those of the caller."""
     common: dict[str, Any] = {
@@ -117,17 +134,20 @@ def finished(fig: go.Figure, layout: dict[str, Any], **own: Any) -> go.Figure:
 
 
 def write(fig: go.Figure, path: str | os.PathLike[str]) -> None:
-    """Write a figure as a page of its own that needs no network: plotly.js is in it.
+    """Write a figure as a page of its own that needs no network, plotly.js in it; or as a picture.
 
     Parameters
     ----------
     fig : plotly.graph_objects.Figure
         The figure.
     path : str or path
-        File to write, ``.html``.
+        File to write, ``.html``; ``.png``, ``.jpeg``, ``.webp``, ``.svg`` or ``.pdf`` is a picture, by kaleido,
+        which draws in an installed Chrome or Chromium.
 
     Raises
     ------
+    ImportError
+        It is to be a picture, and kaleido is not installed (extra ``image``).
     OSError
         The file cannot be written.
 
@@ -140,6 +160,12 @@ def write(fig: go.Figure, path: str | os.PathLike[str]) -> None:
     ...     path.stat().st_size > 1_000_000
     True
     """
+    kind = as_path(path).suffix.lower().removeprefix(".")
+    if kind in _IMAGES:
+        needed("kaleido", as_path(path).name, extra="image")
+        with whole(path) as temporary:
+            fig.write_image(temporary, format=kind)
+        return
     text = fig.to_html(full_html=True, include_plotlyjs=True, config=CONFIG, auto_play=False)
     viewport = '<meta name="viewport" content="width=device-width, initial-scale=1" />'
     with whole(path) as temporary:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -99,6 +100,10 @@ def load_cases(
     return finish_stack(fig, len(cases), layout)
 
 
+_MARKS = 100
+"""Marks of hits in a picture, at most: more would merge into a bar."""
+
+
 def impacts(
     of: Given,
     column: str | None = None,
@@ -164,9 +169,13 @@ def impacts(
         name, colour, _, marker = SYMBOLS[fault]
         rate = fault_rate(found, fault, spin_of(of, found, row))  # type: ignore[arg-type]
         at = signal.start + _hits(signal.x, signal.fs, rate, band)
-        mark = {"symbol": marker, "size": 9, "color": colour}
+        every = math.ceil(at.size / _MARKS)
+        at = at[::every]
+        # So small that those of neighbours do not meet on a phone.
+        mark = {"symbol": marker, "size": min(9.0, max(3.0, 200.0 / at.size)), "color": colour}
+        thinned = f", every {every} hits" if every > 1 else ""
         trace = Scatter(
-            x=at, y=np.full(at.size, top), mode="markers", marker=mark, name=f"{name}, {rate:.1f} Hz",
+            x=at, y=np.full(at.size, top), mode="markers", marker=mark, name=f"{name}, {rate:.1f} Hz{thinned}",
             hovertemplate="a hit is expected at %{x:.4f} s",
         )  # fmt: skip
         fig.add_trace(trace)

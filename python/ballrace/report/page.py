@@ -25,8 +25,17 @@ table.told td { text-align: left } figure { margin: .6rem 0 1.2rem }
 figcaption { font-size: .9rem; color: #444; max-width: 46rem }
 .warning { border-left: 4px solid #c8452f; padding: .1rem 0 .1rem .8rem }
 pre { font-size: .8rem; overflow-x: auto }
+@media (max-width: 600px) { th, td { padding: .15rem .35rem; font-size: .8rem } .modebar { display: none } }
+@media (max-width: 600px) { table.many tr { display: block; padding: .3rem 0; border-bottom: 1px solid #888 }
+  table.many tr:first-child { display: none } table.many td { display: flex; justify-content: space-between;
+  gap: 1rem; border: 0; padding: 0 } table.many td::before { content: attr(data-of); color: #444 }
+  table.many td:first-child { font-weight: 600 } }
 @media print { figure, table { break-inside: avoid } }
 """
+
+
+_FEW = 4
+"""Columns that a phone has room for."""
 
 
 class Page:
@@ -68,12 +77,18 @@ class Page:
         self._parts.append(f'<div class="wide"><table class="told">{lines}</table></div>')
 
     def table(self, header: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
-        """Add a table of numbers, the first column names."""
-        head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
-        body = "".join(
-            "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows
+        """Add a table of numbers, the first column names; of more than four a phone shows a list a row."""
+        names = [escape(cell) for cell in header]
+        many = len(names) > _FEW
+        head = "".join(f"<th>{name}</th>" for name in names)
+        begins = [f'<td data-of="{name}">' if many else "<td>" for name in names]
+        lines = (
+            "".join(f"{td}{escape(cell)}</td>" for td, cell in zip(begins, row, strict=True))
+            for row in rows
         )
-        self._parts.append(f'<div class="wide"><table><tr>{head}</tr>{body}</table></div>')
+        body = "".join(f"<tr>{line}</tr>" for line in lines)
+        kind = ' class="many"' if many else ""
+        self._parts.append(f'<div class="wide"><table{kind}><tr>{head}</tr>{body}</table></div>')
 
     def figure(self, fig: go.Figure, caption: str | None) -> None:
         """Add a figure with what it shows, numbered; without that under a title of its own."""
