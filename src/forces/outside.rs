@@ -1,4 +1,4 @@
-//! Forces on rings by a user's own code ([`crate::scene::RingForce`]), as one entry of the list.
+//! Forces on rings that depend on their motion ([`crate::scene::RingForce`]), by tables and by a user's own code, as one entry of the list.
 
 use nalgebra::Vector3;
 
@@ -20,11 +20,11 @@ impl Force for Outside {
     }
 
     fn used(&self, model: &Model) -> Use {
-        Use::evaluated(!model.scene.ring_forces.is_empty())
+        Use::evaluated(acts(model))
     }
 
     fn add(&self, model: &Model, at: &Instant<'_>, sums: &mut ForceSums<'_>) {
-        for (_, force) in model.scene.ring_forces.iter() {
+        for (_, force) in model.scene.forces_of_motion() {
             let race = Race::from(force.ring());
             let motion = motion(at.state, race);
             sums.add(race, &wrench(force, at.t, &motion));
@@ -33,7 +33,7 @@ impl Force for Outside {
 
     fn at_place(&self, model: &Model, race: Race, ring: &RingMotion) -> RingWrench {
         let mut sum = RingWrench::default();
-        let each = model.scene.ring_forces.iter();
+        let each = model.scene.forces_of_motion();
         for (_, force) in each.filter(|(_, force)| Race::from(force.ring()) == race) {
             let found = wrench(force, 0.0, ring);
             sum.force += found.force;
@@ -44,23 +44,23 @@ impl Force for Outside {
 
     fn account(&self, model: &Model, y: &[f64]) -> Account {
         let mut account = Account::default();
-        if model.scene.ring_forces.is_empty() {
+        if !acts(model) {
             return account;
         }
         let mut state = State::new(model);
         state.read(y);
-        for (_, force) in model.scene.ring_forces.iter() {
+        for (_, force) in model.scene.forces_of_motion() {
             account.support += force.energy(&motion(&state, Race::from(force.ring())));
         }
         account
     }
 
     fn dampers(&self, model: &Model) -> Vec<Damper> {
-        let each = model.scene.ring_forces.iter();
+        let each = model.scene.forces_of_motion();
         each.map(|(name, force)| {
             let body = Race::from(force.ring()).ring();
             Damper {
-                name: format!("ring_forces.{name}"),
+                name,
                 body,
                 rate: force.damping() / model.bodies[body].mass[Dof::X],
             }
@@ -77,14 +77,18 @@ impl Force for Outside {
     }
 
     fn turns_with_ring(&self, model: &Model) -> bool {
-        !model.scene.ring_forces.is_empty()
+        acts(model)
     }
 }
 
+fn acts(model: &Model) -> bool {
+    model.scene.forces_of_motion().next().is_some()
+}
+
 fn off_plane(model: &Model) -> Option<String> {
-    let mut each = model.scene.ring_forces.iter();
+    let mut each = model.scene.forces_of_motion();
     let (name, _) = each.find(|(_, force)| !force.keeps_plane())?;
-    Some(format!("ring force {name:?} may act off the plane"))
+    Some(format!("{name} may act off the plane"))
 }
 
 /// Where a ring is in a state.

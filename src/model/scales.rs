@@ -36,7 +36,7 @@ impl Scales {
         for unbalance in &model.unbalances {
             radial += unbalance.moment * speed * speed;
         }
-        for (_, force) in scene.ring_forces.iter() {
+        for (_, force) in scene.forces_of_motion() {
             let peak = force.peak();
             radial += peak[0];
             axial += peak[1];
@@ -89,7 +89,7 @@ impl Scales {
             }
         }
         scales.frequency = scales.frequency.max(tilts(model, &scales));
-        for (_, force) in scene.ring_forces.iter() {
+        for (_, force) in scene.forces_of_motion() {
             let ring = &model.bodies[Race::from(force.ring()).ring()];
             let square = force.stiffness() / ring.mass[Dof::X];
             scales.frequency = scales.frequency.max(square.sqrt());

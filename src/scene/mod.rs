@@ -34,6 +34,7 @@ mod recorded;
 mod ring_force;
 mod solver;
 mod spin;
+mod table_force;
 mod tilt;
 mod time;
 mod validate;
@@ -65,6 +66,7 @@ pub use probe::{Component, ContactQuantity, Probe};
 pub use ring_force::{RingForce, RingForces, RingMotion};
 pub use solver::{Method, Solver};
 pub use spin::Spin;
+pub use table_force::TableForce;
 pub use time::{Profile, TimeFunction};
 
 /// Version of the document this crate reads.
@@ -121,6 +123,9 @@ pub struct Scene {
     /// Unbalances by name.
     #[serde(default)]
     pub unbalances: BTreeMap<String, Unbalance>,
+    /// Forces on rings by tables, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub table_forces: BTreeMap<String, TableForce>,
     /// Forces on rings by code of a program's own; a document has none.
     #[serde(default, skip_serializing_if = "RingForces::is_empty")]
     pub ring_forces: RingForces,
@@ -186,12 +191,22 @@ impl Scene {
             loads: BTreeMap::new(),
             moments: BTreeMap::new(),
             unbalances: BTreeMap::new(),
+            table_forces: BTreeMap::new(),
             ring_forces: RingForces::default(),
             defects: BTreeMap::new(),
             probes: BTreeMap::new(),
             approximations: Approximations::default(),
             solver: Solver::default(),
         }
+    }
+
+    /// Forces on rings that depend on their motion, by tables and by code, each with its path in the scene.
+    pub(crate) fn forces_of_motion(&self) -> impl Iterator<Item = (String, &dyn RingForce)> {
+        let tables = self.table_forces.iter();
+        let tables =
+            tables.map(|(name, of)| (format!("table_forces.{name}"), of as &dyn RingForce));
+        let coded = self.ring_forces.iter();
+        tables.chain(coded.map(|(name, of)| (format!("ring_forces.{name}"), of)))
     }
 
     /// How the balls of a row meet their races: the row's own contact, or that of the scene.

@@ -81,7 +81,9 @@ pub(super) fn show_absent(scene: &mut Value) {
     show(&["loads", ALL], &["at"]);
     show(&["unbalances", ALL], &["axial_position"]);
     if let Some(scene) = scene.as_object_mut() {
-        scene.entry("moments").or_insert_with(|| json!({}));
+        for part in ["moments", "table_forces"] {
+            scene.entry(part).or_insert_with(|| json!({}));
+        }
     }
 }
 

@@ -30,30 +30,41 @@ pub struct RingMotion {
 /// ```
 /// use std::sync::Arc;
 /// use ballrace::equilibrium;
-/// use ballrace::scene::{RingForce, RingMotion, RingName, presets};
+/// use ballrace::scene::{Mount, RingForce, RingMotion, RingName, presets};
 ///
-/// /// A spring along y.
+/// /// Unbalanced magnetic pull along y: it grows with the displacement and softens the mount.
 /// #[derive(Debug)]
-/// struct Spring(f64);
+/// struct Pull {
+///     stiffness: f64, // N/m
+/// }
 ///
-/// impl RingForce for Spring {
+/// impl RingForce for Pull {
 ///     fn ring(&self) -> RingName {
-///         RingName::Inner
+///         RingName::Outer
 ///     }
 ///
 ///     fn wrench(&self, _t: f64, ring: &RingMotion) -> [f64; 6] {
-///         [0.0, -self.0 * ring.place[1], 0.0, 0.0, 0.0, 0.0]
+///         [0.0, self.stiffness * ring.place[1], 0.0, 0.0, 0.0, 0.0]
 ///     }
 ///
+///     // For the length of a run's steps.
 ///     fn stiffness(&self) -> f64 {
-///         self.0
+///         self.stiffness
+///     }
+///
+///     // A run may stay in the plane of the bearing.
+///     fn keeps_plane(&self) -> bool {
+///         true
 ///     }
 /// }
 ///
-/// let mut scene = presets::deep_groove_6205(1000.0, 0.0, 1800.0);
-/// let alone = equilibrium(&scene)?.inner[1];
-/// scene.ring_forces.insert("spring", Arc::new(Spring(1e8)));
-/// assert!(equilibrium(&scene)?.inner[1].abs() < 0.6 * alone.abs());
+/// let mut scene = presets::deep_groove_6205(800.0, 0.0, 1800.0);
+/// scene.gravity = [0.0; 3];
+/// scene.outer_ring.support.y = Some(Mount::Spring { stiffness: 3e7, damping: 300.0 });
+/// scene.ring_forces.insert("pull", Arc::new(Pull { stiffness: 1e7 }));
+/// let sunk = equilibrium(&scene)?.outer[1];
+/// // F/(k − k_m), but for a part in a thousand along the orbit, which the cage holds.
+/// assert!((sunk / (-800.0 / 2e7) - 1.0).abs() < 2e-3);
 /// # Ok::<(), ballrace::Error>(())
 /// ```
 pub trait RingForce: Debug + Send + Sync {

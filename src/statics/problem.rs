@@ -105,7 +105,7 @@ impl<'m> Problem<'m> {
             nominal: Self::nominal(model),
             pushes: Push::all(model),
             turning,
-            placed: !model.scene.ring_forces.is_empty(),
+            placed: model.scene.forces_of_motion().next().is_some(),
             spatial: model.leans(),
         }
     }

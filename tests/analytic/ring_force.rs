@@ -1,10 +1,10 @@
-//! Analytic: a force of a program's own code is a force like those of the scene. A spring by code equals a support of the same
+//! Analytic: a force on a ring by a table or by a program's own code is a force like any. A spring by either equals a support of the same
 //! stiffness in equilibria, runs, energies and reductions; a pull that grows with the displacement softens a mount by its slope.
 
 use std::sync::Arc;
 
 use ballrace::inspect::energy;
-use ballrace::scene::{Mount, RingForce, RingMotion, RingName, Scene, presets};
+use ballrace::scene::{Mount, RingForce, RingMotion, RingName, Scene, TableForce, presets};
 use ballrace::{Run, compile, equilibrium, explain, simulate};
 
 const STIFFNESS: f64 = 3e7;
@@ -68,41 +68,58 @@ fn by_code(plane: bool) -> Scene {
     scene
 }
 
-/// The scene that is known, and the same by code.
-fn both() -> [Scene; 2] {
-    [mounted(spring(STIFFNESS, DAMPING)), by_code(true)]
+fn by_table() -> Scene {
+    let mut scene = mounted(Mount::Free);
+    let forces = [1e-5 * STIFFNESS, -2e-5 * STIFFNESS];
+    let mut table = TableForce::new(RingName::Outer, [0.0, 3.0, 0.0], [-1e-5, 2e-5], forces);
+    table.damping = DAMPING;
+    scene.table_forces.insert("spring".to_owned(), table);
+    scene
+}
+
+/// The scene that is known, and the same by code and by a table.
+fn all() -> [Scene; 3] {
+    [
+        mounted(spring(STIFFNESS, DAMPING)),
+        by_code(true),
+        by_table(),
+    ]
 }
 
 #[test]
-fn a_spring_by_code_has_the_equilibrium_of_a_support() {
-    let [known, coded] = both().map(|scene| equilibrium(&scene).unwrap());
-    for (known, coded) in [(known.outer, coded.outer), (known.inner, coded.inner)] {
-        for i in 0..3 {
-            assert!((known[i] - coded[i]).abs() < 1e-11, "{known:?} {coded:?}");
+fn a_spring_has_the_equilibrium_of_a_support() {
+    let [known, others @ ..] = all().map(|scene| equilibrium(&scene).unwrap());
+    for other in others {
+        for (known, other) in [(known.outer, other.outer), (known.inner, other.inner)] {
+            for i in 0..3 {
+                assert!((known[i] - other[i]).abs() < 1e-11, "{known:?} {other:?}");
+            }
         }
     }
     assert!(known.outer[1] < -1e-5);
 }
 
 #[test]
-fn a_spring_by_code_runs_as_a_support_does() {
+fn a_spring_runs_as_a_support_does() {
     let run = Run {
         duration: 2e-3,
         settle: Some(0.0),
         rtol: Some(1e-9),
         ..Run::default()
     };
-    let [known, coded] = both().map(|scene| simulate(&scene, &run).unwrap());
-    let [known, coded] = [&known, &coded].map(|out| out.get("outer.ay").unwrap());
+    let [known, others @ ..] = all().map(|scene| simulate(&scene, &run).unwrap());
+    let known = known.get("outer.ay").unwrap();
     let size = known.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
-    for (known, coded) in known.iter().zip(coded) {
-        assert!((known - coded).abs() < 1e-5 * size, "{known} {coded}");
+    for other in &others {
+        for (known, other) in known.iter().zip(other.get("outer.ay").unwrap()) {
+            assert!((known - other).abs() < 1e-5 * size, "{known} {other}");
+        }
     }
 }
 
 #[test]
-fn a_spring_by_code_stores_what_a_support_does() {
-    let [known, coded] = both().map(|scene| {
+fn a_spring_stores_what_a_support_does() {
+    let [known, others @ ..] = all().map(|scene| {
         let model = compile(&scene).unwrap();
         let mut y = vec![0.0; model.dim()];
         for (i, (place, moved)) in y.iter_mut().zip([1e-5, -2e-5, 0.0]).enumerate() {
@@ -110,14 +127,17 @@ fn a_spring_by_code_stores_what_a_support_does() {
         }
         energy(&model, &y).support
     });
-    assert!((known - coded).abs() < 1e-12 * known && known > 0.0);
+    assert!(known > 0.0);
+    for other in others {
+        assert!((known - other).abs() < 1e-12 * known, "{known} {other}");
+    }
 }
 
 #[test]
 fn a_run_leaves_out_what_a_force_leaves_alone() {
     let kept = |scene: &Scene| explain(scene).unwrap();
-    let [known, coded] = both().map(|scene| kept(&scene));
-    assert_eq!(known.kept, coded.kept);
+    let [known, coded, tabled] = all().map(|scene| kept(&scene));
+    assert_eq!([known.kept; 2], [coded.kept, tabled.kept]);
     assert!(coded.evaluated.contains(&"ring forces"));
     assert!(!known.evaluated.contains(&"ring forces"));
     let off = kept(&by_code(false));
@@ -158,4 +178,19 @@ fn a_document_has_no_code() {
     assert!(refused.contains("ring_forces") && refused.contains("spring"));
     let wider = scene.with(&[("rows[0].clearance", 2e-5.into())]).unwrap();
     assert_eq!(wider.ring_forces, scene.ring_forces);
+}
+
+#[test]
+fn a_table_is_in_the_document_and_checked() {
+    let scene = by_table();
+    assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene);
+    let refused = |path: &str, value: serde_json::Value| {
+        let path = format!("table_forces.spring.{path}");
+        let found = scene.with(&[(&path, value)]).unwrap_err().to_string();
+        assert!(found.starts_with(&path), "{found}");
+    };
+    refused("places", serde_json::json!([0.0, 0.0]));
+    refused("forces", serde_json::json!([1.0]));
+    refused("damping", serde_json::json!(-1.0));
+    refused("direction", serde_json::json!([0.0, 0.0, 0.0]));
 }

@@ -26,7 +26,7 @@ RESULTS = (*BASE, "changes", "measured_clipped", "turns", "batches")
 
 _FIELDS = frozenset(field.name for field in fields(Scene))
 _STEP = re.compile(r"[^.\[\]]+")
-_NEW = re.compile(r"(loads|moments|unbalances|defects|probes)\.[^.\[\]]+")
+_NEW = re.compile(r"(loads|moments|unbalances|table_forces|defects|probes)\.[^.\[\]]+")
 """Paths of entries whose names people choose."""
 
 

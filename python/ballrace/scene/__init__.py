@@ -18,7 +18,7 @@ from .contact import AccurateSlices, Contact, FittedSlices, FixedSlices, Iso1628
 from .defect import AxialOffset, Defect, DefectShape, Floor, Surface, Width, WidthProfile
 from .drive import Drive, SpeedDrive, TorqueDrive
 from .friction import Coulomb, Friction, Stribeck, Traction
-from .load import Load, Moment, Unbalance
+from .load import Load, Moment, TableForce, Unbalance
 from .lubricant import BaseOil, Lubricant, NamedOil, OilLayer, OilProperties
 from .material import Material, Materials
 from .probe import (
@@ -96,6 +96,7 @@ __all__ = [
     "Support",
     "Surface",
     "Table",
+    "TableForce",
     "TimeFunction",
     "TorqueDrive",
     "TorqueProbe",

@@ -20,7 +20,7 @@ from .contact import Contact
 from .defect import Defect
 from .drive import Drive
 from .friction import Friction
-from .load import Load, Moment, Unbalance
+from .load import Load, Moment, TableForce, Unbalance
 from .lubricant import Lubricant
 from .material import Materials
 from .probe import Probe
@@ -33,7 +33,7 @@ Spin = Literal["axial", "free"]
 """How balls spin: about the bearing's axis, or about any axis, as friction turns them."""
 
 
-_NAMED = ("loads", "moments", "unbalances", "defects", "probes")
+_NAMED = ("loads", "moments", "unbalances", "table_forces", "defects", "probes")
 """Parts of a scene whose entries have names."""
 
 
@@ -79,6 +79,8 @@ class Scene(Part):
         Moments on rings by name.
     unbalances : mapping of str to Unbalance
         Unbalances by name.
+    table_forces : mapping of str to TableForce
+        Forces on rings that depend on the rings' places, by name.
     defects : mapping of str to Defect
         Defects by name.
     probes : mapping of str to Probe
@@ -115,6 +117,7 @@ class Scene(Part):
     loads: Mapping[str, Load] = field(default_factory=_empty)
     moments: Mapping[str, Moment] = field(default_factory=_empty, metadata=LEFT_OUT)
     unbalances: Mapping[str, Unbalance] = field(default_factory=_empty)
+    table_forces: Mapping[str, TableForce] = field(default_factory=_empty, metadata=LEFT_OUT)
     defects: Mapping[str, Defect] = field(default_factory=_empty)
     probes: Mapping[str, Probe] = field(default_factory=_empty)
     approximations: Approximations = Approximations()
@@ -251,8 +254,8 @@ class Scene(Part):
         ----------
         changes : mapping of str to object
             Paths such as ``loads.axial.force`` or ``rows[0].clearance``, and new values: numbers, text,
-            lists, or parts of a scene. ``defects.new`` adds an entry to loads, moments, unbalances, defects or
-            probes and takes the whole of it; to remove one, use :func:`dataclasses.replace`.
+            lists, or parts of a scene. ``defects.new`` adds an entry to loads, moments, unbalances, table_forces,
+            defects or probes and takes the whole of it; to remove one, use :func:`dataclasses.replace`.
 
         Raises
         ------

@@ -3,7 +3,7 @@
 use super::check::{entry_name, finite, within};
 use crate::base::error::{Error, Result};
 use crate::base::quantities;
-use crate::scene::{Drive, Profile, Scene, TimeFunction};
+use crate::scene::{Drive, Profile, Scene, TableForce, TimeFunction};
 
 pub(super) fn drive(drive: &Drive) -> Result<()> {
     match drive {
@@ -46,7 +46,43 @@ pub(super) fn loads(scene: &Scene) -> Result<()> {
         direction(&format!("loads.{name}"), &load.direction)?;
         time_function(&format!("loads.{name}.force"), &load.force, (1e12, "N"))?;
     }
+    for (name, table) in &scene.table_forces {
+        entry_name("table_forces", name)?;
+        table_force(&format!("table_forces.{name}"), table)?;
+    }
     unbalances(scene)
+}
+
+fn table_force(path: &str, table: &TableForce) -> Result<()> {
+    direction(path, &table.direction)?;
+    for place in &table.places {
+        within(&format!("{path}.places"), *place, -1.0..=1.0, "m")?;
+    }
+    let rises = table.places.windows(2).all(|pair| pair[0] < pair[1]);
+    if table.places.len() < 2 || !rises {
+        let allowed = "two or more numbers, each above the one before";
+        return Err(Error::scene(
+            format!("{path}.places"),
+            format!("{:?}", table.places),
+            allowed,
+        ));
+    }
+    if table.forces.len() != table.places.len() {
+        return Err(Error::scene(
+            format!("{path}.forces"),
+            format!("{} numbers", table.forces.len()),
+            format!("one for each of the {} places", table.places.len()),
+        ));
+    }
+    for force in &table.forces {
+        within(&format!("{path}.forces"), *force, -1e12..=1e12, "N")?;
+    }
+    within(
+        &format!("{path}.damping"),
+        table.damping,
+        0.0..=1e12,
+        "N s/m",
+    )
 }
 
 /// What a load acts along, or a moment about.
