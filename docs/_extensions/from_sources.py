@@ -1,11 +1,12 @@
 """Pages whose text stands elsewhere in the project: a line ``% from: NAME`` of a page is replaced by it.
 
 NAME is a Markdown file of the project, whose links are turned to the pages of the guide, or one of the texts made
-here: the reference of scenes and the catalogue.
+here: the reference of scenes, the catalogue, and the marks of its names.
 """
 
 from __future__ import annotations
 
+import csv
 import math
 import re
 from pathlib import Path
@@ -56,24 +57,37 @@ def _linked(file: Path, text: str) -> str:
 def _catalogue() -> str:
     """Return a row a bearing, and below it where the numbers of balls come from."""
     lines = [
-        "| name | balls | D | d_m | bore | outside | width | angle | C | C₀ | source |",
-        "|---|" + "---:|" * 10,
+        "| name | balls | D | d_m | bore | outside | width | angle | C | C₀ | f₀ | source |",
+        "|---|" + "---:|" * 11,
     ]
     sources: dict[str, int] = {}
     for row in br.catalogue.values():
         sizes = (row.ball_diameter, row.pitch_diameter, row.bore, row.outside_diameter, row.width)
-        cells = [row.designation, row.ball_count, *(f"{1e3 * size:.5g}" for size in sizes)]
+        balls = f"{'2 x ' * (row.row_count - 1)}{row.ball_count}"
+        cells = [row.designation, balls, *(f"{1e3 * size:.5g}" for size in sizes)]
         cells += [f"{math.degrees(row.contact_angle):.0f}°"]
-        cells += [f"{row.dynamic_rating:.0f}", f"{row.static_rating:.0f}"]
+        cells += [f"{row.dynamic_rating:.0f}", f"{row.static_rating:.0f}", row.f0 or ""]
         cells += [sources.setdefault(row.sources.balls, len(sources) + 1)]
         lines.append("| " + " | ".join(map(str, cells)) + " |")
     told = [f"{number}. {source}" for source, number in sources.items()]
     return "\n".join([*lines, "", "Where number and diameter of the balls come from:", "", *told])
 
 
+def _marks() -> str:
+    """Return what may follow a designation, by meaning."""
+    lines = ["| mark | maker | meaning |", "|---|---|---|"]
+    with (ROOT / "python/ballrace/bearings/marks.csv").open(encoding="utf-8", newline="") as file:
+        lines += [
+            f"| {row['mark']} | {row['makers']} | {row['meaning']} |"
+            for row in csv.DictReader(file)
+        ]
+    return "\n".join(lines)
+
+
 MADE: dict[str, Callable[[], str]] = {
     "scene": scene_reference.markdown,
     "catalogue": _catalogue,
+    "marks": _marks,
 }
 
 

@@ -86,7 +86,7 @@ def orders(
             repr(ball_diameter),
             f"above a millionth of the pitch diameter, {pitch_diameter}, and below it",
         )
-    if not abs(real(contact_angle)) < math.pi / 2:
+    if not abs(real(contact_angle)) <= math.pi / 2:
         raise SceneError("contact_angle", repr(contact_angle), "between -π/2 and π/2")
     ftf, bpfo, bpfi, bsf = _core.orders(ball_count, ball_diameter, pitch_diameter, contact_angle)
     return Orders(ftf=ftf, bpfo=bpfo, bpfi=bpfi, bsf=bsf)

@@ -277,13 +277,14 @@ def _mean_load(loads: list[tuple[float, float | None]]) -> float | None:
 
 def _rating(scene: Scene) -> tuple[float, str]:
     row = scene.rows[0]
-    known = catalogue.get(scene.name)
+    # By its designation alone: a scene may have any name.
+    known = dict(catalogue).get(scene.name)
     same = known is not None and (known.ball_count, known.ball_diameter, known.pitch_diameter) == (
         row.ball_count,
         row.ball_diameter,
         row.pitch_diameter,
     )
-    if known is not None and same and len(scene.rows) == 1:
+    if known is not None and same and len(scene.rows) == known.row_count:
         return known.dynamic_rating, f"catalogue: {known.sources.ratings}"
     return together([row_rating(row) for row in scene.rows]), "formula of ISO 281"
 

@@ -1,8 +1,8 @@
 """The catalogue against load ratings and geometry, and scenes of its bearings.
 
 The ratings are formulas of the balls (D, Z, pitch diameter, contact angle), so printed ones tell of them: ISO 76,
-``C₀ = f₀ Z D² cos α`` with f₀ from Hertz's pressure of 4.2 GPa on grooves of 0.52 and 0.53, here computed by the
-slow reference; ISO 281, ``C = 1.3 f_c (cos α)^0.7 Z^(2/3) D^1.8`` in mm, with the table of f_c for one row.
+``C₀ = f₀ Z D² cos α`` with f₀ as printed, else from Hertz's pressure of 4.2 GPa on grooves of 0.52 and 0.53, here
+computed by the slow reference; ISO 281, ``C = 1.3 f_c (i cos α)^0.7 Z^(2/3) D^1.8`` in mm, with the table of f_c.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import pickle
 from dataclasses import replace
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 import pytest
@@ -18,10 +18,13 @@ from scipy.special import ellipe, ellipkm1
 
 import ballrace as br
 from ballrace.bearings.clearance import radial_clearance
-from ballrace.load_rating import FC
+from ballrace.bearings.entry import Kind
+from ballrace.bearings.estimate import BALLS
+from ballrace.load_rating import F0, FC, dynamic_rating, static_rating
 from reference import hertz
 
 ROWS = list(br.catalogue.values())
+KINDS = get_args(Kind)
 STEEL = {"density": 7850.0, "youngs_modulus": 207e9, "poisson_ratio": 0.3}
 
 
@@ -56,24 +59,125 @@ def test_the_factor_is_that_of_the_table_of_iso_76(gamma: float, wanted: float) 
     assert f0(gamma) == pytest.approx(wanted, rel=5e-3)
 
 
-@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.designation)
-def test_balls_have_the_printed_static_rating(row: br.Bearing) -> None:
-    gamma = row.ball_diameter * math.cos(row.contact_angle) / row.pitch_diameter
-    area = row.ball_count * (1e3 * row.ball_diameter) ** 2 * math.cos(row.contact_angle)
-    assert f0(gamma) * area == pytest.approx(row.static_rating, rel=0.022)
+def test_the_table_of_factors_is_that_of_hertz() -> None:
+    """Analytic: two digits after the point of ISO 76, by Hertz's pressure."""
+    for share in range(1, 41):
+        assert F0[share] == pytest.approx(f0(0.01 * share), rel=6e-3), share
 
 
-@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.designation)
-def test_balls_have_the_printed_dynamic_rating(row: br.Bearing) -> None:
+def static(row: br.Bearing) -> float:
+    """C₀ by f₀ as printed, else of Hertz; of thrust bearings, whose γ is 0, 61.6 of ISO 76 [N]."""
+    area = row.row_count * row.ball_count * (1e3 * row.ball_diameter) ** 2
+    if row.kind == "thrust":
+        return 61.6 * area
     gamma = row.ball_diameter * math.cos(row.contact_angle) / row.pitch_diameter
-    fc = np.interp(gamma, 0.01 * np.arange(1, 41), FC)
-    size = (
-        math.cos(row.contact_angle) ** 0.7
-        * row.ball_count ** (2 / 3)
-        * (1e3 * row.ball_diameter) ** 1.8
-    )
-    # The 6804 and the UER204 as their data sets print them.
-    assert 1.3 * fc * size == pytest.approx(row.dynamic_rating, rel=0.015)
+    return (row.f0 or f0(gamma)) * area * math.cos(row.contact_angle)
+
+
+AXIAL = np.array([
+    (0.03, 51.1), (0.04, 55.7), (0.05, 59.5), (0.06, 62.9), (0.07, 65.8), (0.08, 68.5), (0.09, 71.0), (0.10, 73.3),
+    (0.12, 77.4), (0.14, 81.1), (0.16, 84.4), (0.18, 87.4), (0.20, 90.2), (0.22, 92.8), (0.24, 95.3), (0.26, 97.6),
+    (0.28, 99.8),
+])  # fmt: skip
+"""f_c of ISO 281 for thrust bearings of 90° at D/d_m."""
+
+
+def dynamic(row: br.Bearing) -> float:
+    """C by ISO 281 [N]."""
+    size = float((1e3 * row.ball_diameter) ** 1.8)
+    if 1e3 * row.ball_diameter > 25.4:
+        size = 3.647 * float((1e3 * row.ball_diameter) ** 1.4)
+    size *= 1.3 * float(row.ball_count ** (2 / 3))
+    if row.kind == "thrust":
+        share = row.ball_diameter / row.pitch_diameter
+        return size * float(np.interp(share, AXIAL[:, 0], AXIAL[:, 1]))
+    cosine = math.cos(row.contact_angle)
+    gamma = row.ball_diameter * cosine / row.pitch_diameter
+    factor = float(np.interp(gamma, 0.01 * np.arange(1, 41), FC))
+    return size * float((row.row_count * cosine) ** 0.7) * factor
+
+
+def test_balls_have_the_printed_ratings() -> None:
+    """Literature: within 2.2 and 1.5 %, printed in steps of up to 0.9 %; three rows are told as rough.
+
+    f_c of thrust bearings is for other grooves than NSK's by 0.7 %.
+    """
+    rough = [row for row in ROWS if "to 3 %" in row.sources.balls]
+    assert [row.designation for row in rough] == ["607", "635", "619/5"]
+    for row in ROWS:
+        by = 1.5 if row in rough else 1.0
+        assert static(row) == pytest.approx(row.static_rating, rel=0.022 * by), row.designation
+        assert dynamic(row) == pytest.approx(row.dynamic_rating, rel=0.015 * by), row.designation
+
+
+def test_ratings_of_the_package_are_those_formulas() -> None:
+    """Analytic; C₀ by the table of f₀, not by the printed one."""
+    for row in (row for row in ROWS if row.kind != "thrust"):
+        numbers = (row.ball_count, row.ball_diameter, row.pitch_diameter, row.contact_angle)
+        assert dynamic_rating(*numbers, row.row_count) == pytest.approx(dynamic(row), rel=1e-9)
+        told = static_rating(*numbers, row.row_count)
+        assert told == pytest.approx(static(replace(row, f0=None)), rel=8e-3)
+
+
+def misfit(row: br.Bearing, balls: int, ball: float) -> float:
+    """How far a set is from the printed ratings, C₀ at half weight; some 187° of balls go between the rings."""
+    other = replace(row, ball_count=balls, ball_diameter=ball)
+    off = [
+        math.log(dynamic(other) / row.dynamic_rating),
+        0.5 * math.log(static(other) / row.static_rating),
+    ]
+    angle = 2.0 * math.degrees(math.asin(ball / row.pitch_diameter)) * (balls - 1)
+    packed = 0.0 if row.kind == "angular_contact" else 0.004 * ((angle - 187.0) / 10.0) ** 2
+    return math.hypot(*off) + packed
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "608",
+        "6005",
+        "6203",
+        "6205",
+        "6308",
+        "6316",
+        "61804",
+        "61808",
+        "16012",
+        "7208B",
+        "7218B",
+        "7010C",
+        "3208",
+        "UER204",
+    ],
+)
+def test_no_other_standard_set_fits_as_well(name: str) -> None:
+    """So the ratings do tell of the balls."""
+    row = br.catalogue[name]
+    nearest = min(BALLS, key=lambda ball: abs(ball - row.ball_diameter))
+    sets = {
+        (balls, ball): misfit(row, balls, ball)
+        for ball in BALLS
+        if 0.6 < ball / row.ball_diameter < 1.6
+        for balls in range(5, 30)
+        if row.pitch_diameter * math.sin(math.pi / balls) > 1.02 * ball
+    }
+    assert min(sets, key=sets.__getitem__) == (row.ball_count, nearest)
+
+
+def test_printed_factors_tell_of_the_diameters() -> None:
+    """Literature: f₀ is a function of D cos α/d_m, and the balls were found by C₀/f₀ and C alone.
+
+    NSK's f₀ of the series 618 is that of narrower grooves, up to 17.4 where ISO 76 ends at 16.5.
+    """
+    off = [
+        abs(f0(row.ball_diameter * math.cos(row.contact_angle) / row.pitch_diameter) / row.f0 - 1.0)
+        for row in ROWS
+        if row.f0 and not row.designation.startswith("618")
+    ]
+    assert len(off) > 160
+    assert np.median(off) < 5e-3
+    assert np.quantile(off, 0.95) < 0.012
+    assert max(off) < 0.021
 
 
 def test_one_ball_more_or_less_has_not() -> None:
@@ -83,13 +187,18 @@ def test_one_ball_more_or_less_has_not() -> None:
     assert abs(f0(gamma) * 7 * (1e3 * row.ball_diameter) ** 2 / row.static_rating - 1.0) > 0.1
 
 
-@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.designation)
-def test_geometry_is_possible(row: br.Bearing) -> None:
+@pytest.mark.parametrize("kind", KINDS)
+def test_geometry_is_possible(kind: Kind) -> None:
+    for row in br.catalogue.find(kind=kind):
+        possible(row)
+
+
+def possible(row: br.Bearing) -> None:
     mean = 0.5 * (row.bore + row.outside_diameter)
     assert 0.98 < row.pitch_diameter / mean < 1.04
     # A cage's bar fits between balls.
     chord = row.pitch_diameter * math.sin(math.pi / row.ball_count)
-    assert chord > 1.08 * row.ball_diameter
+    assert chord > (1.08 if row.kind == "deep_groove" else 1.065) * row.ball_diameter
     # Rings have a wall under the ball of at least an eighth of its diameter.
     wall = 0.5 * (row.outside_diameter - row.bore)
     assert row.bore + 0.25 * row.ball_diameter < row.pitch_diameter - row.ball_diameter
@@ -97,13 +206,33 @@ def test_geometry_is_possible(row: br.Bearing) -> None:
     assert row.ball_diameter < min(wall, row.width)
 
 
-@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.designation)
-def test_every_number_has_a_source(row: br.Bearing) -> None:
-    assert all(vars(row.sources).values())
-    # Standard balls where they are worked out: whole 64ths of an inch.
-    if row.sources.balls.startswith("estimated"):
-        steps = row.ball_diameter / 25.4e-3 * 64.0
-        assert steps == pytest.approx(round(steps), abs=2e-3)
+def test_every_number_has_a_source() -> None:
+    for row in ROWS:
+        assert all(vars(row.sources).values())
+        # Standard balls where they are worked out.
+        if row.sources.balls.startswith("estimated"):
+            assert min(abs(ball - row.ball_diameter) for ball in BALLS) < 1e-6
+
+
+def test_series_are_whole() -> None:
+    """Literature: ISO 15. Bore codes from 04 on are fifths of the bore; a series has every bore up to 120 mm."""
+    bores = [10, 12, 15, 17, *range(20, 111, 5), 120]
+    wanted = {"60": bores, "62": bores, "63": bores, "160": bores[1:], "618": bores, "619": bores}
+    for series, sizes in wanted.items():
+        for code, bore in zip(
+            (*range(4), *range(4, 23), 24), [10, 12, 15, 17, *range(20, 111, 5), 120], strict=True
+        ):
+            if bore in sizes:
+                assert br.catalogue[f"{series}{code:02d}"].bore == pytest.approx(1e-3 * bore)
+    for suffix in ("7016A", "7216A5", "7316B", "7216C", "7016A5", "7016C", "3216", "51116", "6416"):
+        assert br.catalogue[suffix].bore == pytest.approx(80e-3)
+    # Of a bore, outside diameter grows with the diameter series.
+    for bore in bores[4:]:
+        outside = [
+            br.catalogue[f"{series}{bore // 5:02d}"].outside_diameter
+            for series in ("618", "619", "60", "62", "63")
+        ]
+        assert outside == sorted(outside)
 
 
 @pytest.mark.parametrize(
@@ -124,41 +253,6 @@ def test_data_set_bearings_have_their_published_orders(name: str, orders: dict[s
         assert getattr(found, key) == pytest.approx(wanted, rel=6e-4)
 
 
-# ------------------------------------------------------------------------------- names
-
-
-@pytest.mark.parametrize(
-    ("name", "designation"),
-    [
-        ("6205", "6205"), ("SKF 6205-2RS JEM", "6205"), ("6205 2Z/C3", "6205"), ("nsk 6205ddu", "6205"),
-        ("6205-2RSH", "6205"), ("LDK UER204", "UER204"), ("MB ER-16K", "ER-16K"), ("er16k", "ER-16K"),
-        ("7205 BEP", "7205B"), ("7205-B", "7205B"), ("7205 AC", "7205A5"), ("SKF 7205 ACD", "7205A5"),
-        ("7205CD", "7205C"),
-    ],
-)  # fmt: skip
-def test_designations_with_makers_and_seals(name: str, designation: str) -> None:
-    assert br.catalogue[name].designation == designation
-    assert name in br.catalogue
-
-
-@pytest.mark.parametrize(
-    ("name", "near"),
-    [
-        ("6299", "6209"),
-        ("7205", "7205A5, 7205B, 7205C"),
-        ("6205 ETN9", "6205"),
-        ("", "from 6000 on"),
-    ],
-)
-def test_an_unknown_name_says_what_is_near(name: str, near: str) -> None:
-    with pytest.raises(br.SceneError) as refused:
-        br.catalogue[name]
-    assert (refused.value.path, refused.value.value) == ("designation", repr(name))
-    assert near in refused.value.allowed
-    assert name not in br.catalogue
-    assert br.catalogue.get(name) is None
-
-
 def test_a_bearing_and_its_error_go_to_other_processes() -> None:
     row = br.catalogue["6205"]
     again = pickle.loads(pickle.dumps(row))
@@ -171,12 +265,11 @@ def test_a_bearing_and_its_error_go_to_other_processes() -> None:
 
 
 def test_find_and_tables() -> None:
-    assert len(br.catalogue) >= 50
-    assert [row.designation for row in br.catalogue.find(kind="deep_groove", bore=25e-3)] == [
-        "6005",
-        "6205",
-        "6305",
-    ]
+    assert len(br.catalogue) >= 450
+    found = br.catalogue.find(kind="deep_groove", bore=25e-3)
+    assert [row.designation for row in found] == [
+        "6005", "6205", "6305", "6405", "61805", "61905", "16005",
+    ]  # fmt: skip
     with pytest.raises(br.SceneError, match="kind"):
         br.catalogue.find(kind="roller")  # type: ignore[arg-type]
     table = br.catalogue.to_polars()
@@ -185,20 +278,59 @@ def test_find_and_tables() -> None:
     angles = {
         round(math.degrees(row.contact_angle)) for row in br.catalogue.find(kind="angular_contact")
     }
-    assert angles == {15, 25, 40}
+    assert angles == {15, 25, 30, 40}
 
 
 # ------------------------------------------------------------------------------- scenes
 
 
-@pytest.mark.parametrize("name", list(br.catalogue))
-def test_every_bearing_carries_a_tenth_of_its_rating(name: str) -> None:
-    scene = br.bearing(name)
-    assert scene.doubts() == ()
-    found = br.equilibrium(scene)
-    # Of a bearing whose rating stands for 4.2 GPa: p ∝ F^(1/3), clearance and thrust move it.
-    assert found.inner_pressure.max() == pytest.approx(4.2e9 * 0.1 ** (1.0 / 3.0), rel=0.25)
-    assert found.residual_share < 1e-4
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "thrust"])
+def test_every_bearing_carries_a_tenth_of_its_rating(kind: Kind) -> None:
+    for row in br.catalogue.find(kind=kind):
+        scene = br.bearing(row)
+        assert scene.doubts() == (), row.designation
+        found = br.equilibrium(scene)
+        # Of a bearing whose rating stands for 4.2 GPa: p ∝ F^(1/3), clearance and thrust move it.
+        usual = 4.2e9 * 0.1 ** (1.0 / 3.0)
+        assert found.inner_pressure.max() == pytest.approx(usual, rel=0.25), row.designation
+        assert found.residual_share < 1e-4
+
+
+def test_two_rows_stand_back_to_back_and_take_thrust_either_way() -> None:
+    """Limit: the mirrored load has the mirrored equilibrium; the row whose side it is carries it."""
+    rows = br.bearing("3206").rows
+    assert [(row.side, row.axial_position > 0.0) for row in rows] == [(1, False), (-1, True)]
+    assert rows[1].axial_position == pytest.approx(0.54 * rows[0].ball_diameter)
+    carried = []
+    for thrust in (2000.0, -2000.0):
+        found = br.equilibrium(
+            br.bearing("3206", radial_load=0.0, axial_load=thrust, speed_rpm=1.0)
+        )
+        loads = (found.inner_load * np.sin(found.inner_angle)).reshape(2, -1).sum(axis=1)
+        carried.append(np.abs(loads))
+        assert abs(loads.sum()) == pytest.approx(2000.0, rel=1e-3)
+    assert carried[0] == pytest.approx(carried[1][::-1], rel=1e-6)
+    assert carried[0][0] > 100.0 * carried[0][1]
+
+
+def test_a_thrust_bearing_has_fault_frequencies_and_no_scene() -> None:
+    """Analytic: at 90° the cage turns at half the speed, and every race is passed by all balls in two turns."""
+    assert br.catalogue["51105"].orders.bpfo == pytest.approx(7.5)
+    assert br.fault_frequencies("51105", 1500.0).bpfi == pytest.approx(187.5)
+    with pytest.raises(br.SceneError, match="80°") as refused:
+        br.bearing("51105")
+    assert refused.value.path == "name"
+
+
+def test_two_rows_live_by_the_printed_rating() -> None:
+    life = br.rating_life(br.bearing("3206", radial_load=2000.0))
+    assert (life.rating, life.source) == (29600.0, "catalogue: NSK rolling bearing tables")
+
+
+def test_a_pitch_that_contradicts_the_bore_is_doubted() -> None:
+    wrong = replace(br.catalogue["6308"], bore=47e-3, outside_diameter=97e-3)
+    with pytest.warns(br.SceneWarning, match=r"pitch_diameter.*put the balls near 72 mm"):
+        br.equilibrium(br.bearing(wrong, radial_load=500.0))
 
 
 def test_the_rating_is_that_of_the_model() -> None:
@@ -230,7 +362,7 @@ def test_its_bare_ring_is_built_as_the_preset() -> None:
 def test_by_default_it_sits_in_a_pillow_block() -> None:
     """Literature: a unit UCP205 has 0.8 kg. Analytic: 1 kHz and 3 % of one mass on its mount, of any size."""
     assert br.bearing("6205").outer_ring.mass == pytest.approx(0.8)
-    for name in br.catalogue:
+    for name in ("608", "6316", "7208B", "3205", "6324"):
         ring = br.bearing(name).outer_ring
         mount = ring.support.y
         assert isinstance(mount, br.scene.Spring)
@@ -260,7 +392,7 @@ def test_load_decides_whether_damage_is_heard() -> None:
     assert rms(below, None) < 5.0 * rms(above, None)
 
 
-@pytest.mark.parametrize("name", ["6000", "6310", "7205C", "7310B"])
+@pytest.mark.parametrize("name", ["608", "6000", "6316", "61805", "7205C", "7310B", "3205"])
 def test_scenes_run(name: str) -> None:
     out = br.simulate(br.bearing(name), duration=5e-3)
     assert out.warnings == ()
@@ -274,6 +406,8 @@ def test_clearance_is_the_middle_of_its_class() -> None:
     assert br.bearing("SKF 6205-2RS/C3").rows[0].clearance == pytest.approx(20.5e-6)
     assert br.bearing("6205 C3", clearance="C3").rows[0].clearance == pytest.approx(20.5e-6)
     assert br.bearing("7205 C").rows[0].clearance == 0.0
+    assert br.bearing("7205B/C3").rows[0].clearance == 0.0
+    assert radial_clearance(120e-3, "C5") == pytest.approx(115e-6)
     with pytest.raises(br.SceneError, match="'C3', which '6205/C3' says"):
         br.bearing("6205/C3", clearance="C2")
     assert radial_clearance(10e-3, "CN") == pytest.approx(7.5e-6)

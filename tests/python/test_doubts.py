@@ -173,5 +173,5 @@ def test_other_rings_without_other_rows_are_told() -> None:
     )
     (told,) = br.bearing(other).doubts()
     assert told.startswith("rows[0].pitch_diameter = 80 mm: ")
-    for name in br.catalogue:
+    for name in ("608", "6310", "61808", "16008", "6416", "7308B", "3308"):
         assert br.bearing(name).doubts() == ()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Literal
 
 from .._arguments import knows
@@ -25,9 +26,9 @@ from ..scene import (
 )
 from ..scene.lubricant import chosen
 from .clearance import radial_clearance
-from .names import clearance_class
+from .entry import Bearing
 from .pedestal import Pedestal, chosen_housing
-from .rows import Bearing, catalogue
+from .rows import catalogue
 
 __all__ = ["bearing"]
 
@@ -36,6 +37,9 @@ _HALF_THE_BALLS = 1.22
 
 _OF_6205 = (52e-3**2 - 39.04e-3**2) * 15e-3
 """What the outer ring of a 6205 has of metal, but for a factor [m³]."""
+
+_ROW_DISTANCE = 1.08
+"""Distance of two rows over the ball diameter: 1.03 to 1.18, by the load centres that NSK prints of 52 and 53."""
 
 _SPEED = "speed_rpm, the speed of the inner ring [rev/min]"
 _SIZE = (
@@ -74,20 +78,22 @@ def bearing(
     Parameters
     ----------
     name : str or Bearing
-        Designation, such as ``"6205"``, ``"SKF 6205-2RS"`` or ``"7205B"``.
+        Name as on the box, such as ``"6205"``, ``"SKF 6205-2RSH/C3"`` or ``"7205B"``, or a bearing by
+        :meth:`Bearing.from_dimensions`.
     radial_load : float, optional
         Load on the inner ring along -y [N]; by default a tenth of the static load rating.
     axial_load : float, optional
         Load on the inner ring along +z [N], of either sign on a deep groove bearing and by default none there. An
         angular contact bearing holds it towards +z alone, and a radial load only together with it: more than
         ``radial_load * tan(contact_angle)``. By default the opposed bearing gives it the thrust under which half
-        of its balls carry, 1.22 times that.
+        of its balls carry, 1.22 times that. A double row bearing, which stands back to back without play and
+        preload, takes it either way.
     speed_rpm : float
         Speed of the inner ring [rev/min].
-    clearance : {"C2", "CN", "C3", "C4"} or float, optional
+    clearance : {"C2", "CN", "C3", "C4", "C5"} or float, optional
         Of a deep groove bearing: the middle of a class of ISO 5753-1, or a diametral clearance [m]; by default the
         class that the name says (``"6205-2RS/C3"``), else CN. Fits take some of it. Angular contact bearings have
-        none: their contact angle says it.
+        none, whatever class their name says: their contact angle says it.
     defects : Defect, or mapping of str to Defect
         Defects, as :mod:`ballrace.defects` makes them; a single one is named ``defect``.
     lubricant : str or Lubricant, optional
@@ -106,8 +112,13 @@ def bearing(
     Raises
     ------
     SceneError
-        The name is not known (the message has those near), an argument is not usable, or a named oil has no
-        temperature.
+        The name is not known (the message says what it is, or has those near), it is a thrust bearing, an argument
+        is not usable, or a named oil has no temperature.
+
+    Warns
+    -----
+    SceneWarning
+        The name has marks that are not known, or that stand for other balls.
 
     Examples
     --------
@@ -118,6 +129,9 @@ def bearing(
     >>> out = br.simulate(scene, duration=0.002)
     """
     made = name if isinstance(name, Bearing) else catalogue[name]
+    if made.kind == "thrust":
+        allowed = "a radial bearing: contact angles of scenes end at 80°; br.catalogue has its fault frequencies"
+        raise SceneError("name", repr(made.designation), allowed)
     radial = 0.1 * made.static_rating if radial_load is None else _load("radial_load", radial_load)
     axial = _thrust(made, radial, axial_load)
     if not math.isfinite(real(speed_rpm)):
@@ -127,7 +141,7 @@ def bearing(
     size = (made.outside_diameter**2 - made.pitch_diameter**2) * made.width / _OF_6205
     return Scene(
         name=made.designation,
-        rows=(_row(made, _clearance(name, made, clearance)),),
+        rows=_rows(made, _clearance(name, made, clearance)),
         outer_ring=_outer(made, chosen_housing(housing, made.outside_diameter), size),
         # With 1 kg of shaft in a 6205, damped by its surroundings.
         inner_ring=_ring(made.bore, made, 0.0, 300.0 * size, 1.0 * size),
@@ -156,34 +170,36 @@ def _named(defects: Defect | Mapping[str, Defect] | None) -> dict[str, Defect]:
     return dict(named)
 
 
-def _clearance(name: str | Bearing, made: Bearing, clearance: str | float | None) -> str | float:
-    """Return the clearance that is asked for, by the name of the bearing or beside it."""
-    said = clearance_class(name, made.designation) if isinstance(name, str) else None
-    if clearance is None:
-        return said or "CN"
-    if said and clearance != said:
+def _clearance(name: str | Bearing, made: Bearing, clearance: str | float | None) -> float:
+    """Return the diametral clearance that is asked for, by the name of the bearing or beside it [m]."""
+    if made.kind != "deep_groove":
+        if clearance not in (None, "CN"):
+            allowed = "left away: the clearance of an angular contact bearing follows from its contact angle"
+            raise SceneError("clearance", repr(clearance), allowed)
+        return 0.0
+    said = catalogue.read(name).clearance if isinstance(name, str) else None
+    if said and clearance not in (None, said):
         raise SceneError("clearance", repr(clearance), f"{said!r}, which {name!r} says, or absent")
-    return clearance
+    return radial_clearance(made.bore, said or ("CN" if clearance is None else clearance))
 
 
-def _row(made: Bearing, clearance: str | float) -> Row:
-    deep = made.kind == "deep_groove"
-    if not (deep or clearance == "CN"):
-        allowed = (
-            "left away: the clearance of an angular contact bearing follows from its contact angle"
-        )
-        raise SceneError("clearance", repr(clearance), allowed)
-    return Row(
+def _rows(made: Bearing, clearance: float) -> tuple[Row, ...]:
+    """Return a row, or two back to back, the first of which takes thrust towards +z."""
+    single = Row(
         ball_count=made.ball_count,
         ball_diameter=made.ball_diameter,
         pitch_diameter=made.pitch_diameter,
         outer_conformity=made.outer_conformity,
         inner_conformity=made.inner_conformity,
         contact_angle=made.contact_angle,
-        clearance=radial_clearance(made.bore, clearance) if deep else 0.0,
+        clearance=clearance,
         # A ball on the load line at the start.
         start_angle=-math.pi / 2.0,
     )
+    if made.row_count == 1:
+        return (single,)
+    aside = 0.5 * _ROW_DISTANCE * made.ball_diameter
+    return replace(single, axial_position=-aside), replace(single, side=-1, axial_position=aside)
 
 
 def _outer(made: Bearing, housing: Pedestal | None, size: float) -> Ring:
@@ -203,11 +219,12 @@ def _ring(
 
 def _thrust(made: Bearing, radial: float, axial: float | None) -> float:
     """Return the axial load, which an angular contact bearing needs to hold together."""
-    least = radial * math.tan(made.contact_angle)
+    single = made.kind == "angular_contact"
+    least = radial * math.tan(made.contact_angle) if single else 0.0
     if axial is None:
         return _HALF_THE_BALLS * least
     axial = _load("axial_load", axial)
-    if made.kind == "angular_contact" and not (axial > least or axial == radial == 0.0):
+    if single and not (axial > least or axial == radial == 0.0):
         allowed = (
             f"above {least:.4g} N towards +z, radial_load * tan(contact angle): with less the rings of a "
             f"{made.designation} come apart; by default its opposed bearing gives it what half of the balls need"

@@ -9,19 +9,20 @@ from ..errors import SceneError
 
 __all__ = ["CLASSES", "radial_clearance"]
 
-CLASSES = ("C2", "CN", "C3", "C4")
+CLASSES = ("C2", "CN", "C3", "C4", "C5")
 
-# Bore up to and including [mm], then least and largest clearance of C2, CN, C3, C4 [µm].
+# Bore up to and including [mm], then least and largest clearance of C2, CN, C3, C4, C5 [µm].
 _TABLE = (
-    (10.0, ((0, 7), (2, 13), (8, 23), (14, 29))),
-    (18.0, ((0, 9), (3, 18), (11, 25), (18, 33))),
-    (24.0, ((0, 10), (5, 20), (13, 28), (20, 36))),
-    (30.0, ((1, 11), (5, 20), (13, 28), (23, 41))),
-    (40.0, ((1, 11), (6, 20), (15, 33), (28, 46))),
-    (50.0, ((1, 11), (6, 23), (18, 36), (30, 51))),
-    (65.0, ((1, 15), (8, 28), (23, 43), (38, 61))),
-    (80.0, ((1, 15), (10, 30), (25, 51), (46, 71))),
-    (100.0, ((1, 18), (12, 36), (30, 58), (53, 84))),
+    (10.0, ((0, 7), (2, 13), (8, 23), (14, 29), (20, 37))),
+    (18.0, ((0, 9), (3, 18), (11, 25), (18, 33), (25, 45))),
+    (24.0, ((0, 10), (5, 20), (13, 28), (20, 36), (28, 48))),
+    (30.0, ((1, 11), (5, 20), (13, 28), (23, 41), (30, 53))),
+    (40.0, ((1, 11), (6, 20), (15, 33), (28, 46), (40, 64))),
+    (50.0, ((1, 11), (6, 23), (18, 36), (30, 51), (45, 73))),
+    (65.0, ((1, 15), (8, 28), (23, 43), (38, 61), (55, 90))),
+    (80.0, ((1, 15), (10, 30), (25, 51), (46, 71), (65, 105))),
+    (100.0, ((1, 18), (12, 36), (30, 58), (53, 84), (75, 120))),
+    (120.0, ((2, 20), (15, 41), (36, 66), (61, 97), (90, 140))),
 )
 
 
@@ -32,7 +33,7 @@ def radial_clearance(bore: float, clearance: str | float) -> float:
     ----------
     bore : float
         Bore [m].
-    clearance : {"C2", "CN", "C3", "C4"} or float
+    clearance : {"C2", "CN", "C3", "C4", "C5"} or float
         Class of ISO 5753-1, before mounting; or the clearance [m].
 
     Raises
@@ -59,4 +60,4 @@ def radial_clearance(bore: float, clearance: str | float) -> float:
         if bore <= largest * (1e-3 + 1e-12):
             low, high = limits[CLASSES.index(clearance)]
             return 0.5e-6 * (low + high)
-    raise SceneError("clearance", clearance, "a number [m]: the table ends at a bore of 100 mm")
+    raise SceneError("clearance", clearance, "a number [m]: the table ends at a bore of 120 mm")

@@ -1,83 +1,34 @@
-"""The rows of the catalogue."""
+"""The catalogue."""
 
 from __future__ import annotations
 
 import csv
 import math
+import warnings
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from importlib import resources
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import TYPE_CHECKING, cast, get_args
 
-from .. import frequencies
-from ..errors import SceneError
-from .names import near, resolved
-from .sources import BOUNDARY, CONFORMITY, SOURCES, Sources
+from ..errors import SceneError, SceneWarning
+from .entry import Bearing, Kind
+from .names import Name, near, read, without_maker
+from .refused import why_not
+from .sources import BOUNDARY, CONFORMITY, SOURCES, UNLIKE, Sources
 
 if TYPE_CHECKING:
     import polars as pl
 
-__all__ = ["Bearing", "Catalogue", "Kind", "catalogue"]
-
-Kind = Literal["deep_groove", "angular_contact"]
-"""Kind of a bearing."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Bearing:
-    """A bearing of the catalogue, one row of balls.
-
-    Attributes
-    ----------
-    designation : str
-        Its name, without maker, seals and clearance.
-    kind : {"deep_groove", "angular_contact"}
-        Kind.
-    ball_count : int
-        Number of balls.
-    ball_diameter, pitch_diameter : float
-        Diameters [m].
-    bore, outside_diameter, width : float
-        Boundary dimensions; the width is that of the outer ring [m].
-    contact_angle : float
-        Nominal contact angle [rad].
-    outer_conformity, inner_conformity : float
-        Groove radius over ball diameter.
-    dynamic_rating, static_rating : float
-        Basic load ratings C of ISO 281 and C₀ of ISO 76 [N].
-    sources : Sources
-        Where the numbers come from. What is not published begins with ``estimated`` or ``assumed``.
-    """
-
-    designation: str
-    kind: Kind
-    ball_count: int
-    ball_diameter: float
-    pitch_diameter: float
-    bore: float
-    outside_diameter: float
-    width: float
-    contact_angle: float
-    outer_conformity: float
-    inner_conformity: float
-    dynamic_rating: float
-    static_rating: float
-    sources: Sources
-
-    @property
-    def orders(self) -> frequencies.Orders:
-        """Kinematic orders at the nominal contact angle."""
-        return frequencies.orders(
-            self.ball_count, self.ball_diameter, self.pitch_diameter, self.contact_angle
-        )
+__all__ = ["Catalogue", "catalogue"]
 
 
 class Catalogue(Mapping[str, Bearing]):
     """The bearings by their designations; ``ballrace.catalogue`` is the one that there is.
 
-    A name may go on with seals, clearance and tolerance, as ``6205-2RS/C3``. They are not part of the row that it
-    finds; :func:`ballrace.bearing` takes the clearance from them.
+    A name may be that on a box, with its maker, seals, cage, clearance, tolerance and grease, such as ``SKF
+    6205-2RSH/C3``: :meth:`read` takes it apart. They are not part of the row that it finds;
+    :func:`ballrace.bearing` takes the clearance from them. Marks that are not known, or change the balls, are told
+    by a :class:`ballrace.SceneWarning`.
 
     Examples
     --------
@@ -85,8 +36,8 @@ class Catalogue(Mapping[str, Bearing]):
     >>> found = br.catalogue["6205-2RS"]
     >>> found.ball_count, found.sources.balls
     (9, 'Case Western Reserve University bearing data, drive end (SKF 6205-2RS JEM)')
-    >>> [b.designation for b in br.catalogue.find(kind="angular_contact", bore=25e-3)]
-    ['7205C', '7205A5', '7205B', '7305B']
+    >>> [b.designation for b in br.catalogue.find(kind="angular_contact", bore=25e-3, outside_diameter=52e-3)]
+    ['7205A', '7205A5', '7205B', '7205C']
     """
 
     @cached_property
@@ -96,16 +47,42 @@ class Catalogue(Mapping[str, Bearing]):
         return {row.designation: row for row in rows}
 
     def __getitem__(self, name: str) -> Bearing:
-        designation = resolved(name, self._rows) if isinstance(name, str) else None
-        if designation is None:
-            raise UnknownBearingError(
-                "designation", repr(name), f"a bearing of ballrace.catalogue{self._hint(str(name))}"
-            )
-        return self._rows[designation]
+        found = self.read(name)
+        row = self._rows[found.designation]
+        for text in _doubtful(found, row):
+            warnings.warn(f"designation = {name!r}: {text}", SceneWarning, stacklevel=2)
+        return row
 
-    def _hint(self, name: str) -> str:
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and read(name, self._rows) is not None
+
+    def read(self, name: str) -> Name:
+        """Return what a name says: maker, designation, marks with their meanings, and marks that are not known.
+
+        Raises
+        ------
+        SceneError
+            It names no bearing of the catalogue; the message says why, or has those near.
+
+        Examples
+        --------
+        >>> import ballrace as br
+        >>> found = br.catalogue.read("FAG 6205-C-2HRS-C3")
+        >>> found.maker, found.designation, found.clearance, found.meanings["2HRS"]
+        ('FAG', '6205', 'C3', 'contact seals on both sides')
+        """
+        found = read(name, self._rows) if isinstance(name, str) else None
+        if found is None:
+            raise UnknownBearingError("designation", repr(name), self._allowed(str(name)))
+        return found
+
+    def _allowed(self, name: str) -> str:
+        reason = why_not(without_maker(name)[1])
+        if reason is not None:
+            return reason
         alike = near(name, self._rows)
-        return f"; near are {', '.join(alike)}" if alike else f"; it has {len(self)}, from 6000 on"
+        hint = f"near are {', '.join(alike)}" if alike else f"it has {len(self)}, from 6000 on"
+        return f"a bearing of ballrace.catalogue; {hint}; br.Bearing.from_dimensions makes one of any size"
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._rows)
@@ -155,6 +132,18 @@ class UnknownBearingError(SceneError, KeyError):
     """No bearing of the catalogue has this name; a ``KeyError`` too, so that ``in`` and ``get`` work."""
 
 
+def _doubtful(found: Name, row: Bearing) -> Iterator[str]:
+    """Return what keeps the row from being that bearing."""
+    balls = f"{row.ball_count} balls of {1e3 * row.ball_diameter:g} mm"
+    if found.unknown:
+        known = f"not known, and left aside; taken as {row.designation}"
+        yield f"{', '.join(found.unknown)}: {known}"
+    for mark, meaning in found.effects.items():
+        yield f"{mark}, {meaning}: taken as {row.designation}, {balls} of steel"
+    if found.maker == "SKF" and row.sources.balls.endswith(UNLIKE):
+        yield f"SKF prints other ratings than the maker of these {balls}, so its own differ"
+
+
 def _is(value: float, wanted: float | None) -> bool:
     return wanted is None or math.isclose(value, wanted, rel_tol=1e-6)
 
@@ -162,9 +151,8 @@ def _is(value: float, wanted: float | None) -> bool:
 def _bearing(line: dict[str, str]) -> Bearing:
     """Return the bearing of a line of the table, which has millimetres, degrees and newtons."""
     mm = {name: round(1e-3 * float(line[f"{name}_mm"]), 9) for name in _LENGTHS}
-    kind: Kind = "angular_contact" if line["kind"] == "angular_contact" else "deep_groove"
     sources = Sources(
-        balls=SOURCES[line["from_balls"]],
+        balls="".join(SOURCES[word] for word in line["from_balls"].split()),
         pitch_diameter=SOURCES[line["from_pitch"]],
         boundary=BOUNDARY,
         conformity=CONFORMITY,
@@ -172,7 +160,7 @@ def _bearing(line: dict[str, str]) -> Bearing:
     )
     return Bearing(
         designation=line["designation"],
-        kind=kind,
+        kind=cast("Kind", line["kind"]),
         ball_count=int(line["balls"]),
         ball_diameter=mm["ball"],
         pitch_diameter=mm["pitch"],
@@ -185,10 +173,11 @@ def _bearing(line: dict[str, str]) -> Bearing:
         dynamic_rating=float(line["c_n"]),
         static_rating=float(line["c0_n"]),
         sources=sources,
+        f0=float(line["f0"]) if line["f0"] else None,
     )
 
 
 _LENGTHS = ("ball", "pitch", "bore", "outside", "width")
 
 catalogue: Catalogue = Catalogue()
-"""Some sixty common bearings, and those of public data sets."""
+"""Deep groove, angular contact and thrust ball bearings of 5 to 120 mm bore, and those of public data sets."""

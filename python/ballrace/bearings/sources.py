@@ -25,7 +25,7 @@ class Sources:
     ratings: str
 
 
-BOUNDARY = "ISO 15, as in the makers' tables"
+BOUNDARY = "ISO 15, of thrust bearings ISO 104, as in the makers' tables"
 """Bore, outside diameter and width."""
 
 CONFORMITY = (
@@ -33,11 +33,18 @@ CONFORMITY = (
 )
 """Groove radii."""
 
+UNLIKE = "; another set than SKF's, whose printed ratings are not those of these balls"
+"""Of balls of a maker other than SKF, with whose ratings they do not agree."""
+
 SOURCES = {
-    "ratings": "estimated: the set of 1/64 inch balls that has the printed ratings by ISO 76 and ISO 281",
+    "f0": "estimated: the standard balls that have the printed f₀, C₀ = f₀ Z D² cos α, and C by ISO 281",
+    "ratings": "estimated: the standard balls that have the printed ratings by ISO 76 and ISO 281",
+    "rough": "estimated: the standard balls whose ratings come nearest to the printed ones, to 3 %",
+    "unlike_skf": UNLIKE,
     "mean": "estimated: the mean of bore and outside diameter; 0 to 1 % more in real bearings",
     "nsk": "NSK rolling bearing tables",
     "nsk_precision": "NSK super-precision tables",
+    "skf": "SKF rolling bearing tables",
     "cwru": "Case Western Reserve University bearing data, drive end (SKF 6205-2RS JEM)",
     "paderborn": "Paderborn University KAt data (its 6203; CWRU's fan end gives 6.746 on 28.5 mm)",
     "pronostia": "FEMTO-ST PRONOSTIA data (NSK 6804)",
@@ -46,4 +53,4 @@ SOURCES = {
     "size205": "assumed: as of a 6205, whose balls it has",
     "harris": "T. A. Harris, Rolling Bearing Analysis, the 218 angular contact bearing",
 }
-"""Sentence by the word in ``bearings.csv``."""
+"""Sentence, or the end of one, by the words in ``bearings.csv``."""
