@@ -35,7 +35,7 @@ from .scene import Scene
 from .scene.lubricant import lubricants
 
 if TYPE_CHECKING:
-    from . import diagnosis, learn, measuring, plot, spectra
+    from . import diagnosis, learn, machines, measuring, plot, spectra
     from ._features import features
     from .bearings import Bearing, Catalogue, Pedestal, bearing, catalogue
     from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from .friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf
     from .life import RatingLife, rating_life
     from .life_factor import LifeFactor
+    from .machines import pair, shaft
     from .measuring import measure
     from .model import Model
     from .operating import FaultFrequencies, fault_frequencies
@@ -79,6 +80,7 @@ else:
             "learn": (),
             "life": ("RatingLife", "rating_life"),
             "life_factor": ("LifeFactor",),
+            "machines": ("pair", "shaft"),
             "measuring": ("measure",),
             "model": ("Model",),
             "operating": ("FaultFrequencies", "fault_frequencies"),
@@ -156,8 +158,10 @@ __all__ = [
     "learn",
     "load_distribution",
     "lubricants",
+    "machines",
     "measure",
     "measuring",
+    "pair",
     "plot",
     "presets",
     "rating_life",
@@ -165,6 +169,7 @@ __all__ = [
     "read_bearing_dataset",
     "scatter",
     "scene",
+    "shaft",
     "simulate",
     "sobol",
     "spectra",

@@ -30,7 +30,7 @@ from .entry import Bearing
 from .pedestal import Pedestal, chosen_housing
 from .rows import catalogue
 
-__all__ = ["bearing"]
+__all__ = ["bearing", "rows_of", "said_clearance"]
 
 _HALF_THE_BALLS = 1.22
 """Thrust over Fr tan α with which half of the balls carry (Sjövall's integrals at ε = 0.5)."""
@@ -129,9 +129,7 @@ def bearing(
     >>> out = br.simulate(scene, duration=0.002)
     """
     made = name if isinstance(name, Bearing) else catalogue[name]
-    if made.kind == "thrust":
-        allowed = "a radial bearing: contact angles of scenes end at 80°; br.catalogue has its fault frequencies"
-        raise SceneError("name", repr(made.designation), allowed)
+    rows = rows_of(made, said_clearance(name, made, clearance))
     radial = 0.1 * made.static_rating if radial_load is None else _load("radial_load", radial_load)
     axial = _thrust(made, radial, axial_load)
     if not math.isfinite(real(speed_rpm)):
@@ -141,7 +139,7 @@ def bearing(
     size = (made.outside_diameter**2 - made.pitch_diameter**2) * made.width / _OF_6205
     return Scene(
         name=made.designation,
-        rows=_rows(made, _clearance(name, made, clearance)),
+        rows=rows,
         outer_ring=_outer(made, chosen_housing(housing, made.outside_diameter), size),
         # With 1 kg of shaft in a 6205, damped by its surroundings.
         inner_ring=_ring(made.bore, made, 0.0, 300.0 * size, 1.0 * size),
@@ -170,21 +168,24 @@ def _named(defects: Defect | Mapping[str, Defect] | None) -> dict[str, Defect]:
     return dict(named)
 
 
-def _clearance(name: str | Bearing, made: Bearing, clearance: str | float | None) -> float:
-    """Return the diametral clearance that is asked for, by the name of the bearing or beside it [m]."""
-    if made.kind != "deep_groove":
-        if clearance not in (None, "CN"):
-            allowed = "left away: the clearance of an angular contact bearing follows from its contact angle"
-            raise SceneError("clearance", repr(clearance), allowed)
-        return 0.0
-    said = catalogue.read(name).clearance if isinstance(name, str) else None
-    if said and clearance not in (None, said):
-        raise SceneError("clearance", repr(clearance), f"{said!r}, which {name!r} says, or absent")
-    return radial_clearance(made.bore, said or ("CN" if clearance is None else clearance))
+def rows_of(made: Bearing, clearance: str | float) -> tuple[Row, ...]:
+    """Return the row of a bearing at z = 0, or its two about it, the first of which takes thrust towards +z.
 
-
-def _rows(made: Bearing, clearance: float) -> tuple[Row, ...]:
-    """Return a row, or two back to back, the first of which takes thrust towards +z."""
+    Parameters
+    ----------
+    made : Bearing
+        The bearing, none of thrust.
+    clearance : str or float
+        Class of ISO 5753-1 or diametral clearance [m]; ``"CN"`` where it follows from the contact angle.
+    """
+    if made.kind == "thrust":
+        allowed = "a radial bearing: contact angles of scenes end at 80°; br.catalogue has its fault frequencies"
+        raise SceneError("name", repr(made.designation), allowed)
+    if made.kind != "deep_groove" and clearance != "CN":
+        allowed = (
+            "left away: the clearance of an angular contact bearing follows from its contact angle"
+        )
+        raise SceneError("clearance", repr(clearance), allowed)
     single = Row(
         ball_count=made.ball_count,
         ball_diameter=made.ball_diameter,
@@ -192,7 +193,7 @@ def _rows(made: Bearing, clearance: float) -> tuple[Row, ...]:
         outer_conformity=made.outer_conformity,
         inner_conformity=made.inner_conformity,
         contact_angle=made.contact_angle,
-        clearance=clearance,
+        clearance=radial_clearance(made.bore, clearance) if made.kind == "deep_groove" else 0.0,
         # A ball on the load line at the start.
         start_angle=-math.pi / 2.0,
     )
@@ -200,6 +201,17 @@ def _rows(made: Bearing, clearance: float) -> tuple[Row, ...]:
         return (single,)
     aside = 0.5 * _ROW_DISTANCE * made.ball_diameter
     return replace(single, axial_position=-aside), replace(single, side=-1, axial_position=aside)
+
+
+def said_clearance(
+    name: str | Bearing, made: Bearing, clearance: str | float | None = None
+) -> str | float:
+    """Return the clearance that is asked for, by the name of a bearing or beside it."""
+    named = isinstance(name, str) and made.kind == "deep_groove"
+    said = catalogue.read(str(name)).clearance if named else None
+    if said and clearance not in (None, said):
+        raise SceneError("clearance", repr(clearance), f"{said!r}, which {name!r} says, or absent")
+    return said or ("CN" if clearance is None else clearance)
 
 
 def _outer(made: Bearing, housing: Pedestal | None, size: float) -> Ring:

@@ -1,0 +1,125 @@
+"""Two equal angular contact bearings side by side."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Literal, get_args
+
+from .._numbers import real
+from ..bearings import Bearing, Pedestal, bearing, catalogue
+from ..errors import SceneError
+from ..scene import Load, Scene
+from ..statics import equilibrium
+from .shafts import shaft
+
+__all__ = ["Arrangement", "pair"]
+
+Arrangement = Literal["back_to_back", "face_to_face", "tandem"]
+"""How two bearings stand: lines of contact meet the axis outside of them, between them, or are parallel."""
+
+_SIDES = {"back_to_back": (1, -1), "face_to_face": (-1, 1), "tandem": (1, 1)}
+
+
+def pair(
+    name: str | Bearing,
+    *,
+    arrangement: Arrangement = "back_to_back",
+    preload: float = 0.0,
+    radial_load: float | None = None,
+    axial_load: float | None = None,
+    at: float = 0.0,
+    speed_rpm: float = 1500.0,
+    housing: Literal["pedestal"] | Pedestal = "pedestal",
+) -> Scene:
+    """Return a pair of equal angular contact bearings side by side, their middle at z = 0; the shaft tilts.
+
+    Parameters
+    ----------
+    name : str or Bearing
+        A single row angular contact bearing, such as ``"7208 BECBP"``.
+    arrangement : {"back_to_back", "face_to_face", "tandem"}
+        How they stand. Back to back they are stiff against tilting, face to face they give way; both hold thrust
+        either way. In tandem they share thrust towards +z, and need it.
+    preload : float
+        Axial force of each on the other at rest and without load [N], from 0; in tandem there is none.
+    radial_load : float, optional
+        Load on the shaft along -y [N]; by default a tenth of the static load rating of one.
+    axial_load : float, optional
+        Load on the shaft along +z [N]; by default none, in tandem 1.22 times what holds them together.
+    at : float
+        Axial place of the radial load [m].
+    speed_rpm, housing
+        As of :func:`ballrace.shaft`.
+
+    Raises
+    ------
+    SceneError
+        The bearing is none of angular contact, or an argument is not usable.
+    EquilibriumError
+        There is no equilibrium under the preload.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> made = br.pair("7208 BECBP", preload=500.0, radial_load=0.0)
+    >>> [round(float(each.force[2]), -1) for each in br.machines.reactions(made)]
+    [-500.0, 500.0]
+    """
+    made = catalogue[name] if isinstance(name, str) else name
+    if not isinstance(made, Bearing) or made.kind != "angular_contact":
+        raise SceneError("name", repr(name), "a single row angular contact bearing, such as 7208B")
+    if arrangement not in get_args(Arrangement):
+        allowed = " or ".join(map(repr, get_args(Arrangement)))
+        raise SceneError("arrangement", repr(arrangement), allowed)
+    if not 0.0 <= real(preload) < math.inf or (arrangement == "tandem" and preload):
+        raise SceneError("preload", repr(preload), "a force from 0 [N], and 0 in tandem")
+    radial = 0.1 * made.static_rating if radial_load is None else _load("radial_load", radial_load)
+    axial = _thrust(made, arrangement, radial, axial_load)
+    aside = 0.5 * made.width
+    first, second = _SIDES[arrangement]
+    scene = shaft(
+        [(made, -aside, first), (made, aside, second)],
+        speed_rpm=speed_rpm,
+        loads={
+            "radial": Load(
+                ring="inner",
+                direction=(0.0, -1.0, 0.0),
+                force=radial,
+                at=(0.0, 0.0, _load("at", at)),
+            ),
+            "axial": Load(ring="inner", direction=(0.0, 0.0, 1.0), force=axial),
+        },
+        housing=housing,
+    )
+    pressed = _approach(made, float(preload))
+    rows = tuple(replace(row, axial_preload=pressed) for row in scene.rows)
+    title = f"{made.designation} {arrangement.replace('_', ' ')}"
+    return replace(scene, rows=rows, name=title).validate()
+
+
+def _thrust(made: Bearing, arrangement: Arrangement, radial: float, axial: float | None) -> float:
+    """Return the axial load, which only a tandem needs to hold together."""
+    least = radial * math.tan(made.contact_angle) if arrangement == "tandem" else 0.0
+    if axial is None:
+        return 1.22 * least
+    axial = _load("axial_load", axial)
+    if arrangement == "tandem" and not axial > least:
+        raise SceneError("axial_load", f"{axial:g}", f"above {least:.4g} N, in tandem")
+    return axial
+
+
+def _approach(made: Bearing, force: float) -> float:
+    """Return how far a bearing's rings go towards each other under a thrust [m]."""
+    if force == 0.0:
+        return 0.0
+    alone = bearing(made, radial_load=0.0, axial_load=force, speed_rpm=100.0, housing=None)
+    found = equilibrium(replace(alone, gravity=(0.0, 0.0, 0.0)))
+    return float(found.inner[2] - found.outer[2])
+
+
+def _load(name: str, value: float) -> float:
+    unit = "m" if name == "at" else "N"
+    if not math.isfinite(real(value)) or (name == "radial_load" and value < 0.0):
+        raise SceneError(name, repr(value), f"a number [{unit}], a radial load from 0")
+    return float(value)
