@@ -57,8 +57,12 @@ def seal(file: BinaryIO) -> None:
     file.write(_MARK + digest + footer)
 
 
-def read_sealed(path: Path) -> tuple[pl.DataFrame, dict[str, str]]:
+def read_sealed(
+    path: Path, check: Callable[[Path], None] | None = None
+) -> tuple[pl.DataFrame, dict[str, str]]:
     """Read a Parquet file and its metadata; one without a hash, as written by others, is read unchecked.
+
+    What ``check`` raises of a file whose hash is right, or that has none, keeps it from being read.
 
     Raises
     ------
@@ -70,6 +74,8 @@ def read_sealed(path: Path) -> tuple[pl.DataFrame, dict[str, str]]:
     from ._polars import pl
 
     _check_file(path)
+    if check is not None:
+        check(path)
     table = _unless_damaged(lambda: heard_once(lambda: pl.read_parquet(path, glob=False)))
     return table, _unless_damaged(lambda: pl.read_parquet_metadata(path))
 
@@ -91,11 +97,20 @@ def scan_sealed(path: Path) -> dict[str, str]:
 
 
 def columns_and_rows(path: Path) -> tuple[list[str], int]:
-    """Return the names of the columns of a Parquet file, and how many rows it has."""
+    """Return the names of the columns of a Parquet file, and how many rows it declares.
+
+    Raises
+    ------
+    ValueError
+        It is damaged, or not Parquet.
+    """
     from ._polars import pl
 
-    table = pl.scan_parquet(path, glob=False)
-    return table.collect_schema().names(), table.select(pl.len()).collect().item()
+    def read() -> tuple[list[str], int]:
+        table = pl.scan_parquet(path, glob=False)
+        return table.collect_schema().names(), table.select(pl.len()).collect().item()
+
+    return _unless_damaged(read)
 
 
 def read_columns(path: Path, names: list[str]) -> pl.DataFrame:

@@ -9,8 +9,8 @@ from __future__ import annotations
 import io
 import os
 import sys
-from pathlib import Path
 
+from ._memory import left
 from .errors import MemoryLimitError
 
 __all__ = ["pl"]
@@ -38,19 +38,6 @@ def needed() -> float:
         threads = os.cpu_count() or 1
     library = 0 if "polars" in sys.modules else _LIBRARY
     return float(library + _START + threads * _THREAD)
-
-
-def left() -> float:
-    """Return the address space that the limit of the process leaves [bytes]; infinity where there is none."""
-    if sys.platform != "linux":
-        return float("inf")
-    import resource
-
-    limit, _ = resource.getrlimit(resource.RLIMIT_AS)
-    if limit == resource.RLIM_INFINITY:
-        return float("inf")
-    used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
-    return float(limit - used)
 
 
 def _refusal(why: str) -> MemoryLimitError:

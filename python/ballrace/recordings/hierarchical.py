@@ -8,6 +8,7 @@ import numpy as np
 
 from ..errors import FileError
 from .libraries import needed
+from .limits import check_declared
 from .samples import RATES, Samples, from_told
 
 if TYPE_CHECKING:
@@ -57,23 +58,50 @@ def contents(
         It is damaged, or no HDF5.
     """
     h5py = needed("h5py", path.name)
-    arrays: dict[str, NDArray[np.float64]] = {}
-    units: dict[str, str] = {}
-
-    def visit(name: str, node: Any) -> None:
-        if (
-            isinstance(node, h5py.Dataset)
-            and node.dtype.kind in "fiu"
-            and max(node.shape, default=1) == node.size
-        ):
-            arrays[name] = np.asarray(node[()], dtype=np.float64).ravel()
-            units[name] = str(node.attrs.get("units", ""))
-
     try:
         with h5py.File(path, "r") as file:
             told = dict(file.attrs)
-            file.visititems(visit)
-    except (OSError, RuntimeError, ValueError, KeyError) as error:
+            nodes = _vectors(path, file, h5py)
+            check_declared(path, sum(float(node.size) for node in nodes.values()))
+            arrays = {n: np.asarray(x[()], dtype=np.float64).ravel() for n, x in nodes.items()}
+            units = {name: str(node.attrs.get("units", "")) for name, node in nodes.items()}
+    except FileError:
+        raise
+    except (OSError, RuntimeError, ValueError, KeyError, TypeError) as error:
         raise FileError(str(path), f"not an HDF5 file, or damaged ({error})") from error
     single = {name: float(x[0]) for name, x in arrays.items() if x.size == 1}
     return {name: x for name, x in arrays.items() if x.size > 1}, units, {**single, **told}
+
+
+def _vectors(path: Path, file: Any, h5py: Any) -> dict[str, Any]:
+    """Return the data sets that are vectors of numbers.
+
+    Raises
+    ------
+    FileError
+        It leads to another file, from which a stranger's file could have anything read.
+    """
+    found: dict[str, Any] = {}
+
+    elsewhere: list[str] = []
+
+    def look_at(name: str, link: Any) -> None:
+        # HDF5 does not stand errors raised in here.
+        if isinstance(link, h5py.ExternalLink):
+            elsewhere.append(name)
+
+    def take(name: str, node: Any) -> None:
+        if not isinstance(node, h5py.Dataset):
+            return
+        if node.external or node.is_virtual:
+            elsewhere.append(name)
+        elif node.shape is None or node.dtype.kind not in "fiu":
+            return
+        elif max(node.shape, default=1) == node.size:
+            found[name] = node
+
+    file.visititems_links(look_at)
+    file.visititems(take)
+    if elsewhere:
+        raise FileError(str(path), f"refused: what it has as {elsewhere[0]} is in another file")
+    return found

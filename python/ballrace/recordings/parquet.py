@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._interrupt import heard_once
-from .._parquet import read_sealed, seal, writing_to
+from .._parquet import columns_and_rows, read_sealed, seal, writing_to
 from .._record import described, unless_damaged
 from .._record import samples as column_of
 from ..scene import Scene
+from .limits import check_declared
 from .samples import Samples, from_told
 from .scenes import shaft_of
 from .tables import sampled
@@ -45,7 +46,7 @@ def read(path: Path) -> Samples:
     FileError
         It is damaged, or no Parquet.
     """
-    table, entries = unless_damaged(path, lambda: read_sealed(path))
+    table, entries = unless_damaged(path, lambda: read_sealed(path, _check_size))
     if _TOLD in entries:
         columns = {name: column_of(path, table, name) for name in table.columns}
         return from_told(path, entries[_TOLD], columns)
@@ -59,3 +60,8 @@ def read(path: Path) -> Samples:
         shaft=shaft_of(Scene.from_json(told["scene"])),
         metadata={"scene": json.loads(told["scene"]), "provenance": told["provenance"]},
     )
+
+
+def _check_size(path: Path) -> None:
+    names, rows = columns_and_rows(path)
+    check_declared(path, float(len(names) * rows))

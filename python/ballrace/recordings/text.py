@@ -47,13 +47,15 @@ def read(path: Path) -> Samples:
         It is no such table.
     """
     content = _decoded(path)
-    lines = (line for line in content.splitlines() if _counts(line))
+    lines = (line for line in _lines(content) if _counts(line))
     first, second = (next(lines, "").strip() for _ in range(2))
     separator = _separator(second or first)
     comma = separator != "," and "," in (second or first)
     names = [name.strip() for name in _fields(first, separator)]
     headed = not all(_NUMBER.match(name) for name in names)
     table = _table(path, content, separator, headed, comma)
+    if headed and len(names) != table.width:
+        raise FileError(str(path), f"its header names {len(names)} columns of {table.width}")
     units = {}
     columns = {}
     for place, column in enumerate(table.get_columns()):
@@ -64,6 +66,11 @@ def read(path: Path) -> Samples:
     if len(columns) < table.width:
         raise FileError(str(path), "two of its columns have one name")
     return sampled(path, columns, units)
+
+
+def _lines(content: str) -> list[str]:
+    """Cut at ends of lines, and not at what ``splitlines`` cuts at beside them: it may stand in a name."""
+    return content.replace("\r\n", "\n").split("\n")
 
 
 def _separator(line: str) -> str:
@@ -96,7 +103,7 @@ def _table(path: Path, content: str, separator: str, headed: bool, comma: bool) 
 
     try:
         if separator == " ":
-            lines = [line for line in content.splitlines() if _counts(line)][headed:]
+            lines = [line for line in _lines(content) if _counts(line)][headed:]
             rows = np.loadtxt(lines, ndmin=2)
             return pl.DataFrame({f"column_{place}": x for place, x in enumerate(rows.T)})
         return pl.read_csv(
