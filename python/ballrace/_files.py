@@ -1,17 +1,12 @@
-"""Files that are complete or absent."""
+"""Names of files, and whether they can be written."""
 
 from __future__ import annotations
 
 import errno
 import os
-from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from .errors import SceneError
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 PARQUET = (".parquet", ".pq", "")
 """What the name of a Parquet file may end in."""
@@ -76,20 +71,3 @@ def check_output(path: Path, *, name: str = "output", read: Path | None = None) 
     check_writable(path)
     if read is not None and path.exists() and read.exists() and path.samefile(read):
         raise SceneError(name, str(path), "another file than the scene, which it would replace")
-
-
-@contextmanager
-def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Give a temporary name beside ``path``, renamed to it at the end, or removed after an error.
-
-    Where ``path`` is a link, what it leads to is replaced, not the link.
-    """
-    path = as_path(path)
-    check_writable(path)
-    path = path.resolve()
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        yield temporary
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)

@@ -1,7 +1,7 @@
 """The record of a run as a Parquet file: its metadata, and columns that are written and read in parts.
 
 A record that is written during a run comes in blocks. The end of a Parquet file, its metadata, is known
-when the run is over; so each block is written to its own file in a folder beside, and at the end polars copies
+when the run is over; so each block is written to its own file beside, and at the end polars copies
 these, some blocks at a time, into one. The run itself takes memory for a few blocks; of copying 5 GB polars held
 0.2 GB more than of 0.7 GB. The disk holds the samples twice for that while.
 """
@@ -12,22 +12,21 @@ import base64
 import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._files import whole
 from ._interrupt import heard_once
 from ._parquet import columns_and_rows, read_bytes, read_columns, seal, to_bytes, writing_to
+from ._whole import whole
 from .errors import BallraceError, FileError, SceneError
 from .scene import Scene
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Sequence
+    from pathlib import Path
 
     import polars as pl
 
@@ -39,10 +38,9 @@ _FORMAT = "1"
 class Writer:
     """Takes the blocks of a record, and makes one file of them."""
 
-    def __init__(self, target: str | os.PathLike[str], path: Path, folder: Path) -> None:
+    def __init__(self, target: str | os.PathLike[str], path: Path) -> None:
         self._target = target
         self._path = path
-        self._folder = folder
         self._blocks: list[Path] = []
         self._rows = 0
 
@@ -51,7 +49,7 @@ class Writer:
         from ._polars import pl
 
         table = pl.DataFrame(dict(columns))
-        block = self._folder / f"{len(self._blocks):08}.parquet"
+        block = self._path.with_name(f"{self._path.name}.{len(self._blocks):08}")
         with writing_to(self._target):
             table.write_parquet(block, compression="uncompressed", statistics=False)
         self._blocks.append(block)
@@ -74,13 +72,8 @@ class Writer:
 @contextmanager
 def writing(path: str | os.PathLike[str]) -> Iterator[Writer]:
     """Give what takes the blocks of a file; after an error nothing of it is left."""
-    with (
-        whole(path) as temporary,
-        TemporaryDirectory(
-            prefix=f"{temporary.name}s.", dir=temporary.parent, ignore_cleanup_errors=True
-        ) as folder,
-    ):
-        yield Writer(path, temporary, Path(folder))
+    with whole(path) as temporary:
+        yield Writer(path, temporary)
 
 
 class Scanned(Mapping[str, NDArray[np.float64]]):

@@ -9,8 +9,8 @@ import uuid
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
+from .._whole import grab, sync_folder
 from ..errors import CampaignError
-from .locks import grab
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,9 +19,6 @@ if TYPE_CHECKING:
 
 _NAME = re.compile(r"[0-9a-f]{32}")
 """A file that is being written, or was when its process was killed."""
-
-_NO_SYNC = (errno.EINVAL, errno.ENOSYS, errno.EOPNOTSUPP, errno.EBADF)
-"""Of a folder: file systems that keep names without being asked say so, in one of these ways."""
 
 _NO_LINKS = (errno.EPERM, errno.ENOSYS, errno.EOPNOTSUPP, errno.EMLINK, errno.EXDEV)
 
@@ -54,7 +51,7 @@ def put(root: Path, name: str, data: bytes, *, new: bool = False) -> bool:
                 written = _link(temporary, root / name)
             else:
                 temporary.replace(root / name)
-            _sync((root / name).parent)
+            sync_folder((root / name).parent)
             return written
     except OSError as error:
         raise CampaignError(f"cannot write to {root}: {error.strerror or error}") from error
@@ -89,20 +86,6 @@ def _link(temporary: Path, path: Path) -> bool:
             return False
         temporary.replace(path)
     return True
-
-
-def _sync(folder: Path) -> None:
-    """Make the new name itself last, where a folder can be synced."""
-    if os.name == "nt":
-        return
-    file = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(file)
-    except OSError as error:
-        if error.errno not in _NO_SYNC:
-            raise
-    finally:
-        os.close(file)
 
 
 def sweep(folder: Path) -> None:

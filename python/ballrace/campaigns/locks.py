@@ -10,6 +10,7 @@ import warnings
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
+from .._whole import lock
 from ..errors import CampaignError, CampaignWarning
 
 if TYPE_CHECKING:
@@ -19,17 +20,11 @@ if TYPE_CHECKING:
 if sys.platform == "win32":
     import msvcrt
 
-    def _grab(file: int) -> None:
-        msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
-
     def _await(file: int) -> None:
         msvcrt.locking(file, msvcrt.LK_LOCK, 1)
 
 else:
     import fcntl
-
-    def _grab(file: int) -> None:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
     def _await(file: int) -> None:
         fcntl.flock(file, fcntl.LOCK_EX)
@@ -75,21 +70,13 @@ def in_turn(folder: Path, name: str) -> Iterator[None]:
         os.close(file)
 
 
-def grab(file: int) -> bool:
-    """Lock a file and say whether that worked; not where another has it, or the file system has no locks."""
-    with suppress(OSError):
-        _grab(file)
-        return True
-    return False
-
-
 def _open(path: Path) -> int:
     return os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
 
 
 def _try(file: int) -> bool:
     try:
-        _grab(file)
+        lock(file)
     except (BlockingIOError, PermissionError):
         return False
     except OSError as error:

@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import spectra
-from .._files import check_writable, whole
+from .._files import check_writable
 from .._text import printable
+from .._whole import whole
 from ..campaigns import Campaign
 from ..errors import SceneError
 from ..operating import fault_frequencies, spin_of

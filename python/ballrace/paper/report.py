@@ -7,7 +7,8 @@ import json
 import math
 from typing import TYPE_CHECKING, Any
 
-from .._files import check_writable, whole
+from .._files import check_writable
+from .._whole import whole
 from ..report.page import Page
 from .simulations import SIGNALS
 from .table import AXIAL_LOADS

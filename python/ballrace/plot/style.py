@@ -6,7 +6,8 @@ import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .._files import as_path, whole
+from .._files import as_path
+from .._whole import whole
 from ..recordings.libraries import needed
 
 if TYPE_CHECKING:
