@@ -120,8 +120,8 @@ def read_columns(path: Path, names: list[str]) -> pl.DataFrame:
     return heard_once(lambda: pl.read_parquet(path, columns=names, glob=False))
 
 
-def read_bytes(data: bytes) -> pl.DataFrame:
-    """Read a Parquet file from memory whose hash is known to be right.
+def read_bytes(data: bytes) -> tuple[pl.DataFrame, dict[str, str]]:
+    """Read a Parquet file and its metadata from memory, whose hash is known to be right.
 
     Raises
     ------
@@ -130,7 +130,8 @@ def read_bytes(data: bytes) -> pl.DataFrame:
     """
     from ._polars import pl
 
-    return _unless_damaged(lambda: heard_once(lambda: pl.read_parquet(io.BytesIO(data))))
+    table = _unless_damaged(lambda: heard_once(lambda: pl.read_parquet(io.BytesIO(data))))
+    return table, _unless_damaged(lambda: pl.read_parquet_metadata(io.BytesIO(data)))
 
 
 def collected(query: pl.LazyFrame) -> pl.DataFrame:
@@ -138,10 +139,12 @@ def collected(query: pl.LazyFrame) -> pl.DataFrame:
     return heard_once(query.collect)
 
 
-def to_bytes(table: pl.DataFrame, *, sealed: bool = False) -> bytes:
+def to_bytes(
+    table: pl.DataFrame, *, sealed: bool = False, metadata: dict[str, str] | None = None
+) -> bytes:
     """Return a table as a Parquet file, with its hash in it if wanted."""
     buffer = io.BytesIO()
-    heard_once(lambda: table.write_parquet(buffer))
+    heard_once(lambda: table.write_parquet(buffer, metadata=metadata))
     if sealed:
         seal(buffer)
     return buffer.getvalue()

@@ -200,4 +200,4 @@ def _texts(text: str) -> list[str]:
 
 
 def _table(text: str) -> pl.DataFrame | None:
-    return read_bytes(base64.b64decode(text)) if text else None
+    return read_bytes(base64.b64decode(text))[0] if text else None

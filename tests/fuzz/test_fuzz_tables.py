@@ -193,8 +193,7 @@ def test_any_damaged_folder_is_mended_or_told(
             path.write_bytes(data[:at] if cut else data[:at] + written + data[at + len(written) :])
         opened = decided(lambda: br.Campaign.open(out).manifest)
         again = decided(lambda: br.campaign(table, out, scene=SCENE, keep="signals", **SHORT))
-        if isinstance(again, br.BallraceError):
-            return type(again).__name__
+        assert isinstance(again, br.Campaign), again
         kept = ("wall_time", "signals")
         assert again.manifest.drop(kept).equals(whole.drop(kept))
         for case_id in again.manifest["case_id"]:

@@ -9,6 +9,8 @@
 ``cases``     a table and its scenes: what each row means, and its case id
 ``reading``   tables of any kind, and suggestions for unknown columns
 ``store``     the folder: shards are checked, and set aside if damaged
+``describe`` makes a folder that of one campaign, sealed, in two copies
+``verify``    every byte of a folder checked
 ``disk``      files that are complete or absent
 ``work``      cases run in this process, results written as they finish
 ``spread``    the same work given to an executor, chunk by chunk
@@ -23,6 +25,7 @@ from .progress import Progress
 from .result import Campaign
 from .run import campaign
 from .tables import grid, latin_hypercube, sobol
+from .verify import verify
 
 __all__ = [
     "Campaign",
@@ -33,4 +36,5 @@ __all__ = [
     "latin_hypercube",
     "scatter",
     "sobol",
+    "verify",
 ]

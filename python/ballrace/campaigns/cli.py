@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Any
 from .. import presets
 from .._files import as_path
 from .._text import printable
-from ..errors import SceneError
+from ..errors import CampaignError, SceneError
 from ..options import ARGUMENTS, BUDGET
 from ..scene import Scene
 from .bearings import scatter
 from .result import Campaign
 from .run import campaign
 from .tables import check_cases, grid, latin_hypercube, sobol
+from .verify import verify
 
 if TYPE_CHECKING:
     import polars as pl
@@ -39,13 +40,20 @@ def add_command(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     parser = commands.add_parser(
         "campaign", help="run a table of cases into a folder, or go on with one", description=_PLAN
     )
-    parser.add_argument("sweep", type=Path, nargs="?", metavar="SWEEP", help="sweep, a .toml file")
+    parser.add_argument(
+        "sweep", type=Path, nargs="?", metavar="SWEEP",
+        help="sweep, a .toml file; with --verify the folder of a campaign",
+    )  # fmt: skip
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FOLDER", help="folder of the campaign"
     )
     parser.add_argument(
         "--status", type=Path, metavar="FOLDER", help="say how far the campaign in a folder is"
     )
+    parser.add_argument(
+        "--verify", action="store_true",
+        help="read every byte of a campaign's folder and say which files are damaged (then the status is 1)",
+    )  # fmt: skip
     parser.add_argument(
         "--shard", type=_shard, default=(0, 1), metavar="I/N",
         help="run every N-th case from the I-th, I from 0: one job of a batch array",
@@ -82,8 +90,12 @@ def _command(options: argparse.Namespace) -> None:
     if options.status is not None:
         _show(Campaign.open(options.status))
         return
+    if options.verify and options.sweep is not None:
+        _verify(options.sweep)
+        return
     if options.sweep is None or options.output is None:
-        raise SceneError("campaign", "no sweep", "SWEEP -o FOLDER, or --status FOLDER")
+        allowed = "SWEEP -o FOLDER, --status FOLDER, or FOLDER --verify"
+        raise SceneError("campaign", "no sweep", allowed)
     if str(options.output) == "-":
         raise SceneError("output", "-", "a folder; a campaign is more than a stream")
     sweep = read(options.sweep)
@@ -116,6 +128,25 @@ def _show(found: Campaign) -> None:
     for error, count in kinds.iter_rows():
         first = found.failed.filter(error=error)["message"][0]
         print(printable(f"  {count} × {error}, the first: {first}"))
+
+
+def _verify(folder: Path) -> None:
+    """Say which files are not what was written; there are none without an error.
+
+    Raises
+    ------
+    CampaignError
+        There are some.
+    """
+    found = verify(folder)
+    wrong = found.drop_nulls("problem")
+    for name, problem in wrong.iter_rows():
+        print(printable(f"{name}: {problem}"))
+    if not wrong.is_empty():
+        raise CampaignError(
+            f"{folder}: {wrong.height} of {found.height} files are not what was written; run the campaign again"
+        )
+    print(printable(f"{folder}: all {found.height} files are what was written"))
 
 
 def _shard(text: str) -> tuple[int, int]:

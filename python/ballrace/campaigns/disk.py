@@ -23,6 +23,20 @@ _NAME = re.compile(r"[0-9a-f]{32}")
 _NO_LINKS = (errno.EPERM, errno.ENOSYS, errno.EOPNOTSUPP, errno.EMLINK, errno.EXDEV)
 
 
+def refuse_link(path: Path) -> None:
+    """Refuse a link: through one, a campaign's folder would lead to files that are not its own.
+
+    Raises
+    ------
+    CampaignError
+        It is one.
+    """
+    if path.is_symlink():
+        raise CampaignError(
+            f"{path}: a link, and nothing in the folder of a campaign is followed; put there what it leads to"
+        )
+
+
 def put(root: Path, name: str, data: bytes, *, new: bool = False) -> bool:
     """Write a file within ``root`` that is there whole or not at all, also after a loss of power.
 
@@ -94,7 +108,7 @@ def sweep(folder: Path) -> None:
         # Whether a file is still being written cannot be known there.
         return
     for path in folder.iterdir():
-        if _NAME.fullmatch(path.name):
+        if _NAME.fullmatch(path.name) and path.is_file() and not path.is_symlink():
             with suppress(OSError), path.open("r+b") as file:
                 if grab(file.fileno()):
                     path.unlink()

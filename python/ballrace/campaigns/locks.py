@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from .._whole import lock
 from ..errors import CampaignError, CampaignWarning
+from .disk import refuse_link
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -29,6 +30,8 @@ else:
     def _await(file: int) -> None:
         fcntl.flock(file, fcntl.LOCK_EX)
 
+
+_NO_FOLLOW = getattr(os, "O_NOFOLLOW", 0)
 
 _PART = re.compile(r"\d+-of-\d+")
 _WITHOUT_LOCKS = (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP)
@@ -71,7 +74,8 @@ def in_turn(folder: Path, name: str) -> Iterator[None]:
 
 
 def _open(path: Path) -> int:
-    return os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+    refuse_link(path)
+    return os.open(path, os.O_RDWR | os.O_CREAT | _NO_FOLLOW, 0o666)
 
 
 def _try(file: int) -> bool:
@@ -88,8 +92,9 @@ def _try(file: int) -> bool:
 
 
 def _is_held(path: Path) -> bool:
+    refuse_link(path)
     with suppress(FileNotFoundError):
-        file = os.open(path, os.O_RDWR)
+        file = os.open(path, os.O_RDWR | _NO_FOLLOW)
         try:
             return not _try(file)
         finally:

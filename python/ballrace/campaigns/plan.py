@@ -18,6 +18,7 @@ from ..scene.scene import checked_scene
 from .cases import Cases
 from .reading import resembling
 from .spread import Executor
+from .store import names
 from .work import Job, version
 
 if TYPE_CHECKING:
@@ -95,7 +96,7 @@ class Plan:
             shards = {row["signals"] for row in rows if row["signals"] is not None}
             broken = store.damaged_signals(shards)
             damaged += broken
-            shards = store.names("signals") - {path.name for path in broken}
+            shards = names(store.root, "signals") - {path.name for path in broken}
         finished = {
             row["case_id"] for row in rows if self._has_finished(row, ids[row["case_id"]], shards)
         }

@@ -14,6 +14,7 @@ from ..scene import Scene
 from .cases import apply
 from .measured import Measured, as_signals, features_table, measured, windows_table
 from .store import BASE, BUDGET, FAULTS, Store, without_empty_errors
+from .verify import verify
 
 if TYPE_CHECKING:
     import os
@@ -76,7 +77,8 @@ class Campaign:
         ``.touched``, the share of them in which a contact was loaded within it, and its ``.largest_load`` [N]
         (see :class:`ballrace.Touched`); last ``measured_clipped``: the largest share of the samples of a case that
         was beyond the range of a logger in what this object has measured (:meth:`measurements`, :meth:`measure`,
-        :meth:`windows`), empty until then. The file ``manifest.parquet`` has all but that column.
+        :meth:`windows`), empty until then. The file ``manifest.parquet`` has all but that column; its metadata
+        have ``ballrace.digest``, by which those who read it without this package can check it (see the guide).
         """
         from .._polars import pl
 
@@ -422,6 +424,26 @@ class Campaign:
         warned = f" ({self.warned.height} with warnings)" if self.warned.height else ""
         parts[0] += warned
         return printable(f"{self.folder}: {self.manifest.height} cases: {', '.join(parts)}")
+
+    def verify(self) -> pl.DataFrame:
+        """Read every byte of the folder and say which files are what was written.
+
+        Called again, :func:`ballrace.campaign` mends what is not, and runs the cases of damaged shards again.
+
+        Returns
+        -------
+        polars.DataFrame
+            A line a file: ``file``, its path within the folder, and ``problem``, empty for one that is sound.
+
+        Examples
+        --------
+        >>> import ballrace as br, tempfile
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     done = br.campaign([{}], folder, scene=br.presets.wheel_bearing(), duration=1e-3, progress=False)
+        ...     done.verify()["problem"].to_list()
+        [None, None, None, None, None]
+        """
+        return verify(self.folder)
 
     def __repr__(self) -> str:
         return f"<Campaign {self.status()}>"

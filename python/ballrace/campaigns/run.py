@@ -28,7 +28,7 @@ from .plan import (
 from .progress import Counts, Progress, Teller
 from .result import Campaign
 from .spread import executor_of, run_spread, tasks_on_a_machine
-from .store import Store, schema
+from .store import Store, schema, set_aside
 from .work import Job, check_process, record_of, row, run_here
 
 if TYPE_CHECKING:
@@ -298,7 +298,10 @@ def _guarded(
     """Run what is missing; whatever stops it says what is safe and how to go on."""
 
     def safe() -> str:
-        count = len(plan.ids().keys() & set(store.results([])["case_id"]))
+        try:
+            count = len(plan.ids().keys() & set(store.results([])["case_id"]))
+        except CampaignError:
+            return f"finished cases are safe in {store.root}; call again to go on"
         return f"{count} of {teller.now.total} cases are safe in {store.root}; call again to go on"
 
     try:
@@ -346,7 +349,7 @@ def _set_aside(store: Store, damaged: list[Path]) -> None:
     """Take damaged files out of the way, and say so."""
     if not damaged:
         return
-    store.set_aside(damaged)
+    set_aside(damaged)
     names = ", ".join(path.name for path in damaged[:3]) + (", …" if len(damaged) > 3 else "")
     text = f"{store.root}: damaged files are set aside, and their cases run again: {names}"
     warnings.warn(printable(text), CampaignWarning, stacklevel=4)
@@ -378,6 +381,6 @@ def _write_table(plan: Plan, store: Store) -> None:
 def _table_there(store: Store) -> pl.DataFrame | None:
     """Return the table of cases that is there, if there is one that can be read; this call has its own."""
     try:
-        return store.read_table("cases.parquet")
-    except CampaignError:
+        return store.table("cases.parquet")
+    except (FileNotFoundError, ValueError):
         return None

@@ -3,6 +3,7 @@
 ::
 
     campaign.json        scenes, arguments of the runs, options of the features: what makes it one campaign
+    campaign.copy.json   the same once more
     cases.parquet        the table, with case ids
     manifest.parquet     table and results side by side, once all is done
     results/<hash>       rows of finished cases, named by the hash of what is in the file
@@ -13,33 +14,41 @@
 A file is written in ``tmp/``, synced and renamed, so that files in the other folders are complete whatever
 happens. Rows are written after the signals they name. Nothing is ever changed in place. Reading a shard checks
 that its content has the hash it is named by; a campaign that goes on sets those that have not aside, as
-``<hash>.parquet.damaged``, and runs their cases again.
+``<hash>.parquet.damaged``, and runs their cases again. What cannot be read may be whole: it stops a campaign, and
+is left as it is. Links are not followed.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-import os
 import re
 import uuid
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
+from warnings import warn
 
 from .._parquet import read_bytes, read_sealed, to_bytes
-from ..errors import CampaignError
-from .disk import put, sweep
+from ..errors import CampaignError, CampaignWarning
+from . import description
+from .disk import put, refuse_link, sweep
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
     from pathlib import Path
 
     import polars as pl
 
-_FORMAT = 1
 _SHARD = re.compile(r"[0-9a-f]{32}\.parquet")
 _FOLDERS = ("locks", "results", "signals", "tmp")
 _AT_ONCE = 200
+_TABLES = ("cases.parquet", "manifest.parquet")
+_FEATURES = "ballrace.features"
+"""Entry of a shard's metadata: options of the features, which do not decide the ids of cases."""
+
+DIGEST = "ballrace.digest"
+"""Entry of a table's metadata: see :func:`digest_of`."""
+
 _NOT_WRITTEN = "its content is not what was written"
 
 SURFACES = ("outer_race", "inner_race", "ball")
@@ -67,26 +76,20 @@ class Store:
 
     def __init__(self, root: Path) -> None:
         self.root = root.resolve()
-        path = self.root / "campaign.json"
-        try:
-            data = path.read_bytes()
-        except FileNotFoundError:
-            raise CampaignError(f"{root}: holds no campaign; campaign.json is missing") from None
-        try:
-            text = data.decode()
-            self.identity: dict[str, Any] = json.loads(text)
-            form = self.identity["format"]
-        except (ValueError, TypeError, KeyError):
+        found, wrong = description.sound(self.root)
+        if found is None and all(why == "missing" for why in wrong.values()):
+            raise CampaignError(f"{root}: holds no campaign; campaign.json is missing")
+        if found is None:
             raise CampaignError(
-                f"{path}: damaged, not the description of a campaign; give another folder"
-            ) from None
-        if form != _FORMAT:
-            raise CampaignError(
-                f"{path}: format {form}, this version of ballrace reads {_FORMAT}; "
-                "give another folder, or use the version that made this one"
+                f"{self.root / 'campaign.json'}: {wrong['campaign.json']}, and its copy is "
+                f"{wrong['campaign.copy.json']}; run the campaign again, and both are written anew"
             )
+        self.identity = found
+        self.wrong = wrong
+        self.key = description.digest(found)
         self._verified: set[tuple[str, int, int]] = set()
-        self.key = hashlib.blake2b(text.encode(), digest_size=16).hexdigest()
+        for name in (*_FOLDERS, *_TABLES):
+            refuse_link(self.root / name)
 
     @classmethod
     def prepare(cls, root: Path, identity: Mapping[str, Any]) -> Store:
@@ -99,22 +102,33 @@ class Store:
         OSError
             The folder cannot be made or written to.
         """
-        if not (root / "campaign.json").exists():
+        if description.sound(root)[0] is None:
             cls._found(root, identity)
         store = cls.opened(root, identity)
         for folder in _FOLDERS:
             (store.root / folder).mkdir(exist_ok=True)
         store._check_writable()
         sweep(store.root / "tmp")
+        store._mend()
         return store
+
+    def _mend(self) -> None:
+        """Write the copies of the description anew that are missing or damaged."""
+        for name, why in self.wrong.items():
+            if why != "missing":
+                warn(
+                    f"{self.root / name}: {why}; it is written anew from its copy",
+                    CampaignWarning,
+                    5,
+                )
+            description.write(self.root, name, self.identity)
 
     @staticmethod
     def _found(root: Path, identity: Mapping[str, Any]) -> None:
         """Make the folder of a campaign; of several processes one does, in one step: that of its description."""
         root.mkdir(parents=True, exist_ok=True)
-        strangers = sorted(path.name for path in root.iterdir() if path.name not in _FOLDERS)
-        if any((root / "results").glob("*")):
-            strangers.append("results")
+        wrong = description.sound(root)[1]
+        strangers = sorted(path.name for path in root.iterdir() if not _is_ours(path.name))
         # What is there may be of a process that was faster.
         if strangers and not (root / "campaign.json").exists():
             found = ", ".join(strangers[:3])
@@ -122,9 +136,12 @@ class Store:
                 f"{root}: not a campaign's folder, it holds {found}; give a new or an empty one"
             )
         for folder in _FOLDERS:
+            refuse_link(root / folder)
             (root / folder).mkdir(exist_ok=True)
-        text = json.dumps(_description(identity), indent=1)
-        put(root, "campaign.json", text.encode(), new=True)
+        wanted = description.described(identity)
+        _readmit(root, wrong, wanted)
+        # Of several processes one does; the copy is made of what is there then.
+        description.write(root, description.NAMES[0], wanted, new=True)
 
     @classmethod
     def opened(cls, root: Path, identity: Mapping[str, Any]) -> Store:
@@ -136,7 +153,7 @@ class Store:
             It holds another.
         """
         store = cls(root)
-        store._check_same(_description(identity))
+        store._check_same(description.described(identity))
         return store
 
     def _check_same(self, wanted: Mapping[str, Any]) -> None:
@@ -164,14 +181,14 @@ class Store:
 
     def write(self, folder: str, frame: pl.DataFrame) -> str:
         """Write a shard and return its name."""
-        data = to_bytes(frame)
+        data = to_bytes(frame, metadata={_FEATURES: json.dumps(self.identity.get("features"))})
         name = f"{hashlib.blake2b(data, digest_size=16).hexdigest()}.parquet"
         put(self.root, f"{folder}/{name}", data)
         return name
 
     def write_table(self, name: str, frame: pl.DataFrame) -> None:
         """Write or replace a table at the root."""
-        put(self.root, name, to_bytes(frame, sealed=True))
+        put(self.root, name, to_bytes(frame, sealed=True, metadata={DIGEST: digest_of(frame)}))
 
     def read_table(self, name: str) -> pl.DataFrame:
         """Read a table at the root.
@@ -183,12 +200,26 @@ class Store:
         """
         path = self.root / name
         try:
-            frame, _ = read_sealed(path)
+            return self.table(name)
         except FileNotFoundError:
             raise CampaignError(f"{path}: missing; run the campaign again") from None
-        except (OSError, ValueError) as error:
+        except ValueError as error:
             raise CampaignError(f"{path}: damaged ({error}); run the campaign again") from None
-        return frame
+
+    def table(self, name: str) -> pl.DataFrame:
+        """Return a table at the root.
+
+        Raises
+        ------
+        FileNotFoundError
+            It is not there.
+        ValueError
+            It is damaged.
+        CampaignError
+            It cannot be read.
+        """
+        with _reading(self.root / name):
+            return read_sealed(self.root / name)[0]
 
     def results(self, damaged: list[Path] | None = None) -> pl.DataFrame:
         """Return the rows of all finished cases, one a case.
@@ -204,33 +235,22 @@ class Store:
 
         # A shard of an older version may lack columns.
         frames = [pl.DataFrame(schema=schema())]
-        for name in sorted(self.names("results")):
+        for name in sorted(names(self.root, "results")):
+            path = self.root / "results" / name
             try:
-                frames.append(self._read_result(self.root / "results" / name))
-            except CampaignError:
+                frames.append(shard_of_results(path)[0])
+            except FileNotFoundError:
+                continue  # another process has set it aside
+            except ValueError as error:
                 if damaged is None:
-                    raise
-                damaged.append(self.root / "results" / name)
+                    raise CampaignError(_damaged(path, str(error))) from None
+                damaged.append(path)
         rows = _joined(frames)
         # Of a case that was run twice, the row with signals that are there counts, and one that did not run out
         # of budget; the order does not depend on the files'.
-        kept = pl.col("signals").is_in(sorted(self.names("signals"))).fill_null(value=False)
+        kept = pl.col("signals").is_in(sorted(names(self.root, "signals"))).fill_null(value=False)
         order = (~kept, pl.col("budget").is_not_null(), "version", "signals", "wall_time")
         return rows.sort("case_id", *order).unique("case_id", keep="first", maintain_order=True)
-
-    def _read_result(self, path: Path) -> pl.DataFrame:
-        try:
-            data = path.read_bytes()
-        except OSError as error:
-            raise CampaignError(_damaged(path, error.strerror or str(error))) from None
-        if hashlib.blake2b(data, digest_size=16).hexdigest() != path.stem:
-            raise CampaignError(_damaged(path, _NOT_WRITTEN))
-        try:
-            frame = read_bytes(data)
-            _check_results(frame)
-        except ValueError as error:
-            raise CampaignError(_damaged(path, str(error))) from None
-        return frame
 
     def signals(self, name: str) -> Path:
         """Return the path of a shard of signals, having checked that it is what was written.
@@ -238,7 +258,7 @@ class Store:
         Raises
         ------
         CampaignError
-            It is missing or damaged, or the name is none of a shard.
+            It is missing or damaged, cannot be read, or the name is none of a shard.
         """
         if not _SHARD.fullmatch(name):
             # It could lead anywhere.
@@ -246,55 +266,137 @@ class Store:
             raise CampaignError(text)
         path = self.root / "signals" / name
         try:
-            with path.open("rb") as file:
-                status = os.fstat(file.fileno())
-                known = (name, status.st_size, status.st_mtime_ns)
-                if known in self._verified:
-                    return path
-                found = hashlib.file_digest(file, lambda: hashlib.blake2b(digest_size=16))
-        except OSError as error:
+            self._check_signals(path)
+        except FileNotFoundError as error:
             raise CampaignError(_damaged(path, error.strerror or str(error))) from None
-        if found.hexdigest() != path.stem:
-            raise CampaignError(_damaged(path, _NOT_WRITTEN))
-        self._verified.add(known)
+        except ValueError as error:
+            raise CampaignError(_damaged(path, str(error))) from None
         return path
 
-    def damaged_signals(self, names: Iterable[str]) -> list[Path]:
+    def _check_signals(self, path: Path) -> None:
+        """Check a shard of signals as :func:`check_shard` does, unless that has been done."""
+        with _reading(path):
+            status = path.stat()
+        known = (path.name, status.st_size, status.st_mtime_ns)
+        if known not in self._verified:
+            check_shard(path)
+            self._verified.add(known)
+
+    def damaged_signals(self, named: Iterable[str]) -> list[Path]:
         """Return those of the named shards of signals that are there but not what was written."""
         damaged = []
-        for name in sorted(self.names("signals").intersection(names)):
+        for name in sorted(names(self.root, "signals").intersection(named)):
+            path = self.root / "signals" / name
             try:
-                self.signals(name)
-            except CampaignError:
-                damaged.append(self.root / "signals" / name)
+                self._check_signals(path)
+            except FileNotFoundError:
+                continue
+            except ValueError:
+                damaged.append(path)
         return damaged
 
-    def set_aside(self, damaged: Iterable[Path]) -> None:
-        """Give damaged shards a name by which they are not read; another process may have done so."""
-        for path in damaged:
-            with suppress(FileNotFoundError):
-                path.replace(path.with_name(f"{path.name}.damaged"))
 
-    def names(self, folder: str) -> set[str]:
-        """Return the names of the shards of a folder; files of other names are none of ours.
+def names(root: Path, folder: str) -> set[str]:
+    """Return the names of the shards of a folder; files of other names are none of ours.
 
-        Raises
-        ------
-        CampaignError
-            The folder cannot be read.
-        """
-        try:
-            paths = list((self.root / folder).iterdir())
-        except OSError as error:
-            text = f"{self.root / folder}: cannot be read ({error.strerror or error})"
-            raise CampaignError(f"{text}; nothing is known of the finished cases") from None
-        return {path.name for path in paths if _SHARD.fullmatch(path.name)}
+    Raises
+    ------
+    CampaignError
+        The folder cannot be read, or has a link.
+    """
+    refuse_link(root / folder)
+    try:
+        paths = [path for path in (root / folder).iterdir() if _SHARD.fullmatch(path.name)]
+    except OSError as error:
+        text = f"{root / folder}: cannot be read ({error.strerror or error})"
+        raise CampaignError(f"{text}; nothing is known of the finished cases") from None
+    for path in paths:
+        refuse_link(path)
+    return {path.name for path in paths}
 
 
-def _description(identity: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what ``campaign.json`` says, as it will be read."""
-    described: dict[str, Any] = json.loads(json.dumps({"format": _FORMAT, **identity}))
-    return described
+def _is_ours(name: str) -> bool:
+    known = (*_FOLDERS, *_TABLES, *description.NAMES)
+    return name.removesuffix(".damaged") in known
+
+
+def _readmit(root: Path, wrong: Mapping[str, str], wanted: Mapping[str, Any]) -> None:
+    """Make a description of the campaign that is called for the one of results whose own is lost.
+
+    Their cases are known by the hash of scene and run, so those of another campaign do no harm; what was computed
+    with other options of the features is set aside.
+    """
+    lost = [root / name for name in wrong if (root / name).exists()]
+    set_aside(lost)
+    results = [root / "results" / name for name in names(root, "results")]
+    if not lost and not results:
+        return
+    features = json.dumps(wanted.get("features"))
+    for path in results:
+        with suppress(FileNotFoundError, ValueError):  # those that are damaged are told later
+            if shard_of_results(path)[1] != features:
+                set_aside([path])
+    text = f"{root}: its description was lost, and is that of this call now; finished cases are known by their ids"
+    warn(text, CampaignWarning, 6)
+
+
+def shard_of_results(path: Path) -> tuple[pl.DataFrame, str | None]:
+    """Return the rows of a shard, and the options of the features that they were computed by, as JSON.
+
+    Raises
+    ------
+    FileNotFoundError
+        It is not there.
+    ValueError
+        It is damaged.
+    CampaignError
+        It cannot be read, or is a link.
+    """
+    refuse_link(path)
+    with _reading(path):
+        data = path.read_bytes()
+    if hashlib.blake2b(data, digest_size=16).hexdigest() != path.stem:
+        raise ValueError(_NOT_WRITTEN)
+    frame, metadata = read_bytes(data)
+    _check_results(frame)
+    return frame, metadata.get(_FEATURES)
+
+
+def check_shard(path: Path) -> None:
+    """Check a shard against the hash that it is named by; raises as :func:`shard_of_results` does."""
+    refuse_link(path)
+    with _reading(path), path.open("rb") as file:
+        found = hashlib.file_digest(file, lambda: hashlib.blake2b(digest_size=16))
+    if found.hexdigest() != path.stem:
+        raise ValueError(_NOT_WRITTEN)
+
+
+@contextmanager
+def _reading(path: Path) -> Iterator[None]:
+    """Tell what cannot be read from what is damaged, or not there."""
+    try:
+        yield
+    except FileNotFoundError:
+        raise
+    except OSError as error:
+        why = error.strerror or str(error)
+        text = "it may be whole, and is left as it is: make it readable, and call again"
+        raise CampaignError(f"{path}: cannot be read ({why}); {text}") from error
+
+
+def set_aside(damaged: Iterable[Path]) -> None:
+    """Give damaged files a name by which they are not read; another process may have done so."""
+    for path in damaged:
+        with suppress(FileNotFoundError):
+            path.replace(path.with_name(f"{path.name}.damaged"))
+
+
+def digest_of(frame: pl.DataFrame) -> str:
+    """Return a hash of a table's names and cells that anyone can compute of it, with Python alone."""
+    found = hashlib.sha256()
+    for name in frame.columns:
+        found.update(repr((name, frame[name].to_list())).encode())
+    return found.hexdigest()
 
 
 def schema() -> dict[str, Any]:
