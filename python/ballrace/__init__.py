@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import defects, frequencies, presets, scene
+from . import _arrays, defects, frequencies, presets, scene  # noqa: F401 (the first for its effect)
 from ._later import later
 from .errors import (
     AccuracyWarning,

@@ -45,7 +45,12 @@ def heard_once(work: Callable[[], T]) -> T:
     if not _hears_signals():
         return work()
     with ThreadPoolExecutor(1) as pool:
-        return pool.submit(work).result()
+        try:
+            started = pool.submit(work)
+        except RuntimeError:
+            # There is no room for another thread: the work is worth more than an answer to Ctrl-C.
+            return work()
+        return started.result()
 
 
 def _hears_signals() -> bool:
@@ -61,7 +66,10 @@ def _apart(work: Callable[[], T]) -> T:
         except BaseException as error:  # noqa: BLE001 (raised where it is waited for)
             outcome.set_exception(error)
 
-    threading.Thread(target=run, name="ballrace", daemon=True).start()
+    try:
+        threading.Thread(target=run, name="ballrace", daemon=True).start()
+    except RuntimeError:
+        return work()  # as above
     while not wait([outcome], timeout=_ATTENTION).done:
         pass
     return outcome.result()

@@ -86,6 +86,8 @@ def test_the_sweep_of_the_guide(tmp_path: Path) -> None:
         ('scene = "wheel-bearing"\ntable = "a.xlsx"', "a file that ends in .csv or .parquet"),
         ('scene = "wheel-bearing"\n[grid]\n"a.b" = 3', "a.b = 3: a list of values, or { from"),
         ('scene = "wheel-bearing"\n[grid]\nx = [1]\n[sobol]\nx = [0, 1]\nn = 2\nseed = 1', "x = given twice"),
+        ("a = " + "[" * 9999, "a TOML file (nested deeper than is read)"),
+        (".".join("a" * 16_000) + " = 1", "a TOML file (line 1: a key of more than 64 parts)"),
         ('scene = "x"\n[grid]\na = [1]', "scene = x: one of wheel-bearing"),
         ('scenes = { b = "x" }\n[grid]\na = [1]', "scenes.b = x: one of wheel-bearing"),
         ('scenes = "wheel-bearing"\n[grid]\na = [1]', "scenes = wheel-bearing: a table of scenes by name"),

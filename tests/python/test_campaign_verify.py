@@ -228,3 +228,16 @@ def test_any_failure_of_writing_loses_nothing_that_was_finished(
 def test_the_scene_of_a_case_is_that_of_the_description(whole: br.Campaign) -> None:
     case_id = whole.manifest.filter(status="ok")["case_id"][0]
     assert whole.scene(case_id).rows == SCENE.rows
+
+
+def test_other_vector_instructions_are_told(folder: Path) -> None:
+    """A campaign that goes on on another machine mixes last bits."""
+    (shard,) = (folder / "results").iterdir()
+    rows = pl.read_parquet(shard).filter(pl.col("status") == "ok").head(1)
+    store = br.Campaign.open(folder)._store
+    shard.unlink()
+    store.write("results", rows.with_columns(simd=pl.lit("another")))
+    with pytest.warns(
+        br.CampaignWarning, match=r"ran on the vector instructions .*another.* simd says"
+    ):
+        called_again(folder)

@@ -286,3 +286,36 @@ def test_a_time_limit_ends_a_static_solve() -> None:
         [sys.executable, "-c", program], capture_output=True, text=True, timeout=60.0, check=False
     )
     assert "BudgetError: stopped at t = 0 s: time_limit = 0.3 is spent" in ended.stderr
+
+
+def test_no_first_array_is_a_panic() -> None:
+    """The bindings find numpy as the package is imported: Ctrl-C while they did so was a panic of theirs."""
+    program = (
+        "import sys, ballrace as br\n"
+        "class Interrupted:\n"
+        "    def __getattr__(self, name): raise KeyboardInterrupt\n"
+        "for name in [name for name in sys.modules if name.startswith('numpy') and 'multiarray' in name]:\n"
+        "    sys.modules[name] = Interrupted()\n"
+        "scene = br.presets.deep_groove_6205()\n"
+        "print(br.simulate(scene, duration=1e-3)['outer.ay'].size, br.Model(scene).start('rolling').ndim)"
+    )
+    command = [sys.executable, "-c", program]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=60.0, check=False)
+    assert ended.stdout.split() == ["50", "1"], ended.stderr
+
+
+def test_ctrl_c_while_numpy_is_found_is_ctrl_c() -> None:
+    program = (
+        "import sys, numpy\n"
+        "class Interrupted:\n"
+        "    def __getattr__(self, name): raise KeyboardInterrupt\n"
+        "for name in [name for name in sys.modules if name.startswith('numpy') and 'multiarray' in name]:\n"
+        "    sys.modules[name] = Interrupted()\n"
+        "try:\n"
+        "    import ballrace._arrays\n"
+        "except KeyboardInterrupt:\n"
+        "    print('interrupted')"
+    )
+    command = [sys.executable, "-c", program]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=60.0, check=False)
+    assert ended.stdout == "interrupted\n", ended.stderr

@@ -270,3 +270,12 @@ def test_import_needs_none_of_the_libraries() -> None:
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
     assert told.stdout == "[]\n"
+
+
+@pytest.mark.parametrize("name", ["=1+1", "+x", "-x", "@SUM(A1)", "'=x", "ay", "'ay"])
+def test_a_spreadsheet_takes_no_name_for_a_formula(tmp_path: Path, name: str) -> None:
+    path = tmp_path / "a.csv"
+    br.Recording(columns={name: np.arange(3.0)}, fs=10.0, units={name: "g"}).write(path)
+    header = path.read_text(encoding="utf-8").splitlines()[0].removeprefix("t [s],").strip('"')
+    assert header[0] not in "=+-@"
+    assert list(br.read(path)) == [name]

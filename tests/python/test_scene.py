@@ -561,3 +561,12 @@ def test_repr_says_what_there_is(wheel: s.Scene) -> None:
     assert repr(wheel) == (
         "<Scene 'wheel bearing': 13 + 13 balls; loads: axial, radial; defects: spall; probes: inner, outer>"
     )
+
+
+@pytest.mark.parametrize(
+    "text", [".".join(["a"] * 16_000) + " = 1", "[" + "a . " * 99 + "a]", "a = " + "[" * 9999]
+)
+def test_no_depth_of_a_document_takes_long_or_recurs(text: str) -> None:
+    """16 000 parts took 12 s."""
+    with pytest.raises(br.SceneError, match="not TOML"):
+        s.Scene.from_toml(text)

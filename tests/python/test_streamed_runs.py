@@ -324,3 +324,19 @@ def test_memory_does_not_grow_with_the_record(tmp_path: Path) -> None:
     assert long > 5e8
     assert long > 9 * short
     assert high - low < 0.3 * (long - short), (short, low, long, high)
+
+
+def test_a_record_is_kept_where_no_thread_can_be_started(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As under a limit of address space: 53 s of a run were lost to a thread that only listens to Ctrl-C."""
+    path = tmp_path / "record.parquet"
+    kept = br.simulate(br.presets.deep_groove_6205(), duration=2e-3)
+
+    def none_left(_: object) -> None:
+        raise RuntimeError("can't start new thread")
+
+    monkeypatch.setattr("threading.Thread.start", none_left)
+    br.simulate(br.presets.deep_groove_6205(), duration=2e-3, out=path)
+    monkeypatch.undo()
+    np.testing.assert_array_equal(br.read(path)["outer.ay"], kept["outer.ay"])

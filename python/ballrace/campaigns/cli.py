@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 import re
-import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import presets
 from .._files import as_path
 from .._text import printable
+from .._toml import loads
 from ..errors import CampaignError, SceneError
 from ..options import ARGUMENTS, BUDGET
 from ..scene import Scene
@@ -167,8 +167,8 @@ def read(path: Path) -> dict[str, Any]:
         A file cannot be read.
     """
     try:
-        sweep = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        sweep = loads(path.read_text(encoding="utf-8"))
+    except ValueError as error:
         raise SceneError("sweep", str(path), f"a TOML file ({error})") from error
     known = ("scene", "scenes", *_ARGUMENTS, *_BUILDERS)
     for name in sweep:

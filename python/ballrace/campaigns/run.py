@@ -216,8 +216,8 @@ def campaign(
     SceneWarning
         A number of ``scene`` is one that no bearing is likely to have, or a probe records what cannot move.
     CampaignWarning
-        A column that is no field resembles one; cases of another version are there; files were damaged, and
-        their cases run again.
+        A column that is no field resembles one; cases of another version, or that ran on other vector instructions,
+        are there; files were damaged, and their cases run again; a worker died, and its cases are tried again.
 
     Examples
     --------
@@ -287,6 +287,7 @@ def _run(
         finally:
             teller.end()
         result = Campaign(store)
+        _tell_of_levels(store, result)
         if not (result.manifest["status"] == "missing").any():
             store.write_table("manifest.parquet", result.manifest)
     return result
@@ -343,6 +344,17 @@ def _record_unusable(plan: Plan, store: Store, indices: list[int]) -> None:
     cases = [plan.cases.cases[i] for i in indices]
     rows = [row(case.id, record_of(case.error)) for case in cases if case.error is not None]
     store.write("results", pl.DataFrame(rows, schema=schema()).sort("case_id"))
+
+
+def _tell_of_levels(store: Store, result: Campaign) -> None:
+    """Warn where cases ran on different vector instructions, as after a move to another machine."""
+    levels = sorted(result.manifest["simd"].drop_nulls().unique())
+    if len(levels) > 1:
+        text = (
+            f"{store.root}: cases ran on the vector instructions {' and '.join(levels)}, which differ in the last "
+            "bits: compare features, not samples (the column simd says which)"
+        )
+        warnings.warn(printable(text), CampaignWarning, stacklevel=4)
 
 
 def _set_aside(store: Store, damaged: list[Path]) -> None:

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 _HEADER = re.compile(r"^(?P<name>.*?)\s*[\[(](?P<unit>[^\])]*)[\])]$")
 """A name with its unit: ``ay [m/s^2]``, ``Time (ms)``."""
 
+_FORMULA = re.compile(r"^'*[=+@\t\r-]")
+"""How a cell begins that a spreadsheet takes for a formula, which may do anything; a quote makes it text."""
+
 _NUMBER = re.compile(r"^[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?$|^[+-]?(nan|inf)$", re.IGNORECASE)
 
 
@@ -33,7 +36,8 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
     columns = {"t [s]": np.arange(count) / (samples.fs or 1.0)}
     for name, x in samples.columns.items():
         unit = samples.units.get(name)
-        columns[f"{name} [{unit}]" if unit else name] = x
+        told = f"{name} [{unit}]" if unit else name
+        columns[f"'{told}" if _FORMULA.match(told) else told] = x
     with writing_to(path):
         pl.DataFrame(columns).write_csv(temporary)
 
@@ -60,6 +64,7 @@ def read(path: Path) -> Samples:
     columns = {}
     for place, column in enumerate(table.get_columns()):
         name = names[place] if headed else f"column_{place + 1}"
+        name = name[1:] if name.startswith("'") and _FORMULA.match(name) else name
         if found := _HEADER.match(name):
             name, units[found["name"]] = found["name"], found["unit"]
         columns[name] = column

@@ -12,6 +12,7 @@ from typing import Any, Literal
 from .. import _core
 from .._document import LEFT_OUT, Part, decode, encode
 from .._files import as_path
+from .._toml import check_depth, loads
 from ..errors import SceneError
 from .approximations import Approximations
 from .bearing import Ring, Row
@@ -139,11 +140,13 @@ class Scene(Part):
             Names the first field that is unknown, missing or not usable.
         """
         try:
+            check_depth(text)
+        except ValueError as error:
+            raise SceneError("scene", "not TOML that is read", str(error)) from None
+        try:
             return cls._read(_core.scene_from_toml(text))
         except SceneError as error:
-            import tomllib
-
-            raise _newer(error, tomllib.loads, text) from None
+            raise _newer(error, loads, text) from None
 
     @classmethod
     def from_json(cls, text: str) -> Scene:
