@@ -93,11 +93,73 @@ def test_a_killed_process_breaks_the_pool_and_loses_nothing(
         with pytest.raises(
             br.CampaignError, match=r"BrokenProcessPool.*cases are safe in"
         ) as caught:
-            run(table(COUNT), tmp_path, duration=LONGER, executor=pool, progress=kill)
+            run(table(COUNT), tmp_path, duration=LONGER, executor=pool, progress=kill, retries=0)
     safe = br.Campaign.open(tmp_path).manifest["status"].ne("missing").sum()
     assert f"; {safe} of {COUNT} cases are safe" in str(caught.value)
     assert 10 <= safe < COUNT
     assert same(run(table(COUNT), tmp_path, duration=LONGER), whole)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals are sent in another way there")
+def test_a_campaign_goes_on_in_a_new_pool(whole: br.Campaign, tmp_path: Path) -> None:
+    seen: list[Progress] = []
+    with spawning(2) as pool:
+
+        def kill(progress: Progress) -> None:
+            if progress.done >= 10 and not any(before.done >= 10 for before in seen):
+                for pid in list(pool._processes):
+                    os.kill(pid, signal.SIGKILL)
+            seen.append(progress)
+
+        with pytest.warns(br.CampaignWarning, match=r"BrokenProcessPool.* are tried again"):
+            done = run(table(COUNT), tmp_path, duration=LONGER, executor=pool, progress=kill)
+    assert same(done, whole)
+    assert (seen[-1].done, seen[-1].failed) == (COUNT, 1)
+
+
+def dies_at(load: float) -> None:
+    """Have this process end as it comes to a case of that load; the initialiser of a worker."""
+    worker: Any = spread
+    run_here = worker.run_here
+
+    def ending(store: Any, cases: Any, *args: Any) -> None:
+        loads = [json.loads(case[1])["loads"]["radial"]["force"] for case in cases]
+        run_here(store, cases[: loads.index(load)] if load in loads else cases, *args)
+        if load in loads:
+            os._exit(9)
+
+    worker.run_here = ending
+
+
+def test_a_case_that_ends_its_worker_becomes_a_failed_row(tmp_path: Path) -> None:
+    """Found among others that run beside it, all of which end well, and not tried for ever."""
+    seen: list[Progress] = []
+    context = multiprocessing.get_context("spawn")
+    with (
+        ProcessPoolExecutor(2, context, initializer=dies_at, initargs=(500.0,)) as pool,
+        pytest.warns(br.CampaignWarning, match="tried again"),
+    ):
+        done = run(table(12), tmp_path, executor=pool, progress=seen.append)
+    (row,) = done.manifest.filter(error="CampaignError").iter_rows(named=True)
+    assert row["loads.radial.force"] == 500.0
+    assert "so it did whenever it ran this case" in row["message"]
+    assert done.manifest["status"].to_list().count("ok") == 10
+    assert (seen[-1].done, seen[-1].failed) == (12, 2)
+    again: list[Progress] = []
+    run(table(12), tmp_path, progress=again.append)
+    assert not again or again[-1].done == 0, "it is known to fail"
+
+
+def test_a_case_that_ends_its_worker_is_raised_if_asked_for(tmp_path: Path) -> None:
+    context = multiprocessing.get_context("spawn")
+    cases = table(6).tail(5)
+    with (
+        ProcessPoolExecutor(2, context, initializer=dies_at, initargs=(300.0,)) as pool,
+        pytest.warns(br.CampaignWarning, match="tried again"),
+        pytest.raises(br.CampaignError, match="whenever it ran this case"),
+    ):
+        run(cases, tmp_path, executor=pool, on_error="raise")
+    assert run(cases, tmp_path).manifest["status"].to_list() == ["ok"] * 5
 
 
 FORKED = """

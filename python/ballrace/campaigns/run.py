@@ -8,6 +8,7 @@ import os
 import warnings
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
 
+from .._document import counted
 from .._features import feature_options
 from .._files import as_path
 from .._text import printable
@@ -15,6 +16,7 @@ from ..errors import CampaignError, CampaignWarning, SceneError
 from ..options import BUDGET, DECIDING, Run, document
 from .cases import Cases
 from .estimate import Estimate, estimate
+from .handout import Handout
 from .locks import hold, in_turn
 from .plan import (
     Plan,
@@ -27,9 +29,9 @@ from .plan import (
 )
 from .progress import Counts, Progress, Teller
 from .result import Campaign
-from .spread import executor_of, run_spread, tasks_on_a_machine
-from .store import Store, schema, set_aside
-from .work import Job, check_process, record_of, row, run_here
+from .spread import Spread, executor_of, tasks_on_a_machine
+from .store import Store, set_aside
+from .work import Job, check_process, record_failed, run_here
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -61,6 +63,7 @@ class _Options(TypedDict, total=False):
     threads: int | None
     executor: Any
     in_flight: int | None
+    retries: int
     shard: tuple[int, int]
     resume: Literal["auto", "strict", False]
     on_error: Literal["record", "raise"]
@@ -108,6 +111,7 @@ def campaign(
     threads: int | None = None,
     executor: Any = None,
     in_flight: int | None = None,
+    retries: int = 1,
     shard: tuple[int, int] = (0, 1),
     resume: Literal["auto", "strict", False] = "auto",
     on_error: Literal["record", "raise"] = "record",
@@ -174,6 +178,10 @@ def campaign(
         counted as on one, those of Dask by the addresses of its workers, of others only what a task takes.
     in_flight : int, optional
         Tasks handed to the executor at most; by default two for each of its workers.
+    retries : int
+        How often a case is tried again, by itself in a new pool, if its worker died, as of too little memory; if
+        it dies again the case is a row with a CampaignError. 0: a worker's death ends the campaign. Of executors
+        other than Dask and :class:`concurrent.futures.ProcessPoolExecutor` a broken pool always does.
     shard : tuple of int, int
         ``(i, n)`` runs every n-th case from the i-th, i from 0: n such calls, in any places at any times,
         make up the whole.
@@ -216,8 +224,8 @@ def campaign(
     SceneWarning
         A number of ``scene`` is one that no bearing is likely to have, or a probe records what cannot move.
     CampaignWarning
-        A column that is no field resembles one; cases of another version, or that ran on other vector instructions,
-        are there; files were damaged, and their cases run again; a worker died, and its cases are tried again.
+        A column that is no field resembles one; there are cases of another version, or that ran on other vector
+        instructions; files were damaged, and their cases run again; a worker died, and its cases are tried again.
 
     Examples
     --------
@@ -256,6 +264,7 @@ def campaign(
             keep_signals=keep == "signals",
             features=json.dumps(features),
             raise_errors=on_error == "raise",
+            retries=counted("retries", retries, 0),
         ),
         executor=engine,
         workers=workers,
@@ -319,7 +328,8 @@ def _work(
     unusable = [i for i in missing if plan.cases.cases[i].error is not None]
     todo = [i for i in missing if plan.cases.cases[i].error is None]
     if unusable:
-        _record_unusable(plan, store, unusable)
+        failed = [(plan.cases.cases[i].id, plan.cases.cases[i].error) for i in unusable]
+        record_failed(store, [(case_id, error) for case_id, error in failed if error is not None])
     refused = Counts(len(unusable), len(unusable))
     if unusable:
         teller.tell(refused)
@@ -332,18 +342,8 @@ def _work(
         run_here(store, documents, plan.job, told)
     else:
         most = in_flight or 2 * (plan.workers or os.cpu_count() or 1)
-        run_spread(
-            store, documents, len(todo), plan.job,
-            executor=plan.executor, in_flight=most, told=told,
-        )  # fmt: skip
-
-
-def _record_unusable(plan: Plan, store: Store, indices: list[int]) -> None:
-    from .._polars import pl
-
-    cases = [plan.cases.cases[i] for i in indices]
-    rows = [row(case.id, record_of(case.error)) for case in cases if case.error is not None]
-    store.write("results", pl.DataFrame(rows, schema=schema()).sort("case_id"))
+        handout = Handout(documents, len(todo), plan.job.retries)
+        Spread(store, handout, plan.job, executor=plan.executor, in_flight=most, told=told).run()
 
 
 def _tell_of_levels(store: Store, result: Campaign) -> None:

@@ -6,23 +6,26 @@ import json
 import math
 import time
 import uuid
+import warnings
 from collections import Counter
-from concurrent.futures import FIRST_COMPLETED, Future, wait
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
 from contextlib import suppress
 from dataclasses import asdict
-from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 from urllib.parse import urlsplit
 
 from .._core import available_threads
-from ..errors import BallraceError, CampaignError, from_record
+from .._text import printable
+from ..errors import BallraceError, CampaignError, CampaignWarning, from_record
+from .handout import Handout, has_died, pool_like
 from .progress import Counts
 from .store import Store
-from .work import Job, check_process, run_here, version
+from .work import Job, check_process, record_failed, run_here, version
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable
+    from concurrent.futures import ProcessPoolExecutor
 
     from .work import Document
 
@@ -36,7 +39,7 @@ _MOST = 1000
 class Executor(Protocol):
     """What :mod:`concurrent.futures` calls an executor."""
 
-    def submit(self, fn: Callable[[str], str], /, text: str) -> Future[str]:
+    def submit(self, fn: Callable[[str], str], text: str, /) -> Future[str]:
         """Have ``fn(text)`` called somewhere."""
 
 
@@ -77,56 +80,142 @@ def tasks_on_a_machine(given: Any) -> int:
     return getattr(given, "_max_workers", None) or 1
 
 
-def run_spread(
-    store: Store,
-    cases: Iterator[Document],
-    count: int,
-    job: Job,
-    *,
-    executor: Executor,
-    in_flight: int,
-    told: Callable[[Counts], object],
-) -> None:
-    """Run ``count`` cases on an executor; workers write into the store and return counts.
+class Spread:
+    """Cases on an executor; workers write into the store and return counts.
 
     The first tasks have one case each; later ones as many as fit into twenty seconds, and fewer towards the end,
     so that all workers end together.
     """
-    stop = uuid.uuid4().hex
-    common = {
-        "root": str(store.root), "key": store.key, "version": version(), "job": asdict(job),
-        "stop": stop,
-    }  # fmt: skip
-    pending: set[Future[str]] = set()
-    counts, handed = Counts(), 0
-    seconds = 0.0
-    try:
-        while True:
-            while len(pending) < in_flight and handed < count:
-                mean = seconds / counts.done if counts.done else None
-                size = _size(mean, job.threads, count - handed, in_flight)
-                chunk = list(islice(cases, size))
-                handed += len(chunk)
-                pending.add(executor.submit(run_task, json.dumps({**common, "cases": chunk})))
-            if not pending:
-                return
-            ended, pending = wait(pending, timeout=0.1, return_when=FIRST_COMPLETED)
-            _check_scheduler(executor)
-            for future in ended:
-                result = _result(future)
-                counts = counts.plus(Counts(*result["counts"]))
-                seconds += result["wall_time"]
-                told(counts)
-                if result["error"]:
-                    raise from_record(result["error"])
-            told(counts)
-    finally:
-        for future in pending:
+
+    def __init__(
+        self,
+        store: Store,
+        handout: Handout,
+        job: Job,
+        *,
+        executor: Executor,
+        in_flight: int,
+        told: Callable[[Counts], object],
+    ) -> None:
+        self._store, self._handout, self._job = store, handout, job
+        self._executor, self._in_flight, self._told = executor, in_flight, told
+        self._own: ProcessPoolExecutor | None = None
+        self._stop = uuid.uuid4().hex
+        self._pending: dict[Future[str], list[Document]] = {}
+        self._counts = Counts()
+        self._seconds = 0.0
+
+    def run(self) -> None:
+        """Run all cases."""
+        try:
+            while self._hand_out():
+                ended = wait(self._pending, timeout=0.1, return_when=FIRST_COMPLETED).done
+                _check_scheduler(self._executor)
+                self._take(ended)
+                self._told(self._counts)
+        finally:
+            self._end()
+
+    def _hand_out(self) -> bool:
+        """Hand out as much as may be in progress, and say whether anything is."""
+        while len(self._pending) < self._in_flight:
+            mean = self._seconds / self._counts.done if self._counts.done else None
+            size = _size(mean, self._job.threads, self._handout.left, self._in_flight)
+            chunk = self._handout.next(size, is_idle=not self._pending)
+            if not chunk:
+                break
+            self._pending[self._submitted(chunk)] = chunk
+        return bool(self._pending)
+
+    def _submitted(self, chunk: list[Document]) -> Future[str]:
+        task = {
+            "root": str(self._store.root), "key": self._store.key, "version": version(),
+            "job": asdict(self._job), "stop": self._stop, "cases": chunk,
+        }  # fmt: skip
+        try:
+            return self._executor.submit(run_task, json.dumps(task))
+        except BrokenExecutor as error:
+            # It broke since the last look: this chunk is lost as those are that it had.
+            failed: Future[str] = Future()
+            failed.set_exception(error)
+            return failed
+
+    def _take(self, ended: Iterable[Future[str]]) -> None:
+        """Take what ended tasks return, and give what dead workers had to others."""
+        lost: list[list[Document]] = []
+        why: BaseException | None = None
+        for future in ended:
+            chunk = self._pending.pop(future)
+            error = future.exception()
+            if error is not None and has_died(error):
+                why = error
+                lost.append(chunk)
+            else:
+                self._account(_result(future))
+                self._handout.back(chunk)
+        if why is not None:
+            self._recover(lost, why)
+
+    def _account(self, result: dict[str, Any]) -> None:
+        self._counts = self._counts.plus(Counts(*result["counts"]))
+        self._seconds += result["wall_time"]
+        self._told(self._counts)
+        if result["error"]:
+            raise from_record(result["error"])
+
+    def _recover(self, lost: list[list[Document]], why: BaseException) -> None:
+        """Go on without a worker that has died, in a new pool if it took its own with it."""
+        text = f"a worker failed: {type(why).__name__}: {why}"
+        if isinstance(why, BrokenExecutor):
+            # All that it had ends so, or has ended well.
+            others = wait(self._pending).done
+            fresh = pool_like(self._executor) if self._job.retries else None
+            if fresh is None:
+                raise CampaignError(text) from why
+            if self._own is not None:
+                self._own.shutdown(wait=False)
+            self._executor = self._own = fresh
+            lost += [self._pending[future] for future in others if future.exception() is not None]
+            for future in others:
+                chunk = self._pending.pop(future)
+                if future.exception() is None:
+                    self._account(_result(future))
+                    self._handout.back(chunk)
+        elif not self._job.retries:
+            raise CampaignError(text) from why
+        self._give_again(lost, text)
+
+    def _give_again(self, lost: list[list[Document]], text: str) -> None:
+        ids = {case[0] for chunk in lost for case in chunk}
+        there = self._store.results([])
+        rows = there.filter(there["case_id"].is_in(list(ids)))
+        blamed = self._handout.lost(lost, set(rows["case_id"]))
+        failed = int((rows["status"] == "failed").sum())
+        warned = rows.height - rows["warnings"].null_count()
+        self._counts = self._counts.plus(Counts(rows.height, failed, warned))
+        left = len(ids) - rows.height - len(blamed)
+        if left:
+            warnings.warn(
+                printable(f"{text}; {left} cases that it may have had are tried again"),
+                CampaignWarning,
+                stacklevel=2,
+            )
+        if blamed:
+            error = CampaignError(f"{text}; so it did whenever it ran this case")
+            if self._job.raise_errors:
+                raise error
+            record_failed(self._store, [(case[0], error) for case in blamed])
+            self._counts = self._counts.plus(Counts(len(blamed), len(blamed)))
+
+    def _end(self) -> None:
+        for future in self._pending:
             future.cancel()
-        if pending:
+        if self._pending:
             # What a worker has taken cannot be cancelled; it looks for this file, which the next call sweeps.
             with suppress(OSError):
-                _stopped(store, stop).touch()
+                _stopped(self._store, self._stop).touch()
+        if self._own is not None:
+            self._own.shutdown(cancel_futures=True)
 
 
 def _check_scheduler(executor: Any) -> None:

@@ -42,6 +42,8 @@ class Job:
         Options of the features, as JSON.
     raise_errors : bool
         Whether the error of the first case that fails is raised instead of recorded.
+    retries : int
+        How often a case is tried again, alone, whose worker died.
     """
 
     threads: int
@@ -49,6 +51,7 @@ class Job:
     keep_signals: bool
     features: str
     raise_errors: bool
+    retries: int = 0
 
 
 _PROCESS = os.getpid()
@@ -223,6 +226,14 @@ def record_of(error: BallraceError) -> dict[str, Any]:
     """Return the record of a case that failed before it ran."""
     told = {"class": type(error).__name__, "message": str(error), "arguments": list(error.args)}
     return {"error": told, "wall_time": 0.0}
+
+
+def record_failed(store: Store, failed: Iterable[tuple[str, BallraceError]]) -> None:
+    """Write rows of cases that failed without a run, by their ids."""
+    from .._polars import pl
+
+    rows = [row(case_id, record_of(error)) for case_id, error in failed]
+    store.write("results", pl.DataFrame(rows, schema=schema()).sort("case_id"))
 
 
 def _results(rows: list[dict[str, Any]]) -> Any:
