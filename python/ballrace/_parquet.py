@@ -73,7 +73,7 @@ def read_sealed(
     """
     from ._polars import pl
 
-    _check_file(path)
+    is_sealed(path)
     if check is not None:
         check(path)
     table = _unless_damaged(lambda: heard_once(lambda: pl.read_parquet(path, glob=False)))
@@ -92,7 +92,7 @@ def scan_sealed(path: Path) -> dict[str, str]:
     """
     from ._polars import pl
 
-    _check_file(path)
+    is_sealed(path)
     return _unless_damaged(lambda: pl.read_parquet_metadata(path))
 
 
@@ -150,7 +150,14 @@ def to_bytes(
     return buffer.getvalue()
 
 
-def _check_file(path: Path) -> None:
+def is_sealed(path: Path) -> bool:
+    """Check a file against its hash, and say whether it has one.
+
+    Raises
+    ------
+    ValueError
+        It is damaged.
+    """
     with path.open("rb") as file:
         size = file.seek(0, io.SEEK_END)
         start = size - _TAIL - _footer(file, size) - len(_MARK) - _SIZE
@@ -158,10 +165,11 @@ def _check_file(path: Path) -> None:
         if start < 0 or file.read(len(_MARK)) != _MARK:
             if _has_mark(file):
                 raise ValueError("its end is not what was written")
-            return
+            return False
         written, footer = file.read(_SIZE), file.read()
         if _hash(file, start, footer) != written:
             raise ValueError("its content is not what was written")
+        return True
 
 
 def _has_mark(file: BinaryIO) -> bool:

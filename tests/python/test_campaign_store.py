@@ -21,6 +21,7 @@ import pytest
 
 import ballrace as br
 from ballrace.campaigns import Progress
+from ballrace.campaigns.description import NAMES
 from ballrace.campaigns.locks import hold
 from ballrace.campaigns.work import Job, run_here
 from sweeps import SCENE, comparable, finished, run, same, table
@@ -353,7 +354,7 @@ def test_names_come_from_hashes_only(tmp_path: Path) -> None:
     names = {
         path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()
     }
-    fixed = {"campaign.json", "cases.parquet", "manifest.parquet", "locks/0-of-1"}
+    fixed = {*NAMES, "cases.parquet", "manifest.parquet", "locks/0-of-1"}
     assert {
         name for name in names if not re.fullmatch(r"runs/(results|signals)/\w{32}\.parquet", name)
     } == {f"runs/{name}" for name in fixed}

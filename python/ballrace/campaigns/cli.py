@@ -262,6 +262,6 @@ def _file(path: Path) -> pl.DataFrame:
                 return pl.read_csv(path.read_bytes())
             case ".parquet":
                 return pl.read_parquet(path.read_bytes())
-    except pl.exceptions.PolarsError as error:
+    except (pl.exceptions.PolarsError, pl.exceptions.PanicException) as error:
         raise SceneError("table", str(path), f"a {path.suffix} table ({error})") from error
     raise SceneError("table", str(path), "a file that ends in .csv or .parquet")

@@ -102,6 +102,7 @@ class Store:
         OSError
             The folder cannot be made or written to.
         """
+        root.mkdir(parents=True, exist_ok=True)
         if description.sound(root)[0] is None:
             cls._found(root, identity)
         store = cls.opened(root, identity)
@@ -126,7 +127,6 @@ class Store:
     @staticmethod
     def _found(root: Path, identity: Mapping[str, Any]) -> None:
         """Make the folder of a campaign; of several processes one does, in one step: that of its description."""
-        root.mkdir(parents=True, exist_ok=True)
         wrong = description.sound(root)[1]
         strangers = sorted(path.name for path in root.iterdir() if not _is_ours(path.name))
         # What is there may be of a process that was faster.
@@ -326,7 +326,8 @@ def _readmit(root: Path, wrong: Mapping[str, str], wanted: Mapping[str, Any]) ->
     Their cases are known by the hash of scene and run, so those of another campaign do no harm; what was computed
     with other options of the features is set aside.
     """
-    lost = [root / name for name in wrong if (root / name).exists()]
+    # Those that were missing may be there now, of a process that was faster.
+    lost = [root / name for name, why in wrong.items() if why != "missing"]
     set_aside(lost)
     results = [root / "results" / name for name in names(root, "results")]
     if not lost and not results:

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import spectra
-from .._files import check_writable
+from .._files import PARQUET, check_writable
+from .._parquet import is_sealed
 from .._text import printable
 from .._whole import whole
 from ..campaigns import Campaign
@@ -154,17 +155,14 @@ def _spectrum(options: argparse.Namespace) -> None:
 def read_columns(path: Path, fs: float | None = None) -> Columns:
     """Read a run, which knows its scene, or a record, whose sampling rate may have to be told [Hz]."""
     try:
-        return (
-            Signals.read_parquet(path)
-            if path.suffix.lower() in (".parquet", ".pq", "")
-            else read(path, fs)
-        )
+        # One without a hash is a stranger's, and read apart.
+        if path.suffix.lower() in PARQUET and is_sealed(path):
+            return Signals.read_parquet(path)
     except SceneError:
         raise
-    except Exception as error:
-        if type(error).__name__ != "FileError":
-            raise
-        return read(path, fs)
+    except ValueError:
+        pass  # damaged, or a record: reading it tells
+    return read(path, fs)
 
 
 def _rates(out: Columns, bearing: str | None, rpm: float | None) -> FaultFrequencies | None:
