@@ -127,7 +127,7 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub table_forces: BTreeMap<String, TableForce>,
     /// Forces on rings by code of a program's own; a document has none.
-    #[serde(default, skip_serializing_if = "RingForces::is_empty")]
+    #[serde(skip_deserializing, skip_serializing_if = "RingForces::is_empty")]
     pub ring_forces: RingForces,
     /// Defects by name.
     #[serde(default)]

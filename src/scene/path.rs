@@ -15,7 +15,14 @@ pub(super) enum Segment {
 }
 
 /// Parts of a scene whose entries have names chosen by the user.
-const NAMED: [&str; 5] = ["loads", "moments", "unbalances", "defects", "probes"];
+const NAMED: [&str; 6] = [
+    "loads",
+    "moments",
+    "unbalances",
+    "table_forces",
+    "defects",
+    "probes",
+];
 
 /// Replaces the value at `path`. The place must exist (`null` counts as existing), or be a new name among loads,
 /// moments, unbalances, defects or probes.

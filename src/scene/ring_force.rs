@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+use serde::{Serialize, Serializer};
 
 use super::RingName;
 
@@ -103,7 +103,7 @@ pub trait RingForce: Debug + Send + Sync {
 
 /// Forces on rings by name, each with code of its own.
 ///
-/// A document has their names only, and is not read again while it has any: forces are given to the scene that was read.
+/// A document has their names only, and is refused while it has: forces are given to the scene that was read.
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
 pub struct RingForces(BTreeMap<String, Arc<dyn RingForce>>);
@@ -138,18 +138,5 @@ impl PartialEq for RingForces {
 impl Serialize for RingForces {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(self.0.keys())
-    }
-}
-
-impl<'de> Deserialize<'de> for RingForces {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let names = Vec::<String>::deserialize(deserializer)?;
-        if names.is_empty() {
-            return Ok(Self::default());
-        }
-        let names = names.join(", ");
-        Err(de::Error::custom(format!(
-            "none: {names} is code of the program that wrote the document; take the field out and give the forces to the scene"
-        )))
     }
 }

@@ -118,6 +118,15 @@ def every_field() -> s.Scene:
             ),
         },
         unbalances={"rotor": s.Unbalance(ring="inner", moment=1e-4, angle=0.4)},
+        table_forces={
+            "pull": s.TableForce(
+                ring="inner",
+                direction=(0.0, 1.0, 0.0),
+                places=(-1e-4, 1e-4),
+                forces=(-10.0, 10.0),
+                damping=5.0,
+            )
+        },
         defects={
             "outer": defect,
             "inner": dataclasses.replace(defect, on="inner_race", width=1e-3),
