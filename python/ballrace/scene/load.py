@@ -111,8 +111,9 @@ class TableForce(Part):
     ...         ),
     ...     }
     ... )
-    >>> round(1e6 * br.equilibrium(scene).outer[1], 1)  # 800 N over 20 N/µm
-    -40.0
+    >>> sunk = br.equilibrium(scene).outer[1]
+    >>> f"{1e6 * sunk:.1f} µm"  # 800 N over 20 N/µm
+    '-40.0 µm'
     """
 
     ring: RingName
