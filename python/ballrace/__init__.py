@@ -43,14 +43,14 @@ if TYPE_CHECKING:
     from .datasets import BearingDataset, bearing_split, read_bearing_dataset
     from .diagnosis import Diagnosis, diagnose
     from .explanation import Explanation, explain
-    from .friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf
-    from .life import RatingLife, rating_life
-    from .life_factor import LifeFactor
+    from .frequencies.operating import FaultFrequencies, fault_frequencies
     from .machines import pair, shaft
     from .measuring import measure
     from .model import Model
-    from .operating import FaultFrequencies, fault_frequencies
     from .options import Run
+    from .ratings.friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf
+    from .ratings.life import RatingLife, rating_life
+    from .ratings.life_factor import LifeFactor
     from .recordings import Recording, read
     from .run import simulate
     from .signals import Record, Signals, Touched
@@ -76,16 +76,20 @@ else:
             "datasets": ("BearingDataset", "bearing_split", "read_bearing_dataset"),
             "diagnosis": ("Diagnosis", "diagnose"),
             "explanation": ("Explanation", "explain"),
-            "friction": ("FrictionTorque", "friction_torque_palmgren", "friction_torque_skf"),
+            "frequencies.operating": ("FaultFrequencies", "fault_frequencies"),
             "learn": (),
-            "life": ("RatingLife", "rating_life"),
-            "life_factor": ("LifeFactor",),
             "machines": ("pair", "shaft"),
             "measuring": ("measure",),
             "model": ("Model",),
-            "operating": ("FaultFrequencies", "fault_frequencies"),
             "options": ("Run",),
             "plot": (),
+            "ratings.friction": (
+                "FrictionTorque",
+                "friction_torque_palmgren",
+                "friction_torque_skf",
+            ),
+            "ratings.life": ("RatingLife", "rating_life"),
+            "ratings.life_factor": ("LifeFactor",),
             "recordings": ("Recording", "read"),
             "run": ("simulate",),
             "signals": ("Record", "Signals", "Touched"),

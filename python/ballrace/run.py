@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Literal, ParamSpec, TypeAlias
 import numpy as np
 
 from . import _core
-from ._files import as_path, check_output
+from ._io.files import as_path, check_output
+from ._io.record import Scanned, metadata, writing
 from ._progress import Bar
-from ._record import Scanned, metadata, writing
 from ._text import printable
 from .errors import AccuracyWarning, SceneError, SceneWarning
 from .options import Run

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from . import _core
 from ._features import feature_options
-from ._files import PARQUET, as_path
 from ._interrupt import heard_once
-from ._parquet import read_sealed, scan_sealed, seal, writing_to
-from ._record import Scanned, described, metadata, samples, unless_damaged
+from ._io.files import PARQUET, as_path
+from ._io.parquet import read_sealed, scan_sealed, seal, writing_to
+from ._io.record import Scanned, described, metadata, samples, unless_damaged
+from ._io.whole import whole
 from ._text import printable
-from ._whole import whole
 from .recordings.columns import Columns, no_column
 from .recordings.samples import Samples
 from .recordings.scenes import origin_of, shaft_of

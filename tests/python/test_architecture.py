@@ -27,7 +27,7 @@ def modules() -> dict[str, Path]:
 
 
 STANDING = {
-    ("ballrace._record", "ballrace.signals"),
+    ("ballrace._io.record", "ballrace.signals"),
     ("ballrace.bearings.entry", "ballrace.bearings.estimate"),
     ("ballrace.signals", "ballrace.report"),
     ("ballrace.campaigns.result", "ballrace.report"),

@@ -17,7 +17,7 @@ import polars as pl
 import pytest
 
 import ballrace as br
-from ballrace._whole import grab
+from ballrace._io.whole import grab
 from ballrace.campaigns import Progress, disk
 from ballrace.campaigns.store import Store
 from sweeps import run, same, table

@@ -20,7 +20,7 @@ import ballrace as br
 from ballrace.bearings.clearance import radial_clearance
 from ballrace.bearings.entry import Kind
 from ballrace.bearings.estimate import BALLS
-from ballrace.load_rating import F0, FC, dynamic_rating, static_rating
+from ballrace.ratings.load_rating import F0, FC, dynamic_rating, static_rating
 from reference import hertz
 
 ROWS = list(br.catalogue.values())

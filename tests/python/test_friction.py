@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 import ballrace as br
-from ballrace.friction import CONSTANTS
+from ballrace.ratings.friction import CONSTANTS
 from oils import astm_d341
 
 OF_6205: dict[str, Any] = {"bore": 25e-3, "outside_diameter": 52e-3}

@@ -166,7 +166,7 @@ CALLS = {
 LARGE = """
 import tempfile
 import ballrace as br
-from ballrace._parquet import _MARK
+from ballrace._io.parquet import _MARK
 file = tempfile.NamedTemporaryFile()
 file.seek(8 << 30)
 file.write(_MARK + bytes(16) + bytes(4) + b"PAR1")

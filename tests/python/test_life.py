@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import ballrace as br
-from ballrace.life_factor import _factor
-from ballrace.load_rating import row_rating
+from ballrace.ratings.life_factor import _factor
+from ballrace.ratings.load_rating import row_rating
 from ballrace.scene import Moment, Ramp, Sine, SpeedDrive, Table
 
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import ballrace as br
-from ballrace._whole import whole
+from ballrace._io.whole import whole
 from faults import WRITING, failing
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def test_a_new_file_has_the_mode_of_any_new_file(tmp_path: Path) -> None:
 @posix
 def test_what_killed_writers_left_is_removed_by_the_next_of_that_name(tmp_path: Path) -> None:
     program = (
-        "import os, signal, sys; from ballrace._whole import whole\n"
+        "import os, signal, sys; from ballrace._io.whole import whole\n"
         "with whole(sys.argv[1]) as temporary:\n"
         "    temporary.write_text('half'); temporary.with_name('part').write_text('x')\n"
         "    os.kill(os.getpid(), signal.SIGKILL)"

@@ -12,8 +12,8 @@ from typing import cast, get_args
 
 from .._numbers import real
 from ..errors import SceneError
-from ..frequencies import Orders, orders
-from ..load_rating import dynamic_rating, static_rating
+from ..frequencies.kinematic import Orders, orders
+from ..ratings.load_rating import dynamic_rating, static_rating
 from .entry import Bearing, Kind, Uncertainty
 from .sources import CONFORMITY, Sources
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from ..frequencies import Orders, orders
+from ..frequencies.kinematic import Orders, orders
 
 __all__ = ["why_not"]
 

@@ -1,30 +1,30 @@
 """Campaigns: a table of load cases in, a table of results out.
 
 :func:`~ballrace.campaigns.run.campaign` is the one call. Everything else either builds its table
-(:func:`~ballrace.campaigns.tables.grid`, :func:`~ballrace.campaigns.tables.latin_hypercube`,
-:func:`~ballrace.campaigns.tables.sobol`, :func:`~ballrace.campaigns.bearings.scatter`) or reads what came of it
+(:func:`~ballrace.campaigns.designs.grid`, :func:`~ballrace.campaigns.designs.latin_hypercube`,
+:func:`~ballrace.campaigns.designs.sobol`, :func:`~ballrace.campaigns.bearings.scatter`) or reads what came of it
 (:class:`~ballrace.campaigns.result.Campaign`).
 
-============  =====================================================================
-``cases``     a table and its scenes: what each row means, and its case id
-``reading``   tables of any kind, and suggestions for unknown columns
-``store``     the folder: shards are checked, and set aside if damaged
-``describe`` makes a folder that of one campaign, sealed, in two copies
-``verify``    every byte of a folder checked
-``disk``      files that are complete or absent
-``work``      cases run in this process, results written as they finish
-``spread``    the same work given to an executor, chunk by chunk
-============  =====================================================================
+===============  =====================================================================
+``cases``        a table and its scenes: what each row means, and its case id
+``frames``       tables of any kind, and suggestions for unknown columns
+``store``        the folder: shards are checked, and set aside if damaged
+``description``  makes a folder that of one campaign, sealed, in two copies
+``verify``       every byte of a folder checked
+``disk``         files that are complete or absent
+``work``         cases run in this process, results written as they finish
+``executors``    the same work given to an executor, chunk by chunk
+===============  =====================================================================
 """
 
 from __future__ import annotations
 
 from .bearings import scatter
+from .designs import grid, latin_hypercube, sobol
 from .estimate import Estimate
 from .progress import Progress
 from .result import Campaign
 from .run import campaign
-from .tables import grid, latin_hypercube, sobol
 from .verify import verify
 
 __all__ = [

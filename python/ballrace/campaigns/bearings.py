@@ -10,7 +10,7 @@ import numpy as np
 from .._document import counted
 from .._numbers import real
 from ..errors import SceneError
-from .tables import counted_cases
+from .designs import counted_cases
 
 if TYPE_CHECKING:
     import polars as pl

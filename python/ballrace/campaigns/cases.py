@@ -15,7 +15,7 @@ from .._document import encode
 from ..errors import SceneError
 from ..options import BUDGET, DECIDING, EMPTY, document
 from ..scene import Scene
-from .reading import rows_of
+from .frames import rows_of
 from .store import BASE
 
 if TYPE_CHECKING:

@@ -8,16 +8,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import presets
-from .._files import as_path
+from .._io.files import as_path
+from .._io.toml import loads
 from .._text import printable
-from .._toml import loads
 from ..errors import CampaignError, SceneError
 from ..options import ARGUMENTS, BUDGET
 from ..scene import Scene
 from .bearings import scatter
+from .designs import check_cases, grid, latin_hypercube, sobol
 from .result import Campaign
 from .run import campaign
-from .tables import check_cases, grid, latin_hypercube, sobol
 from .verify import verify
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ import uuid
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
-from .._whole import grab, sync_folder
+from .._io.whole import grab, sync_folder
 from ..errors import CampaignError
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from .store import Store
 from .work import run_here
 
 if TYPE_CHECKING:
-    from .plan import Plan
+    from .arguments import Plan
 
 __all__ = ["Estimate"]
 

@@ -10,7 +10,7 @@ import warnings
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
-from .._whole import lock
+from .._io.whole import lock
 from ..errors import CampaignError, CampaignWarning
 from .disk import refuse_link
 

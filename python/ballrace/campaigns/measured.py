@@ -16,7 +16,7 @@ from ..errors import AccuracyWarning, SceneError
 from ..measuring.chain import CLIPPED, Measurement
 from ..measuring.chain import measured as by_chain
 from ..measuring.checks import positive
-from ..measuring.tables import Chains, named_chains
+from ..measuring.named import Chains, named_chains
 from ..scene import Scene
 from ..signals import Signals
 from .store import without_empty_errors

@@ -6,8 +6,8 @@ import json
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from .._files import as_path
-from .._parquet import collected
+from .._io.files import as_path
+from .._io.parquet import collected
 from .._text import printable
 from ..errors import SceneError
 from ..scene import Scene
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     import polars as pl
 
-    from ..measuring.tables import Chains
+    from ..measuring.named import Chains
     from ..signals import Signals
 
 __all__ = ["Campaign"]

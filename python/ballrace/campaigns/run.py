@@ -10,15 +10,11 @@ from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
 
 from .._document import counted
 from .._features import feature_options
-from .._files import as_path
+from .._io.files import as_path
 from .._text import printable
 from ..errors import CampaignError, CampaignWarning, SceneError
 from ..options import BUDGET, DECIDING, Run, document
-from .cases import Cases
-from .estimate import Estimate, estimate
-from .handout import Handout
-from .locks import hold, in_turn
-from .plan import (
+from .arguments import (
     Plan,
     at_least_one,
     check_choices,
@@ -27,9 +23,13 @@ from .plan import (
     threads_of,
     warn_of_labels,
 )
+from .cases import Cases
+from .estimate import Estimate, estimate
+from .executors import Spread, executor_of, tasks_on_a_machine
+from .handout import Handout
+from .locks import hold, in_turn
 from .progress import Counts, Progress, Teller
 from .result import Campaign
-from .spread import Spread, executor_of, tasks_on_a_machine
 from .store import Store, set_aside
 from .work import Job, check_process, record_failed, run_here
 

@@ -28,7 +28,7 @@ from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 from warnings import warn
 
-from .._parquet import read_bytes, read_sealed, to_bytes
+from .._io.parquet import read_bytes, read_sealed, to_bytes
 from ..errors import CampaignError, CampaignWarning
 from . import description
 from .disk import put, refuse_link, sweep

@@ -5,8 +5,8 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from .._files import as_path
-from .._parquet import scan_sealed
+from .._io.files import as_path
+from .._io.parquet import scan_sealed
 from ..errors import CampaignError
 from . import description
 from .store import check_shard, names, shard_of_results

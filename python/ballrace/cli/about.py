@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 from .. import _core
 from ..bearings import catalogue
 from ..errors import BallraceError
-from ..operating import fault_frequencies
+from ..frequencies.operating import fault_frequencies
 from ..presets import deep_groove_6205
 from ..run import simulate
 from ..scene.schema import schema
 from .arguments import Commands, added
-from .tables import print_table
+from .text import print_table
 
 if TYPE_CHECKING:
     import argparse

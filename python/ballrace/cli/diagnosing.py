@@ -14,7 +14,7 @@ from ..report.writing import check_page
 from ..scene import Scene
 from .arguments import Commands, added
 from .signals import local, read_columns
-from .tables import print_table
+from .text import print_table
 
 if TYPE_CHECKING:
     import argparse

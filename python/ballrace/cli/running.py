@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
 from .. import presets
-from .._files import check_output
+from .._io.files import check_output
 from .._text import printable
 from ..bearings import bearing
 from ..campaigns.cli import add_budget

@@ -11,23 +11,23 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import spectra
-from .._files import PARQUET, check_writable
-from .._parquet import is_sealed
+from .._io.files import PARQUET, check_writable
+from .._io.parquet import is_sealed
+from .._io.whole import whole
 from .._text import printable
-from .._whole import whole
 from ..campaigns import Campaign
 from ..errors import SceneError
-from ..operating import fault_frequencies, spin_of
+from ..frequencies.operating import fault_frequencies, spin_of
 from ..recordings import read
 from ..signals import Signals
 from .arguments import Commands, added
-from .tables import print_table
+from .text import print_table
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterator
 
-    from ..operating import FaultFrequencies
+    from ..frequencies.operating import FaultFrequencies
     from ..recordings.columns import Columns
 
 __all__ = ["add_commands", "local", "read_columns"]

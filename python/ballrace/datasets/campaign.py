@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..campaigns import Campaign
-    from ..measuring.tables import Chains
+    from ..measuring.named import Chains
     from ..scene import Scene
 
     Rows = Iterator[tuple[dict[str, Any], NDArray[np.float64]]]

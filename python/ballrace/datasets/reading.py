@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._files import as_path
+from .._io.files import as_path
+from .._io.parquet import collected
 from .._numbers import real
-from .._parquet import collected
 from .._polars import pl
 from ..channel import Channel
 from ..errors import FileError

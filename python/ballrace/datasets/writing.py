@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._files import as_path
 from .._interrupt import heard_once
-from .._parquet import writing_to
+from .._io.files import as_path
+from .._io.parquet import writing_to
 from ..errors import SceneError
 from .layout import COLUMNS, SCHEMA_VERSION
 

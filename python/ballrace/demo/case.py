@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from .. import presets
 from .._features import features
-from ..frequencies import of_row
+from ..frequencies.kinematic import of_row
 from ..paper import Zone, zone
 from ..run import simulate
 from ..scene import FixedSlices, Scene, SlicesProbe, SpeedDrive

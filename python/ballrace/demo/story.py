@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..operating import fault_frequencies
+from ..frequencies.operating import fault_frequencies
 from ..report import Page, words
 from ..report.run import add_model, add_provenance
 from .case import COLUMN, passing

@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..frequencies import Orders
+    from ..frequencies.kinematic import Orders
     from .envelopes import Levels
 
 __all__ = ["FACTORS", "PARTS", "WIDTH", "Comb", "Part", "comb_of"]

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, TypeAlias
 from .._numbers import real
 from ..bearings import Bearing, catalogue
 from ..errors import EquilibriumError, SceneError
-from ..frequencies import Orders, of_row, orders
-from ..operating import FaultFrequencies, fault_frequencies
+from ..frequencies.kinematic import Orders, of_row, orders
+from ..frequencies.operating import FaultFrequencies, fault_frequencies
 from ..scene import Row, Scene
 
 if TYPE_CHECKING:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..frequencies import Orders
+    from ..frequencies.kinematic import Orders
     from .combs import Comb
     from .envelopes import Levels
 

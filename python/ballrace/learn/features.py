@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..diagnosis.envelopes import Levels
-    from ..frequencies import Orders
+    from ..frequencies.kinematic import Orders
 
 __all__ = ["features_of", "names_of"]
 

@@ -26,7 +26,7 @@ seed, a stage at a time: leaving one out does not change the noise of another.
 ``tacho``     pulses of a tachometer
 ``mixing``    onto a measured healthy record
 ``chain``     the stages one after the other
-``tables``    several chains, by their names
+``named``     several chains, by their names
 ============  ==================================================================================
 
 Housing and sensor are linear and are applied to the spectrum, the record padded until their ringing has died
@@ -42,8 +42,8 @@ from .housing import Housing, ImpulseResponse, MeasuredResponse, Mode, random_ho
 from .logger import Logger
 from .machine import Machine
 from .mixing import mix_into
+from .named import table
 from .sensor import Sensor
-from .tables import table
 from .tacho import Tacho
 
 __all__ = [

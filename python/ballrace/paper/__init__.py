@@ -26,6 +26,7 @@ How each number is taken:
 """
 
 from .case import Balls, Case, Dynamic, Snapshot, Static
+from .comparison import AXIAL_LOADS, TARGETS, Comparison, Target, compare
 from .measures import (
     ENVELOPE_BAND,
     Zone,
@@ -40,7 +41,6 @@ from .measures import (
 from .report import HEADER, dumps, rows, write
 from .simulations import FS, INSTANT, SETTLED, SIGNALS, dynamic, snapshot, static
 from .study import DURATION, Paper, run
-from .table import AXIAL_LOADS, TARGETS, Comparison, Target, compare
 
 __all__ = [
     "AXIAL_LOADS",

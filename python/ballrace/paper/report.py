@@ -7,11 +7,11 @@ import json
 import math
 from typing import TYPE_CHECKING, Any
 
-from .._files import check_writable
-from .._whole import whole
+from .._io.files import check_writable
+from .._io.whole import whole
 from ..report.page import Page
+from .comparison import AXIAL_LOADS
 from .simulations import SIGNALS
-from .table import AXIAL_LOADS
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -11,9 +11,9 @@ import numpy as np
 
 from .. import presets
 from .case import Case
+from .comparison import AXIAL_LOADS, Comparison, compare
 from .measures import ENVELOPE_BAND
 from .simulations import FS, INSTANT, SIGNALS, VISIBLE, load_case
-from .table import AXIAL_LOADS, Comparison, compare
 
 if TYPE_CHECKING:
     from collections.abc import Callable

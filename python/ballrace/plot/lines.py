@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     import plotly.graph_objects as go
 
-    from ..operating import FaultFrequencies
+    from ..frequencies.operating import FaultFrequencies
     from ..spectra.bands import Fault, FaultBand
 
 __all__ = ["add_lines", "bands_of"]

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import plotly.graph_objects as go
     from numpy.typing import ArrayLike, NDArray
 
-    from ..operating import FaultFrequencies
+    from ..frequencies.operating import FaultFrequencies
     from ..spectra import Kurtogram
     from ..spectra.bands import Fault
     from ..spectra.checks import Given
@@ -192,7 +192,7 @@ def _fault_orders(
     highest: float,
 ) -> None:
     """Draw a line for each harmonic of each fault; orders do not change as the speed does."""
-    from ..operating import fault_frequencies
+    from ..frequencies.operating import fault_frequencies
     from ..spectra import fault_bands
 
     scene = scene_of(of)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ..operating import operating_angle
+from ..frequencies.operating import operating_angle
 from ..scene.defect import extent
 from .outlines import circle, on_groove, outlines
 from .style import COLOURS, finished

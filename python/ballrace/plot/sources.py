@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import operating
 from ..channel import channel_of
 from ..errors import EquilibriumError, SceneError
-from ..operating import FaultFrequencies, fault_frequencies
+from ..frequencies import operating
+from ..frequencies.operating import FaultFrequencies, fault_frequencies
 from ..scene import SpeedDrive
 from ..signals import Signals
 from ..spectra.checks import checked_signal

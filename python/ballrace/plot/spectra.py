@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import plotly.graph_objects as go
     from numpy.typing import NDArray
 
-    from ..operating import FaultFrequencies
+    from ..frequencies.operating import FaultFrequencies
     from ..spectra.bands import Fault
     from ..spectra.checks import Given
 
@@ -45,7 +45,7 @@ def envelope_spectrum(
     """Draw the spectrum of an envelope with the lines that defects may have: k·BPFO, k·BPFI ± f_r, 2k·BSF ± FTF.
 
     A ball of a run spins about the axis only, so that the lines of its defect are k·BSF/cos α, or twice that where
-    it reaches both tracks (:func:`ballrace.operating.spin_of`).
+    it reaches both tracks (:func:`ballrace.frequencies.operating.spin_of`).
 
     Parameters
     ----------

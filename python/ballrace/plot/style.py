@@ -6,8 +6,8 @@ import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .._files import as_path
-from .._whole import whole
+from .._io.files import as_path
+from .._io.whole import whole
 from ..recordings.libraries import needed
 
 if TYPE_CHECKING:

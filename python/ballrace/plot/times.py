@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import plotly.graph_objects as go
     from numpy.typing import NDArray
 
-    from ..operating import FaultFrequencies
+    from ..frequencies.operating import FaultFrequencies
     from ..recordings.columns import Columns
     from ..signals import Signals
     from ..spectra.bands import Fault

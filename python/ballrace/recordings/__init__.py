@@ -23,10 +23,10 @@ from typing import TYPE_CHECKING
 from .._later import later
 
 if TYPE_CHECKING:
-    from .reading import read
+    from .dispatch import read
     from .recording import Recording
 else:
     # Signals have columns as records do, and need no formats for it.
-    __getattr__ = later(__name__, {"reading": ("read",), "recording": ("Recording",)})
+    __getattr__ = later(__name__, {"dispatch": ("read",), "recording": ("Recording",)})
 
 __all__ = ["Recording", "read"]

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._interrupt import heard_once
-from .._parquet import columns_and_rows, read_sealed, seal, writing_to
-from .._record import described, unless_damaged
-from .._record import samples as column_of
+from .._io.parquet import columns_and_rows, read_sealed, seal, writing_to
+from .._io.record import described, unless_damaged
+from .._io.record import samples as column_of
 from ..scene import Scene
 from .limits import check_declared
+from .sampled import sampled
 from .samples import Samples, from_told
 from .scenes import shaft_of
-from .tables import sampled
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._parquet import writing_to
+from .._io.parquet import writing_to
 from ..errors import FileError
-from .tables import sampled
+from .sampled import sampled
 
 if TYPE_CHECKING:
     from pathlib import Path

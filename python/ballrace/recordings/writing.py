@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._files import as_path
-from .._whole import whole
+from .._io.files import as_path
+from .._io.whole import whole
 from . import hierarchical, matlab, parquet, sound, text, universal
 from .formats import by_name
 

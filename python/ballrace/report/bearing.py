@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import BallraceError
-from ..life import RatingLife, rating_life
+from ..ratings.life import RatingLife, rating_life
 from ..statics import Equilibrium, equilibrium, load_distribution
 from . import words
 

@@ -44,7 +44,7 @@ def run_page(
 
 
 def _add_frequencies(page: Page, out: Signals) -> None:
-    from ..operating import spin_of
+    from ..frequencies.operating import spin_of
     from ..plot.sources import rates_of
     from ..plot.times import fault_rate
 

@@ -6,8 +6,8 @@ import importlib.util
 import warnings
 from typing import TYPE_CHECKING
 
-from .._files import as_path, check_writable
-from .._whole import whole
+from .._io.files import as_path, check_writable
+from .._io.whole import whole
 from ..errors import SceneError, SceneWarning
 
 if TYPE_CHECKING:

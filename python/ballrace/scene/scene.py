@@ -11,8 +11,8 @@ from typing import Any, Literal
 
 from .. import _core
 from .._document import LEFT_OUT, Part, decode, encode
-from .._files import as_path
-from .._toml import check_depth, loads
+from .._io.files import as_path
+from .._io.toml import check_depth, loads
 from ..errors import SceneError
 from .approximations import Approximations
 from .bearing import Ring, Row

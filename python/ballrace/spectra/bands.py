@@ -21,7 +21,7 @@ from ..errors import SceneError
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from ..frequencies import Orders
+    from ..frequencies.kinematic import Orders
 
 __all__ = ["Fault", "FaultBand", "FaultMetrics", "fault_band_metrics", "fault_bands"]
 
@@ -139,8 +139,9 @@ def fault_bands(
         the width of the first harmonic's bands; the others are wider as they are higher.
     spin : tuple of float and int, optional
         Of balls that spin about the axis only, as those of a run do: order of their turns against the cage,
-        BSF/cos α, and how often a turn a defect meets a race, 1 or 2 (:func:`ballrace.operating.spin_of`). The
-        lines of a ball stand at their product. By default at 2·BSF, as of real balls, which tumble.
+        BSF/cos α, and how often a turn a defect meets a race, 1 or 2
+        (:func:`ballrace.frequencies.operating.spin_of`). The lines of a ball stand at their product. By default
+        at 2·BSF, as of real balls, which tumble.
 
     Raises
     ------

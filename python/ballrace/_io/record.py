@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._interrupt import heard_once
-from ._parquet import columns_and_rows, read_bytes, read_columns, seal, to_bytes, writing_to
-from ._whole import whole
-from .errors import BallraceError, FileError, SceneError
-from .scene import Scene
+from .._interrupt import heard_once
+from ..errors import BallraceError, FileError, SceneError
+from ..scene import Scene
+from .parquet import columns_and_rows, read_bytes, read_columns, seal, to_bytes, writing_to
+from .whole import whole
 
 if TYPE_CHECKING:
     import os
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     import polars as pl
 
-    from .signals import Signals
+    from ..signals import Signals
 
 _FORMAT = "1"
 
@@ -46,7 +46,7 @@ class Writer:
 
     def take(self, columns: Mapping[str, NDArray[np.float64]]) -> None:
         """Write a block: columns of one length, the same names in each block."""
-        from ._polars import pl
+        from .._polars import pl
 
         table = pl.DataFrame(dict(columns))
         block = self._path.with_name(f"{self._path.name}.{len(self._blocks):08}")
@@ -63,7 +63,7 @@ class Writer:
             seal(file)
 
     def _join(self, metadata: dict[str, str]) -> None:
-        from ._polars import pl
+        from .._polars import pl
 
         table = pl.scan_parquet(self._blocks, glob=False)
         table.sink_parquet(self._path, metadata=metadata, row_group_size=self._rows)
@@ -134,7 +134,7 @@ def unless_damaged(path: Path, read: Callable[[], Any]) -> Any:
 
 def samples(path: Path, table: pl.DataFrame, name: str) -> NDArray[np.float64]:
     """Return a column of a file, which has to hold numbers."""
-    from ._polars import pl
+    from .._polars import pl
 
     if name not in table.columns:
         raise FileError(str(path), f"damaged: the column {name} is missing")

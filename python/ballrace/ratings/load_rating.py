@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .errors import SceneError
+from ..errors import SceneError
 
 if TYPE_CHECKING:
-    from .scene import Row, Scene
+    from ..scene import Row, Scene
 
 __all__ = [
     "F0",

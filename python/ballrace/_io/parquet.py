@@ -16,7 +16,7 @@ import os
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, BinaryIO, TypeVar
 
-from ._interrupt import heard_once
+from .._interrupt import heard_once
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -38,7 +38,7 @@ _PART = 1 << 20
 @contextmanager
 def writing_to(path: str | os.PathLike[str]) -> Iterator[None]:
     """Have what polars cannot write, as to a full disk, be an ``OSError`` that names the file."""
-    from ._polars import pl
+    from .._polars import pl
 
     try:
         yield
@@ -71,7 +71,7 @@ def read_sealed(
     OSError
         It cannot be read.
     """
-    from ._polars import pl
+    from .._polars import pl
 
     is_sealed(path)
     if check is not None:
@@ -90,7 +90,7 @@ def scan_sealed(path: Path) -> dict[str, str]:
     OSError
         It cannot be read.
     """
-    from ._polars import pl
+    from .._polars import pl
 
     is_sealed(path)
     return _unless_damaged(lambda: pl.read_parquet_metadata(path))
@@ -104,7 +104,7 @@ def columns_and_rows(path: Path) -> tuple[list[str], int]:
     ValueError
         It is damaged, or not Parquet.
     """
-    from ._polars import pl
+    from .._polars import pl
 
     def read() -> tuple[list[str], int]:
         table = pl.scan_parquet(path, glob=False)
@@ -115,7 +115,7 @@ def columns_and_rows(path: Path) -> tuple[list[str], int]:
 
 def read_columns(path: Path, names: list[str]) -> pl.DataFrame:
     """Read some columns of a Parquet file whose hash is known to be right."""
-    from ._polars import pl
+    from .._polars import pl
 
     return heard_once(lambda: pl.read_parquet(path, columns=names, glob=False))
 
@@ -128,7 +128,7 @@ def read_bytes(data: bytes) -> tuple[pl.DataFrame, dict[str, str]]:
     ValueError
         It is not Parquet.
     """
-    from ._polars import pl
+    from .._polars import pl
 
     table = _unless_damaged(lambda: heard_once(lambda: pl.read_parquet(io.BytesIO(data))))
     return table, _unless_damaged(lambda: pl.read_parquet_metadata(io.BytesIO(data)))
@@ -201,7 +201,7 @@ def _hash(file: BinaryIO, start: int, footer: bytes) -> bytes:
 
 def _unless_damaged(read: Callable[[], T]) -> T:
     """Read by polars, whose errors come in several kinds; a panic is no ``Exception``."""
-    from ._polars import pl
+    from .._polars import pl
 
     try:
         return read()

@@ -6,12 +6,12 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, get_args
 
-from .errors import SceneError
-from .scene import SpeedDrive
-from .statics import RaceFilm, equilibrium
+from ..errors import SceneError
+from ..scene import SpeedDrive
+from ..statics import RaceFilm, equilibrium
 
 if TYPE_CHECKING:
-    from .scene import Lubricant, Scene
+    from ..scene import Lubricant, Scene
 
 __all__ = ["Contamination", "LifeFactor", "check_contamination", "life_factor"]
 

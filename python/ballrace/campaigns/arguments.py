@@ -16,8 +16,8 @@ from ..options import BUDGET, DECIDING
 from ..scene import Scene
 from ..scene.scene import checked_scene
 from .cases import Cases
-from .reading import resembling
-from .spread import Executor
+from .executors import Executor
+from .frames import resembling
 from .store import names
 from .work import Job, version
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from .._files import as_path
+from .._io.files import as_path
 from .._numbers import real
 from ..errors import SceneError
 from .apart import read_apart

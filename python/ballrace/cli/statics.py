@@ -10,11 +10,11 @@ import numpy as np
 
 from .._text import printable
 from ..explanation import explain
-from ..life import RatingLife, rating_life
+from ..ratings.life import RatingLife, rating_life
 from ..report.writing import check_page
 from ..statics import Equilibrium, equilibrium, load_distribution, stiffness
 from .arguments import Commands, add_scene, added, read_scene
-from .tables import numbers, print_table
+from .text import numbers, print_table
 
 if TYPE_CHECKING:
     import argparse

@@ -6,7 +6,7 @@ import errno
 import os
 from pathlib import Path
 
-from .errors import SceneError
+from ..errors import SceneError
 
 PARQUET = (".parquet", ".pq", "")
 """What the name of a Parquet file may end in."""

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import demo, paper
-from .._files import check_writable
+from .._io.files import check_writable
 from .._progress import Bar
 from .arguments import Commands, added
-from .tables import print_table
+from .text import print_table
 
 if TYPE_CHECKING:
     import argparse

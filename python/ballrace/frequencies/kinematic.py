@@ -10,12 +10,12 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from . import _core
-from ._numbers import real
-from .errors import SceneError
+from .. import _core
+from .._numbers import real
+from ..errors import SceneError
 
 if TYPE_CHECKING:
-    from .scene import Row
+    from ..scene import Row
 
 __all__ = ["Orders", "bpfi", "bpfo", "bsf", "ftf", "of_row", "orders"]
 

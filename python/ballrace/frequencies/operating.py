@@ -15,18 +15,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from . import _core, frequencies
-from ._numbers import real
-from .bearings import Bearing, catalogue
-from .errors import SceneError
-from .scene import MotionProbe, Scene, SpeedDrive
-from .signals import Signals
+from .. import _core, frequencies
+from .._numbers import real
+from ..bearings import Bearing, catalogue
+from ..errors import SceneError
+from ..scene import MotionProbe, Scene, SpeedDrive
+from ..signals import Signals
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from .scene import Row
-    from .statics import RaceControl
+    from ..scene import Row
+    from ..statics import RaceControl
 
 __all__ = ["FaultFrequencies", "fault_frequencies"]
 
@@ -42,7 +42,7 @@ class FaultFrequencies:
     ftf, bpfo, bpfi, bsf : float
         Cage, ball passes on the outer and the inner race, spin of a ball in the cage [Hz]. A defect on a ball
         meets the races at twice ``bsf``; in a run, whose balls spin about the axis only, at BSF/cos α or
-        twice that (:func:`ballrace.operating.spin_of`).
+        twice that (:func:`ballrace.frequencies.operating.spin_of`).
     contact_angle : float
         The angle under load at rest [rad].
     slip : float or None

@@ -18,7 +18,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ._files import as_path, check_writable
+from .files import as_path, check_writable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -14,14 +14,14 @@ import math
 import warnings
 from dataclasses import dataclass, replace
 
-from .bearings.rows import catalogue
-from .duty import duty_cycle
-from .errors import EquilibriumError, SceneError, SceneWarning
+from ..bearings.rows import catalogue
+from ..duty import duty_cycle
+from ..errors import EquilibriumError, SceneError, SceneWarning
+from ..scene import Scene, SpeedDrive
+from ..scene.scene import checked_scene
+from ..statics import LoadDistribution, load_distribution
 from .life_factor import Contamination, LifeFactor, check_contamination, life_factor
 from .load_rating import equivalent_load, race_ratings, row_rating, together
-from .scene import Scene, SpeedDrive
-from .scene.scene import checked_scene
-from .statics import LoadDistribution, load_distribution
 
 __all__ = ["RatingLife", "rating_life"]
 

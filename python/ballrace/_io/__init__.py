@@ -1,0 +1,1 @@
+"""Files: paths, whole or absent writing, Parquet with a hash, records of runs, TOML."""

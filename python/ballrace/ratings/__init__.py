@@ -1,0 +1,1 @@
+"""What published formulas say of a bearing: rating life and its load ratings, friction torque."""
