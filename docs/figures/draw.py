@@ -5,6 +5,7 @@ Drawings show how things are named, not how they are shaped: angles, clearances 
 
 from __future__ import annotations
 
+import functools
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -266,18 +267,59 @@ def place(ax: Axes) -> None:
     ax.set_ylim(-1.95, 1.1)
 
 
-def spectrum(ax: Axes) -> None:
-    """Draw the envelope spectrum of a simulated bearing, its lines named."""
+@functools.cache
+def spalled() -> br.Signals:
+    """Run the README's bearing."""
     scene = br.bearing(
         "6205", radial_load=1500.0, speed_rpm=1797.0,
         defects=br.defects.spall(on="inner_race", width_mm=1.0),
     )  # fmt: skip
-    out, rates = br.simulate(scene, duration=1.0), br.fault_frequencies(scene)
+    return br.simulate(scene, duration=1.0)
+
+
+def damaged(ax: Axes) -> None:
+    """Draw what is simulated: a loaded bearing with a spall on its inner ring."""
+    plain(ax, "a bearing, its load, its damage")
+    for radius, colour in ((1.3, STEEL), (1.13, "white"), (0.77, STEEL), (0.5, "white")):
+        ax.add_patch(Circle((0, 0), radius, fc=colour, ec=EDGE))
+    for at in np.radians(-90.0 + 40.0 * np.arange(9)):
+        ax.add_patch(Circle((0.95 * np.cos(at), 0.95 * np.sin(at)), 0.17, fc=BALL, ec=EDGE))
+    spall = np.vstack([arc((0, 0), 0.78, 205, 218), arc((0, 0), 0.7, 218, 205)])
+    ax.add_patch(Polygon(spall, fc=RED))
+    arrow(ax, (0, 0.4), (0, -0.4), RED)
+    turn = arc((0, 0), 0.63, 20, 70)
+    ax.plot(*turn.T, color=BLUE, lw=1.6)
+    arrow(ax, tuple(turn[-6]), tuple(turn[-1]), BLUE)
+
+
+def blows(ax: Axes) -> None:
+    """Draw the first turns of its acceleration."""
+    out = spalled()
+    shown = out.t < 0.12
+    ax.plot(1e3 * out.t[shown], out["outer.ay"][shown], color=EDGE, lw=0.6)
+    ax.margins(x=0.0)
+    labelled(ax, "what a sensor records", "time [ms]", "acceleration [m/s²]")
+    highest = np.abs(out["outer.ay"][shown]).max()
+    ax.set_ylim(-highest, highest)
+
+
+def named(ax: Axes) -> None:
+    """Draw its envelope spectrum under a heading."""
+    spectrum(ax, sidebands=False)
+    ax.set_title("what it says: the inner race", fontsize=11)
+
+
+def spectrum(ax: Axes, *, sidebands: bool = True) -> None:
+    """Draw the envelope spectrum of a simulated bearing, its lines named."""
+    out = spalled()
+    rates = br.fault_frequencies(out.scene)
     f, value = br.spectra.squared_envelope_spectrum(out["outer.ay"], out.fs)
     shown = (f > 3.0) & (f < 420.0)
     ax.plot(f[shown], value[shown], color=EDGE, lw=0.9)
-    lines = {"$f_r$": rates.shaft, "BPFI − $f_r$": rates.bpfi - rates.shaft, "BPFI": rates.bpfi}
-    lines |= {"BPFI + $f_r$": rates.bpfi + rates.shaft, "2 BPFI": 2.0 * rates.bpfi}
+    lines = {"$f_r$": rates.shaft, "BPFI": rates.bpfi, "2 BPFI": 2.0 * rates.bpfi}
+    if sidebands:
+        lines["BPFI − $f_r$"] = rates.bpfi - rates.shaft
+        lines["BPFI + $f_r$"] = rates.bpfi + rates.shaft
     for name, at in lines.items():
         height = value[np.abs(f - at) < 3.0].max()
         ax.text(at, height + 600.0, name, color=RED, ha="center", va="bottom", fontsize=9)
@@ -351,6 +393,7 @@ def save(name: str, width: float, height: float, *panels: Callable[[Axes], None]
 
 
 if __name__ == "__main__":
+    save("project", 12.0, 3.3, damaged, blows, named)
     save("bearing", 10.5, 5.0, front, section)
     save("slices", 6.0, 4.6, slices)
     save("spectrum", 8.0, 3.0, spectrum)

@@ -19,6 +19,7 @@ from ballrace._document import Part, Variant
 
 ROOT = Path(__file__).parents[2]
 GUIDE = ROOT / "docs"
+NUMBER = re.compile(r"\d+(?:\.\d+)?")
 EXTENSIONS = ("sphinx", "furo", "latex2mathml", "myst_parser", "numpydoc")
 
 
@@ -121,6 +122,22 @@ def test_files_that_pages_name_are_there() -> None:
             named += 1
             assert (ROOT / path).is_file(), f"{page.name} names {path}"
     assert named > 30
+
+
+def test_the_paper_tells_numbers_that_are_tested_or_measured() -> None:
+    """And cites what its bibliography has."""
+    paper = (ROOT / "paper" / "paper.md").read_text(encoding="utf-8")
+    sources = [ROOT / "tests" / "README.md", *ROOT.glob("benches/*.md")]
+    known = set(NUMBER.findall("\n".join(page.read_text(encoding="utf-8") for page in sources)))
+    told = NUMBER.findall(paper.partition("# Validation")[2].partition("# What it cannot")[0])
+    assert len(told) > 20
+    assert set(told) <= known
+    entries = re.findall(
+        r"@\w+\{(\w+),", (ROOT / "paper" / "paper.bib").read_text(encoding="utf-8")
+    )
+    assert set(re.findall(r"@([a-z]+\d*)", paper.partition("# Summary")[2])) == set(entries)
+    for picture in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", paper):
+        assert (ROOT / "paper" / picture).is_file()
 
 
 def test_what_pages_link_to_is_there() -> None:
