@@ -131,7 +131,9 @@ def _command(block: re.Pattern[str], page: str) -> str:
 
 def test_notes_are_those_of_the_version(copy: Path) -> None:
     replaced(copy, "CHANGELOG.md", r"^## Unreleased$", "## Unreleased\n\n- Not yet.")
+    with (copy / "CHANGELOG.md").open("a", encoding="utf-8") as file:
+        file.write("\n## 0.0.1\n\n- Long ago.\n")
     told = notes(copy)
     assert told.startswith("The first release.")
     assert "Not yet." not in told
-    assert "\n## " not in told
+    assert "Long ago." not in told
