@@ -31,7 +31,12 @@ LITERATURE = [
 # Python tests that print rows of the same form.
 MEASURED = ["test_defect_frequencies.py", "test_cwru.py", "test_exudyn.py"]
 # Python tests that print verdicts: what was judged, how many were right, and what with.
-JUDGED = ["test_diagnosis_measured.py", "test_diagnosis_simulated.py", "test_diagnosis.py"]
+JUDGED = [
+    "test_diagnosis_measured.py",
+    "test_diagnosis_simulated.py",
+    "test_diagnosis_size.py",
+    "test_diagnosis.py",
+]
 VERDICT = re.compile(r"\[verdict\] ([^|\n]+) \| ([^|\n]+) \| ([^|\n]+)$", re.MULTILINE)
 HEADER = "| case | published | ours | deviation | tolerance |\n|---|---|---|---|---|\n"
 # case, published, ours, deviation, tolerance, behind whatever the test runner has printed on the line.

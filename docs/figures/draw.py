@@ -6,6 +6,7 @@ Drawings show how things are named, not how they are shaped: angles, clearances 
 from __future__ import annotations
 
 import functools
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,10 @@ import numpy as np
 from matplotlib.patches import Arc, Circle, Polygon
 
 import ballrace as br
+from ballrace.diagnosis.library import library
+from ballrace.diagnosis.likelihood import fitted, judged, odds_of, rows_of
+from ballrace.diagnosis.null import ACCUSED
+from ballrace.diagnosis.width import are_clear, bridged
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -372,6 +377,44 @@ def films(ax: Axes) -> None:
     ax.set_xlim(25.0, None)
 
 
+def reliability(ax: Axes) -> None:
+    """Draw shares of damaged parts over the chances that were told, of bearings that the fit did not see."""
+    rows = judged()
+    told, true = [], []
+    for part in ACCUSED:
+        for bearing in np.unique(rows["bearing"]):
+            own = rows[rows["bearing"] == bearing]
+            odds = odds_of(fitted(part, True, bearing), rows_of(part, own, True))
+            told += (odds / (1.0 + odds)).tolist()
+            true += (own["part"] == part).tolist()
+    chance, damaged = np.array(told), np.array(true)
+    ax.plot([0, 1], [0, 1], color=EDGE, lw=0.8, ls="--")
+    edges = [0.0, 0.05, 0.2, 0.4, 0.6, 0.8, 0.95, 1.0]
+    for low, high in pairwise(edges):
+        among = (chance >= low) & (chance <= high)
+        share, count = damaged[among].mean(), np.count_nonzero(among)
+        error = np.sqrt(max(share * (1.0 - share), 0.25 / count) / count)
+        ax.errorbar(chance[among].mean(), share, error, color=BLUE, marker="o", capsize=3)
+        ax.text(chance[among].mean() + 0.03, share - 0.02, str(count), fontsize=8, va="top")
+    labelled(ax, "chance of damage, counts beside", "told", "damaged")
+
+
+def widths(ax: Axes) -> None:
+    """Draw widths of simulated spalls over the spacing of the events of a pass, with the 90 % intervals."""
+    rows = library()
+    rows = rows[are_clear(rows)]
+    for part, colour, marker in (("outer_race", RED, "v"), ("inner_race", BLUE, "s")):
+        own = rows[rows["part"] == part]
+        ax.plot(
+            own["spacing"], own["width"], marker, color=colour, ms=3, label=part.replace("_", " ")
+        )
+        span = np.array([0.05, 0.45])
+        low, _, high = bridged(part)
+        ax.fill_between(span, span + low, span + high, color=colour, alpha=0.15, lw=0)
+    ax.legend(frameon=False)
+    labelled(ax, "spalls, lengths in ball diameters", "arc between the two events", "width")
+
+
 def labelled(ax: Axes, title: str, x: str, y: str) -> None:
     """Say what a diagram shows."""
     ax.set_title(title, fontsize=11)
@@ -398,4 +441,5 @@ if __name__ == "__main__":
     save("slices", 6.0, 4.6, slices)
     save("spectrum", 8.0, 3.0, spectrum)
     save("laws", 11.0, 3.4, approaches, frictions, films)
+    save("size", 9.0, 3.6, reliability, widths)
     save("defect", 10.0, 4.4, edges, place)

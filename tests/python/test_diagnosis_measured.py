@@ -108,6 +108,50 @@ def test_records_of_case_western_reserve(number: str, first: float) -> None:
     assert whole.shaft.rate == pytest.approx(29.93, rel=1e-3)
 
 
+@pytest.mark.parametrize("name", [name for name in HIT if name[2] in "58"])
+def test_widths_of_hit_sm_are_within_15_percent(name: str) -> None:
+    """Nominal arcs of 5 and 8 degrees, read from 4 s of the record alone; both races, three speeds."""
+    width = of_hit(name).width
+    side = 1.0 if name.startswith("OR") else -1.0
+    row = br.catalogue["6205"]
+    nominal = np.radians(float(name[2])) * 0.5 * (row.pitch_diameter + side * row.ball_diameter)
+    assert width.value is not None
+    assert width.interval is not None
+    low, high = (1e3 * end for end in width.interval)
+    print(
+        f"\n[verdict] HIT-SM {name}, width | {1e3 * width.value:.2f} mm, 90 % within {low:.2f} to {high:.2f} | "
+        f"nominal {1e3 * nominal:.2f}, {width.value / nominal - 1.0:+.0%}"
+    )
+    assert width.value == pytest.approx(nominal, rel=0.15)
+    assert width.interval[0] <= nominal <= width.interval[1]
+
+
+@pytest.mark.parametrize("name", [name for name in HIT if name[2] == "2"])
+def test_widths_that_the_ringing_hides_are_not_told(name: str) -> None:
+    """2 degrees: 0.82 and 0.54 mm."""
+    assert of_hit(name).width.value is None
+    assert "no second event" in of_hit(name).width.why
+
+
+def test_likelihood_ratios_of_hit_sm() -> None:
+    """Their unit is not told, so strength does not count. Damage is always told; three sound races are doubted."""
+    wrong = []
+    for name in HIT:
+        parts, evidence = TRUTH[name[0]], of_hit(name).evidence
+        for part in ("outer_race", "inner_race"):
+            ratio = evidence[part].ratio
+            assert ratio is not None
+            assert ratio < 1.0 or part not in parts, name
+            if ratio < 1.0 and part not in parts:
+                wrong.append((name, 1.0 / ratio))
+    told = ", ".join(f"{name} 1 : {odds:.1f}" for name, odds in wrong)
+    print(
+        f"\n[verdict] HIT-SM, likelihood ratios of 42 races | {42 - len(wrong)} on the right side of 1 | {told}"
+    )
+    assert len(wrong) <= 3
+    assert max(odds for _, odds in wrong) < 5.0
+
+
 def test_the_table_of_the_validation_page() -> None:
     """Prints how many are right and how far they are from the threshold."""
     groups = {"healthy": "N", "inner race": "IR", "outer race": "OR"}

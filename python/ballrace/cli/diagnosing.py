@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, get_args
 
 from .._text import printable
 from ..diagnosis import diagnose
-from ..diagnosis.result import header_of, reason
+from ..diagnosis.result import header_of, reason, width_of
 from ..diagnosis.severity import Machine
 from ..errors import SceneError
 from ..report.writing import check_page
@@ -79,6 +79,8 @@ def _diagnose(options: argparse.Namespace) -> None:
     print(printable(f"{found.bearing}: {found.verdict}{parts}\n{reason(found)}"))
     if found.evidence:
         print_table(header_of(found.unit), found.rows())
+    if found.width.part is not None:
+        print(printable(width_of(found)))
     for note in found.notes:
         print(printable(note))
     if options.output is not None:

@@ -5,7 +5,7 @@
 >>> br.diagnose(noise, "6205", 1800.0, fs=12_000.0).verdict
 'healthy'
 
-==============  ======================================================================================
+==============  ==================================================================================================
 ``arguments``   what is asked, checked; ``lacking``: what a record would need
 ``kinematics``  orders of a bearing, whatever names it
 ``envelopes``   prewhitening, spectra of squared envelopes in bands, levels over their running medians
@@ -13,13 +13,15 @@
 ``combs``       the lines that a fault of each part has
 ``null``        the same combs where no part has them: z and probability
 ``strength``    how strong the vibration of a fault is
-``evidence``    all of that for one part
+``evidence``    all of that for one part; ``examined``: for all parts
+``likelihood``  how much likelier that is of a sound part than of a damaged one, in the ``library`` of runs
 ``verdict``     healthy, damaged or undecided
 ``severity``    velocity and zone by ISO 20816-3, crest factor, kurtosis; ``reference``: their change
 ``rows``        the same for each row of a bearing
+``passes``      how far apart the two events of a pass are; ``width``: what width that means
 ``procedure``   the way from a record to a verdict
-``result``      what comes out; ``picture`` and ``page`` show it
-==============  ======================================================================================
+``result``      what comes out; ``picture``, ``size_picture`` and ``page`` show it
+==============  ==================================================================================================
 """
 
 from __future__ import annotations
@@ -30,6 +32,7 @@ from .result import Diagnosis
 from .severity import Change, Severity
 from .shaft import ShaftRate
 from .strength import Strength
+from .width import Width
 
 __all__ = [
     "Change",
@@ -39,5 +42,6 @@ __all__ = [
     "Severity",
     "ShaftRate",
     "Strength",
+    "Width",
     "diagnose",
 ]

@@ -79,6 +79,9 @@ class Evidence:
         Share of its lines that nominally lie on the shaft's or on what was excluded, and so cannot speak.
     strength : Strength
         How strong it is.
+    ratio : float or None
+        How many times likelier simulated bearings show this with the part sound than with it damaged, 0.01 to 100;
+        None of the cage.
     """
 
     part: Part
@@ -94,6 +97,7 @@ class Evidence:
     lines: tuple[Line, ...]
     hidden: float
     strength: Strength
+    ratio: float | None = None
 
 
 def evidence_of(

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from ..report import Page
 from ..report.words import degrees, number
 from .picture import picture
-from .result import capital, header_of, reason
+from .result import capital, header_of, reason, width_of
+from .size_picture import size_picture
 from .verdict import NAMES
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ def diagnosis_page(of: Diagnosis, title: str | None = None) -> Page:
     ])  # fmt: skip
     if of.evidence:
         _add_evidence(page, of)
+        _add_size(page, of)
         _add_severity(page, of)
     page.section("How it was judged")
     page.text(_METHOD)
@@ -78,6 +80,18 @@ def _add_evidence(page: Page, of: Diagnosis) -> None:
             for line in one.lines
         ]
         page.table(["line", "order", "expected, Hz", "found, Hz", "level, dB"], rows)
+
+
+def _add_size(page: Page, of: Diagnosis) -> None:
+    if of.width.part is None:
+        return
+    page.section("Size of the damage")
+    page.text(f"{capital(width_of(of))}.")
+    if of.width.value is not None:
+        page.text(f"{capital(of.width.why)}.")
+        page.figure(
+            size_picture(of._size, None, None, {}), "averaged pass of a ball over the spall."
+        )
 
 
 def _add_severity(page: Page, of: Diagnosis) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -15,23 +16,20 @@ from .arguments import (
     nominal_rate,
     other_rates,
 )
-from .combs import PARTS, comb_of
-from .envelopes import bands_of, envelope_spectra, levels_of
-from .evidence import evidence_of
-from .lacking import HELD, lack_of, notes_of, wanting_of
+from .examined import bands_for, examined
+from .lacking import lack_of, notes_of, wanting_of
+from .likelihood import with_ratios
 from .null import ACCUSED, largest_z
 from .result import Diagnosis
 from .rows import judged_by_rows
 from .severity import checked_machine, severity_of
-from .shaft import ShaftRate, shaft_rate
-from .strength import Envelopes, has_background, limits_of
+from .shaft import ShaftRate
+from .strength import has_background, limits_of
 from .verdict import decided, own_lines
+from .width import sized, untold
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-
-    import numpy as np
-    from numpy.typing import NDArray
 
     from ..channel import Channel
     from ..spectra.checks import Given
@@ -101,7 +99,7 @@ def diagnose(
     Returns
     -------
     Diagnosis
-        Verdict, evidence, severity; ``plot()`` and ``report(path)``.
+        Verdict, evidence, severity, width of a spall; ``plot()``, ``plot_size()`` and ``report(path)``.
 
     Raises
     ------
@@ -143,61 +141,51 @@ def diagnose(
     nominal = nominal_rate(channel, speed_rpm)
     orders, rates = other_rates(exclude, mains)
     machine = checked_machine(machine)
-    bands = bands_of(channel.fs, HELD * kinematics.orders.bpfi * nominal)
     shaft = ShaftRate(rate=nominal, nominal=nominal, by="nominal", z=0.0)
     told = _undecided(channel, kinematics, shaft, false_alarm)
-    lack = lack_of(channel, nominal, kinematics, len(bands))
+    lack = lack_of(channel, nominal, kinematics, len(bands_for(channel, kinematics, nominal)))
     if lack is not None:
         return replace(told, why=lack)
-    spectra = _spectra(channel, bands, kinematics, nominal)
-    shaft = shaft_rate(channel.x, channel.fs, nominal, spectra)
-    levels = levels_of(spectra, channel.n_samples / channel.fs, shaft.rate)
-    levels = levels.without([shaft.rate, *(order * shaft.rate for order in orders), *rates])
-    envelopes = Envelopes(channel.x, channel.fs, bands)
-    evidence = {
-        part: evidence_of(
-            part, envelopes, levels=levels, kinematics=kinematics, shaft=shaft.rate, seed=seed
-        )
-        for part in PARTS
-    }
-    own = own_lines(evidence, levels, kinematics, shaft.rate, false_alarm=false_alarm, seed=seed)
-    limits = _limits(channel, kinematics, shaft.rate)
+    found = examined(channel, kinematics, nominal, orders=orders, rates=rates, seed=seed)
+    shaft, bands = found.shaft, found.envelopes.bands
+    circle = _circle(channel, kinematics, shaft.rate)
+    evidence = with_ratios(found.evidence, circle)
+    own = own_lines(
+        evidence, found.levels, kinematics, shaft.rate, false_alarm=false_alarm, seed=seed
+    )
+    limits = None if circle is None else limits_of(circle)
     verdict = decided(
         evidence, own, false_alarm, limits=limits, silent=not has_background(channel.x),
-        blows=envelopes.blows(limits[0] if limits else 0.0), wanting=wanting_of(channel, shaft.rate, kinematics),
+        blows=found.envelopes.blows(limits[0] if limits else 0.0),
+        wanting=wanting_of(channel, shaft.rate, kinematics),
     )  # fmt: skip
     deciding = bands.index(max((evidence[part] for part in ACCUSED), key=lambda one: one.z).band)
-    severity = severity_of(channel, shaft.rate, envelopes, deciding, machine)
+    severity = severity_of(channel, shaft.rate, found.envelopes, deciding, machine)
+    damaged = [evidence[part] for part in verdict.parts]
+    size = sized(channel.x, channel.fs, shaft.rate, kinematics, damaged)
     return replace(
         told, verdict=verdict.verdict, parts=verdict.parts, why=verdict.why, evidence=evidence, shaft=shaft,
-        severity=severity, _levels=levels, _bands=tuple(bands),
+        severity=severity, width=size.width, _size=size, _levels=found.levels, _bands=tuple(bands),
     )  # fmt: skip
 
 
-def _spectra(
-    channel: Channel, bands: list[tuple[float, float]], kinematics: Kinematics, shaft: float
-) -> NDArray[np.float64]:
-    """Return the spectra of envelopes up to the last line of the null's highest comb."""
-    highest = max(comb_of(part, kinematics.orders).order for part in ACCUSED)
-    limit = (4.1 * 1.55 * highest + 3.0) * shaft
-    return envelope_spectra(channel.x, channel.fs, bands, limit, shaft)
-
-
-def _limits(channel: Channel, kinematics: Kinematics, shaft: float) -> tuple[float, float] | None:
+def _circle(channel: Channel, kinematics: Kinematics, shaft: float) -> float | None:
+    """Return the speed of the pitch circle [m/s]; None where how strong lines are says nothing."""
     if channel.unit != "m/s^2" or kinematics.row is None:
         return None
-    return limits_of(kinematics.row.pitch_diameter, shaft)
+    return math.pi * kinematics.row.pitch_diameter * shaft
 
 
 def _undecided(
     channel: Channel, kinematics: Kinematics, shaft: ShaftRate, false_alarm: float
 ) -> Diagnosis:
     """Return what is known before there is evidence."""
+    size = untold("no part is called damaged")
     record = (
         f"{channel.name or 'signal'}, {channel.n_samples / channel.fs:.4g} s at {channel.fs:g} Hz"
     )
     return Diagnosis(
         verdict="undecided", parts=(), why="", evidence={}, shaft=shaft, severity=None,
-        false_alarm=false_alarm, threshold=largest_z(false_alarm, len(ACCUSED)), bearing=kinematics.name,
-        record=record, unit=channel.unit, notes=notes_of(channel, kinematics),
+        width=size.width, _size=size, false_alarm=false_alarm, bearing=kinematics.name, record=record,
+        threshold=largest_z(false_alarm, len(ACCUSED)), unit=channel.unit, notes=notes_of(channel, kinematics),
     )  # fmt: skip

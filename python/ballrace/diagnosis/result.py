@@ -15,6 +15,7 @@ from .evidence import Evidence
 from .severity import Severity
 from .shaft import ShaftRate
 from .verdict import NAMES, Verdicts
+from .width import Sized, Width
 
 if TYPE_CHECKING:
     import os
@@ -45,6 +46,8 @@ class Diagnosis:
         Rate of the shaft, and whether it comes from the record.
     severity : Severity or None
         How much the machine shakes; None where the record allows no evidence.
+    width : Width
+        How wide the spall of a damaged race is, with an interval, or why that cannot be told.
     false_alarm : float
         Share of healthy records that may be called damaged, as asked for.
     threshold : float
@@ -65,6 +68,7 @@ class Diagnosis:
     evidence: Mapping[Part, Evidence]
     shaft: ShaftRate
     severity: Severity | None
+    width: Width
     false_alarm: float
     threshold: float
     bearing: str
@@ -73,6 +77,7 @@ class Diagnosis:
     notes: tuple[str, ...] = ()
     _levels: Levels | None = field(default=None)
     _bands: tuple[tuple[float, float], ...] = ()
+    _size: Sized | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "evidence", MappingProxyType(dict(self.evidence)))
@@ -88,6 +93,7 @@ class Diagnosis:
             f"<Diagnosis of {self.bearing}: {what}",
             f"  {reason(self)}",
             "  " + (", ".join(map(_short, self.evidence.values())) or "no evidence"),
+            *([f"  {width_of(self)}"] if self.width.part else []),
             f"  {by}; shaft {self.shaft.rate:.3f} Hz ({self.shaft.by})",
         ]
         return printable("\n".join(lines)) + ">"
@@ -108,7 +114,7 @@ class Diagnosis:
         return self._bands.index(one.band) + len(self._bands) * (one.whitening == "smoothed")
 
     def rows(self) -> list[list[str]]:
-        """Return the evidence as text: part, z, probability, factor, band, depth, acceleration."""
+        """Return the evidence as text: part, z, probability, ratio, factor, band, depth, acceleration."""
         return [_row(one) for one in self.evidence.values()]
 
     def plot(
@@ -168,6 +174,29 @@ class Diagnosis:
 
         return against(self, reference, fs, column, unit)
 
+    def plot_size(
+        self, beside: Diagnosis | None = None, fig: go.Figure | None = None, **layout: Any
+    ) -> go.Figure:
+        """Draw the averaged pass of a ball over the spall, with both events marked.
+
+        Parameters
+        ----------
+        beside : Diagnosis, optional
+            Another one, as of a run with a spall of the width that was found, drawn over it.
+        fig : plotly.graph_objects.Figure, optional
+            Figure to draw into.
+        **layout
+            For ``fig.update_layout``.
+
+        Raises
+        ------
+        SceneError
+            The width of one cannot be told.
+        """
+        from .size_picture import size_picture
+
+        return size_picture(self._size, None if beside is None else beside._size, fig, layout)
+
     def report(self, path: str | os.PathLike[str], *, title: str | None = None) -> None:
         """Write a page that needs no network: verdict, evidence, picture, severity, and what to trust.
 
@@ -192,7 +221,8 @@ class Diagnosis:
 
 
 HEADER = (
-    "part", "z", "by chance", "order found / expected", "band, Hz", "depth", "at the fault's rate",
+    "part", "z", "by chance", "sound : damaged", "order found / expected", "band, Hz", "depth",
+    "at the fault's rate",
 )  # fmt: skip
 """Columns of :meth:`Diagnosis.rows`."""
 
@@ -212,15 +242,33 @@ def capital(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
+def width_of(of: Diagnosis) -> str:
+    """Return the width of a spall in words."""
+    width = of.width
+    if width.value is None or width.interval is None:
+        return f"width {width.why}"
+    low, high = (1e3 * end for end in width.interval)
+    return f"width {1e3 * width.value:.2f} mm, 90 % within {low:.2f} to {high:.2f} mm"
+
+
+def ratio_of(one: Evidence) -> str:
+    """Return a likelihood ratio in words, such as ``1 : 30``."""
+    if one.ratio is None:
+        return "–"
+    many = max(one.ratio, 1.0 / one.ratio)
+    told = f"{many:.0f}" if many >= 9.5 else f"{many:.1f}"
+    return f"{told} : 1" if one.ratio >= 1.0 else f"1 : {told}"
+
+
 def _short(one: Evidence) -> str:
     return f"{NAMES[one.part]} z {one.z:.1f}"
 
 
 def _row(one: Evidence) -> list[str]:
-    return [
-        NAMES[one.part], f"{one.z:.1f}".replace("-", "−"), f"{one.probability:.2g}", f"{one.factor:.3f}",
-        f"{one.band[0]:.0f}–{one.band[1]:.0f}", f"{one.strength.depth:.2f}", f"{one.strength.acceleration:.3g}",
-    ]  # fmt: skip
+    z, band = f"{one.z:.1f}".replace("-", "−"), f"{one.band[0]:.0f}–{one.band[1]:.0f}"
+    strength = [f"{one.strength.depth:.2f}", f"{one.strength.acceleration:.3g}"]
+    chances = [f"{one.probability:.2g}", ratio_of(one)]
+    return [NAMES[one.part], z, *chances, f"{one.factor:.3f}", band, *strength]
 
 
 def _remade(fields: dict[str, Any]) -> Diagnosis:

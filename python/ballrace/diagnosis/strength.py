@@ -182,9 +182,12 @@ def strength_at(envelopes: Envelopes, rate: float) -> Strength:
     )
 
 
-def limits_of(pitch_diameter: float, shaft: float) -> tuple[float, float]:
-    """Return accelerations [m/s²]: lines below the first are no damage, from the second on they are."""
-    faint = _FAINT * math.pi * pitch_diameter * shaft
+def limits_of(circle: float) -> tuple[float, float]:
+    """Return accelerations [m/s²] at a speed of the pitch circle [m/s].
+
+    Below the first one lines are no damage, from the second one on they are.
+    """
+    faint = _FAINT * circle
     return faint, max(faint, _LOUD)
 
 

@@ -1,0 +1,189 @@
+"""How wide a spall is, from the spacing of the two events of a pass and what runs of the model say belongs to it.
+
+The second event comes when the ball has left the first edge by the width less what the contact bridges, some
+twentieth of a ball's diameter, which load, speed, edges and clearance move. How much it was in the records of the
+library is the interval: nothing but the bearing has to be known.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .combs import Part
+from .library import library
+from .passes import AveragedPass, averaged, passes_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from ..bearings import Bearing
+    from ..scene import Row
+    from .evidence import Evidence
+    from .kinematics import Kinematics
+    from .passes import Passes
+
+__all__ = ["Sized", "Width", "along", "are_clear", "bridged", "sized", "untold"]
+
+_RACES = ("outer_race", "inner_race")
+
+_HIGH, _ABOVE, _AGREEING, _SHARE = 0.03, 3.0, 3, 0.55
+"""Height of the second event, that over anything else, number and share of bands that place it there: where all
+are at least so much, it is one."""
+
+_WITHIN = (0.05, 0.5, 0.95)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Width:
+    """Width of a spall along the race.
+
+    Attributes
+    ----------
+    part : {"outer_race", "inner_race"} or None
+        Where it is; None where no race is damaged.
+    value : float or None
+        Width [m]; None where it cannot be told.
+    interval : tuple of two floats, or None
+        What holds 90 % of such spalls of simulated bearings [m].
+    spacing : float or None
+        Arc between the two events [m], where they are clear.
+    why : str
+        What it rests on, or why it cannot be told.
+    """
+
+    part: Part | None
+    value: float | None
+    interval: tuple[float, float] | None
+    spacing: float | None
+    why: str
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Sized:
+    """A width with the averaged pass that shows it."""
+
+    width: Width
+    ball_diameter: float = 0.0
+    averaged: AveragedPass | None = None
+
+
+def untold(why: str, part: Part | None = None) -> Sized:
+    """Return that a width cannot be told."""
+    width = Width(part=part, value=None, interval=None, spacing=None, why=f"cannot be told: {why}")
+    return Sized(width=width)
+
+
+def sized(
+    x: NDArray[np.float64], fs: float, shaft: float, kinematics: Kinematics, damaged: Sequence[Evidence]
+) -> Sized:  # fmt: skip
+    """Return the width of the spall of the first race among damaged parts.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n,)
+        Record.
+    fs, shaft : float
+        Sampling rate, rate of the shaft [Hz].
+    kinematics : Kinematics
+        Bearing.
+    damaged : sequence of Evidence
+        Of the parts that are damaged.
+    """
+    one = next((each for each in damaged if each.part in _RACES), None)
+    if one is None:
+        return untold("no race is damaged")
+    row = kinematics.row
+    if row is None:
+        return untold("only orders of the bearing are known, not its dimensions", one.part)
+    rate = one.order * one.factor * shaft
+    speed = along(row, one.part, rate, one.contact_angle or row.contact_angle)
+    found = passes_of(x, fs, speed)
+    if found is None:
+        return untold(
+            "no band of the record is as fast as a pass: log faster, or turn slower", one.part
+        )
+    if not _stands_out(found.height, found.above, found.bands, found.agreeing):
+        return untold(_unclear(row.ball_diameter), one.part)
+    return Sized(
+        width=_read(found, one.part, row.ball_diameter),
+        ball_diameter=row.ball_diameter,
+        averaged=averaged(x, fs, speed, found.spacing, speed / rate),
+    )
+
+
+def _read(found: Passes, part: Part, ball: float) -> Width:
+    low, middle, high = ((found.spacing + bridge) * ball for bridge in bridged(part))
+    arc = found.spacing * ball
+    why = (
+        f"the second event of a pass comes {1e3 * arc:.2f} mm behind the first, in {found.agreeing} of "
+        f"{found.bands} bands; simulated spalls are {1e3 * (low - arc):.2f} to {1e3 * (high - arc):.2f} mm wider"
+    )
+    return Width(part=part, value=middle, interval=(low, high), spacing=arc, why=why)
+
+
+def _unclear(ball: float) -> str:
+    return (
+        "no second event of a pass stands out from the ringing of the first, as of spalls below some "
+        f"{1e3 * _LEAST * ball:.1f} mm, of heavily loaded or very fast balls, and in noise"
+    )
+
+
+_LEAST = 0.1
+"""Width below which the second event is hidden by the first's ringing [ball diameters]."""
+
+
+def along(row: Bearing | Row, part: Part, rate: float, angle: float) -> float:
+    """Return the speed of the balls along a race [ball diameters a second].
+
+    Parameters
+    ----------
+    row : Bearing or Row
+        Dimensions.
+    part : {"outer_race", "inner_race"}
+        Race.
+    rate : float
+        At which balls pass a place of it [Hz].
+    angle : float
+        Contact angle [rad].
+    """
+    side = 1.0 if part == "outer_race" else -1.0
+    circle = row.pitch_diameter + side * row.ball_diameter * math.cos(angle)
+    return math.pi * circle * rate / row.ball_count / row.ball_diameter
+
+
+def are_clear(rows: NDArray[Any]) -> NDArray[np.bool_]:
+    """Say of records of the library in which a second event stands out."""
+    columns = (rows[name] for name in ("height", "above", "bands", "agreeing"))
+    found: NDArray[np.bool_] = _stands_out(*columns)
+    return found
+
+
+def _stands_out(height: Any, above: Any, bands: Any, agreeing: Any) -> Any:
+    agreed = (agreeing >= _AGREEING) & (agreeing >= _SHARE * bands)
+    return (height >= _HIGH) & (above >= _ABOVE) & agreed
+
+
+@functools.cache
+def bridged(part: Part, without: str = "") -> tuple[float, float, float]:
+    """Return what spalls of the library are wider than the spacing: 5 %, median, 95 % [ball diameters].
+
+    Ranks are counted out of one more than there are, so that the next one lies within in nine of ten cases.
+
+    Parameters
+    ----------
+    part : {"outer_race", "inner_race"}
+        Race.
+    without : str
+        Designation of a bearing whose records are left out.
+    """
+    rows = library()
+    rows = rows[are_clear(rows) & (rows["part"] == part) & (rows["bearing"] != without)]
+    low, middle, high = np.quantile(rows["width"] - rows["spacing"], _WITHIN, method="weibull")
+    return float(low), float(middle), float(high)
