@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 import ballrace as br
-from ballrace.campaigns import Progress, spread
+from ballrace.campaigns import Progress, executors
 from sweeps import SCENE, run, same, table
 
 COUNT = 60
@@ -119,7 +119,7 @@ def test_a_campaign_goes_on_in_a_new_pool(whole: br.Campaign, tmp_path: Path) ->
 
 def dies_at(load: float) -> None:
     """Have this process end as it comes to a case of that load; the initialiser of a worker."""
-    worker: Any = spread
+    worker: Any = executors
     run_here = worker.run_here
 
     def ending(store: Any, cases: Any, *args: Any) -> None:
@@ -206,13 +206,13 @@ def test_workers_must_match(tmp_path: Path) -> None:
     job = {"threads": 1, "keep_signals": False, "features": "{}", "raise_errors": False}
     task = {"root": str(tmp_path), "key": store.key, "version": "0.0.9", "job": job, "cases": []}
     with pytest.raises(br.CampaignError, match=r"the campaign 0\.0\.9; install the same"):
-        spread.run_task(json.dumps(task))
+        executors.run_task(json.dumps(task))
     task |= {"version": br.campaigns.work.version(), "key": "another"}
     with pytest.raises(br.CampaignError, match="not the same folder for this worker"):
-        spread.run_task(json.dumps(task))
+        executors.run_task(json.dumps(task))
     task |= {"root": str(tmp_path / "nowhere")}
     with pytest.raises(br.CampaignError, match="holds no campaign"):
-        spread.run_task(json.dumps(task))
+        executors.run_task(json.dumps(task))
 
 
 class Recorder:
@@ -248,9 +248,9 @@ def test_tasks_of_dask_are_counted_by_machine() -> None:
         def nthreads(self) -> dict[str, int]:
             return {"tcp://10.0.0.1:4711": 3, "tcp://10.0.0.1:4712": 2, "tls://10.0.0.2:4711": 4}
 
-    assert spread.tasks_on_a_machine(Client()) == 5
-    assert spread.tasks_on_a_machine(Recorder()) == 2
-    assert spread.tasks_on_a_machine(object()) == 1
+    assert executors.tasks_on_a_machine(Client()) == 5
+    assert executors.tasks_on_a_machine(Recorder()) == 2
+    assert executors.tasks_on_a_machine(object()) == 1
 
 
 def test_chunks_grow_with_what_is_known_and_shrink_at_the_end(tmp_path: Path) -> None:
@@ -263,12 +263,12 @@ def test_chunks_grow_with_what_is_known_and_shrink_at_the_end(tmp_path: Path) ->
 
 
 def test_a_chunk_takes_some_twenty_seconds() -> None:
-    assert spread._size(None, 1, 10**6, 4) == 1
-    assert spread._size(1.0, 1, 10**6, 4) == 20
-    assert spread._size(1.0, 4, 10**6, 4) == 80
-    assert spread._size(90.0, 1, 10**6, 4) == 1
-    assert spread._size(1e-4, 1, 10**6, 4) == 1000
-    assert spread._size(1.0, 1, 10, 4) == 3
+    assert executors._size(None, 1, 10**6, 4) == 1
+    assert executors._size(1.0, 1, 10**6, 4) == 20
+    assert executors._size(1.0, 4, 10**6, 4) == 80
+    assert executors._size(90.0, 1, 10**6, 4) == 1
+    assert executors._size(1e-4, 1, 10**6, 4) == 1000
+    assert executors._size(1.0, 1, 10, 4) == 3
 
 
 def test_scene_is_only_json(whole: br.Campaign) -> None:
