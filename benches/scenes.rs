@@ -1,4 +1,4 @@
-//! The five scenes by which a change of the code is judged for speed: a line each with its name, the seconds that a simulated second takes
+//! The six scenes by which a change of the code is judged for speed: a line each with its name, the seconds that a simulated second takes
 //! (median of the runs), evaluations of the right-hand side, and a number that changes with any bit of the signals.
 //!
 //! `cargo run --release -p ballrace-benches --bin scenes -- 9`, and behind it a part of a name for some of them. To compare two builds, run their programs in turn, once a time.
@@ -6,19 +6,22 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::time::Instant;
 
-use ballrace::scene::{Friction, Lubricant, Scene, presets};
+use ballrace::scene::{Friction, Lubricant, Scene, Texture, presets};
 use ballrace::{Run, simulate};
 
-fn scenes() -> [(&'static str, Scene); 5] {
+fn scenes() -> [(&'static str, Scene); 6] {
     let dry = presets::deep_groove_6205(500.0, 0.0, 1797.0);
     let mut oiled = dry.clone();
     oiled.lubricant = Some(Lubricant::named("vg68", 328.15));
     let mut plane = dry.clone();
     plane.friction = Friction::None;
+    let mut textured = dry.clone();
+    textured.rows[0].texture = Some(Texture::of_races(1e-9));
     [
         ("wheel bearing", presets::wheel_bearing(3000.0)),
         ("6205", dry),
         ("6205 in oil", oiled),
+        ("6205 textured", textured),
         ("plane 6205", plane),
         ("cornering wheel", presets::cornering_wheel(0.3)),
     ]

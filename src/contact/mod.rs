@@ -49,7 +49,7 @@ pub use laws::film::Oiled;
 pub(crate) use laws::film::{FilmEffect, FilmNumbers};
 pub use laws::{Cut, Damping, Elastic, Law, Traction};
 pub use oil::OilTouch;
-pub(crate) use profile::{Before, Contour, Curve, Raise, Section};
+pub(crate) use profile::{Before, Contour, Curve, HeightTable, Raise, Section};
 pub use profile::{Torus, Waves};
 pub use quadrature::{Rules, ZoneSlices};
 pub use scalar::{BallSide, Pair, Shape};

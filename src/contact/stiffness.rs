@@ -35,15 +35,20 @@ impl Pair {
         }
         let distance = place.xy().norm();
         let n = V2::new(place.x, place.y) / distance;
-        let angle = if self.waves.is_round() && self.faults.is_empty() && ball.faults.is_empty() {
+        let angle = if self.waves.is_round() && self.faults.is_empty() && ball.is_whole() {
             0.0
         } else {
             n.y.atan2(n.x)
         };
         let raise = self.waves.raise(angle);
-        let section = self
+        let swell = ball.waves.raise(self.outwards(angle));
+        let mut section = self
             .race
             .section(ball.radius, distance, place.z, raise.height);
+        if !ball.waves.is_round() {
+            let is_flat = self.law.cut().is_flat();
+            section = section.raised::<false, false>(is_flat, swell.height);
+        }
         if section.is_clear() {
             return Tangent {
                 force: Vector3::zeros(),
@@ -55,9 +60,21 @@ impl Pair {
         let toward = Toward::ball(&resting, n * sigma, self.outwards(angle));
         let whole =
             !self.is_near(angle) && !ball.faults.iter().any(|fault| fault.in_reach(&toward));
-        match self.meridional(&section).filter(|_| whole) {
+        match self.meridional(&section, swell.height).filter(|_| whole) {
             Some(found) => {
-                self.in_space(&found, n, distance, (raise.slope, self.waves.bend(angle)))
+                let waves = (raise.slope, self.waves.bend(angle));
+                let mut tangent = self.in_space(&found, n, distance, waves);
+                if !ball.waves.is_round() {
+                    // How this turns with the place is a ten-thousandth of the contact's stiffness.
+                    let share = if self.law.cut().is_flat() {
+                        section.normal.0
+                    } else {
+                        1.0
+                    };
+                    let across = -found.force[0] / share * swell.slope / distance;
+                    tangent.force += Vector3::new(-n.y, n.x, 0.0) * across;
+                }
+                tangent
             }
             None => Tangent {
                 force: self.elastic(ball, place),
@@ -136,8 +153,8 @@ impl Pair {
         }
     }
 
-    /// Force of a whole contact; none where something cuts its zone.
-    fn meridional(&self, section: &Section<f64>) -> Option<Meridional> {
+    /// Force of a whole contact, of a ball that its texture raises; none where something cuts its zone.
+    fn meridional(&self, section: &Section<f64>, swell: f64) -> Option<Meridional> {
         let cut = self.law.cut();
         let zone = kernel::zone(&cut, section, cut.half_curvature());
         if !self.is_whole(section, &zone) {
@@ -147,7 +164,9 @@ impl Pair {
             ZoneSlices::Fitted(rules) if !cut.is_flat() => {
                 Some(self.fitted_on_surface(rules, section, &zone))
             }
-            ZoneSlices::Fitted(_) | ZoneSlices::Fixed(_) => Some(self.differentiated(section)),
+            ZoneSlices::Fitted(_) | ZoneSlices::Fixed(_) => {
+                Some(self.differentiated(section, swell))
+            }
         }
     }
 
@@ -161,12 +180,15 @@ impl Pair {
             && (matches!(self.slices, ZoneSlices::Fixed(_)) || fits(low) && fits(high))
     }
 
-    /// The kernel with derivatives by e and c.
-    fn differentiated(&self, section: &Section<f64>) -> Meridional {
+    /// The kernel with derivatives by e and c, of a ball that its texture raises.
+    fn differentiated(&self, section: &Section<f64>, swell: f64) -> Meridional {
         let of = Dual::constant;
         let constants = self.constants(section.radius);
         let (e, c) = (Dual::variable(section.e, 0), Dual::variable(section.c, 1));
-        let section = Section::new::<false, false>(of(section.radius), of(section.r), e, c);
+        let mut section = Section::new::<false, false>(of(section.radius), of(section.r), e, c);
+        if self.law.cut().is_flat() {
+            section.approach += of(swell);
+        }
         let half_curvature = of(constants.half_curvature);
         let zone = kernel::zone(&self.law.cut(), &section, half_curvature);
         let contact = Whole {
@@ -358,12 +380,9 @@ mod tests {
     /// Truth: the contact slice by slice. The same force, and the stiffness as its central differences.
     #[test]
     fn agrees_with_the_slices() {
-        let ball = BallSide {
-            radius: 6e-3,
-            faults: Vec::new(),
-        };
+        let ball = BallSide::whole(6e-3);
         let wavy = || {
-            Waves(vec![Waviness {
+            Waves::of(vec![Waviness {
                 order: 9,
                 amplitude: 1e-6,
                 phase: 0.4,
@@ -420,8 +439,8 @@ mod tests {
                 let (sin, cos) = f64::sin_cos(tilt);
                 let section = Section::new::<false, false>(6e-3, 6.24e-3, l * cos, -l * sin);
                 let (written, told) = (
-                    pair.meridional(&section).unwrap(),
-                    pair.differentiated(&section),
+                    pair.meridional(&section, 0.0).unwrap(),
+                    pair.differentiated(&section, 0.0),
                 );
                 for i in 0..2 {
                     let off = (written.force[i] - told.force[i]).abs() / told.force[0];

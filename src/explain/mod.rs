@@ -4,6 +4,7 @@ mod cost;
 mod law;
 mod oil;
 mod space;
+mod texture;
 mod variants;
 
 use std::collections::BTreeMap;
@@ -27,6 +28,7 @@ use crate::statics::{DefectPasses, Placed, describe, place};
 pub use cost::Cost;
 pub use law::LawExplanation;
 pub use oil::OilExplanation;
+pub use texture::TextureExplanation;
 pub use variants::Variant;
 
 /// What a run of a scene does.
@@ -61,6 +63,8 @@ pub struct Explanation {
     pub law: Option<LawExplanation>,
     /// The oils of the rows that have one.
     pub oils: Vec<OilExplanation>,
+    /// The textures of races and balls.
+    pub textures: Vec<TextureExplanation>,
     /// What is unusual about the scene, about the pressure in its contacts and about its films.
     pub doubts: Vec<Doubt>,
     /// Where defects are placed, and what contacts carry there at the healthy bearing's equilibrium: over a turn of
@@ -130,6 +134,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         cost,
         law: law::of(&model, &at_start),
         oils: oil::of(&model)?,
+        textures: texture::of(&model),
         doubts: at_start.doubts,
         defects: defects(&scene, &placed)?,
         notes: run::note(&model)
@@ -234,6 +239,12 @@ impl fmt::Display for Explanation {
         }
         for oil in &self.oils {
             writeln!(f, "  {oil}")?;
+        }
+        if !self.textures.is_empty() {
+            writeln!(f, "texture")?;
+        }
+        for texture in &self.textures {
+            writeln!(f, "  {texture}")?;
         }
         if !self.defects.is_empty() {
             writeln!(f, "defects    at equilibrium")?;

@@ -116,29 +116,6 @@ pub(crate) fn largest_pressure(model: &Model, y: &[f64]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Half-width along each race of its widest contact in any of two states, over the race's radius where the ball touches it; 0
-/// without waves, which alone ask for it.
-pub(crate) fn contact_arcs(model: &Model, states: [&[f64]; 2]) -> [f64; 2] {
-    let wavy = |race: &Race| {
-        let mut pairs = model.rows.iter().map(|row| &row.pairs[*race]);
-        pairs.any(|pair| !pair.waves.is_round())
-    };
-    Race::BOTH.map(|race| {
-        if !wavy(&race) {
-            return 0.0;
-        }
-        let balls = states
-            .into_iter()
-            .flat_map(|y| (0..model.balls.len()).map(move |j| (y, j)));
-        let arcs = balls.map(|(y, j)| {
-            let row = &model.rows[model.balls[j].row];
-            let half = row.hertz[race].half_width * contact(model, y, j, race).load.cbrt();
-            half / (row.pairs[race].race.a + race.sigma() * row.pairs[race].race.r)
-        });
-        arcs.fold(0.0, f64::max)
-    })
-}
-
 /// Largest slip speed \[m/s\], load-weighted in each contact, of contacts that rub by their film and bear a tenth of the largest load or more:
 /// lighter ones heat nothing. 0 without films.
 pub(crate) fn film_slip(model: &Model, y: &[f64]) -> f64 {

@@ -10,7 +10,7 @@ mod powers;
 mod stiffest;
 
 pub use contacts::{ContactSummary, SliceForce, contact, slice_forces};
-pub(crate) use contacts::{contact_arcs, film_slip, largest_pressure, pressure, visit};
+pub(crate) use contacts::{film_slip, largest_pressure, pressure, visit};
 pub use energy::{Energy, cage_forces, energy};
 pub(crate) use films::doubts;
 pub use films::{RaceFilm, films};

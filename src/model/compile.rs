@@ -43,6 +43,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
             cage_distance: row.pitch_diameter * (PI / row.ball_count as f64).sin(),
             side: f64::from(row.side),
             class: i,
+            texture_widths: None,
             drag: 0.0,
         });
         for index in 0..row.ball_count {
@@ -59,8 +60,8 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
                 degrees: row.ball_support.mounts(Mount::Free).map(Degree::from),
             });
             let side = BallSide {
-                radius: diameter / 2.0,
                 faults: ball_faults(scene, i, index, diameter / 2.0),
+                ..BallSide::whole(diameter / 2.0)
             };
             balls.push(Ball {
                 row: i,
@@ -202,14 +203,14 @@ fn pair(scene: &Scene, (index, row): (usize, &Row), race: Race) -> Result<(Pair,
             let hertz = hertz(scene, (row, race), &torus, angle);
             let one = Pair {
                 shape,
-                ..whole(scene, row, race, (torus, hertz))
+                ..whole(scene, row, (torus, hertz))
             };
             check_hollow(&path, &one, race)?;
             (one, hertz)
         }
         RaceGeometry::Arch(flanks, angle) => {
             let hertz = flanks.map(|torus| hertz(scene, (row, race), &torus, angle));
-            let [low, high] = [0, 1].map(|i| whole(scene, row, race, (flanks[i], hertz[i])));
+            let [low, high] = [0, 1].map(|i| whole(scene, row, (flanks[i], hertz[i])));
             let arch = Pair::arch([low, high], angle).ok_or_else(|| {
                 Error::scene(
                     format!("{path}.{}_arch.conformities", race.name()),
@@ -232,11 +233,7 @@ fn pair(scene: &Scene, (index, row): (usize, &Row), race: Race) -> Result<(Pair,
 }
 
 /// A race without defects and the laws of its contacts.
-fn whole(scene: &Scene, row: &Row, race: Race, (torus, hertz): (Torus, Hertz)) -> Pair {
-    let waviness = match race {
-        Race::Outer => &row.outer_waviness,
-        Race::Inner => &row.inner_waviness,
-    };
+fn whole(scene: &Scene, row: &Row, (torus, hertz): (Torus, Hertz)) -> Pair {
     let contact = scene.contact_of(row);
     let elastic = Elastic::new(&contact.law, row.ball_diameter, hertz);
     let exponent = elastic.exponent();
@@ -249,7 +246,8 @@ fn whole(scene: &Scene, row: &Row, race: Race, (torus, hertz): (Torus, Hertz)) -
     Pair {
         race: torus,
         shape: Shape::default(),
-        waves: Waves(waviness.clone()),
+        // Once it is known how wide contacts are.
+        waves: Waves::default(),
         law: Law {
             damping: Damping {
                 coefficient: contact.damping,

@@ -14,6 +14,7 @@ mod race;
 mod ring;
 mod rolling;
 mod scales;
+mod texture;
 
 use std::mem::discriminant;
 use std::ops::Range;
@@ -79,6 +80,8 @@ pub(crate) struct RowModel {
     pub side: f64,
     /// The first row like it ([`RowModel::is_like`]), which may be itself.
     pub class: usize,
+    /// Half-widths of contacts by which its texture is averaged, where it has one \[m\].
+    pub texture_widths: Option<[f64; 2]>,
     /// Drag of a ball over the square of its speed \[N s²/m²\].
     pub drag: f64,
 }
@@ -248,6 +251,11 @@ impl Model {
     pub(crate) fn eights(&self, class: usize) -> usize {
         let rows = self.rows.iter().filter(|row| row.class == class);
         rows.map(|row| row.count).sum::<usize>().div_ceil(LANES)
+    }
+
+    /// Whether the balls of a row have a texture.
+    pub(crate) fn has_textured_balls(&self, row: &RowModel) -> bool {
+        !self.balls[row.first].side.waves.is_round()
     }
 
     /// The instruction set that evaluations use.

@@ -79,10 +79,7 @@ fn worst(model: &Model, row: usize, race: Race, rules: &ZoneSlices) -> f64 {
     });
     let mut pair = many.clone();
     pair.change(|flank| flank.slices.clone_from(rules));
-    let ball = BallSide {
-        radius: model.balls[compiled.first].side.radius,
-        faults: Vec::new(),
-    };
+    let ball = BallSide::whole(model.balls[compiled.first].side.radius);
     let mut largest = 0.0_f64;
     for approach in APPROACHES {
         for turn in TURNS {

@@ -171,10 +171,7 @@ impl Bottom {
         });
         Self {
             pair,
-            ball: BallSide {
-                radius: ball.radius,
-                faults: Vec::new(),
-            },
+            ball: BallSide::whole(ball.radius),
         }
     }
 

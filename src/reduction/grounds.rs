@@ -87,7 +87,7 @@ impl Grounds {
                 }
                 (Dof::Theta, Some(ball)) if self.exact => {
                     let smooth = !model.rows[ball.row].has_friction();
-                    let whole = ball.side.faults.is_empty();
+                    let whole = ball.side.faults.is_empty() && ball.side.waves.is_round();
                     let loose = stiffness == 0.0 && damping == 0.0;
                     (smooth && whole && loose).then_some(Reason::NoMoment)
                 }

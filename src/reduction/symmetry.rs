@@ -96,6 +96,7 @@ fn images(model: &Model, first: &RowModel, second: &RowModel, start: &[f64]) -> 
             one.mass == other.mass
                 && one.degrees == other.degrees
                 && a.radius == b.radius
+                && a.waves == b.waves
                 && faults_are_images(&a.faults, &b.faults, 0.0),
             || format!("balls {k} of the rows differ"),
         )?;

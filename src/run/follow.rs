@@ -188,7 +188,6 @@ fn statistics(
         largest_pressure: inspect::largest_pressure(model, first)
             .max(inspect::largest_pressure(model, last)),
         film_slip: inspect::film_slip(model, first).max(inspect::film_slip(model, last)),
-        contact_arcs: inspect::contact_arcs(model, [first, last]),
         largest_tilt: model.largest_tilt(first).max(model.largest_tilt(last)),
         settling_accepted: 0,
         settling_nfev: 0,

@@ -56,7 +56,9 @@ fn bounds(method: Method) -> MethodBounds {
 
 /// The largest step \[s\] by which a method is stable and accurate to a few percent.
 pub(crate) fn largest(method: Method, model: &Model) -> f64 {
-    at_damping(method, model.scales.frequency, damping(model))
+    let of_contacts = at_damping(method, model.scales.frequency, damping(model));
+    // Eight steps at least on the width of a contact, over which its texture is averaged.
+    of_contacts.min(model.texture_time())
 }
 
 fn at_damping(method: Method, frequency: f64, damping: f64) -> f64 {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Contact, Friction, Lubricant, Material, defaults};
+use super::{Contact, Friction, Lubricant, Material, Texture, defaults};
 
 /// One row of balls between two grooves (geometry of model section 2).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -68,6 +68,9 @@ pub struct Row {
     /// Waviness of the inner race; turns with the inner ring.
     #[serde(default)]
     pub inner_waviness: Vec<Waviness>,
+    /// Texture of races and balls; absent: smooth. What `outer_waviness` and `inner_waviness` list comes on top of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub texture: Option<Texture>,
     /// Diameter error of each ball \[m\]; empty: none.
     #[serde(default)]
     pub diameter_errors: Vec<f64>,
@@ -95,6 +98,12 @@ pub struct Row {
 }
 
 impl Row {
+    /// Whether its races have waves, or races or balls a texture.
+    pub(crate) fn is_wavy(&self) -> bool {
+        let listed = !(self.outer_waviness.is_empty() && self.inner_waviness.is_empty());
+        listed || self.texture.is_some()
+    }
+
     /// A healthy row in the plane z = 0, without contact angle and clearance, its numbers as the fields of the same names.
     pub fn new(
         ball_count: usize,
@@ -125,6 +134,7 @@ impl Row {
             inner_arch: None,
             outer_waviness: Vec::new(),
             inner_waviness: Vec::new(),
+            texture: None,
             diameter_errors: Vec::new(),
             ball_mass: None,
             ball_inertia: None,

@@ -35,6 +35,7 @@ mod ring_force;
 mod solver;
 mod spin;
 mod table_force;
+mod texture;
 mod tilt;
 mod time;
 mod validate;
@@ -67,6 +68,7 @@ pub use ring_force::{RingForce, RingForces, RingMotion};
 pub use solver::{Method, Solver};
 pub use spin::Spin;
 pub use table_force::TableForce;
+pub use texture::Texture;
 pub use time::{Profile, TimeFunction};
 
 /// Version of the document this crate reads.

@@ -113,10 +113,6 @@ pub struct Statistics {
     /// Largest slip speed of a loaded contact under an oil film at the start or at the end of the run \[m/s\]; 0 without oil. Above 0.5
     /// is warned of.
     pub film_slip: f64,
-    /// Half-width of the widest contact along the outer and along the inner race over the race's radius, at the start or at the
-    /// end \[rad\].
-    #[serde(skip)]
-    pub(crate) contact_arcs: [f64; 2],
     /// Largest tilt of a ring at the start or at the end of the run \[rad\]; 0 where none may tilt. Above 0.05 is
     /// warned of.
     pub largest_tilt: f64,

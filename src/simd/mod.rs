@@ -4,6 +4,7 @@
 //! around them is compiled for. `Vector`s are the registers themselves. [`InstructionSet`] compiles a task for three sets
 //! into one program and picks one at run time.
 
+mod angle;
 mod choice;
 mod curves;
 mod inverse_root;
@@ -13,6 +14,7 @@ mod number;
 mod proof;
 mod vector;
 
+pub(crate) use angle::direction;
 pub use choice::{Distrust, UnknownInstructionSet};
 pub(crate) use curves::{arctan_over, ln};
 pub(crate) use inverse_root::inverse_root;

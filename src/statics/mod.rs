@@ -19,7 +19,7 @@ mod distribution;
 mod guess;
 mod gyroscopic;
 mod leaning;
-mod oil;
+mod loads;
 mod place;
 mod polish;
 mod problem;
@@ -248,7 +248,9 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
         let (dx, dy) = (seen.centre.x, seen.centre.y);
         let wave = pair.waves.at(r.angle_of(dy.atan2(dx)));
         let radius = ball.side.radius;
-        let (deflection, _) = pair.foot(radius, dx.hypot(dy), seen.z, wave);
+        let (approach, _) = pair.foot(radius, dx.hypot(dy), seen.z, wave);
+        let outwards = pair.outwards(dy.atan2(dx));
+        let deflection = approach + ball.side.waves.at(b.angle_of(outwards));
         let loaded = summary.load > 0.0;
         ContactEquilibrium {
             load: summary.load,
@@ -287,8 +289,6 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
         doubts: Vec::new(),
     };
     found.doubts = doubts(&model.scene, &found);
-    let arcs = inspect::contact_arcs(model, [y; 2]);
-    found.doubts.extend(Doubt::waves(&model.scene, arcs));
     found
 }
 

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::{oil, positions};
+use super::{loads, positions};
 use crate::base::error::{Error, Result};
 use crate::inspect;
 use crate::model::{BodyId, Dof, Model, Race, compile_placed};
@@ -38,7 +38,7 @@ const LOADED: f64 = 1e-9;
 /// [`crate::Error::Scene`] names the first field that is not usable, or the environment variable `BALLRACE_SIMD` where it
 /// names no level of this processor.
 pub fn compile(scene: &Scene) -> Result<Model> {
-    oil::lubricated(compile_placed(&place(scene)?.0)?)
+    loads::finished(compile_placed(&place(scene)?.0)?)
 }
 
 /// The scene with a number for the axial place of every defect, and where the numbers come from, by the defects' names.

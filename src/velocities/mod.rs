@@ -73,8 +73,8 @@ mod tests {
     use super::*;
     use crate::contact;
     use crate::scene::{
-        Defect, Drive, Friction, Lubricant, Mount, NormalLaw, Slices, Spin, TimeFunction, Waviness,
-        presets,
+        Defect, Drive, Friction, Lubricant, Mount, NormalLaw, Slices, Spin, Texture, TimeFunction,
+        Waviness, presets,
     };
     use crate::statics::compile;
     use crate::{BodyId, Dof, Model, Scene, Start, start};
@@ -145,6 +145,9 @@ mod tests {
             amplitude: 2e-6,
             phase: 0.3,
         }];
+        let mut texture = Texture::of_races(5e-9);
+        texture.ball = 5e-9;
+        uneven.rows[1].texture = Some(texture);
         // Rows of other laws, cuts and friction.
         let mut unlike = wheel.clone();
         unlike.rows[1].contact = Some(hertz.contact.clone());

@@ -89,7 +89,7 @@ impl<const N: usize> Stage<N> {
                 // The elements of a stage are those of a torus.
                 let row = &model.rows[model.balls[contact.ball].row];
                 self.meetings[contact.ball][race] = if row.pairs[race].shape.is_torus() {
-                    Met::Whole(contact.raise)
+                    Met::Whole([contact.raise, contact.swell])
                 } else {
                     Met::Faulted
                 };

@@ -17,8 +17,8 @@ use crate::simd::{LANES, Lanes, Mask, Task};
 pub(super) enum Met {
     #[default]
     Nothing,
-    /// A race without a defect in reach, raised by its waves.
-    Whole(Raise<f64>),
+    /// A race without a defect in reach: how it and the ball are raised.
+    Whole([Raise<f64>; 2]),
     /// Perhaps a defect: evaluated alone.
     Faulted,
 }
@@ -114,12 +114,13 @@ impl<const N: usize> StageBatch<N> {
                 class: self.class,
                 nodes: &mut side.nodes,
                 race,
-                contacts: &from_fn(|lane| Touching {
-                    ball: self.balls[lane],
-                    raise: match meetings[lane] {
-                        Met::Whole(raise) => raise,
-                        Met::Nothing | Met::Faulted => Raise::default(),
-                    },
+                contacts: &from_fn(|lane| {
+                    let [raise, swell] = match meetings[lane] {
+                        Met::Whole(raises) => raises,
+                        Met::Nothing | Met::Faulted => [Raise::default(); 2],
+                    };
+                    let ball = self.balls[lane];
+                    Touching { ball, raise, swell }
                 }),
                 whole: Mask::from_fn(whole),
                 constants,
@@ -128,7 +129,7 @@ impl<const N: usize> StageBatch<N> {
                 free: N > AXIAL,
             });
             side.aside = [Lanes::ZERO; FREE];
-            side.aside[..2].copy_from_slice(&side.held.aside);
+            side.aside[..AXIAL].copy_from_slice(&side.held.aside);
             let View { q, ring, .. } = &views[race];
             let place = |ball: usize| q.get(BodyId::ball(ball), Dof::Z) - ring.z;
             side.raised = Lanes::from_fn(|lane| place(self.balls[lane]));

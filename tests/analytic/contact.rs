@@ -50,10 +50,7 @@ fn hertz_force(slices: ZoneSlices, approach: f64, angle: f64) -> (f64, Hertz) {
     };
     let reach = r - radius + approach;
     let mut total = Total::default();
-    let ball = BallSide {
-        radius,
-        faults: Vec::new(),
-    };
+    let ball = BallSide::whole(radius);
     let place = still(race.a + reach * angle.cos(), reach * angle.sin());
     pair.evaluate(&ball, &place, &still(0.0, 0.0), &mut total);
     (total.radial.hypot(total.axial), law)

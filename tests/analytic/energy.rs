@@ -9,7 +9,7 @@ use ballrace::compile;
 use ballrace::dynamics::rhs;
 use ballrace::scene::{
     Defect, Drive, Floor, Friction, GothicArch, Mount, NormalLaw, Probe, RingName, Scene, Slices,
-    Surface, Unbalance, Waviness, Width, WidthProfile, presets,
+    Surface, Texture, Unbalance, Waviness, Width, WidthProfile, presets,
 };
 use ballrace::{Error, Run, Signals, Start, equilibrium, start};
 use common::{effects, oiled, run, short, through_points};
@@ -145,8 +145,31 @@ fn scenes(law: &NormalLaw) -> Vec<(&'static str, Scene)> {
         ("waves outside", wavy(true)),
         ("waves inside", wavy(false)),
         ("waves and a defect", both),
+        ("texture", textured(coasting(law))),
+        ("texture of balls", {
+            let mut scene = textured(coasting(law));
+            let texture = scene.rows[0].texture.as_mut().unwrap();
+            (texture.outer, texture.inner, texture.ball) = (0.0, 0.0, 5e-9);
+            scene
+        }),
+        (
+            "texture and a ball's defect",
+            textured(with_defect(law, Surface::Ball, plain)),
+        ),
+        (
+            "texture and a defect",
+            textured(with_defect(law, Surface::OuterRace, plain)),
+        ),
         ("two rows", two_rows(law)),
     ]
+}
+
+/// Every surface as rough as any that is finished.
+fn textured(mut scene: Scene) -> Scene {
+    let mut texture = Texture::of_races(5e-9);
+    texture.ball = 2e-9;
+    scene.rows[0].texture = Some(texture);
+    scene
 }
 
 /// Both races gothic arches, and a defect on one.

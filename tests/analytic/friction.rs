@@ -98,10 +98,7 @@ impl Case {
         let exponent = pair.law.elastic.exponent();
         pair.slices = ZoneSlices::Fitted(Rules::for_friction(nodes, exponent, finer));
         let mut sum = Sum::default();
-        let side = BallSide {
-            radius: RADIUS,
-            faults: Vec::new(),
-        };
+        let side = BallSide::whole(RADIUS);
         pair.evaluate(&side, &self.ball, &self.ring, &mut sum);
         sum
     }

@@ -18,5 +18,6 @@ mod oil_run;
 mod profiles;
 mod ring_force;
 mod start;
+mod texture;
 mod tilt;
 mod tilt_random;

@@ -10,8 +10,8 @@ use ballrace::dynamics::contributions;
 use ballrace::dynamics::rhs;
 use ballrace::inspect;
 use ballrace::scene::{
-    Defect, Friction, GothicArch, Lubricant, Mount, NormalLaw, Scene, Slices, Surface, Waviness,
-    presets,
+    Defect, Friction, GothicArch, Lubricant, Mount, NormalLaw, Scene, Slices, Surface, Texture,
+    Waviness, presets,
 };
 use ballrace::simd::InstructionSet;
 use ballrace::{Model, Race, Start, start};
@@ -132,7 +132,17 @@ fn scenes() -> Vec<(String, Scene)> {
         scene.defects.insert(name.to_owned(), defect);
     }
     let mut hertz = scene.clone();
+    let mut rough = scene.clone();
     add("defects everywhere", scene);
+    for row in &mut rough.rows {
+        row.texture = Some(textured());
+    }
+    add("defects everywhere on texture", rough.clone());
+    rough.contact.law = NormalLaw::Hertz;
+    let mut smooth = rough.clone();
+    (smooth.friction, smooth.cage) = (Friction::None, None);
+    add("texture without friction, Hertz", smooth);
+    add("defects everywhere on texture, Hertz", rough);
     hertz.contact.law = NormalLaw::Hertz;
     for row in &mut hertz.rows {
         row.outer_waviness = vec![Waviness::new(11, 2e-6, -0.3)];
@@ -148,6 +158,14 @@ fn scenes() -> Vec<(String, Scene)> {
     add("waves without friction, Hertz", hertz);
     scenes.extend(in_oil());
     scenes
+}
+
+/// The same for rings in and out of equilibrium.
+fn textured() -> Texture {
+    let mut texture = Texture::of_races(5e-9);
+    texture.ball = 2e-9;
+    texture.reference_load = Some(1000.0);
+    texture
 }
 
 /// Contacts in oil: tori under both laws, on nodes and slices, defects, arches, and rows in oils of their own.

@@ -192,10 +192,7 @@ impl Sink for Load {
 
 /// Force of a ball at a distance from the ring's axis, in the middle of the groove.
 fn force(pair: &Pair, radius: f64, distance: f64) -> f64 {
-    let ball = BallSide {
-        radius,
-        faults: Vec::new(),
-    };
+    let ball = BallSide::whole(radius);
     let mut load = Load::default();
     pair.evaluate(&ball, &at(distance), &at(0.0), &mut load);
     load.0

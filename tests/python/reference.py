@@ -150,7 +150,7 @@ class Groove:
         return self.torus(z) + self.waviness(angle)
 
 
-def groove(row: Json, ring: int) -> Groove:
+def groove(row: Json, ring: int, materials: Json) -> Groove:
     """Groove of a ring under a row (section 2)."""
     D, d_m, alpha, side = (
         row["ball_diameter"],
@@ -172,7 +172,16 @@ def groove(row: Json, ring: int) -> Groove:
     limits = (-math.inf, math.inf)
     if shoulders is not None:
         limits = (-r * math.sin(shoulders[0]), r * math.sin(shoulders[1]))
-    harmonics = tuple((w["order"], w["amplitude"], w["phase"]) for w in waves)
+    harmonics = ()
+    if waves:
+        # The share of a wave that a contact keeps, sin κ/κ with κ = n b/R (section 14.1).
+        width = hertz(row, ring, materials).c_b * row["texture"]["reference_load"] ** (1 / 3)
+        arc = width / (a + sigma * r * math.cos(alpha))
+        shares = [math.sin(w["order"] * arc) / (w["order"] * arc) for w in waves]
+        harmonics = tuple(
+            (w["order"], share * w["amplitude"], w["phase"])
+            for w, share in zip(waves, shares, strict=True)
+        )
     return Groove(sigma, a, z, r, limits, harmonics)
 
 
@@ -181,10 +190,11 @@ def groove(row: Json, ring: int) -> Groove:
 
 @dataclass(frozen=True)
 class Hertz:
-    """F = K δ^(3/2), half-length c_a F^(1/3), and the slice law q = k' (δ − κ τ²/2)."""
+    """F = K δ^(3/2), half-length c_a F^(1/3), half-width c_b F^(1/3), the slice law q = k' (δ − κ τ²/2)."""
 
     K: float
     c_a: float
+    c_b: float
 
     @property
     def k(self) -> float:
@@ -228,7 +238,8 @@ def hertz(row: Json, ring: int, materials: Json) -> Hertz:
     axes = float(brentq(mismatch, 1e-6, 1 - 1e-6, xtol=1e-16, rtol=1e-15))
     K, E = integrals(axes)
     c_a = (3 * (K - E) * compliance / (2 * math.pi * (1 - axes**2) * A)) ** (1 / 3)
-    return Hertz(float((2 * math.pi * c_a / (3 * K * compliance)) ** 1.5), float(c_a))
+    stiffness = (2 * math.pi * c_a / (3 * K * compliance)) ** 1.5
+    return Hertz(float(stiffness), float(c_a), float(axes * c_a))
 
 
 # ---------------------------------------------------------------------------- arcs (section 7)
@@ -944,7 +955,8 @@ class Reference:
         self.damping = float(contact["damping"])
         self.clamp_pull = bool(contact["clamp_pull"])
         rings = (OUTER, INNER)
-        self.grooves = [[groove(row, ring) for ring in rings] for row in self.rows]
+        materials = scene["materials"]
+        self.grooves = [[groove(row, ring, materials) for ring in rings] for row in self.rows]
         self.hertz: list[list[Hertz | None]] = [
             [hertz(row, ring, scene["materials"]) if is_hertz else None for ring in rings]
             for row in self.rows

@@ -7,9 +7,8 @@ use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::scene::{
-    Cage, Component, Contact, ContactQuantity, Defect, Doubt, Drive, Friction, Material, Moment,
-    Mount, NormalLaw, Probe, Ring, RingName, Scene, Spin, Support, Surface, Unbalance, Waviness,
-    presets,
+    Cage, Component, Contact, ContactQuantity, Defect, Drive, Friction, Material, Moment, Mount,
+    NormalLaw, Probe, Ring, RingName, Scene, Spin, Support, Surface, Texture, Unbalance, presets,
 };
 use ballrace::{Warning, equilibrium, explain, load_distribution};
 use common::{Noise, run, short};
@@ -532,35 +531,20 @@ fn machines_drawn_at_random_raise_no_doubt() {
     }
 }
 
-/// Analytic: a wave of n periods keeps sin κ/κ, κ = n b/R, of its height under a contact; 7.6 kHz of balls at 1.76 m/s is the first
-/// that is gone, in a contact of 250 N of a 6205 (model section 14.1). Told from κ = 0.8 on, in statics and in runs.
+/// Textures that no finished race has.
 #[test]
-fn waves_shorter_than_their_contact_are_told() {
-    let wavy = |order: u32| {
+fn rough_textures_are_told() {
+    let told = |outer: f64, slope: f64| {
         let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
-        scene.rows[0].outer_waviness = vec![Waviness::new(order, 0.1e-6, 0.0)];
-        scene
+        let mut texture = Texture::of_races(1e-9);
+        (texture.outer, texture.slope) = (outer, slope);
+        scene.rows[0].texture = Some(texture);
+        let doubts = scene.doubts();
+        doubts
+            .iter()
+            .any(|doubt| doubt.path == "rows[0].texture.outer")
     };
-    let path = "rows[0].outer_waviness[0].order";
-    let told = |doubts: &[Doubt]| doubts.iter().any(|doubt| doubt.path == path);
-    // b = 0.1157 mm at 250 N on a race of 23.5 mm.
-    let load = equilibrium(&wavy(30)).unwrap().balls[0].outer.load;
-    let first = 0.8 * 23.5e-3 / (0.1157e-3 * (load / 250.0).cbrt());
-    for (order, expected) in [(30, false), (100, false), (300, true), (1000, true)] {
-        assert_eq!(f64::from(order) > first, expected, "{first}");
-        let found = equilibrium(&wavy(order)).unwrap().doubts;
-        assert_eq!(told(&found), expected, "{order}: {found:?}");
-        let warnings = run(&wavy(order), &short(2e-4)).warnings();
-        let doubts = |warning: &Warning| match warning {
-            Warning::Doubtful(doubt) => Some(doubt.clone()),
-            _ => None,
-        };
-        let doubts: Vec<Doubt> = warnings.iter().filter_map(doubts).collect();
-        assert_eq!(told(&doubts), expected, "{order}: {doubts:?}");
-    }
-    let limit = format!("keep to orders below {}", first.floor());
-    let found = equilibrium(&wavy(1000)).unwrap().doubts;
-    assert!(found[0].usual.contains(&limit), "{limit}: {found:?}");
+    assert!(!told(5e-9, 2.0) && told(21e-9, 2.0) && told(6e-9, 2.0) && told(1e-9, 3.0));
 }
 
 /// Truth: the doubts of statics over a turn of the cage are the scene's own, wherever the turn starts.

@@ -23,6 +23,7 @@ from ..scene import (
     SpeedDrive,
     Spring,
     Support,
+    Texture,
 )
 from ..scene.lubricant import chosen
 from .clearance import radial_clearance
@@ -67,6 +68,7 @@ def bearing(
     lubricant: str | Lubricant | None = None,
     temperature_c: float | None = None,
     housing: Literal["pedestal"] | Pedestal | None = "pedestal",
+    texture: Texture | None = None,
 ) -> Scene:
     """Return a scene of a bearing of the catalogue, ready to run.
 
@@ -108,6 +110,8 @@ def bearing(
         against it on the loaded balls at 1.7 kHz (100 N) to 2.7 kHz (1500 N). A :class:`ballrace.Pedestal`:
         one's own. None: the ring alone on a stiff spring (near 5 kHz, damped at 5 %, whatever the size), as in
         :func:`ballrace.presets.deep_groove_6205`.
+    texture : Texture, optional
+        Texture of races and balls; by default they are smooth.
 
     Raises
     ------
@@ -129,7 +133,8 @@ def bearing(
     >>> out = br.simulate(scene, duration=0.002)
     """
     made = name if isinstance(name, Bearing) else catalogue[name]
-    rows = rows_of(made, said_clearance(name, made, clearance))
+    smooth = rows_of(made, said_clearance(name, made, clearance))
+    rows = tuple(replace(row, texture=texture) for row in smooth)
     radial = 0.1 * made.static_rating if radial_load is None else _load("radial_load", radial_load)
     axial = _thrust(made, radial, axial_load)
     if not math.isfinite(real(speed_rpm)):

@@ -32,6 +32,7 @@ def scatter(
     clearance: float = 0.0,
     groove_radius: float = 0.0,
     start_phase: bool = True,
+    texture_seed: bool = False,
 ) -> pl.DataFrame:
     """Return a table of ``n`` bearings that differ as made ones do.
 
@@ -57,6 +58,8 @@ def scatter(
         Standard deviation of the radius of either groove [m].
     start_phase : bool
         Whether the cage starts at any angle, evenly distributed over one pitch of the balls.
+    texture_seed : bool
+        Whether every bearing has surfaces of its own; needs a texture in each row of the scene.
 
     Raises
     ------
@@ -82,6 +85,8 @@ def scatter(
     for name, value in deviations.items():
         if not 0.0 <= real(value) < 1.0:
             raise SceneError(name, repr(value), "a standard deviation, from 0 to below 1 m")
+    if texture_seed and any(row.texture is None for row in scene.rows):
+        raise SceneError("texture_seed", "True", "False, or a scene whose rows have a texture")
     rng = np.random.default_rng(seed)
     columns: dict[str, object] = {"bearing_id": range(n)}
     for i, row in enumerate(scene.rows):
@@ -100,6 +105,8 @@ def scatter(
         if start_phase:
             pitch = 2.0 * math.pi / row.ball_count
             columns[f"{path}.start_angle"] = row.start_angle + pitch * rng.random(n)
+        if texture_seed:
+            columns[f"{path}.texture.seed"] = rng.integers(0, 2**53, n)
     return pl.DataFrame(columns)
 
 

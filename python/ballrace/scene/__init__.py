@@ -38,6 +38,7 @@ from .probe import (
 from .scene import Scene, Spin
 from .solver import Method, Solver
 from .support import CoupledSupport, Mount, Spring, Support
+from .texture import Texture
 from .time import Ramp, Sine, Table, TimeFunction
 
 __all__ = [
@@ -97,6 +98,7 @@ __all__ = [
     "Surface",
     "Table",
     "TableForce",
+    "Texture",
     "TimeFunction",
     "TorqueDrive",
     "TorqueProbe",

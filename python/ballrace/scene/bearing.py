@@ -11,6 +11,7 @@ from .friction import Friction
 from .lubricant import Lubricant
 from .material import Material
 from .support import Support
+from .texture import Texture
 
 __all__ = ["GothicArch", "RaceProfile", "Ring", "RingName", "Row", "Waviness"]
 
@@ -113,6 +114,8 @@ class Row(Part):
         Race as a gothic arch, as in a four-point bearing.
     outer_waviness, inner_waviness : tuple of Waviness
         Waviness of the race; turns with its ring. Empty: none.
+    texture : Texture or None
+        Texture of races and balls, on top of their waviness; None: smooth.
     diameter_errors : tuple of float
         Diameter error of each ball [m]; empty: none.
     ball_mass : float or None
@@ -152,6 +155,7 @@ class Row(Part):
     inner_arch: GothicArch | None = None
     outer_waviness: tuple[Waviness, ...] = ()
     inner_waviness: tuple[Waviness, ...] = ()
+    texture: Texture | None = field(default=None, metadata=LEFT_OUT)
     diameter_errors: tuple[float, ...] = ()
     ball_mass: float | None = None
     ball_inertia: float | None = None

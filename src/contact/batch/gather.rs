@@ -4,26 +4,29 @@
 #![allow(clippy::inline_always)]
 
 use crate::contact::defect::Sight;
-use crate::contact::profile::{Raise, Section};
+use crate::contact::profile::{HeightTable, Raise, Section};
 use crate::contact::{FilmNumbers, Motion, Pair};
-use crate::simd::{Lanes, Mask};
+use crate::simd::{LANES, Lanes, Mask, direction};
 
 /// Positions of eight balls of one row, for [`Pair::near`].
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Places {
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Places<'a> {
     /// Ball radius \[m\].
     pub radius: Lanes,
     /// x, y, z \[m\].
     pub q: [Lanes; 3],
+    /// Their textures, where they have any, and how far they have turned \[rad\].
+    pub texture: Option<([&'a HeightTable; LANES], Lanes)>,
 }
 
 /// Which of eight balls of a row touch a race, which of these may see a defect of it or are for other reasons left to
-/// [`Pair::evaluate`], how the race is raised there, and which balls are lost ([`crate::contact::Torus::farthest`]).
+/// [`Pair::evaluate`], how race and balls are raised there, and which balls are lost ([`crate::contact::Torus::farthest`]).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Near {
     pub touching: Mask,
     pub faulted: Mask,
     pub raise: Raise<Lanes>,
+    pub swell: Option<Raise<Lanes>>,
     pub lost: Mask,
 }
 
@@ -35,6 +38,8 @@ pub(crate) struct EightContacts {
     pub raise: Raise<Lanes>,
     /// Whether any race here has waves.
     pub wavy: bool,
+    /// Of the balls by their texture, if they have one.
+    pub swell: Option<Raise<Lanes>>,
     /// Position x, y, z of the ball \[m\].
     pub q: [Lanes; 3],
     /// Velocity \[m/s\] and angular speed \[rad/s\] of the ball.
@@ -98,19 +103,27 @@ impl Pair {
 
     /// Which of eight balls touch, as [`Pair::evaluate`] decides it.
     #[inline(always)]
-    pub(crate) fn near<const FMA: bool>(&self, balls: &Places, ring: &Motion) -> Near {
+    pub(crate) fn near<const FMA: bool>(&self, balls: &Places<'_>, ring: &Motion) -> Near {
         let race = &self.race;
         let [x, y, z] = ring.place_from([balls.q[0], balls.q[1], balls.q[2]]);
         let d = x.mul_add::<FMA>(x, y * y).sqrt();
         let raise = if self.waves.is_round() {
             Raise::default()
         } else {
-            Raise::each(|i| self.waves.raise(ring.angle_of(y[i].atan2(x[i]))))
+            self.waves.under::<FMA>([x, y], ring.theta)
         };
+        let swell = balls.texture.map(|(tables, turned)| {
+            let opposite = self.outwards(0.0);
+            let angle = direction::<FMA>(x, y) - turned + opposite;
+            HeightTable::each::<FMA>(tables, angle)
+        });
         let (touching, lost) = if self.shape.is_torus() {
             let e = (d - raise.height - race.a) * race.sigma;
             let c = Lanes::all(race.centre) - z;
-            let section = Section::new::<FMA, false>(balls.radius, Lanes::all(race.r), e, c);
+            let mut section = Section::new::<FMA, false>(balls.radius, Lanes::all(race.r), e, c);
+            if let Some(swell) = &swell {
+                section = section.raised::<FMA, false>(self.law.cut().is_flat(), swell.height);
+            }
             // Negated, so that what is not a number counts as lost.
             let inside = balls
                 .radius
@@ -138,6 +151,7 @@ impl Pair {
             touching,
             faulted: faulted.and(touching),
             raise,
+            swell,
             lost,
         }
     }

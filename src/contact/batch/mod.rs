@@ -50,6 +50,8 @@ pub(super) struct Place {
     /// Slope of the waves along the race, R'(φ)/d, if there are any: the force along t_e over that along n_e (see
     /// `gradient`).
     pub lean: Option<Lanes>,
+    /// Moment about the balls that the slope of their texture makes of the elastic force in the plane \[m\], if they have one.
+    pub turn: Option<Lanes>,
     /// Contacts whose nodes are these; the others get none that press.
     pub regular: Mask,
 }
@@ -107,7 +109,11 @@ impl Pair {
         let raised = of.a + eight.raise.height;
         let e = (d - raised) * sigma;
         let c = if SYMMETRIC { zero } else { of.centre - dz };
-        let section = Section::new::<FMA, SYMMETRIC>(of.radius, of.r, e, c);
+        let mut section = Section::new::<FMA, SYMMETRIC>(of.radius, of.r, e, c);
+        let is_flat = self.law.cut().is_flat();
+        if let Some(swell) = &eight.swell {
+            section = section.raised::<FMA, SYMMETRIC>(is_flat, swell.height);
+        }
         let zone = kernel::zone(&self.law.cut(), &section, of.half_curvature);
         let ends = if SYMMETRIC {
             (-zone.half, zone.half)
@@ -119,7 +125,7 @@ impl Pair {
         let clear = (of.r - of.radius) * 0.5;
         let whole = Whole {
             section: Section {
-                e: regular.choose(e, clear),
+                e: regular.choose(section.e, clear),
                 c: regular.choose(c, zero),
                 approach: regular.choose(section.approach, zero),
                 normal: (
@@ -147,6 +153,11 @@ impl Pair {
             oil: FilmEffect::of(eight.film.as_ref(), whole.half),
         };
         let lean = eight.wavy.then(|| eight.raise.slope * over);
+        let turn = match &eight.swell {
+            Some(swell) if is_flat => Some(swell.slope / whole.section.normal.0),
+            Some(swell) => Some(swell.slope),
+            None => None,
+        };
         (
             whole,
             moves,
@@ -154,6 +165,7 @@ impl Pair {
                 n,
                 d,
                 lean,
+                turn,
                 regular,
             },
         )
@@ -226,6 +238,12 @@ impl<'a> Sums<'a> {
         }
         let (along, mut across) = (self.normal * sigma, tangential * sigma);
         let mut moment = self.moment * sigma;
+        if let Some(turn) = place.turn {
+            // One force at the ring's centre, and the opposite on the ring (see `gradient`).
+            let turning = self.elastic * turn;
+            across += -(turning / place.d);
+            moment += turning;
+        }
         if self.law.film.is_some() {
             let resistance = RollingResistance::new(
                 self.moves.oil.rolling,

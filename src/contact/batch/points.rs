@@ -118,6 +118,8 @@ impl Pair {
             n,
             d,
             lean: eight.wavy.then(|| eight.raise.slope * over),
+            // Textures are of balls in plain grooves.
+            turn: None,
             regular: found.regular.or(found.touching.not()),
         };
         (curve, found, whole, moves, place)

@@ -58,8 +58,8 @@ fn cap(e: &Vector3<f64>, width: f64, floor: Option<Floor>) -> BallSide {
     let mut defect = Defect::cap(e.y.atan2(e.x), width, 0.3e-3);
     defect.floor = floor;
     BallSide {
-        radius: RADIUS,
         faults: vec![Fault::cap(&defect, RADIUS * e.z, RADIUS)],
+        ..BallSide::whole(RADIUS)
     }
 }
 
@@ -291,10 +291,7 @@ fn ring_and_ball_do_the_opposite_to_each_other() {
 }
 
 fn whole() -> BallSide {
-    BallSide {
-        radius: RADIUS,
-        faults: Vec::new(),
-    }
+    BallSide::whole(RADIUS)
 }
 
 /// Limits: a cap of no width is a healthy ball, and one that no race meets changes nothing.
@@ -330,8 +327,8 @@ fn a_patch_of_the_same_outline_does_the_same() {
         let outline = WidthProfile::new(positions, widths);
         let defect = Defect::new(Surface::Ball, e.y.atan2(e.x), 1.9 * RADIUS, outline, 0.3e-3);
         BallSide {
-            radius: RADIUS,
             faults: vec![Fault::new(&defect, 0.0, 0.3 * RADIUS)],
+            ..BallSide::whole(RADIUS)
         }
     };
     for (mut pair, name) in pairs() {

@@ -192,7 +192,7 @@ impl OneContact<'_> {
             shape: FeatureShape::Race,
             n_e: self.n * sigma,
             s: D::new(
-                self.section.penetration(node.rho, node.groove),
+                self.section.penetration(node.rho, node.groove) - self.raised_in_plane(),
                 -sigma * self.race_slope(node),
                 -node.zeta / node.rho,
             ),
@@ -200,6 +200,15 @@ impl OneContact<'_> {
             arm_ring: self.n * (node.torus_radius + self.raise.height),
             lean: self.lean(self.n, self.distance, self.raise.slope, V2::zeros()),
             swing: WITH_RING_AXIS,
+        }
+    }
+
+    /// What the ball's texture adds to penetrations in the plane, where the law counts those: drops are of smooth balls \[m\].
+    fn raised_in_plane(&self) -> f64 {
+        if self.common().is_some() {
+            0.0
+        } else {
+            self.swell.height
         }
     }
 

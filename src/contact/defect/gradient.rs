@@ -8,6 +8,10 @@
 //! is a tangential force σ R̃' (∂U/∂e)/d through the ball's centre, so that it turns no ball. A fault circle of the ball
 //! has its own direction and distance, and takes it through the circle's centre.
 //!
+//! **Texture of the ball** adds w(ψ) to the approach, or to penetrations in the plane under the ISO law; ψ is the direction of the contact from
+//! the ball's mark, so that with F the sum of elastic forces −∂U/∂φ = −F w' and −∂U/∂θ_b = F w': a force −F w'/d across the ball's radius that acts
+//! at the ring's centre, on the ring the opposite.
+//!
 //! **The ISO law** has s and tan α of every slice such that −∂U/∂q is the sum of slice forces as long as slices enter and
 //! leave without penetration or stand still in the *ring's* frame (shift the variable to z: the ends of a ring defect
 //! stay, and ∂s/∂z_b = tan α). The axial ends of a ball defect move along, ∂z_end/∂z_b = 1, and add u(left) − u(right).
@@ -72,6 +76,17 @@ impl OneContact<'_> {
             }
         }
         sink.aside(&self.turning((cos, sin), turning, shifting));
+    }
+
+    /// What the slope of the ball's texture makes of an elastic force.
+    pub(super) fn texture_force(&self, elastic: f64) -> Aside {
+        Aside {
+            plane: turned(self.n) * (-elastic * self.swell.slope / self.distance),
+            axial: 0.0,
+            arm_ball: -self.apart,
+            arm_ring: V2::zeros(),
+            swing: WITH_RING_AXIS,
+        }
     }
 
     /// What the axial end of a defect at a place ζ adds.
@@ -229,7 +244,7 @@ pub(super) mod tests {
         Pair {
             race,
             shape: Shape::default(),
-            waves: Waves(if waves > 0 { vec![wave] } else { Vec::new() }),
+            waves: Waves::of(if waves > 0 { vec![wave] } else { Vec::new() }),
             law: Law::elastic(elastic),
             // Inside a defect forces like s^{10/9} end within pieces, without a weight for them.
             slices: ZoneSlices::Fitted(Rules::new(24, elastic.exponent())),
@@ -271,6 +286,16 @@ pub(super) mod tests {
             worst = worst.max((force + slope).abs() / (lever * size));
         }
         worst
+    }
+
+    /// Of so many waves, of a tenth of a micrometre.
+    fn wave_of_ball(order: u32) -> Waves {
+        let wave = Waviness {
+            order,
+            amplitude: 1e-7,
+            phase: -0.2,
+        };
+        Waves::of(if order > 0 { vec![wave] } else { Vec::new() })
     }
 
     fn defects() -> Vec<(&'static str, Defect)> {
@@ -362,8 +387,10 @@ pub(super) mod tests {
                                     5e-3,
                                 );
                                 let ball = BallSide {
-                                    radius: RADIUS,
                                     faults: on_ball.then_some(fault).into_iter().collect(),
+                                    // Both bodies are wavy, or none.
+                                    waves: wave_of_ball(waves / 6),
+                                    ..BallSide::whole(RADIUS)
                                 };
                                 let on_race = Some(&defect).filter(|_| !on_ball);
                                 let pair = pair(sigma, is_hertz, on_race, waves);

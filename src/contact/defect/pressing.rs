@@ -105,6 +105,9 @@ impl OneContact<'_> {
                 swing: feature.swing,
             });
         }
+        if !self.ball.waves.is_round() {
+            sink.aside(&self.texture_force(elastic));
+        }
         true
     }
 

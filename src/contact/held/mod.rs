@@ -125,8 +125,8 @@ pub(crate) struct StageContacts {
     pub n_e: PlaneVector,
     /// From the ring's centre to the ball's.
     pub apart: PlaneVector,
-    /// Forces of the waves' slope through the ball's centre (see `gradient`).
-    pub aside: PlaneVector,
+    /// What the slopes of waves and texture do to the balls, x, y, z and about z (see `gradient`).
+    pub aside: [Lanes; AXIAL],
     /// Contacts whose nodes are there; the others get none that press.
     pub regular: Mask,
     pub around: Around,
@@ -176,9 +176,18 @@ impl Pair {
         let slices = &self.slices;
         kernel::elements::<_, FMA, false>(&self.law, slices, rubbing, &contact, &mut holding);
         let radial = holding.radial;
-        let across = radial * place.lean.unwrap_or_default() * sigma;
+        let mut across = radial * place.lean.unwrap_or_default() * sigma;
+        let moment = radial * place.turn.unwrap_or_default();
+        if place.turn.is_some() {
+            across += -(moment / place.d);
+        }
         StageContacts {
-            aside: [-(across * place.n.1), across * place.n.0],
+            aside: [
+                -(across * place.n.1),
+                across * place.n.0,
+                Lanes::ZERO,
+                moment,
+            ],
             whole: contact,
             arm: moves.arm,
             n_e: [place.n.0 * sigma, place.n.1 * sigma],

@@ -5,6 +5,7 @@
 
 mod contour;
 mod curve;
+mod heights;
 mod meeting;
 mod section;
 mod waves;
@@ -13,6 +14,7 @@ mod zone;
 pub(crate) use contour::{Before, Contour};
 pub(super) use contour::{FLAT, SNUG};
 pub(crate) use curve::Curve;
+pub(crate) use heights::HeightTable;
 pub(super) use meeting::{Meeting, REACH, RaceSurface};
 pub(crate) use section::Section;
 pub(crate) use waves::Raise;

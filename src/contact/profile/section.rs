@@ -47,6 +47,17 @@ impl<T: Number> Section<T> {
         }
     }
 
+    /// The same of a ball that a texture raises by a height where it touches: along the common normal, or in the plane, as its law
+    /// counts penetrations.
+    #[inline(always)]
+    pub fn raised<const FMA: bool, const SYMMETRIC: bool>(self, is_flat: bool, height: T) -> Self {
+        if is_flat {
+            let approach = self.approach + height;
+            return Self { approach, ..self };
+        }
+        Self::new::<FMA, SYMMETRIC>(self.radius, self.r, self.e + height, self.c)
+    }
+
     /// Whether the ball is in front of the groove and clear of it. What is not a number touches, so that it shows.
     #[inline(always)]
     pub fn is_clear(&self) -> T::Decision {

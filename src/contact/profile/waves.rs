@@ -1,9 +1,15 @@
-//! Waviness: harmonics of a race's radius.
+//! Waves of a race's radius: those that are listed, and texture.
 
+// Into loops that are compiled for the instructions at hand.
+#![allow(clippy::inline_always)]
+
+use std::sync::Arc;
+
+use super::HeightTable;
 use crate::scene::Waviness;
-use crate::simd::Lanes;
+use crate::simd::{LANES, Lanes, direction};
 
-/// How waves raise a race under a ball, or under eight \[m\].
+/// How waves raise a race under a ball, or a ball before a race, or eight of them \[m\].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Raise<T> {
     /// Of the radius.
@@ -13,15 +19,13 @@ pub(crate) struct Raise<T> {
 }
 
 impl Raise<Lanes> {
-    /// Eight places one by one.
-    pub(in crate::contact) fn each(of: impl Fn(usize) -> Raise<f64>) -> Self {
-        let mut slope = Lanes::ZERO;
-        let height = Lanes::from_fn(|lane| {
-            let raise = of(lane);
-            slope[lane] = raise.slope;
-            raise.height
-        });
-        Self { height, slope }
+    /// The place in a lane.
+    #[inline(always)]
+    pub(crate) fn of(&self, lane: usize) -> Raise<f64> {
+        Raise {
+            height: self.height[lane],
+            slope: self.slope[lane],
+        }
     }
 
     /// Takes over a place into a lane.
@@ -30,28 +34,50 @@ impl Raise<Lanes> {
     }
 }
 
-/// The harmonics of a race's radius.
+/// What the radius of a race or ball has beside that of its round shape: a few waves, or a table of many.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Waves(pub Vec<Waviness>);
+pub struct Waves {
+    list: Vec<Waviness>,
+    /// In place of the list.
+    table: Option<Arc<HeightTable>>,
+}
 
 impl Waves {
-    /// Whether the race is round.
-    pub fn is_round(&self) -> bool {
-        self.0.is_empty()
+    /// Of a list, wave by wave.
+    pub fn of(list: Vec<Waviness>) -> Self {
+        Self { list, table: None }
     }
 
-    /// Raise of the radius \[m\] at an angle in the ring's own frame \[rad\].
+    /// Of a table.
+    pub(crate) fn tabulated(table: HeightTable) -> Self {
+        Self {
+            list: Vec::new(),
+            table: Some(Arc::new(table)),
+        }
+    }
+
+    /// Of a table, if it is one.
+    pub(crate) fn table(&self) -> Option<&HeightTable> {
+        self.table.as_deref()
+    }
+
+    /// Whether the surface is round.
+    pub fn is_round(&self) -> bool {
+        self.list.is_empty() && self.table.is_none()
+    }
+
+    /// Raise of the radius \[m\] at an angle in the body's own frame \[rad\].
     pub fn at(&self, angle: f64) -> f64 {
-        self.0
-            .iter()
-            .map(|w| w.amplitude * (f64::from(w.order) * angle + w.phase).cos())
-            .sum()
+        self.raise(angle).height
     }
 
     /// The same with its derivative by the angle.
     pub(crate) fn raise(&self, angle: f64) -> Raise<f64> {
+        if let Some(table) = &self.table {
+            return table.raise(angle);
+        }
         let mut raise = Raise::default();
-        for w in &self.0 {
+        for w in &self.list {
             let order = f64::from(w.order);
             let (sin, cos) = (order * angle + w.phase).sin_cos();
             raise.height += w.amplitude * cos;
@@ -60,12 +86,34 @@ impl Waves {
         raise
     }
 
+    /// Under eight balls at places across the ring's axis, of a ring whose mark has turned by an angle \[rad\].
+    #[inline(always)]
+    pub(in crate::contact) fn under<const FMA: bool>(
+        &self,
+        [x, y]: [Lanes; 2],
+        turned: f64,
+    ) -> Raise<Lanes> {
+        if let Some(table) = &self.table {
+            return table.raises::<FMA>(direction::<FMA>(x, y) + -turned);
+        }
+        let mut raises = Raise::default();
+        if !self.list.is_empty() {
+            for lane in 0..LANES {
+                raises.set(lane, self.raise(y[lane].atan2(x[lane]) - turned));
+            }
+        }
+        raises
+    }
+
     /// Second derivative of the radius by the angle \[m\].
     pub fn bend(&self, angle: f64) -> f64 {
+        if let Some(table) = &self.table {
+            return table.bend(angle);
+        }
         let of = |w: &Waviness| {
             let order = f64::from(w.order);
             -order * order * w.amplitude * (order * angle + w.phase).cos()
         };
-        self.0.iter().map(of).sum()
+        self.list.iter().map(of).sum()
     }
 }

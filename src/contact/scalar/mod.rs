@@ -40,8 +40,26 @@ pub struct Pair {
 pub struct BallSide {
     /// Radius \[m\].
     pub radius: f64,
+    /// Its texture, around the ring's axis.
+    pub waves: Waves,
     /// Defects of the ball, in its frame.
     pub faults: Vec<Fault>,
+}
+
+impl BallSide {
+    /// A whole, smooth ball of a radius \[m\].
+    pub fn whole(radius: f64) -> Self {
+        Self {
+            radius,
+            waves: Waves::default(),
+            faults: Vec::new(),
+        }
+    }
+
+    /// Whether it is smooth and has no defect.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.waves.is_round() && self.faults.is_empty()
+    }
 }
 
 impl Pair {
@@ -70,10 +88,10 @@ impl Pair {
             return;
         }
         let n = apart / distance;
-        let needs_angle =
-            !(self.waves.is_round() && self.faults.is_empty() && ball.faults.is_empty());
+        let needs_angle = !(self.waves.is_round() && self.faults.is_empty() && ball.is_whole());
         let angle = if needs_angle { seen.direction() } else { 0.0 };
         let raise = self.waves.raise(r.angle_of(angle));
+        let swell = ball.waves.raise(b.angle_of(self.outwards(angle)));
         let z = seen.z;
         let facing = Facing {
             apart,
@@ -82,6 +100,7 @@ impl Pair {
             n,
             angle,
             raise,
+            swell,
         };
         if let Kind::Points { contour, .. } = self.shape.kind() {
             let before = Before {
@@ -96,7 +115,11 @@ impl Pair {
         }
         for flank in self.flanks() {
             let race = &flank.race;
-            let section = race.section(ball.radius, distance, z, raise.height);
+            let mut section = race.section(ball.radius, distance, z, raise.height);
+            if !ball.waves.is_round() {
+                let is_flat = flank.law.cut().is_flat();
+                section = section.raised::<false, false>(is_flat, swell.height);
+            }
             if section.is_clear() {
                 continue;
             }
@@ -155,6 +178,7 @@ impl Pair {
             n,
             angle,
             raise,
+            swell,
         } = *facing;
         let on_ring = r.angle_of(angle);
         let toward = Toward::ball(b, n * self.race.sigma, self.outwards(angle));
@@ -173,6 +197,7 @@ impl Pair {
             n,
             on_ring,
             raise,
+            swell,
             ring_open,
             // A ring edge is met in another direction than the race.
             ball_open: ball_near || ring_open && !ball.faults.is_empty(),
@@ -185,7 +210,7 @@ impl Pair {
     }
 
     /// The direction out of a ball to the race, of a ball in a direction from the axis \[rad\].
-    pub(super) fn outwards(&self, direction: f64) -> f64 {
+    pub(crate) fn outwards(&self, direction: f64) -> f64 {
         if self.race.sigma > 0.0 {
             direction
         } else {
@@ -253,6 +278,8 @@ struct Facing {
     angle: f64,
     /// Of the race by its waves.
     raise: Raise<f64>,
+    /// Of the ball by its texture.
+    swell: Raise<f64>,
 }
 
 /// A contact being evaluated.
@@ -277,6 +304,8 @@ pub(super) struct OneContact<'a> {
     pub(super) on_ring: f64,
     /// Of the race by its waves.
     pub(super) raise: Raise<f64>,
+    /// Of the ball by its texture.
+    pub(super) swell: Raise<f64>,
     pub(super) ring_open: bool,
     pub(super) ball_open: bool,
     pub(super) section: Section<f64>,

@@ -34,7 +34,7 @@ impl AxiallyFixedRow {
         let balls = compiled.balls();
         let radius = model.balls[compiled.first].side.radius;
         let alike = |j: usize| model.balls[j].side.radius == radius;
-        if !kind.closed || !balls.clone().all(alike) {
+        if !kind.closed || !balls.clone().all(alike) || model.has_textured_balls(compiled) {
             return None;
         }
         let padded = compiled.count.next_multiple_of(LANES);

@@ -30,6 +30,8 @@ struct ClassConstants {
     alike: bool,
     /// Whether any race has waves.
     wavy: bool,
+    /// Whether any ball has a texture.
+    textured: bool,
     /// The film of the first row in all lanes, if it has one.
     film: Option<FilmNumbers<Lanes>>,
     /// Whether the other rows have that very film.
@@ -39,8 +41,9 @@ struct ClassConstants {
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Touching {
     pub ball: usize,
-    /// Height and slope of the race's waves under the ball.
+    /// Height and slope of the race's waves under the ball, and of the ball's texture before the race.
     pub raise: Raise<f64>,
+    pub swell: Raise<f64>,
 }
 
 /// Up to eight contacts with one ring; the last one fills the lanes that are left.
@@ -108,12 +111,20 @@ impl SideConstants {
             first,
             alike,
             wavy,
+            textured,
             film,
             one_film,
         } = &self.classes[class];
         let ([x, y, z, _], v) = (view.q.directions(), view.v.directions());
         let q = [x, y, z];
         (eight.constants, eight.wavy) = (*first, *wavy);
+        if *textured {
+            let mut swell = Raise::default();
+            for (lane, contact) in contacts.iter().enumerate() {
+                swell.set(lane, contact.swell);
+            }
+            eight.swell = Some(swell);
+        }
         if film.is_some() {
             eight.film = *film;
         }
@@ -164,6 +175,7 @@ impl ClassConstants {
             first,
             alike: rows().all(|row| balls[row.balls()].iter().all(like)),
             wavy: rows().any(|row| !row.pairs[race].waves.is_round()),
+            textured: rows().any(|row| model.has_textured_balls(row)),
             film: in_all_lanes(films[class].as_ref()),
             one_film: rows().all(|row| row.pairs[race].law.film == own_film),
         }

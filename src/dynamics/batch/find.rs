@@ -1,7 +1,7 @@
 //! Finds which balls touch which race, eight at a time.
 
 use super::{Batch, SideConstants, Single, Touching, View};
-use crate::contact::{Constants, EightContacts, Places, Raise, Summing};
+use crate::contact::{Constants, EightContacts, HeightTable, Places, Raise, Summing};
 use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
@@ -16,6 +16,8 @@ pub(super) struct Neighbours {
     filled: Mask,
     /// Which of them have defects of their own.
     faulted: Mask,
+    /// Whether they have a texture.
+    textured: bool,
     /// Constants of their contacts with the outer and with the inner race.
     constants: [Constants<Lanes>; 2],
 }
@@ -35,6 +37,7 @@ impl Neighbours {
             radius: Lanes::from_fn(|i| model.balls[lane(i)].side.radius),
             filled: Mask::from_fn(|i| i < count),
             faulted: Mask::from_fn(|i| !model.balls[lane(i)].side.faults.is_empty()),
+            textured: model.has_textured_balls(&model.rows[row]),
             constants: Race::BOTH.map(|race| {
                 let mut all = Constants::default();
                 (0..LANES).for_each(|i| all.set(i, &constants[race].balls[lane(i)]));
@@ -48,6 +51,17 @@ impl Neighbours {
         for (of, pair) in self.constants.iter_mut().zip(&model.rows[self.row].pairs) {
             of.r = Lanes::all(pair.race.r);
         }
+    }
+
+    /// Textures of its balls, where they have any.
+    fn tables<'m>(&self, model: &'m Model) -> Option<[&'m HeightTable; LANES]> {
+        let balls = &model.balls[model.rows[self.row].balls()];
+        let first = self.first - model.rows[self.row].first;
+        let mut tables = [balls[first].side.waves.table()?; LANES];
+        for (table, ball) in tables.iter_mut().zip(&balls[first..]) {
+            *table = ball.side.waves.table()?;
+        }
+        Some(tables)
     }
 
     /// Numbers of its balls along one direction; in lanes that are left, of whatever comes next.
@@ -86,15 +100,23 @@ impl Task for Find<'_> {
             let class = model.rows[stretch.row].class;
             for race in Race::BOTH {
                 let pair = &model.rows[stretch.row].pairs[race];
-                let View { q, v, ring, .. } = &views[race];
+                let View {
+                    q: q_of, v, ring, ..
+                } = &views[race];
                 let q = [
-                    stretch.lanes(q, Dof::X),
-                    stretch.lanes(q, Dof::Y),
-                    stretch.lanes(q, Dof::Z),
+                    stretch.lanes(q_of, Dof::X),
+                    stretch.lanes(q_of, Dof::Y),
+                    stretch.lanes(q_of, Dof::Z),
                 ];
+                let mut texture = None;
+                if stretch.textured {
+                    let turned = stretch.lanes(q_of, Dof::Theta);
+                    texture = stretch.tables(model).map(|tables| (tables, turned));
+                }
                 let places = Places {
                     radius: stretch.radius,
                     q,
+                    texture,
                 };
                 let near = pair.near::<FMA>(&places, ring);
                 lost = lost.or(near.lost);
@@ -110,6 +132,7 @@ impl Task for Find<'_> {
                         constants: stretch.constants[race],
                         raise: near.raise,
                         wavy: !pair.waves.is_round(),
+                        swell: near.swell,
                         q,
                         v: [
                             stretch.lanes(v, Dof::X),
@@ -128,6 +151,10 @@ impl Task for Find<'_> {
                         on_rings[race][dof] = on_rings[race][dof] - force;
                     }
                     on_rings[race][Dof::Theta] += found.ring[Dof::Theta];
+                    if near.swell.is_some() {
+                        let (ball, moment) = (BodyId::ball(stretch.first), found.ball[Dof::Theta]);
+                        forces.add_eight(ball, Dof::Theta, moment);
+                    }
                     batch.pulls += found.pulls;
                     let left_out = found.left_out.or(faulted).and(touching);
                     if left_out.any() {
@@ -142,11 +169,13 @@ impl Task for Find<'_> {
                     if faulted.lane(lane) {
                         batch.singles.push(Single::new(race, ball));
                     } else {
-                        let raise = Raise {
-                            height: near.raise.height[lane],
-                            slope: near.raise.slope[lane],
-                        };
-                        batch.touching[class][race].push(Touching { ball, raise });
+                        let raise = near.raise.of(lane);
+                        let mut swell = Raise::default();
+                        if let Some(of) = &near.swell {
+                            swell = of.of(lane);
+                        }
+                        let touching = Touching { ball, raise, swell };
+                        batch.touching[class][race].push(touching);
                     }
                 }
             }

@@ -9,9 +9,9 @@ mod idle;
 mod lubricant;
 mod motion;
 mod probes;
+mod texture;
 mod tilt;
 mod units;
-mod waves;
 
 use std::fmt;
 
@@ -88,6 +88,7 @@ impl Scene {
         geometry::look(self, &mut found);
         lubricant::look(self, &mut found);
         motion::look(self, &mut found);
+        texture::look(self, &mut found);
         tilt::look(self, &mut found);
         units::look(self, &mut found);
         idle::look(self, &mut found);

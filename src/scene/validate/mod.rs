@@ -8,6 +8,7 @@ mod load;
 mod lubricant;
 mod probe;
 mod race;
+mod texture;
 mod tilt;
 
 use super::{Drive, RingName, Row, SCHEMA, Scene};
@@ -34,6 +35,7 @@ impl Scene {
             bearing::row(&format!("rows[{i}]"), row)?;
             race::races(&format!("rows[{i}]"), row, self.contact_of(row))?;
             contact::of_row(&format!("rows[{i}]"), row)?;
+            texture::texture(self, i)?;
         }
         bearing::ring(self, RingName::Outer)?;
         bearing::ring(self, RingName::Inner)?;

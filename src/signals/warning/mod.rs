@@ -126,14 +126,12 @@ impl Signals {
     pub fn warnings(&self) -> Vec<Warning> {
         let of_contacts = inspect::doubts(self.stats.largest_pressure, &self.provenance.films);
         let of_slip = Doubt::film_slip(self.stats.film_slip);
-        let of_waves = Doubt::waves(&self.scene, self.stats.contact_arcs);
         let doubts = self
             .scene
             .doubts()
             .into_iter()
             .chain(of_contacts)
             .chain(of_slip)
-            .chain(of_waves)
             .chain(Doubt::tilt(self.stats.largest_tilt));
         let defects = self.provenance.defects.iter();
         let untouched = defects.filter_map(|of| not_touched(of, self.provenance.duration));

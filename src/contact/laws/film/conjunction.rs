@@ -42,7 +42,7 @@ impl LubricatedRace {
 
     /// u_ref = Ω d_m (1 − γ²)/4: mean surface speed at a contact of balls that roll, the rings turning against each other at
     /// a speed \[rad/s\].
-    fn entrainment(&self, speed: f64) -> f64 {
+    pub(crate) fn entrainment(&self, speed: f64) -> f64 {
         speed.abs() * self.pitch_diameter * (1.0 - self.gamma().powi(2)) / 4.0
     }
 }

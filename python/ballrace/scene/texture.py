@@ -1,0 +1,50 @@
+"""Texture of races and balls: what grinding and honing leave on them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from .._document import LEFT_OUT, Part
+
+__all__ = ["Texture"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Texture(Part):
+    """Many small waves around the races and balls of a row, drawn from a seed.
+
+    A wave of order n has the amplitude ``a * (30 / n) ** slope`` times a random number of Rayleigh's distribution, and a
+    random phase, so that heights are Gaussian; a contact averages waves that are not longer than itself. The same seed
+    is the same bearing, whatever else changes. Needs plain grooves.
+
+    Attributes
+    ----------
+    outer, inner : float
+        Amplitude a of the races at order 30 [m], 0 to 1e-6: quiet bearings of some 50 mm have 0.2e-9 to 5e-9.
+    ball : float
+        The same of the balls [m]. As good as the races wavelength by wavelength is a hundredth of theirs or so,
+        (D / 2R) ** slope with the ball diameter D and the race's radius R.
+    slope : float
+        How fast amplitudes fall with the order [1], 0.5 to 4: measured ones with 1.5 to 2.5.
+    orders : tuple of two ints, or None
+        Lowest and highest order on the races, 2 to 20 000; None: from 2 to waves half as long as a contact is wide. Balls
+        end at their own such order, if that is lower.
+    seed : int
+        What the bearing is drawn from, 0 to 2**53 - 1.
+    reference_load : float or None
+        Load of a contact whose width averages the waves [N]; None: that of the equilibrium at the start.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> made = br.scene.Texture(outer=1e-9, inner=1e-9, ball=3e-11, seed=4)
+    >>> scene = br.bearing("6205", radial_load=300.0, axial_load=80.0, texture=made)
+    """
+
+    outer: float = 0.0
+    inner: float = 0.0
+    ball: float = 0.0
+    slope: float = 2.0
+    orders: tuple[int, int] | None = field(default=None, metadata=LEFT_OUT)
+    seed: int = 0
+    reference_load: float | None = field(default=None, metadata=LEFT_OUT)

@@ -1,0 +1,98 @@
+//! Texture: what grinding and honing leave on races and balls.
+
+use serde::{Deserialize, Serialize};
+
+/// Many small waves around the races and balls of a row, whose sizes fall with a power of their order and are drawn from a seed (model
+/// section 14): A_n = A_30 (30/n)^slope, times √(−ln v) of a random v, at a random phase.
+///
+/// ```
+/// use ballrace::scene::{Texture, presets};
+/// let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+/// scene.rows[0].texture = Some(Texture::of_races(1e-9));
+/// assert!(scene.validate().is_ok());
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[non_exhaustive]
+pub struct Texture {
+    /// Amplitude of the outer race at order 30, A_30 \[m\], 0 to 1 µm.
+    pub outer: f64,
+    /// The same of the inner race \[m\].
+    pub inner: f64,
+    /// The same of the balls \[m\]; as good as the races' wavelength by wavelength is A_30 (D/2R)^slope.
+    pub ball: f64,
+    /// How amplitudes fall with the order, 0.5 to 4; 2.
+    pub slope: f64,
+    /// Lowest and highest order on races, 2 to 20 000; absent: from 2 to that whose waves are as long as half of a contact's width. Balls
+    /// end at their own such order, if that is lower.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub orders: Option<[u32; 2]>,
+    /// What phases and sizes are drawn from, 0 to 2⁵³ − 1.
+    pub seed: u64,
+    /// Load of a contact whose width averages the waves \[N\]; absent: of the equilibrium at the start.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reference_load: Option<f64>,
+}
+
+impl Default for Texture {
+    fn default() -> Self {
+        Self {
+            outer: 0.0,
+            inner: 0.0,
+            ball: 0.0,
+            slope: 2.0,
+            orders: None,
+            seed: 0,
+            reference_load: None,
+        }
+    }
+}
+
+impl Texture {
+    /// Lowest order where none is given.
+    const FIRST: u32 = 2;
+    /// Highest order that any may have.
+    pub(crate) const LAST: u32 = 20_000;
+    /// The order at which amplitudes are given.
+    const AT: f64 = 30.0;
+
+    /// On both races alike, with an amplitude at order 30 \[m\], all else by default.
+    pub fn of_races(amplitude: f64) -> Self {
+        Self {
+            outer: amplitude,
+            inner: amplitude,
+            ..Self::default()
+        }
+    }
+
+    /// A_n of an amplitude at order 30.
+    pub(crate) fn amplitude(&self, at_30: f64, order: u32) -> f64 {
+        at_30 * (Self::AT / f64::from(order)).powf(self.slope)
+    }
+
+    /// Lowest and highest order on a race or ball whose contact's half-width is so much of its radius: by default waves down to
+    /// that half-width.
+    pub(crate) fn orders_on(&self, arc: f64) -> [u32; 2] {
+        // At most 20 000.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let shortest = (std::f64::consts::TAU / arc).min(f64::from(Self::LAST)) as u32;
+        let [first, last] = self.orders.unwrap_or([Self::FIRST, shortest]);
+        [first, last.max(first)]
+    }
+
+    /// The same on a ball, which ends where its own waves are as short.
+    pub(crate) fn orders_on_ball(&self, arc: f64) -> [u32; 2] {
+        let own = Self {
+            orders: None,
+            ..self.clone()
+        };
+        let ([_, shortest], [first, last]) = (own.orders_on(arc), self.orders_on(arc));
+        [first, last.min(shortest).max(first)]
+    }
+
+    /// Root mean square of a surface between two orders \[m\], of an amplitude at order 30.
+    pub(crate) fn roughness(&self, at_30: f64, [first, last]: [u32; 2]) -> f64 {
+        let squares = (first..=last).map(|order| self.amplitude(at_30, order).powi(2));
+        (0.5 * squares.sum::<f64>()).sqrt()
+    }
+}

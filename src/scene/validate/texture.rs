@@ -1,0 +1,79 @@
+//! Texture of races and balls.
+
+use super::check::{positive, within};
+use crate::base::error::{Error, Result};
+use crate::scene::{Defect, Row, Scene, Texture};
+
+/// Largest seed: every document holds it exactly.
+const LARGEST_SEED: u64 = (1 << 53) - 1;
+
+/// The texture of a row, if it has one.
+pub(super) fn texture(scene: &Scene, index: usize) -> Result<()> {
+    let row = &scene.rows[index];
+    let Some(texture) = &row.texture else {
+        return Ok(());
+    };
+    let path = format!("rows[{index}].texture");
+    let at = |field: &str| format!("{path}.{field}");
+    let amplitudes = [
+        ("outer", texture.outer),
+        ("inner", texture.inner),
+        ("ball", texture.ball),
+    ];
+    for (field, amplitude) in amplitudes {
+        within(&at(field), amplitude, 0.0..=1e-6, "m")?;
+    }
+    if amplitudes.iter().all(|(_, amplitude)| *amplitude == 0.0) {
+        let allowed = "an amplitude of outer, inner or ball above 0, or no texture";
+        return Err(Error::scene(path, "without an amplitude", allowed));
+    }
+    within(&at("slope"), texture.slope, 0.5..=4.0, "")?;
+    if let Some([first, last]) = texture.orders
+        && !(2 <= first && first <= last && last <= Texture::LAST)
+    {
+        let allowed = format!(
+            "two orders from 2 to {}, the lower one first",
+            Texture::LAST
+        );
+        return Err(Error::scene(
+            at("orders"),
+            format!("[{first}, {last}]"),
+            allowed,
+        ));
+    }
+    if texture.seed > LARGEST_SEED {
+        let allowed = format!("from 0 to {LARGEST_SEED}");
+        return Err(Error::scene(at("seed"), texture.seed, allowed));
+    }
+    if let Some(load) = texture.reference_load {
+        positive(&at("reference_load"), load, "N")?;
+    }
+    only_on_grooves(&path, row)?;
+    let tumbles = |defect: &Defect| defect.row == index && defect.is_cap();
+    if texture.ball > 0.0 && scene.balls_turn() && scene.defects.values().any(tumbles) {
+        let allowed =
+            "0 where balls spin freely and one has a cap: their texture is around one axis";
+        return Err(Error::scene(at("ball"), texture.ball, allowed));
+    }
+    Ok(())
+}
+
+/// Only grooves have a texture: one circle is where their contacts run.
+fn only_on_grooves(path: &str, row: &Row) -> Result<()> {
+    let others = [
+        ("outer_profile", row.outer_profile.is_some()),
+        ("inner_profile", row.inner_profile.is_some()),
+        ("outer_arch", row.outer_arch.is_some()),
+        ("inner_arch", row.inner_arch.is_some()),
+        ("outer_shoulder_radius", row.outer_shoulder_radius.is_some()),
+        ("inner_shoulder_radius", row.inner_shoulder_radius.is_some()),
+    ];
+    match others.into_iter().find(|(_, given)| *given) {
+        None => Ok(()),
+        Some((field, _)) => Err(Error::scene(
+            path,
+            "given",
+            format!("absent with {field}: texture is for plain grooves"),
+        )),
+    }
+}
