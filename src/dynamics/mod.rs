@@ -48,8 +48,8 @@ pub struct Dynamics<'m> {
     contacts: Batch,
     contact_torques: [f64; 2],
     forces: Table,
-    /// Forces that have a part in the motion, beside contacts.
-    acting: Vec<&'static dyn Force>,
+    /// Forces that have a part in the motion, beside contacts; apart those that depend on the sum of the others.
+    acting: [Vec<&'static dyn Force>; 2],
     /// What of them stays the same.
     constant: Table,
     /// Supports of the directions that are integrated; the other directions never strain theirs.
@@ -300,17 +300,17 @@ impl<'m> Dynamics<'m> {
 
     /// Adds the forces of the cage at the state last read.
     pub(crate) fn evaluate_cage(&mut self) {
-        self.apply(0.0, &[&CageLinks]);
+        self.apply(0.0, [&[&CageLinks], &[]]);
     }
 
     /// Adds the forces that are neither contacts nor constant.
     fn add_applied_forces(&mut self, t: f64) {
         let acting = std::mem::take(&mut self.acting);
-        self.apply(t, &acting);
+        self.apply(t, acting.each_ref().map(Vec::as_slice));
         self.acting = acting;
     }
 
-    fn apply(&mut self, t: f64, acting: &[&dyn Force]) {
+    fn apply(&mut self, t: f64, [first, last]: [&[&dyn Force]; 2]) {
         let (rings, moments) = match &mut self.leaning {
             Some(leaning) => leaning.rings_and_moments(),
             None => (None, None),
@@ -324,10 +324,10 @@ impl<'m> Dynamics<'m> {
         };
         let on = &mut self.forces;
         let mut sums = ForceSums { on, moments };
-        for force in acting {
+        for force in first {
             force.add(self.model, &at, &mut sums);
         }
-        for force in acting {
+        for force in last {
             for race in Race::BOTH {
                 let others = sums.on.of(race.ring());
                 if let Some(wrench) = force.given_others(self.model, &at, race, &others) {
@@ -394,11 +394,13 @@ impl System for Dynamics<'_> {
     }
 }
 
-/// The forces that a scene has, beside contacts.
-fn acting(model: &Model) -> Vec<&'static dyn Force> {
+/// The forces that a scene has, beside contacts; apart those that depend on the sum of the others.
+fn acting(model: &Model) -> [Vec<&'static dyn Force>; 2] {
     let all = forces::ALL.into_iter();
-    all.filter(|force| force.used(model) != Use::Absent)
-        .collect()
+    let (last, first) = all
+        .filter(|force| force.used(model) != Use::Absent)
+        .partition(|force| force.waits_for_others());
+    [first, last]
 }
 
 /// What of them stays the same, with moments about z where rings stay parallel.

@@ -58,7 +58,12 @@ pub(crate) trait Force: Debug + Sync {
     /// Adds the rest of it.
     fn add(&self, _model: &Model, _at: &Instant<'_>, _sums: &mut ForceSums<'_>) {}
 
-    /// What it does to a ring where that depends on the sum of all other forces on the ring, x, y, z and about z.
+    /// Whether it depends on the sum of all other forces on a ring, and is asked for by [`Force::given_others`].
+    fn waits_for_others(&self) -> bool {
+        false
+    }
+
+    /// What it does to a ring, given all other forces on it along x, y, z and about z.
     fn given_others(
         &self,
         _model: &Model,

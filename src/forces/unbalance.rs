@@ -35,6 +35,10 @@ impl Force for Unbalances {
         Use::evaluated(!model.unbalances.is_empty())
     }
 
+    fn waits_for_others(&self) -> bool {
+        true
+    }
+
     fn given_others(
         &self,
         model: &Model,

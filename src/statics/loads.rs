@@ -7,7 +7,7 @@ use crate::model::{Model, Race};
 use crate::scene::Row;
 
 /// Loads of contacts by row and race \[N\].
-type Loads = Vec<[f64; 2]>;
+type RaceLoads = Vec<[f64; 2]>;
 
 /// What rows need a load for, and that which each of them gives; none of a row that needs none.
 struct Needs<'a> {
@@ -73,7 +73,7 @@ impl Needs<'_> {
     }
 
     /// The loads that are given, and else those of the equilibrium.
-    fn loads(&self, solved: &Result<Loads>) -> Result<Loads> {
+    fn loads(&self, solved: &Result<RaceLoads>) -> Result<RaceLoads> {
         let of_row = |(row, need): (usize, &Option<Option<f64>>)| match (need, solved) {
             (None, _) => Ok([0.0; 2]),
             (Some(Some(load)), _) => Ok([*load; 2]),
@@ -94,11 +94,11 @@ impl Needs<'_> {
 
 /// ΣQ²/ΣQ over the contacts of every row and race (12.7). Those that differ by no more than what an equilibrium leaves count as one:
 /// rows that are images of each other then have one film.
-fn loads_of(model: &Model, y: &[f64]) -> Loads {
+fn loads_of(model: &Model, y: &[f64]) -> RaceLoads {
     /// Share of a load; films go like its fifteenth root.
     const LEFT: f64 = 1e-6;
     let of_row = |row: usize| Race::BOTH.map(|race| weighted_load(model, y, row, race));
-    let mut loads: Loads = (0..model.rows.len()).map(of_row).collect();
+    let mut loads: RaceLoads = (0..model.rows.len()).map(of_row).collect();
     for row in 1..loads.len() {
         for race in Race::BOTH {
             let load = loads[row][race];

@@ -7,6 +7,7 @@ mod contour;
 mod curve;
 mod heights;
 mod meeting;
+mod raise;
 mod section;
 mod waves;
 mod zone;
@@ -16,8 +17,8 @@ pub(super) use contour::{FLAT, SNUG};
 pub(crate) use curve::Curve;
 pub(crate) use heights::HeightTable;
 pub(super) use meeting::{Meeting, REACH, RaceSurface};
+pub(crate) use raise::Raise;
 pub(crate) use section::Section;
-pub(crate) use waves::Raise;
 pub use waves::Waves;
 pub(super) use zone::{Chord, Ends, SHALLOW, SurfacePoint, Zone};
 

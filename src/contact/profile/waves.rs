@@ -5,34 +5,9 @@
 
 use std::sync::Arc;
 
-use super::HeightTable;
+use super::{HeightTable, Raise};
 use crate::scene::Waviness;
 use crate::simd::{LANES, Lanes, direction};
-
-/// How waves raise a race under a ball, or a ball before a race, or eight of them \[m\].
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Raise<T> {
-    /// Of the radius.
-    pub height: T,
-    /// Its derivative by the angle R'(φ).
-    pub slope: T,
-}
-
-impl Raise<Lanes> {
-    /// The place in a lane.
-    #[inline(always)]
-    pub(crate) fn of(&self, lane: usize) -> Raise<f64> {
-        Raise {
-            height: self.height[lane],
-            slope: self.slope[lane],
-        }
-    }
-
-    /// Takes over a place into a lane.
-    pub(crate) fn set(&mut self, lane: usize, of: Raise<f64>) {
-        (self.height[lane], self.slope[lane]) = (of.height, of.slope);
-    }
-}
 
 /// What the radius of a race or ball has beside that of its round shape: a few waves, or a table of many.
 #[derive(Debug, Clone, Default, PartialEq)]
