@@ -16,7 +16,9 @@ fn scenes() -> [(&'static str, Scene); 6] {
     let mut plane = dry.clone();
     plane.friction = Friction::None;
     let mut textured = dry.clone();
-    textured.rows[0].texture = Some(Texture::of_races(1e-9));
+    let mut texture = Texture::of_races(1e-9);
+    texture.ball = 3e-11;
+    textured.rows[0].texture = Some(texture);
     [
         ("wheel bearing", presets::wheel_bearing(3000.0)),
         ("6205", dry),

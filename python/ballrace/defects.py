@@ -1,4 +1,4 @@
-"""Defects by their usual names: a spall, a dent, a line, a cap of a ball, with sizes in millimetres.
+"""Defects by their usual names: a spall, a dent, a line, a pit, a cap of a ball, with sizes in millimetres.
 
 Each is a :class:`ballrace.scene.Defect`, placed where the contact runs unless ``axial_offset`` says otherwise; put
 them into a scene by name: ``br.bearing("6205", defects={"spall": spall(on="inner_race", width_mm=1.0)})``.
@@ -10,6 +10,8 @@ them into a scene by name: ``br.bearing("6205", defects={"spall": spall(on="inne
 0.0
 >>> cap(width_mm=1.0, ball=3).shape
 'cap'
+>>> pit(on="outer_race", diameter_mm=0.178).shape
+'pit'
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ from .scene import Defect, Floor, WidthProfile
 if TYPE_CHECKING:
     from .scene import AxialOffset, Surface, Width
 
-__all__ = ["cap", "dent", "line", "spall"]
+__all__ = ["cap", "dent", "line", "pit", "spall"]
 
 _DOWN = -math.pi / 2.0
 """Where a load along -y presses the balls into the outer race."""
@@ -193,6 +195,51 @@ def cap(
         shape="cap",
         width=1e-3 * width_mm,
         edge_radius=1e-3 * edge_radius_mm,
+    )
+
+
+def pit(
+    *,
+    on: Surface,
+    diameter_mm: float,
+    length_mm: float | None = None,
+    angle: float = _DOWN,
+    axial_offset: AxialOffset = "contact",
+    row: int = 0,
+    ball: int | None = None,
+) -> Defect:
+    """Return a pit smaller than its contact, as electric discharge or a seeded fault of a data set.
+
+    The surfaces bulge into it and share its load with what is around it. It is a hole with sharp edges and so deep
+    that nothing meets its floor. What is too large for its contact, longer than nine tenths of it or so, is a
+    :func:`spall`, and refused here when the scene is used.
+
+    Parameters
+    ----------
+    diameter_mm : float
+        Extent along the rolling direction [mm].
+    length_mm : float, optional
+        Extent across it [mm]; by default the pit is round.
+    on, angle, axial_offset, row, ball
+        As for :func:`spall`.
+
+    Raises
+    ------
+    SceneError
+        A number is not usable.
+    """
+    _positive(diameter_mm=diameter_mm)
+    if length_mm is not None:
+        _positive(length_mm=length_mm)
+    return Defect(
+        on=on,
+        row=row,
+        ball=_ball(on, ball),
+        angle=angle,
+        axial_offset=axial_offset,
+        shape="pit",
+        length=1e-3 * (length_mm or 0.0),
+        width=1e-3 * diameter_mm,
     )
 
 

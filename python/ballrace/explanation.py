@@ -48,10 +48,10 @@ class Explanation(Record):
         whether reference load and speed are ``given`` or those of the equilibrium and the drive (``load_from``,
         ``speed_from``), and the ``films`` of both races, the fields as of :class:`ballrace.RaceFilm`.
     textures : list of dict
-        Surfaces with a texture: ``row``, ``surface``, ``amplitude`` at order 30 [m], ``slope``, ``orders``, ``knots`` of its
-        table, ``roughness`` around the circumference and ``fine_roughness`` from order 15 on (root mean square) [m],
-        length of the ``shortest`` waves, of which a contact leaves nothing [m], their ``frequency`` [Hz], and the
-        ``largest_step`` that sees them [s].
+        Surfaces with a texture: ``row``, ``surface``, ``amplitude`` at order 30 [m], ``slope``, ``orders``,
+        ``knots`` of its table, ``roughness`` around the circumference and ``fine_roughness`` from order 15 on
+        (root mean square) [m], length of the ``shortest`` waves, of which a contact leaves nothing [m], their
+        ``frequency`` [Hz], and the ``largest_step`` that sees them [s].
     doubts : list of dict
         Numbers that no bearing is likely to have, and columns that cannot change: ``path``, ``value``, ``usual``.
     defects : list of dict

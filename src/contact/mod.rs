@@ -36,7 +36,7 @@ use nalgebra::{Vector2, Vector3};
 pub(crate) use batch::{Across, BatchForces, Constants, EightContacts, Places, Rubbing, Summing};
 pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz_stiffness};
 pub use defect::Fault;
-pub(crate) use defect::{Sight, Sighted, Toward};
+pub(crate) use defect::{PittedContact, Sight, Sighted, Toward};
 pub use frames::Motion;
 pub(crate) use frames::{LeaningRing, attitude_accelerations, attitude_rates, centrifugal};
 pub(crate) use held::{
@@ -128,6 +128,7 @@ impl Touch {
             arm_ball: self.arm_ball,
             arm_ring: self.arm_ring,
             swing: self.swing,
+            across: V2::zeros(),
         };
         aside.wrenches()
     }
@@ -149,6 +150,8 @@ pub struct Aside {
     pub(crate) arm_ring: V2,
     /// As of a [`Touch`].
     pub(crate) swing: Vector3<f64>,
+    /// Moment on the ball across the ring's axis beside that \[N m\].
+    pub(crate) across: V2,
 }
 
 impl Aside {

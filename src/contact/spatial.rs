@@ -96,14 +96,15 @@ impl Touch {
 impl Aside {
     /// The part of the moment across the ring's axis with which it turns a cap.
     pub(crate) fn on_cap(&self) -> V2 {
-        self.swing.xy() * cross(self.arm_ball, self.plane)
+        self.swing.xy() * cross(self.arm_ball, self.plane) + self.across
     }
 
     /// What it does to the ball.
     pub(crate) fn on_ball(&self) -> Wrench {
         Wrench {
             force: Vector3::new(self.plane.x, self.plane.y, self.axial),
-            moment: self.swing * cross(self.arm_ball, self.plane),
+            moment: self.swing * cross(self.arm_ball, self.plane)
+                + Vector3::new(self.across.x, self.across.y, 0.0),
         }
     }
 }

@@ -13,7 +13,8 @@ use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
 use crate::contact::hertz::Hertz;
 use crate::contact::{
-    BallSide, Damping, Elastic, Fault, Law, Pair, Rules, Shape, Torus, Traction, Waves, ZoneSlices,
+    BallSide, Damping, Elastic, Fault, Law, Pair, PittedContact, Rules, Shape, Torus, Traction,
+    Waves, ZoneSlices,
 };
 use crate::scene::{self, Approximations, Defect, Drive, Mount, Row, Scene, Surface};
 use crate::simd::InstructionSet;
@@ -60,7 +61,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
                 degrees: row.ball_support.mounts(Mount::Free).map(Degree::from),
             });
             let side = BallSide {
-                faults: ball_faults(scene, i, index, diameter / 2.0),
+                faults: ball_faults(scene, (i, index), diameter / 2.0, &rows[i].hertz),
                 ..BallSide::whole(diameter / 2.0)
             };
             balls.push(Ball {
@@ -92,6 +93,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
         })?,
     };
     model.scales = Scales::of(&model);
+    model.widen_pits();
     fit_nodes(&mut model);
     Ok(model)
 }
@@ -227,7 +229,9 @@ fn pair(scene: &Scene, (index, row): (usize, &Row), race: Race) -> Result<(Pair,
     };
     let of_race = |defect: &&Defect| defect.on == surface && defect.row == index;
     let defects = scene.defects.values().filter(of_race);
-    let faults: Vec<Fault> = defects.map(|d| race_fault(d, row, &pair)).collect();
+    let faults: Vec<Fault> = defects
+        .map(|d| race_fault(d, row, (&pair, &hertz)))
+        .collect();
     pair.change(|flank| flank.faults.clone_from(&faults));
     Ok((pair, hertz))
 }
@@ -273,28 +277,37 @@ fn check_hollow(path: &str, pair: &Pair, race: Race) -> Result<()> {
     Ok(())
 }
 
-fn ball_faults(scene: &Scene, row: usize, ball: usize, radius: f64) -> Vec<Fault> {
+fn ball_faults(
+    scene: &Scene,
+    (row, ball): (usize, usize),
+    radius: f64,
+    hertz: &[Hertz; 2],
+) -> Vec<Fault> {
     scene
         .defects
         .values()
         .filter(|d| d.on == Surface::Ball && d.row == row && d.ball == Some(ball))
-        .map(|defect| ball_fault(defect, radius))
+        .map(|defect| ball_fault(defect, radius, hertz))
         .collect()
 }
 
 /// A defect of a race, compiled.
-pub(crate) fn race_fault(defect: &Defect, row: &Row, race: &Pair) -> Fault {
+pub(crate) fn race_fault(defect: &Defect, row: &Row, (race, hertz): (&Pair, &Hertz)) -> Fault {
     let middle = row.axial_position + offset(defect);
     // Validation keeps the defect inside the groove.
-    Fault::new(
-        defect,
-        middle,
-        race.radius_at(middle).unwrap_or(race.race.a),
-    )
+    let radius = race.radius_at(middle).unwrap_or(race.race.a);
+    if defect.is_pit() {
+        return Fault::pit(defect, middle, radius, [PittedContact::of(hertz); 2]);
+    }
+    Fault::new(defect, middle, radius)
 }
 
-/// A defect of a ball of this radius, compiled.
-pub(crate) fn ball_fault(defect: &Defect, radius: f64) -> Fault {
+/// A defect of a ball of this radius, compiled, with its contacts with both races.
+pub(crate) fn ball_fault(defect: &Defect, radius: f64, hertz: &[Hertz; 2]) -> Fault {
+    if defect.is_pit() {
+        let contacts = hertz.each_ref().map(PittedContact::of);
+        return Fault::pit(defect, offset(defect), radius, contacts);
+    }
     if defect.is_cap() {
         return Fault::cap(defect, offset(defect), radius);
     }

@@ -7,7 +7,7 @@ use realfft::RealFftPlanner;
 use super::{Model, Race};
 use crate::base::error::{Error, Result};
 use crate::base::memory;
-use crate::contact::{HeightTable, Waves};
+use crate::contact::{HeightTable, Pair, Waves};
 use crate::scene::{Row, Texture, Waviness};
 
 /// Shortest wave that a texture may have, over the half-width of its contact: what is shorter the contact does not feel.
@@ -82,6 +82,34 @@ impl Model {
         torus.a + race.sigma() * torus.r * self.scene.rows[row].contact_angle.cos()
     }
 
+    /// Tells pits how wide contacts are under the typical load.
+    pub(crate) fn widen_pits(&mut self) {
+        for row in 0..self.rows.len() {
+            let widths = self.typical_widths(row);
+            for race in Race::BOTH {
+                let widen = |flank: &mut Pair| {
+                    flank
+                        .faults
+                        .iter_mut()
+                        .for_each(|fault| fault.widen(widths[race]));
+                };
+                self.rows[row].pairs[race].change(widen);
+            }
+            let wider = widths[0].max(widths[1]);
+            let balls = self.rows[row].balls();
+            let faults = self.balls[balls]
+                .iter_mut()
+                .flat_map(|ball| &mut ball.side.faults);
+            faults.for_each(|fault| fault.widen(wider));
+        }
+    }
+
+    /// Half-widths of a row's contacts with both races under the typical load \[m\].
+    pub(crate) fn typical_widths(&self, row: usize) -> [f64; 2] {
+        let root = self.scales.load.cbrt();
+        self.rows[row].hertz.map(|hertz| hertz.half_width * root)
+    }
+
     /// Mean surface speed at contacts of balls that roll, at the drive's largest speed \[m/s\].
     pub(crate) fn rolling_speed(&self, row: usize) -> f64 {
         let groove = self.rows[row].pairs[Race::Outer].race.r;
@@ -89,14 +117,20 @@ impl Model {
         race.entrainment(self.scene.drive.peak_speed())
     }
 
-    /// Shortest time in which a ball rolls over a quarter of the half-width of a contact with texture \[s\]: what steps must
-    /// resolve; infinite without texture.
-    pub(crate) fn texture_time(&self) -> f64 {
-        let times = (0..self.rows.len()).filter_map(|row| {
+    /// Shortest time in which a ball rolls over a quarter of the half-width of a contact with texture, or of a pit or its contact
+    /// \[s\]: what steps must resolve; infinite without texture and pits.
+    pub(crate) fn shortest_pass(&self) -> f64 {
+        let textures = (0..self.rows.len()).filter_map(|row| {
             let [outer, inner] = self.rows[row].texture_widths?;
             Some(outer.min(inner) / (4.0 * self.rolling_speed(row)))
         });
-        times.fold(f64::INFINITY, f64::min)
+        let pits = self.scene.defects.values().filter(|defect| defect.is_pit());
+        let pits = pits.map(|defect| {
+            let [outer, inner] = self.typical_widths(defect.row);
+            let least = outer.min(inner).min(defect.width.largest() / 2.0);
+            least / (4.0 * self.rolling_speed(defect.row))
+        });
+        textures.chain(pits).fold(f64::INFINITY, f64::min)
     }
 }
 

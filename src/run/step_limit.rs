@@ -57,8 +57,8 @@ fn bounds(method: Method) -> MethodBounds {
 /// The largest step \[s\] by which a method is stable and accurate to a few percent.
 pub(crate) fn largest(method: Method, model: &Model) -> f64 {
     let of_contacts = at_damping(method, model.scales.frequency, damping(model));
-    // Eight steps at least on the width of a contact, over which its texture is averaged.
-    of_contacts.min(model.texture_time())
+    // Eight steps at least on the width of a contact, over which its texture is averaged, or of a pit.
+    of_contacts.min(model.shortest_pass())
 }
 
 fn at_damping(method: Method, frequency: f64, damping: f64) -> f64 {

@@ -98,6 +98,14 @@ pub struct Row {
 }
 
 impl Row {
+    /// Whether both races are grooves with sharp shoulders or none: neither profiles nor arches.
+    pub(crate) fn has_plain_grooves(&self) -> bool {
+        let profiles = self.outer_profile.is_some() || self.inner_profile.is_some();
+        let arches = self.outer_arch.is_some() || self.inner_arch.is_some();
+        let rounded = self.outer_shoulder_radius.is_some() || self.inner_shoulder_radius.is_some();
+        !(profiles || arches || rounded)
+    }
+
     /// Whether its races have waves, or races or balls a texture.
     pub(crate) fn is_wavy(&self) -> bool {
         let listed = !(self.outer_waviness.is_empty() && self.inner_waviness.is_empty());

@@ -31,7 +31,8 @@ pub struct Defect {
     pub length: f64,
     /// Width w, arc length along the surface \[m\]; a number or a profile along z.
     pub width: Width,
-    /// Radius R_f of the fault circles at the edges \[m\].
+    /// Radius R_f of the fault circles at the edges \[m\]; a pit has none.
+    #[serde(default)]
     pub edge_radius: f64,
     /// Recessed circles between the edges; absent: no floor.
     #[serde(default)]
@@ -84,6 +85,20 @@ impl Defect {
         }
     }
 
+    /// A round pit of row 0 where contacts run: its surface, angle \[rad\] and diameter \[m\].
+    ///
+    /// ```
+    /// use ballrace::scene::{Defect, Surface};
+    /// let pit = Defect::pit(Surface::OuterRace, -1.57, 0.178e-3);
+    /// assert_eq!((pit.length, pit.edge_radius), (0.0, 0.0));
+    /// ```
+    pub fn pit(on: Surface, angle: f64, diameter: f64) -> Self {
+        Self {
+            shape: Some(DefectShape::Pit),
+            ..Self::new(on, angle, 0.0, diameter, 0.0)
+        }
+    }
+
     /// The same in another row.
     #[must_use]
     pub fn in_row(self, row: usize) -> Self {
@@ -104,9 +119,14 @@ impl Defect {
         self.shape == Some(DefectShape::Cap)
     }
 
+    /// Whether it is a pit.
+    pub(crate) fn is_pit(&self) -> bool {
+        self.shape == Some(DefectShape::Pit)
+    }
+
     /// How far it reaches along the axis \[m\]; of a cap its width, which is a little more.
     pub(crate) fn extent(&self) -> f64 {
-        if self.is_cap() {
+        if self.is_cap() || self.is_pit() && self.length == 0.0 {
             self.width.largest()
         } else {
             self.length
@@ -151,6 +171,9 @@ pub enum DefectShape {
     /// from the ball's centre in a direction that is fixed in the ball, at `angle` about z and `axial_offset` along it where
     /// it meets the surface.
     Cap,
+    /// A hole smaller than its contact, which bulges into it and shares load: an ellipse of `width` along rolling and of `length` across, round
+    /// without one, so deep that nothing meets its floor. It has no edge radius.
+    Pit,
 }
 
 /// Axial place of a defect's middle: a number, or `"contact"`.

@@ -200,18 +200,23 @@ pub(crate) fn compiled(model: &Model, defect: &Defect) -> (Fault, f64) {
         &model.scene().rows[defect.row],
         &model.rows[defect.row].pairs,
     );
+    let (hertz, widths) = (
+        &model.rows[defect.row].hertz,
+        model.typical_widths(defect.row),
+    );
+    let on_race = |race: Race| {
+        let mut fault = race_fault(defect, row, (&pairs[race], &hertz[race]));
+        fault.widen(widths[race]);
+        (fault, row.axial_position)
+    };
     match defect.on {
-        Surface::OuterRace => (
-            race_fault(defect, row, &pairs[Race::Outer]),
-            row.axial_position,
-        ),
-        Surface::InnerRace => (
-            race_fault(defect, row, &pairs[Race::Inner]),
-            row.axial_position,
-        ),
+        Surface::OuterRace => on_race(Race::Outer),
+        Surface::InnerRace => on_race(Race::Inner),
         Surface::Ball => {
             let ball = model.rows[defect.row].first + defect.ball.unwrap_or(0);
-            (ball_fault(defect, model.balls[ball].side.radius), 0.0)
+            let mut fault = ball_fault(defect, model.balls[ball].side.radius, hertz);
+            fault.widen(widths[0].max(widths[1]));
+            (fault, 0.0)
         }
     }
 }

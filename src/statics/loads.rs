@@ -9,10 +9,27 @@ use crate::scene::Row;
 /// Loads of contacts by row and race \[N\].
 type RaceLoads = Vec<[f64; 2]>;
 
-/// What rows need a load for, and that which each of them gives; none of a row that needs none.
+/// Whether a row needs a load.
+#[derive(Clone, Copy, PartialEq)]
+enum Need {
+    Nothing,
+    /// It gives one \[N\].
+    Given(f64),
+    /// That of its equilibrium.
+    Equilibrium,
+}
+
+impl Need {
+    /// Of a row that may give a load.
+    fn unless(given: Option<f64>) -> Self {
+        given.map_or(Self::Equilibrium, Self::Given)
+    }
+}
+
+/// What rows need a load for, and which of them do.
 struct Needs<'a> {
     what: &'a str,
-    rows: Vec<Option<Option<f64>>>,
+    rows: Vec<Need>,
     path: &'a dyn Fn(usize) -> String,
 }
 
@@ -22,16 +39,22 @@ struct Needs<'a> {
 /// [`Error::Scene`] where there is no equilibrium and a lubricant or a texture gives no reference load.
 pub(super) fn finished(mut model: Model) -> Result<Model> {
     let scene = model.scene.clone();
-    let rows = |of: &dyn Fn(&Row) -> Option<Option<f64>>| scene.rows.iter().map(of).collect();
-    let texture = |row: &Row| row.texture.as_ref()?.reference_load;
+    let rows = |of: &dyn Fn(&Row) -> Need| scene.rows.iter().map(of).collect();
+    let texture = |row: &Row| row.texture.as_ref().and_then(|of| of.reference_load);
     let waves = Needs {
         what: "the width of contacts",
-        rows: rows(&|row| row.is_wavy().then(|| texture(row))),
+        rows: rows(&|row| {
+            if row.is_wavy() {
+                Need::unless(texture(row))
+            } else {
+                Need::Nothing
+            }
+        }),
         path: &|row| format!("rows[{row}].texture"),
     };
     let film = |row: &Row| {
-        let lubricant = scene.lubricant_of(row).filter(|of| of.acts())?;
-        Some(lubricant.reference_load)
+        let lubricant = scene.lubricant_of(row).filter(|of| of.acts());
+        lubricant.map_or(Need::Nothing, |of| Need::unless(of.reference_load))
     };
     let films = Needs {
         what: "the film",
@@ -64,22 +87,24 @@ pub(super) fn finished(mut model: Model) -> Result<Model> {
 impl Needs<'_> {
     /// Whether any row needs a load.
     fn are_any(&self) -> bool {
-        self.rows.iter().any(Option::is_some)
+        self.rows.iter().any(|need| *need != Need::Nothing)
     }
 
     /// Whether any row needs one that it does not give.
     fn asks(&self) -> bool {
-        self.rows.contains(&Some(None))
+        self.rows.contains(&Need::Equilibrium)
     }
 
     /// The loads that are given, and else those of the equilibrium.
     fn loads(&self, solved: &Result<RaceLoads>) -> Result<RaceLoads> {
-        let of_row = |(row, need): (usize, &Option<Option<f64>>)| match (need, solved) {
-            (None, _) => Ok([0.0; 2]),
-            (Some(Some(load)), _) => Ok([*load; 2]),
-            (Some(None), Ok(loads)) => Ok(loads[row]),
-            (Some(None), Err(interrupted @ Error::Interrupted { .. })) => Err(interrupted.clone()),
-            (Some(None), Err(error)) => Err(Error::scene(
+        let of_row = |(row, need): (usize, &Need)| match (need, solved) {
+            (Need::Nothing, _) => Ok([0.0; 2]),
+            (Need::Given(load), _) => Ok([*load; 2]),
+            (Need::Equilibrium, Ok(loads)) => Ok(loads[row]),
+            (Need::Equilibrium, Err(interrupted @ Error::Interrupted { .. })) => {
+                Err(interrupted.clone())
+            }
+            (Need::Equilibrium, Err(error)) => Err(Error::scene(
                 format!("{}.reference_load", (self.path)(row)),
                 "absent",
                 format!(

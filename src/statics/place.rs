@@ -10,8 +10,9 @@ use serde::Serialize;
 
 use super::{loads, positions};
 use crate::base::error::{Error, Result};
+use crate::base::quantities::number;
 use crate::inspect;
-use crate::model::{BodyId, Dof, Model, Race, compile_placed};
+use crate::model::{BodyId, Dof, Model, Race, ball_fault, compile_placed, race_fault};
 use crate::scene::{AxialOffset, Defect, Row, Scene, Surface, TimeFunction};
 
 /// Where the number of a defect's axial place comes from.
@@ -38,7 +39,48 @@ const LOADED: f64 = 1e-9;
 /// [`crate::Error::Scene`] names the first field that is not usable, or the environment variable `BALLRACE_SIMD` where it
 /// names no level of this processor.
 pub fn compile(scene: &Scene) -> Result<Model> {
-    loads::finished(compile_placed(&place(scene)?.0)?)
+    let (placed, _) = place(scene)?;
+    let model = compile_placed(&placed)?;
+    check_pits(&placed)?;
+    loads::finished(model)
+}
+
+/// Refuses pits that are too large for the heaviest static contact that meets them; where there is none they are taken as they are.
+fn check_pits(scene: &Scene) -> Result<()> {
+    for (name, defect) in scene.defects.iter().filter(|(_, defect)| defect.is_pit()) {
+        let Some(meeting) = DefectPasses::of(scene, defect)? else {
+            continue;
+        };
+        let model = &meeting.model;
+        let load = |(j, race): &(usize, Race)| inspect::contact(model, &meeting.y, *j, *race).load;
+        let loads = meeting
+            .contacts
+            .iter()
+            .map(|contact| (load(contact), contact.1));
+        let heaviest = loads.max_by(|a, b| a.0.total_cmp(&b.0));
+        let row = &model.rows[defect.row];
+        let geometry = &scene.rows[defect.row];
+        let compiled = if defect.on == Surface::Ball {
+            ball_fault(defect, geometry.ball_diameter / 2.0, &row.hertz)
+        } else {
+            let race = heaviest.map_or(Race::Outer, |(_, race)| race);
+            race_fault(defect, geometry, (&row.pairs[race], &row.hertz[race]))
+        };
+        if let Some((load, race)) = heaviest
+            && load > LOADED * model.scales.load
+            && compiled.outgrows(&row.hertz[race], load)
+        {
+            return Err(Error::scene(
+                format!("defects.{name}.width"),
+                defect.width.largest(),
+                format!(
+                    "smaller than its contact, which bears {} N: what is larger is a spall, with an edge radius",
+                    number(load)
+                ),
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// The scene with a number for the axial place of every defect, and where the numbers come from, by the defects' names.

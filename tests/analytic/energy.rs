@@ -88,6 +88,15 @@ fn with_defect(law: &NormalLaw, on: Surface, change: impl Fn(&mut Defect)) -> Sc
     scene
 }
 
+/// A pit a fifth of a millimetre wide where ball 0 meets it as it meets [`defect`].
+fn with_pit(law: &NormalLaw, on: Surface) -> Scene {
+    with_defect(law, on, |defect| {
+        let ball = defect.ball;
+        *defect = Defect::pit(on, defect.angle, 0.2e-3);
+        defect.ball = ball;
+    })
+}
+
 fn wave(order: u32) -> Vec<Waviness> {
     vec![Waviness::new(order, 2e-6, 0.4)]
 }
@@ -141,6 +150,13 @@ fn scenes(law: &NormalLaw) -> Vec<(&'static str, Scene)> {
                     vec![0.4e-3, 0.7e-3],
                 ));
             }),
+        ),
+        ("pit outside", with_pit(law, Surface::OuterRace)),
+        ("pit inside", with_pit(law, Surface::InnerRace)),
+        ("pit of a ball", with_pit(law, Surface::Ball)),
+        (
+            "pit on texture",
+            textured(with_pit(law, Surface::OuterRace)),
         ),
         ("waves outside", wavy(true)),
         ("waves inside", wavy(false)),

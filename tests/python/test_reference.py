@@ -156,7 +156,7 @@ def add_defects(scene: Json, kind: str) -> None:
 
 
 AVERAGING = {"outer": 1e-30, "reference_load": 800.0}
-"""A texture of nothing that says by which contact waves are averaged, and makes a table of those of the outer race."""
+"""A texture of nothing: it says by which contact waves are averaged, and makes a table of those of a race."""
 
 
 def sprinkle_row(row: Json, rng: np.random.Generator) -> None:

@@ -14,7 +14,7 @@ Surface = Literal["outer_race", "inner_race", "ball"]
 """The surface that carries a defect."""
 
 
-DefectShape = Literal["cap"]
+DefectShape = Literal["cap", "pit"]
 """Outline of a defect that is not a patch of its length and width (see :class:`Defect`)."""
 
 
@@ -78,17 +78,18 @@ class Defect(Part):
         defect on the outer race that is a ball's at the defect's own angle; of one on a ball, its contact with
         the race that loads it more. Without equilibrium or load it is the place of the nominal contact angle.
         A run records the number in ``out.scene`` and its origin in ``out.defects``.
-    shape : "cap" or None
+    shape : "cap", "pit" or None
         Outline; None: a patch of ``length`` and ``width``. A cap of a ball is a circle on its surface, as wide in
         every direction as ``width`` says, less than the ball's radius. Its middle is seen from the ball's centre
         in a direction that is fixed in the ball: at ``angle`` about z, and where it meets the surface at
-        ``axial_offset``.
+        ``axial_offset``. A pit is a deep hole smaller than its contact, which bulges into it and shares load: an
+        ellipse of ``width`` along rolling and ``length`` across; what is too large for its contact is refused.
     length : float
-        Axial length [m]; of a cap 0, or left out.
+        Axial length [m]; of a cap 0, or left out, and of a round pit.
     width : Width
-        Arc length along the surface [m]; of a cap a plain number.
+        Arc length along the surface [m]; of a cap or pit a plain number.
     edge_radius : float
-        Radius of the fault circles at the edges [m].
+        Radius of the fault circles at the edges [m]; a pit has none.
     floor : Floor or None
         Recessed circles between the edges; None: no floor.
     """
@@ -101,7 +102,7 @@ class Defect(Part):
     shape: DefectShape | None = field(default=None, metadata=LEFT_OUT)
     length: float = 0.0
     width: Width
-    edge_radius: float
+    edge_radius: float = 0.0
     floor: Floor | None = None
 
 
@@ -112,5 +113,6 @@ def widest(defect: Defect) -> float:
 
 
 def extent(defect: Defect) -> float:
-    """Return how far a defect reaches along the axis [m]; a cap is as long as it is wide."""
-    return widest(defect) if defect.shape == "cap" else defect.length
+    """Return how far a defect reaches along the axis [m]; caps and round pits are as long as they are wide."""
+    is_round = defect.shape is not None and defect.length == 0.0
+    return widest(defect) if is_round else defect.length

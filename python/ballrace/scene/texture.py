@@ -13,9 +13,9 @@ __all__ = ["Texture"]
 class Texture(Part):
     """Many small waves around the races and balls of a row, drawn from a seed.
 
-    A wave of order n has the amplitude ``a * (30 / n) ** slope`` times a random number of Rayleigh's distribution, and a
-    random phase, so that heights are Gaussian; a contact averages waves that are not longer than itself. The same seed
-    is the same bearing, whatever else changes. Needs plain grooves.
+    A wave of order n has the amplitude ``a * (30 / n) ** slope`` times a random number of Rayleigh's distribution,
+    and a random phase, so that heights are Gaussian; a contact averages waves that are not longer than itself. The
+    same seed is the same bearing, whatever else changes. Needs plain grooves.
 
     Attributes
     ----------
@@ -27,8 +27,8 @@ class Texture(Part):
     slope : float
         How fast amplitudes fall with the order [1], 0.5 to 4: measured ones with 1.5 to 2.5.
     orders : tuple of two ints, or None
-        Lowest and highest order on the races, 2 to 20 000; None: from 2 to waves half as long as a contact is wide. Balls
-        end at their own such order, if that is lower.
+        Lowest and highest order on the races, 2 to 20 000; None: from 2 to waves half as long as a contact
+        is wide. Balls end at their own such order, if that is lower.
     seed : int
         What the bearing is drawn from, 0 to 2**53 - 1.
     reference_load : float or None

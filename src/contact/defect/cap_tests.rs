@@ -3,11 +3,13 @@
 use nalgebra::{Rotation3, Vector3};
 
 use super::gradient::tests::{RADIUS, pair};
+use crate::contact::PittedContact;
+use crate::contact::hertz::Hertz;
 use crate::contact::{
     Aside, BallSide, Damping, Fault, Motion, Pair, Sink, Torus, Touch, Traction, V2, Wrench,
     ZoneSlices, cross,
 };
-use crate::scene::{Defect, Floor, Friction, Surface, WidthProfile};
+use crate::scene::{Defect, Floor, Friction, Material, Surface, WidthProfile};
 
 /// What a contact does to its ball, and of it what normal forces and friction take out.
 #[derive(Default)]
@@ -187,6 +189,65 @@ fn forces_and_moments_are_the_gradient_of_the_energy() {
                     failed.push(format!(
                         "{name} {angle} {width} {beside:?} {depth:?} {off:?}"
                     ));
+                }
+            }
+        }
+    }
+    println!("{worst:?}");
+    assert!(failed.is_empty(), "{failed:#?}");
+}
+
+/// The same of pits.
+#[test]
+fn forces_and_moments_of_pits_are_the_gradient_of_the_energy() {
+    let steel = Material::default();
+    let (mut worst, mut failed) = ([0.0_f64; 2], Vec::new());
+    for (pair, name) in pairs() {
+        let sigma = pair.race.sigma;
+        let hertz = Hertz::new(sigma, 2.0 * RADIUS, 60e-3, 0.52, 0.3, &steel, &steel);
+        let ball_with = |e: &Vector3<f64>| {
+            let defect = Defect::pit(Surface::Ball, e.y.atan2(e.x), 0.3e-3);
+            let mut pit = Fault::pit(
+                &defect,
+                RADIUS * e.z,
+                RADIUS,
+                [PittedContact::of(&hertz); 2],
+            );
+            pit.widen(0.4e-3);
+            BallSide {
+                faults: vec![pit],
+                ..BallSide::whole(RADIUS)
+            }
+        };
+        for angle in [0.03, 0.35, -0.5] {
+            let pressed = Pressed::at(&pair.race, angle);
+            for beside in [[0.0, 0.0], [0.01, 0.02], [-0.02, -0.05]] {
+                let e = pressed.beside(beside);
+                let found = pressed.evaluate(&pair, &ball_with(&e));
+                let whole = pressed.evaluate(&pair, &BallSide::whole(RADIUS)).energy;
+                assert!(found.energy < 0.9999 * whole, "{name} {angle} {beside:?}");
+                let Wrench { force, moment } = found.elastic;
+                let mut off = [0.0_f64; 2];
+                for axis in 0..3 {
+                    let direction = Vector3::ith(axis, 1.0);
+                    let moved = |by: f64| {
+                        let place = pressed.place + direction * by;
+                        Pressed { place, ..pressed }
+                            .evaluate(&pair, &ball_with(&e))
+                            .energy
+                    };
+                    let turned = |by: f64| {
+                        let e = Rotation3::new(direction * by) * e;
+                        pressed.evaluate(&pair, &ball_with(&e)).energy
+                    };
+                    let size = force.norm();
+                    off[0] = off[0].max((force[axis] + slope(moved, 2e-8)).abs() / size);
+                    let about = (moment[axis] + slope(turned, 4e-6)).abs();
+                    off[1] = off[1].max(about / (RADIUS * size));
+                }
+                worst = [0, 1].map(|i| worst[i].max(off[i]));
+                if off[0] > 1e-7 || off[1] > 1e-7 {
+                    failed.push(format!("{name} {angle} {beside:?} {off:?}"));
                 }
             }
         }

@@ -7,10 +7,14 @@ mod circles;
 mod depth;
 mod elements;
 pub(super) mod gradient;
+mod hole;
+mod pit;
 mod pressing;
 mod toward;
 mod within;
 
+pub(crate) use hole::PittedContact;
+pub(super) use hole::Yield;
 pub(crate) use toward::Toward;
 pub(crate) use within::Sighted;
 
@@ -21,6 +25,8 @@ use nalgebra::Vector3;
 use super::{Motion, V2, wrapped};
 use crate::scene::{Defect, Width};
 use cap::{Cap, Lost, Rim};
+use elements::WITH_RING_AXIS;
+use pit::Pit;
 
 /// A defect of a surface, compiled: places in the frame of its body.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +48,7 @@ pub struct Fault {
     pub reach: f64,
     width: Width,
     cap: Option<Cap>,
+    pit: Option<Pit>,
 }
 
 /// Directions in the frame of the scene: those whose component along the middle, over their length, is above a bound.
@@ -66,6 +73,7 @@ impl Fault {
             reach: defect.width.largest() / radius,
             width: defect.width.clone(),
             cap: None,
+            pit: None,
         }
     }
 
@@ -114,7 +122,7 @@ impl Fault {
     /// Whether a contact in this direction may see the fault.
     pub(crate) fn in_reach(&self, toward: &Toward) -> bool {
         match toward.pole(self) {
-            None => wrapped(self.angle - toward.angle).abs() <= self.reach,
+            None => toward.aside(self).abs() <= self.reach,
             Some((cap, e)) => cap.in_reach(&e, toward.n),
         }
     }
@@ -122,7 +130,8 @@ impl Fault {
     /// Its two axial ends, in the ring's frame or from the ball's centre \[m\]; a cap has a rim all round.
     pub(super) fn ends(&self) -> impl Iterator<Item = f64> + Clone + use<> {
         let (middle, length) = (self.middle, self.length);
-        let sides = self.cap.is_none().then_some([-0.5, 0.5]);
+        let is_patch = self.cap.is_none() && self.pit.is_none();
+        let sides = is_patch.then_some([-0.5, 0.5]);
         let ends = sides.into_iter().flatten();
         ends.map(move |share| middle + share * length)
     }
@@ -136,6 +145,9 @@ impl Fault {
     /// Whether the surface is absent at an axial place where it has this radius, in a direction this far from the
     /// fault's own \[rad\]; `ball` is the orientation of the ball that has it.
     pub(crate) fn covers(&self, z: f64, radius: f64, aside: f64, ball: &Motion) -> bool {
+        if let Some(pit) = &self.pit {
+            return aside.abs() <= pit.span;
+        }
         let at = Station {
             z,
             beside: 0.0,
@@ -150,6 +162,9 @@ impl Fault {
 
     /// The arc at an axial place, seen from a direction.
     fn arc(&self, at: &Station, toward: &Toward) -> Option<Arc> {
+        if self.is_pit() {
+            return None;
+        }
         match toward.pole(self) {
             None => self.patch(at, wrapped(self.angle - toward.angle)),
             Some((cap, e)) => self.cut(&cap, &e, at, toward.aside_of(&e)),

@@ -53,7 +53,7 @@ impl OneContact<'_> {
             };
             met.terms().into_iter().map(at).sum::<f64>()
         };
-        let elastic = split(&|depth| pair.law.elastic.force(depth, node.width));
+        let elastic = self.yields.share * split(&|depth| pair.law.elastic.force(depth, node.width));
         if elastic <= 0.0 {
             return false;
         }
@@ -78,7 +78,7 @@ impl OneContact<'_> {
             elastic,
             normal: force.normal,
             energy: if sink.asks_energy() {
-                split(&|depth| pair.law.elastic.energy(depth, node.width))
+                self.yields.energy * split(&|depth| pair.law.elastic.energy(depth, node.width))
             } else {
                 0.0
             },
@@ -103,6 +103,7 @@ impl OneContact<'_> {
                 arm_ball: arm,
                 arm_ring: self.apart + arm,
                 swing: feature.swing,
+                across: V2::zeros(),
             });
         }
         if !self.ball.waves.is_round() {

@@ -41,6 +41,12 @@ impl<'a> Toward<'a> {
         fault.pole(self.ball?)
     }
 
+    /// The direction e of a ball's defect that is round: a cap or a pit.
+    fn middle(&self, fault: &Fault) -> Option<Vector3<f64>> {
+        let cap = self.pole(fault).map(|(_, e)| e);
+        cap.or_else(|| fault.pit_pole(self.ball?))
+    }
+
     /// The angle from here to a direction e of the ball \[rad\].
     pub(super) fn aside_of(&self, e: &Vector3<f64>) -> f64 {
         cross(self.n, e.xy()).atan2(self.n.dot(&e.xy()))
@@ -48,26 +54,25 @@ impl<'a> Toward<'a> {
 
     /// How far it is from a defect's middle \[rad\].
     pub fn aside(&self, fault: &Fault) -> f64 {
-        match self.pole(fault) {
+        match self.middle(fault) {
             None => wrapped(self.angle - fault.angle),
-            Some((_, e)) => -self.aside_of(&e),
+            Some(e) => -self.aside_of(&e),
         }
     }
 
     /// Half of the angle over which a defect may be met \[rad\].
     pub fn half(&self, fault: &Fault) -> f64 {
-        match self.pole(fault) {
-            None => fault.reach / 2.0,
-            Some((cap, e)) => cap.widest(&e),
+        match (self.pole(fault), &fault.pit) {
+            (Some((cap, e)), _) => cap.widest(&e),
+            (None, Some(pit)) => pit.span,
+            (None, None) => fault.reach / 2.0,
         }
     }
 
     /// How fast a defect turns about the ring's axis \[rad/s\], of a body with this angular speed about it.
     pub fn turning(&self, fault: &Fault, omega: f64) -> f64 {
-        match (self.pole(fault), self.ball) {
-            (Some((_, e)), Some(ball)) => {
-                omega - ball.across.dot(&e.xy()) * e.z / e.xy().norm_squared()
-            }
+        match (self.middle(fault), self.ball) {
+            (Some(e), Some(ball)) => omega - ball.across.dot(&e.xy()) * e.z / e.xy().norm_squared(),
             _ => omega,
         }
     }

@@ -10,6 +10,7 @@ pub(super) use shape::Kind;
 pub use shape::Shape;
 pub(super) use slices::{Line, Node};
 
+use super::defect::Yield;
 use super::laws::traction::Rolling;
 use super::profile::{Before, Meeting, RaceSurface, Raise, Section};
 use super::slip::{Moves, Slip};
@@ -182,8 +183,12 @@ impl Pair {
         } = *facing;
         let on_ring = r.angle_of(angle);
         let toward = Toward::ball(b, n * self.race.sigma, self.outwards(angle));
-        let ring_open = self.is_near(on_ring);
-        let ball_near = ball.faults.iter().any(|fault| fault.in_reach(&toward));
+        let is_arc = |fault: &&Fault| !fault.is_pit();
+        let on_race = Toward::race(on_ring);
+        let mut arcs = self.faults.iter().filter(is_arc);
+        let ring_open = arcs.any(|fault| fault.in_reach(&on_race));
+        let mut arcs = ball.faults.iter().filter(is_arc);
+        let ball_near = arcs.any(|fault| fault.in_reach(&toward));
         OneContact {
             pair: self,
             race: self.race,
@@ -200,7 +205,8 @@ impl Pair {
             swell,
             ring_open,
             // A ring edge is met in another direction than the race.
-            ball_open: ball_near || ring_open && !ball.faults.is_empty(),
+            ball_open: ball_near || ring_open && ball.faults.iter().any(|f| is_arc(&f)),
+            yields: Yield::default(),
             slip: None,
             middle: 0.0,
             oil: FilmEffect::default(),
@@ -308,6 +314,8 @@ pub(super) struct OneContact<'a> {
     pub(super) swell: Raise<f64>,
     pub(super) ring_open: bool,
     pub(super) ball_open: bool,
+    /// What pits make of its elastic forces.
+    pub(super) yields: Yield,
     pub(super) section: Section<f64>,
     /// Along the line, if there is friction; on a curve through points that along the circle of curvature.
     pub(super) slip: Option<Slip<f64>>,
@@ -332,6 +340,8 @@ impl OneContact<'_> {
             let r = self.load_measure(oiled, line);
             (oiled, r)
         });
+        let pits = self.find_pits(line);
+        let oiled = oiled.map(|(oiled, r)| (oiled, r * self.yields.share.cbrt()));
         if let Some((oiled, r)) = oiled {
             self.oil = FilmEffect::at(&FilmNumbers::new(oiled), r);
             moves.oil = self.oil;
@@ -343,6 +353,9 @@ impl OneContact<'_> {
             self.slip = self.slip.map(|slip| slip.from::<false>(self.middle));
         }
         self.slices(line, sink);
+        if let Some(pits) = &pits {
+            self.pit_forces(pits, sink);
+        }
         if let Some((oiled, r)) = oiled {
             let (sigma, lever) = (self.race.sigma, self.section.radius * self.section.normal.0);
             sink.oil(&OilTouch::new(oiled, r, &moves, (sigma, self.apart, lever)));

@@ -181,7 +181,7 @@ const DEEPEST: f64 = 0.05;
 
 impl OneContact<'_> {
     /// Hands the forces of all slices to the sink.
-    pub(super) fn slices<S: Sink + ?Sized>(&self, line: &Line, sink: &mut S) {
+    pub(in crate::contact) fn slices<S: Sink + ?Sized>(&self, line: &Line, sink: &mut S) {
         match &self.pair.slices {
             ZoneSlices::Fixed(count) => self.fixed(line, *count, sink),
             ZoneSlices::Fitted(rules) => self.fitted(line, rules, sink),

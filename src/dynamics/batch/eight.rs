@@ -22,6 +22,8 @@ pub(crate) struct SideConstants {
 }
 
 /// What the contacts of a class of rows share.
+// Each is a question of its own.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, Clone)]
 struct ClassConstants {
     /// Constants of the first ball in all lanes.

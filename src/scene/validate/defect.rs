@@ -14,12 +14,16 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
     let row = scene.row_index(path, defect.row)?;
     let radius = row.ball_diameter / 2.0;
     within(&at("angle"), defect.angle, -1e3..=1e3, "rad")?;
+    if defect.is_pit() {
+        pit(scene, path, row, defect)?;
+    } else {
+        positive(&at("edge_radius"), defect.edge_radius, "m")?;
+    }
     if defect.is_cap() {
         only_what_a_cap_has(path, defect)?;
-    } else {
+    } else if !defect.is_pit() {
         positive(&at("length"), defect.length, "m")?;
     }
-    positive(&at("edge_radius"), defect.edge_radius, "m")?;
     width(&at("width"), &defect.width)?;
     if let Some(offset) = defect.axial_offset.number() {
         finite(&at("axial_offset"), offset)?;
@@ -28,9 +32,10 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
         (Surface::Ball, Some(ball)) if ball < row.ball_count => {
             if defect.is_cap() {
                 cap(path, row, defect)?;
+            } else if defect.is_pit() {
+                on_ball(path, row, defect)?;
             } else if scene.balls_turn() {
-                let allowed =
-                    r#""cap" for a ball that spins freely: a patch has its length along the axis"#;
+                let allowed = r#""cap" or "pit" for a ball that spins freely: a patch has its length along the axis"#;
                 return Err(Error::scene(at("shape"), "absent", allowed));
             } else {
                 on_ball(path, row, defect)?;
@@ -64,6 +69,59 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// A pit has a width and perhaps a length, lies in a plain groove, and overlaps no other.
+fn pit(scene: &Scene, path: &str, row: &Row, defect: &Defect) -> Result<()> {
+    let refuse = |field: &str, value: &dyn Display, allowed: &str| {
+        Err(Error::scene(format!("{path}.{field}"), value, allowed))
+    };
+    within(&format!("{path}.length"), defect.length, 0.0..=1.0, "m")?;
+    if defect.edge_radius != 0.0 {
+        let allowed = "absent for a pit, whose edge is sharp";
+        return refuse("edge_radius", &defect.edge_radius, allowed);
+    }
+    if defect.floor.is_some() {
+        return refuse("floor", &"given", "absent for a pit, which is deep");
+    }
+    if matches!(defect.width, Width::Profile(_)) {
+        return refuse("width", &"a profile", "one number for a pit");
+    }
+    if !row.has_plain_grooves() {
+        let allowed = "absent on races through points and gothic arches";
+        return refuse("shape", &"pit", allowed);
+    }
+    let before = scene
+        .defects
+        .iter()
+        .take_while(|(_, other)| !std::ptr::eq(*other, defect));
+    for (name, other) in before.filter(|(_, other)| other.is_pit()) {
+        if overlaps(row, defect, other) {
+            let allowed = format!("apart from defects.{name}, which it overlaps");
+            return refuse("angle", &defect.angle, &allowed);
+        }
+    }
+    Ok(())
+}
+
+/// Whether two pits of one body overlap; what is yet to be placed lies where the other one does.
+fn overlaps(row: &Row, one: &Defect, other: &Defect) -> bool {
+    let body = |defect: &Defect| (defect.on, defect.row, defect.ball);
+    let along = (row.pitch_diameter - row.ball_diameter) / 2.0;
+    let radius = if one.on == Surface::Ball {
+        row.ball_diameter / 2.0
+    } else {
+        along
+    };
+    let aside = (one.angle - other.angle).rem_euclid(2.0 * PI);
+    let apart = radius * aside.min(2.0 * PI - aside);
+    let across = match (one.axial_offset.number(), other.axial_offset.number()) {
+        (Some(one), Some(other)) => (one - other).abs(),
+        _ => 0.0,
+    };
+    body(one) == body(other)
+        && apart < f64::midpoint(one.width.largest(), other.width.largest())
+        && across < f64::midpoint(one.extent(), other.extent())
 }
 
 /// A cap is a ball's, and one width says how large it is.

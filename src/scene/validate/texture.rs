@@ -2,7 +2,7 @@
 
 use super::check::{positive, within};
 use crate::base::error::{Error, Result};
-use crate::scene::{Defect, Row, Scene, Texture};
+use crate::scene::{Defect, Scene, Surface, Texture};
 
 /// Largest seed: every document holds it exactly.
 const LARGEST_SEED: u64 = (1 << 53) - 1;
@@ -48,32 +48,16 @@ pub(super) fn texture(scene: &Scene, index: usize) -> Result<()> {
     if let Some(load) = texture.reference_load {
         positive(&at("reference_load"), load, "N")?;
     }
-    only_on_grooves(&path, row)?;
-    let tumbles = |defect: &Defect| defect.row == index && defect.is_cap();
+    if !row.has_plain_grooves() {
+        let allowed =
+            "absent beside profiles, arches and rounded shoulders: texture is for plain grooves";
+        return Err(Error::scene(path, "given", allowed));
+    }
+    let tumbles = |defect: &Defect| defect.row == index && defect.on == Surface::Ball;
     if texture.ball > 0.0 && scene.balls_turn() && scene.defects.values().any(tumbles) {
         let allowed =
-            "0 where balls spin freely and one has a cap: their texture is around one axis";
+            "0 where balls spin freely and one has a defect: their texture is around one axis";
         return Err(Error::scene(at("ball"), texture.ball, allowed));
     }
     Ok(())
-}
-
-/// Only grooves have a texture: one circle is where their contacts run.
-fn only_on_grooves(path: &str, row: &Row) -> Result<()> {
-    let others = [
-        ("outer_profile", row.outer_profile.is_some()),
-        ("inner_profile", row.inner_profile.is_some()),
-        ("outer_arch", row.outer_arch.is_some()),
-        ("inner_arch", row.inner_arch.is_some()),
-        ("outer_shoulder_radius", row.outer_shoulder_radius.is_some()),
-        ("inner_shoulder_radius", row.inner_shoulder_radius.is_some()),
-    ];
-    match others.into_iter().find(|(_, given)| *given) {
-        None => Ok(()),
-        Some((field, _)) => Err(Error::scene(
-            path,
-            "given",
-            format!("absent with {field}: texture is for plain grooves"),
-        )),
-    }
 }
