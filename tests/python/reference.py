@@ -172,7 +172,7 @@ def groove(row: Json, ring: int, materials: Json) -> Groove:
     limits = (-math.inf, math.inf)
     if shoulders is not None:
         limits = (-r * math.sin(shoulders[0]), r * math.sin(shoulders[1]))
-    harmonics = ()
+    harmonics: tuple[tuple[Any, Any, Any], ...] = ()
     if waves:
         # The share of a wave that a contact keeps, sin κ/κ with κ = n b/R (section 14.1).
         width = hertz(row, ring, materials).c_b * row["texture"]["reference_load"] ** (1 / 3)
