@@ -80,7 +80,8 @@ pub(super) fn show_absent(scene: &mut Value) {
         }
     };
     show(&[], &["lubricant", "spin"]);
-    show(&["rows", ALL], &["lubricant"]);
+    show(&["rows", ALL, "texture"], &["orders", "reference_load"]);
+    show(&["rows", ALL], &["lubricant", "texture"]);
     for ring in ["outer_ring", "inner_ring"] {
         show(&[ring], &["tilt", "transverse_inertia", "centre_of_mass"]);
         show(&[ring, "support"], &["tilt_x", "tilt_y", "coupled"]);

@@ -206,6 +206,7 @@ def scenes() -> list[s.Scene]:
         shaped(full),
         lubricated(full),
         leaning(full),
+        textured(),
     ]
 
 
@@ -259,6 +260,20 @@ def shaped(full: s.Scene) -> s.Scene:
         ),
     )
     return dataclasses.replace(full, rows=(row, other))
+
+
+def textured() -> s.Scene:
+    """A scene whose races and balls are not smooth."""
+    texture = s.Texture(
+        outer=1e-9,
+        inner=2e-9,
+        ball=3e-11,
+        slope=1.8,
+        orders=(2, 400),
+        seed=7,
+        reference_load=200.0,
+    )
+    return br.presets.deep_groove_6205().replace({"rows[0].texture": texture})
 
 
 def lubricated(full: s.Scene) -> s.Scene:
