@@ -112,11 +112,12 @@ impl Pair {
         } else {
             self.waves.under::<FMA>([x, y], ring.theta)
         };
-        let swell = balls.texture.map(|(tables, turned)| {
-            let opposite = self.outwards(0.0);
-            let angle = direction::<FMA>(x, y) - turned + opposite;
-            HeightTable::each::<FMA>(tables, angle)
-        });
+        // Not in a closure: that would not be compiled for the instructions of this code.
+        let mut swell = None;
+        if let Some((tables, turned)) = balls.texture {
+            let angle = direction::<FMA>(x, y) - turned + self.outwards(0.0);
+            swell = Some(HeightTable::each::<FMA>(tables, angle));
+        }
         let (touching, lost) = if self.shape.is_torus() {
             let e = (d - raise.height - race.a) * race.sigma;
             let c = Lanes::all(race.centre) - z;
