@@ -25,6 +25,7 @@
 //! | Which features has the record, and which of many records? | [`features()`], [`campaign()`] |
 //! | What are the equations, for an integrator of one's own? | [`compile()`], [`dynamics`], [`integrate`] |
 //! | What holds in a given state: loads, energies, films? | [`inspect`] |
+//! | How does a force of my own act on a ring? | [`scene::RingForce`], [`scene::TableForce`] |
 //!
 //! Bad input is refused by one [`Error`] that names the field, the value and what is allowed. The guide (`docs/index.md`) has the model
 //! and its limits; its page `docs/architecture.md` is the map for contributors.

@@ -97,6 +97,9 @@ class Touched:
         Largest normal force of a contact within its length, to about a percent [N].
     contact_offset : float or None
         Where the most loaded contact ran that passed, measured as `axial_offset` [m]; None without load.
+    contact_width : float or None
+        How wide that contact was along rolling, 2b of Hertz's ellipse [m]; None without load, and in files of
+        version 0.2.
     """
 
     name: str
@@ -107,6 +110,7 @@ class Touched:
     touched: int
     largest_load: float
     contact_offset: float | None
+    contact_width: float | None = None
 
     @property
     def share(self) -> float | None:

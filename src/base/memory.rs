@@ -65,13 +65,13 @@ thread_local! {
 /// Works on this thread with a part of what there is \[bytes\]: several runs at once would each count on all of it.
 pub fn within<T>(part: f64, work: impl FnOnce() -> T) -> T {
     /// Gives back what there was before, after a panic too.
-    struct Before(f64);
-    impl Drop for Before {
+    struct PartBefore(f64);
+    impl Drop for PartBefore {
         fn drop(&mut self) {
             PART.set(self.0);
         }
     }
-    let _before = Before(PART.replace(part));
+    let _before = PartBefore(PART.replace(part));
     work()
 }
 

@@ -20,7 +20,7 @@ use crate::model::{Model, Race};
 use crate::reduction::{Obstacle, Omission, Reduction};
 use crate::run;
 use crate::scene::{Defect, Doubt, Scene, Surface};
-use crate::signals::touched::{Touched, compiled, is_there};
+use crate::signals::touched::{MostLoaded, Touched, compiled, is_there};
 use crate::statics::compile;
 use crate::statics::start::{Start, start};
 use crate::statics::{DefectPasses, Placed, describe, place};
@@ -115,6 +115,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
     // Cut short, timings and variants are none.
     interrupt::check()?;
     let at_start = describe(&model, &y0, 0);
+    let defects = defects(&scene, &placed)?;
     Ok(Explanation {
         name: scene.name.clone(),
         bodies: model.body_count(),
@@ -135,8 +136,12 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         law: law::of(&model, &at_start),
         oils: oil::of(&model)?,
         textures: texture::of(&model),
-        doubts: at_start.doubts,
-        defects: defects(&scene, &placed)?,
+        doubts: at_start
+            .doubts
+            .into_iter()
+            .chain(defects.iter().filter_map(|of| of.doubt(&scene)))
+            .collect(),
+        defects,
         notes: run::note(&model)
             .map(str::to_owned)
             .into_iter()
@@ -168,7 +173,7 @@ fn defects(scene: &Scene, placed: &BTreeMap<String, Placed>) -> Result<Vec<Touch
 fn met(mut told: Touched, defect: &Defect, meeting: &DefectPasses) -> Touched {
     let DefectPasses { model, y, contacts } = meeting;
     let (fault, origin) = compiled(model, defect);
-    let mut most = 0.0;
+    let mut most = None;
     for &(j, race) in contacts {
         let [ball, ring] = model.facing(y, j, race);
         let pair = &model.rows[defect.row].pairs[race];
@@ -182,11 +187,14 @@ fn met(mut told: Touched, defect: &Defect, meeting: &DefectPasses) -> Touched {
         told.passes += 1;
         told.touched += usize::from(found.within > 0.0);
         told.largest_load = told.largest_load.max(found.within);
-        if found.load > most {
-            (most, told.contact_offset) = (found.load, Some(found.place - origin));
-        }
+        let met = MostLoaded {
+            load: found.load,
+            place: found.place,
+            race,
+        };
+        most = met.or(most);
     }
-    told
+    told.met(model, defect, origin, most)
 }
 
 fn contacts(model: &Model, dynamics: &Dynamics<'_>) -> Vec<ContactKind> {

@@ -13,8 +13,8 @@ use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
 use crate::contact::hertz::Hertz;
 use crate::contact::{
-    BallSide, Damping, Elastic, Fault, Law, Pair, PittedContact, Rules, Shape, Torus, Traction,
-    Waves, ZoneSlices,
+    BallSide, Damping, Elastic, Fault, Law, MOST_PITS, Pair, PittedContact, Rules, Shape, Torus,
+    Traction, Waves, ZoneSlices, pits_at_once,
 };
 use crate::scene::{self, Approximations, Defect, Drive, Mount, Row, Scene, Surface};
 use crate::simd::InstructionSet;
@@ -94,8 +94,32 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     };
     model.scales = Scales::of(&model);
     model.widen_pits();
+    check_pits_at_once(&model)?;
     fit_nodes(&mut model);
     Ok(model)
+}
+
+/// Refuses more pits than a contact has room for.
+fn check_pits_at_once(model: &Model) -> Result<()> {
+    for (i, row) in model.rows.iter().enumerate() {
+        let balls = model.balls[row.balls()].iter();
+        let of_a_ball = balls.map(|ball| ball.side.faults.iter().filter(|of| of.is_pit()).count());
+        let of_a_ball = of_a_ball.max().unwrap_or(0);
+        for (race, pair) in Race::BOTH.into_iter().zip(&row.pairs) {
+            let count = pits_at_once(&pair.faults) + of_a_ball;
+            if count > MOST_PITS {
+                return Err(Error::scene(
+                    "defects",
+                    format!(
+                        "{count} pits that a contact of row {i} with the {} race may meet at once",
+                        race.name()
+                    ),
+                    format!("at most {MOST_PITS}, those of the ball included"),
+                ));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Gives each race the fewest nodes that reach the accuracy it asks for: rows that are alike in all else the same number, so that

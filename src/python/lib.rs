@@ -27,7 +27,7 @@ mod _core {
     #[pymodule_export]
     use super::oil::{named_oils, oil};
     #[pymodule_export]
-    use super::run::{Model, explain, run_from_json, simulate};
+    use super::run::{CompiledScene, explain, run_from_json, simulate};
     #[pymodule_export]
     use super::scene::{
         preset_angular_contact_pair, preset_cornering_wheel, preset_deep_groove_6205,

@@ -18,11 +18,11 @@ use ballrace::dynamics;
 use ballrace::{Error, Run, Scene, Signals, SliceRow, Start};
 
 /// A compiled scene.
-#[pyclass(frozen, module = "ballrace._core")]
-pub(super) struct Model(Arc<ballrace::Model>);
+#[pyclass(frozen, module = "ballrace._core", name = "Model")]
+pub(super) struct CompiledScene(Arc<ballrace::Model>);
 
 #[pymethods]
-impl Model {
+impl CompiledScene {
     #[new]
     fn new(py: Python<'_>, scene: &str) -> PyResult<Self> {
         let scene = Scene::from_json(scene).or_raise(py)?;
@@ -95,7 +95,7 @@ impl Model {
     }
 }
 
-impl Model {
+impl CompiledScene {
     /// A copy of a state of the right length: other threads may write to the array once the GIL is released.
     fn state(&self, py: Python<'_>, y: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<f64>> {
         if y.as_array().len() == self.0.dim() {

@@ -247,12 +247,12 @@ where
     D: Deserializer<'de>,
     M: Deserialize<'de>,
 {
-    struct Either<T, M> {
+    struct NumberOrMap<T, M> {
         expecting: &'static str,
         from_number: fn(f64) -> T,
         from_map: fn(M) -> T,
     }
-    impl<'de, T, M: Deserialize<'de>> Visitor<'de> for Either<T, M> {
+    impl<'de, T, M: Deserialize<'de>> Visitor<'de> for NumberOrMap<T, M> {
         type Value = T;
         fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
             f.write_str(self.expecting)
@@ -270,7 +270,7 @@ where
             M::deserialize(MapAccessDeserializer::new(map)).map(self.from_map)
         }
     }
-    deserializer.deserialize_any(Either {
+    deserializer.deserialize_any(NumberOrMap {
         expecting,
         from_number,
         from_map,
@@ -284,12 +284,12 @@ pub(super) fn number_or_word<'de, D: Deserializer<'de>, T: Copy>(
     from_number: fn(f64) -> T,
     of_word: T,
 ) -> Result<T, D::Error> {
-    struct Either<T> {
+    struct NumberOrWord<T> {
         word: &'static str,
         from_number: fn(f64) -> T,
         of_word: T,
     }
-    impl<T: Copy> Visitor<'_> for Either<T> {
+    impl<T: Copy> Visitor<'_> for NumberOrWord<T> {
         type Value = T;
         fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
             write!(f, "a number [m], or {:?}", self.word)
@@ -310,7 +310,7 @@ pub(super) fn number_or_word<'de, D: Deserializer<'de>, T: Copy>(
             Err(E::invalid_value(serde::de::Unexpected::Str(text), &self))
         }
     }
-    deserializer.deserialize_any(Either {
+    deserializer.deserialize_any(NumberOrWord {
         word,
         from_number,
         of_word,

@@ -14,7 +14,7 @@ use crate::contact::{Fault, Pair, Sighted, Toward, ZoneSlices};
 use crate::dynamics::Dynamics;
 use crate::integrate::DenseStep;
 use crate::model::{Model, Race, ball_fault, race_fault};
-use crate::scene::{Defect, Surface};
+use crate::scene::{Defect, Doubt, Scene, Surface};
 use crate::statics::Placed;
 
 /// What became of a defect.
@@ -38,6 +38,8 @@ pub struct Touched {
     pub largest_load: f64,
     /// Where the most loaded contact ran that passed, measured as `axial_offset` \[m\]; absent without load.
     pub contact_offset: Option<f64>,
+    /// How wide that contact was along rolling, 2b of Hertz's ellipse \[m\]; absent without load.
+    pub contact_width: Option<f64>,
 }
 
 impl Touched {
@@ -52,7 +54,33 @@ impl Touched {
             touched: 0,
             largest_load: 0.0,
             contact_offset: None,
+            contact_width: None,
         }
+    }
+
+    /// With the most loaded contact that met it, if any, of a defect whose axial place is measured from `origin` \[m\].
+    pub(crate) fn met(
+        mut self,
+        model: &Model,
+        defect: &Defect,
+        origin: f64,
+        most: Option<MostLoaded>,
+    ) -> Self {
+        let width = |most: MostLoaded| {
+            let hertz = &model.rows[defect.row].hertz[most.race];
+            2.0 * hertz.half_width * most.load.cbrt()
+        };
+        self.contact_offset = most.map(|most| most.place - origin);
+        self.contact_width = most.map(width);
+        self
+    }
+
+    /// Of a defect that is narrower than the contacts that meet it and is not a pit (model section 15.4).
+    pub(crate) fn doubt(&self, scene: &Scene) -> Option<Doubt> {
+        let defect = &scene.defects[&self.name];
+        let (width, contact) = (defect.width.largest(), self.contact_width?);
+        let is_narrow = defect.shape.is_none() && width < NARROWEST * contact;
+        is_narrow.then(|| Doubt::narrow_defect(&self.name, width, contact))
     }
 
     /// Share of the passes that touched it, 0 to 1; none without a pass.
@@ -65,6 +93,10 @@ impl Touched {
 pub(crate) fn is_there(defect: &Defect) -> bool {
     defect.width.largest() > 0.0
 }
+
+/// Width of a defect over that of its contact from which fault circles unload it as a solver by boundary elements does; below, by a slot
+/// as wide as a contact, by a third of it and less.
+const NARROWEST: f64 = 1.3;
 
 /// Half-widths from the middle at which a pass is over: a ball that rattles at the edge comes by once.
 const AWAY: f64 = 1.2;
@@ -106,8 +138,26 @@ struct Watched {
     passes: usize,
     touched: usize,
     largest_load: f64,
-    /// Load of the most loaded contact that passed, and its place.
-    most: (f64, f64),
+    /// The most loaded contact that passed.
+    most: Option<MostLoaded>,
+}
+
+/// A contact at a defect.
+#[derive(Clone, Copy)]
+pub(crate) struct MostLoaded {
+    /// \[N\]
+    pub load: f64,
+    /// Axial place, in the frame of the defect's body \[m\].
+    pub place: f64,
+    pub race: Race,
+}
+
+impl MostLoaded {
+    /// The more loaded one of two.
+    pub fn or(self, other: Option<Self>) -> Option<Self> {
+        let is_more = self.load > other.map_or(0.0, |other| other.load);
+        if is_more { Some(self) } else { other }
+    }
 }
 
 /// Races by row and number of slices.
@@ -181,14 +231,13 @@ impl DefectWatch {
         let of = |watched: &Watched| {
             let defect = &model.scene().defects[&watched.name];
             let placed = placed.get(&watched.name).copied();
-            let (load, place) = watched.most;
             Touched {
                 passes: watched.passes,
                 touched: watched.touched,
                 largest_load: watched.largest_load,
-                contact_offset: (load > 0.0).then_some(place - watched.origin),
                 ..Touched::not_yet(&watched.name, defect, placed.unwrap_or(Placed::Given))
             }
+            .met(model, defect, watched.origin, watched.most)
         };
         self.defects.iter().map(of).collect()
     }
@@ -268,7 +317,7 @@ impl Watched {
             passes: 0,
             touched: 0,
             largest_load: 0.0,
-            most: (0.0, f64::NAN),
+            most: None,
         }
     }
 
@@ -322,9 +371,12 @@ impl Watched {
             eye.pass = Pass::Touched;
         }
         self.largest_load = self.largest_load.max(found.within);
-        if found.load > self.most.0 {
-            self.most = (found.load, found.place);
-        }
+        let met = MostLoaded {
+            load: found.load,
+            place: found.place,
+            race: eye.race,
+        };
+        self.most = met.or(self.most);
     }
 }
 

@@ -194,3 +194,17 @@ fn a_table_is_in_the_document_and_checked() {
     refused("damping", serde_json::json!(-1.0));
     refused("direction", serde_json::json!([0.0, 0.0, 0.0]));
 }
+
+/// Reliability: a force that is no number ends in an error, not in signals.
+#[test]
+fn a_force_that_is_no_number_is_an_error() {
+    let mut scene = by_code(true);
+    let force = Linear {
+        stiffness: f64::NAN,
+        damping: 0.0,
+        plane: true,
+    };
+    scene.ring_forces.insert("spring", Arc::new(force));
+    assert!(equilibrium(&scene).is_err());
+    assert!(simulate(&scene, &Run::default()).is_err());
+}

@@ -8,7 +8,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::scene::{
     Cage, Component, Contact, ContactQuantity, Defect, Drive, Friction, Material, Moment, Mount,
-    NormalLaw, Probe, Ring, RingName, Scene, Spin, Support, Surface, Texture, Unbalance, presets,
+    NormalLaw, Probe, Ring, RingName, Scene, Spin, Support, Surface, TableForce, Texture,
+    Unbalance, presets,
 };
 use ballrace::{Warning, equilibrium, explain, load_distribution};
 use common::{Noise, run, short};
@@ -545,6 +546,46 @@ fn rough_textures_are_told() {
             .any(|doubt| doubt.path == "rows[0].texture.outer")
     };
     assert!(!told(5e-9, 2.0) && told(21e-9, 2.0) && told(6e-9, 2.0) && told(1e-9, 3.0));
+}
+
+/// A force by a table on a ring that is held along it does nothing.
+#[test]
+fn a_table_of_forces_on_a_held_ring_is_told() {
+    let told = |direction: [f64; 3]| {
+        let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+        let table = TableForce::new(RingName::Outer, direction, [-1e-5, 1e-5], [10.0, -10.0]);
+        scene.outer_ring.support.y = Some(Mount::Free);
+        (scene.outer_ring.support.x, scene.outer_ring.support.z) = (None, None);
+        scene.table_forces.insert("seal".to_owned(), table);
+        let path = "table_forces.seal.direction";
+        scene.doubts().iter().any(|doubt| doubt.path == path)
+    };
+    assert!(told([1.0, 0.0, 0.0]) && told([1.0, 0.0, 1.0]));
+    assert!(!told([0.0, 1.0, 0.0]) && !told([1.0, 0.1, 0.0]));
+}
+
+/// Slots narrower than 1.3 contacts, which fault circles take for less than they are (model section 15.5); pits are not doubted.
+#[test]
+fn defects_narrower_than_their_contact_are_told() {
+    let told = |defect: Defect| {
+        let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+        scene.rows[0].start_angle = -FRAC_PI_2;
+        scene.defects.insert("slot".to_owned(), defect);
+        let found = explain(&scene).unwrap();
+        let width = found.defects[0].contact_width.unwrap();
+        // 2b of Hertz's ellipse, 0.24 mm under 250 N.
+        assert!((0.2e-3..0.3e-3).contains(&width), "{width:e}");
+        let is_told = |doubt: &ballrace::scene::Doubt| doubt.path == "defects.slot.width";
+        let in_a_run = run(&scene, &short(2e-3)).warnings();
+        let of_run = in_a_run
+            .iter()
+            .any(|of| matches!(of, Warning::Doubtful(doubt) if is_told(doubt)));
+        assert_eq!(found.doubts.iter().any(is_told), of_run);
+        of_run
+    };
+    let slot = |width: f64| Defect::new(Surface::OuterRace, -FRAC_PI_2, 2e-3, width, 0.3e-3);
+    assert!(told(slot(0.178e-3)) && !told(slot(0.5e-3)));
+    assert!(!told(Defect::pit(Surface::OuterRace, -FRAC_PI_2, 0.178e-3)));
 }
 
 /// Truth: the doubts of statics over a turn of the cage are the scene's own, wherever the turn starts.

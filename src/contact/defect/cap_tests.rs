@@ -13,7 +13,7 @@ use crate::scene::{Defect, Floor, Friction, Material, Surface, WidthProfile};
 
 /// What a contact does to its ball, and of it what normal forces and friction take out.
 #[derive(Default)]
-struct Found {
+struct ContactParts {
     energy: f64,
     elastic: Wrench,
     normal: Wrench,
@@ -25,7 +25,7 @@ struct Found {
     edges: usize,
 }
 
-impl Found {
+impl ContactParts {
     fn add(&mut self, (ball, ring): ([f64; 4], [f64; 4])) {
         for (sum, of) in self.plain.iter_mut().zip([ball, ring]) {
             (0..4).for_each(|i| sum[i] += of[i]);
@@ -33,7 +33,7 @@ impl Found {
     }
 }
 
-impl Sink for Found {
+impl Sink for ContactParts {
     fn asks_energy(&self) -> bool {
         true
     }
@@ -103,7 +103,7 @@ impl Pressed {
         (self.normal + t * along + up * across).normalize()
     }
 
-    fn evaluate(&self, pair: &Pair, ball: &BallSide) -> Found {
+    fn evaluate(&self, pair: &Pair, ball: &BallSide) -> ContactParts {
         self.moving(pair, ball, &Vector3::zeros(), &Vector3::zeros())
     }
 
@@ -113,8 +113,8 @@ impl Pressed {
         ball: &BallSide,
         velocity: &Vector3<f64>,
         w: &Vector3<f64>,
-    ) -> Found {
-        let mut found = Found::default();
+    ) -> ContactParts {
+        let mut found = ContactParts::default();
         let (b, r) = (self.motion(velocity, w), Motion::default());
         pair.evaluate(ball, &b, &r, &mut found);
         found
@@ -415,7 +415,7 @@ fn a_patch_of_the_same_outline_does_the_same() {
             let same = pressed.evaluate(&pair, &outline);
             let healthy = pressed.evaluate(&pair, &whole());
             let effect = (found.elastic.force - healthy.elastic.force).norm();
-            let off = |other: &Found| {
+            let off = |other: &ContactParts| {
                 let force = (found.elastic.force - other.elastic.force).norm();
                 let moment = (found.elastic.moment.z - other.elastic.moment.z).abs() / RADIUS;
                 (force + moment) / effect

@@ -21,7 +21,7 @@
 //! c = 0.84 a and V/U₀ = 1.8.
 
 use std::cmp::Ordering;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::contact::elliptic;
 use crate::contact::hertz::Hertz;
@@ -175,8 +175,8 @@ impl Hole {
         let (middle, half) = (f64::midpoint(low, high), 0.5 * (high - low));
         let mut sum = Released::default();
         for (node, weight) in HALF.into_iter().flat_map(|(x, w)| [(-x, w), (x, w)]) {
-            let (sin, cos) = (std::f64::consts::FRAC_PI_2 * node).sin_cos();
-            let weight = std::f64::consts::FRAC_PI_2 * weight * cos;
+            let (sin, cos) = (FRAC_PI_2 * node).sin_cos();
+            let weight = FRAC_PI_2 * weight * cos;
             let strip = self.strip(of, depth, [middle + half * sin, x0], y0);
             let [by_depth, by_x] = [0, 1].map(|i| {
                 let (ends, width) = (
@@ -342,5 +342,37 @@ mod tests {
             Hole::new([0.1e-3; 2]).released(&of, depth, [0.9e-3, 0.0]),
             Released::default()
         );
+    }
+
+    /// Analytic: the force has no jump along a pass, and as the contact is pressed none but where its chord's end passes the pit's: 2e-3 of
+    /// itself there (model section 15.2).
+    #[test]
+    fn forces_do_not_jump() {
+        let of = race(1.0);
+        let (hole, depth) = (
+            Hole::new([0.1778e-3; 2]),
+            (20.0 / of.stiffness).powf(2.0 / 3.0),
+        );
+        let largest = |count: u32| {
+            let force = |i: u32| {
+                let y = 1e-3 * (f64::from(i) / f64::from(count) - 0.5);
+                pressed(&of, &hole, depth, [0.1e-3, y]).0
+            };
+            (0..count)
+                .map(|i| (force(i + 1) - force(i)).abs())
+                .fold(0.0, f64::max)
+        };
+        let ratio = largest(8000) / largest(4000);
+        assert!((ratio - 0.5).abs() < 0.02, "{ratio}");
+        let mut worst: f64 = 0.0;
+        let mut depth = 0.1e-6;
+        while depth < 8e-6 {
+            let next = depth * (1.0 + 1e-4);
+            let [before, after] = [depth, next].map(|at| pressed(&of, &hole, at, [0.4e-3, 0.0]).0);
+            let smooth = 1.5e-4 * before;
+            worst = worst.max(((after - before).abs() - smooth) / before);
+            depth = next;
+        }
+        assert!(worst < 2e-3, "{worst}");
     }
 }

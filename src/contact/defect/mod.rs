@@ -15,6 +15,7 @@ mod within;
 
 pub(crate) use hole::PittedContact;
 pub(super) use hole::Yield;
+pub(crate) use pit::{MOST_PITS, pits_at_once};
 pub(crate) use toward::Toward;
 pub(crate) use within::Sighted;
 

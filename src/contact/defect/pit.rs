@@ -33,8 +33,8 @@ pub(super) struct Pit {
     pub span: f64,
 }
 
-/// Pits of a contact that count, at most.
-const MOST: usize = 4;
+/// Pits that a contact meets at once, at most.
+pub(crate) const MOST_PITS: usize = 4;
 
 /// Where a pit lies in a contact, and on which body.
 #[derive(Clone, Copy)]
@@ -50,6 +50,17 @@ enum PitBody {
     },
     /// With the direction e.
     Ball(Vector3<f64>),
+}
+
+/// How many pits of a race one contact may meet at once.
+pub(crate) fn pits_at_once(faults: &[Fault]) -> usize {
+    let pits = faults.iter().filter(|fault| fault.is_pit());
+    let beyond = |one: &Fault, other: &Fault| {
+        let apart = wrapped(other.angle - one.angle);
+        (0.0..=one.reach + other.reach).contains(&apart)
+    };
+    let from = |one: &Fault| pits.clone().filter(|other| beyond(one, other)).count();
+    pits.clone().map(from).max().unwrap_or(0)
 }
 
 impl Fault {
@@ -117,7 +128,7 @@ impl Fault {
 
 /// What pits do beside scaling the contact's forces.
 pub(in crate::contact) struct Pitted {
-    places: [Option<(PitPlace, Released)>; MOST],
+    places: [Option<(PitPlace, Released)>; MOST_PITS],
 }
 
 impl OneContact<'_> {
@@ -133,9 +144,9 @@ impl OneContact<'_> {
         let of = self.pitted_contact(&places[0]?.0);
         let (depth, _) = of.pressed(sum.0);
         let mut found = Pitted {
-            places: [None; MOST],
+            places: [None; MOST_PITS],
         };
-        let mut released = [Released::default(); MOST];
+        let mut released = [Released::default(); MOST_PITS];
         for (i, (pit, place)) in places.iter().flatten().enumerate() {
             released[i] = pit
                 .hole
@@ -151,8 +162,8 @@ impl OneContact<'_> {
     }
 
     /// Pits in reach of the contact.
-    fn pit_places(&self) -> [Option<(Pit, PitPlace)>; MOST] {
-        let mut found = [None; MOST];
+    fn pit_places(&self) -> [Option<(Pit, PitPlace)>; MOST_PITS] {
+        let mut found = [None; MOST_PITS];
         let on_race = self
             .pair
             .faults

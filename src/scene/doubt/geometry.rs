@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{Doubt, angle, length, millimetres};
-use crate::base::quantities::number;
+use crate::base::quantities::{self, number};
 use crate::scene::{Material, Ring, Row, Scene, Waviness};
 
 /// Largest ball, largest pitch or ring diameter, and any other length \[m\]: a bearing of a bore of one metre has balls of
@@ -24,6 +24,21 @@ const ASIDE: f64 = 0.25;
 /// Density \[kg/m³\] from plastics to hard metal, Young's modulus \[Pa\] from plastics to diamond.
 const DENSITY: [f64; 2] = [500.0, 25e3];
 const MODULUS: [f64; 2] = [1e9, 1.5e12];
+
+impl Doubt {
+    /// Of a defect that is narrower than the contacts that meet it \[m\].
+    pub(crate) fn narrow_defect(name: &str, width: f64, contact: f64) -> Self {
+        Self::new(
+            format!("defects.{name}.width"),
+            quantities::length(width),
+            format!(
+                "1.3 times the width of the contacts that meet it ({}) and more: the model's fault circles take less load from the \
+                 contact than a slot so narrow does; a pit (shape = \"pit\") shares the load as solids do",
+                quantities::length(contact)
+            ),
+        )
+    }
+}
 
 pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
     for (i, row) in scene.rows.iter().enumerate() {

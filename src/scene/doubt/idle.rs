@@ -20,6 +20,7 @@ const AXES: [&str; 3] = ["tilts about x", "tilts about y", "turns about z"];
 
 pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
     moments(scene, found);
+    tables(scene, found);
     preload(scene, found);
     thrust(scene, found);
     moduli(scene, found);
@@ -56,6 +57,22 @@ fn moments(scene: &Scene, found: &mut Vec<Doubt>) {
         let size = moment.moment.peak() / length(moment.direction);
         let all = moment.direction.map(|d| d * size);
         tell(format!("moments.{name}"), moment.ring, all, &[0, 1, 2]);
+    }
+}
+
+/// Tables of forces along directions in which their ring is held.
+fn tables(scene: &Scene, found: &mut Vec<Doubt>) {
+    for (name, table) in &scene.table_forces {
+        let moves = scene.moves(table.ring as usize);
+        let acts = |axis: usize| table.direction[axis] != 0.0 && moves[axis];
+        if !(0..3).any(acts) {
+            let ring = table.ring.name();
+            found.push(Doubt::new(
+                format!("table_forces.{name}.direction"),
+                format!("{:?}", table.direction),
+                format!("the scene holds the {ring} ring along it, so that the force does nothing; give {ring}_ring.support a mount"),
+            ));
+        }
     }
 }
 

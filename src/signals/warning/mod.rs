@@ -134,6 +134,7 @@ impl Signals {
             .chain(of_slip)
             .chain(Doubt::tilt(self.stats.largest_tilt));
         let defects = self.provenance.defects.iter();
+        let doubts = doubts.chain(defects.clone().filter_map(|of| of.doubt(&self.scene)));
         let untouched = defects.filter_map(|of| not_touched(of, self.provenance.duration));
         [
             self.accelerations(),

@@ -13,13 +13,13 @@ pub(in crate::contact::defect) const RADIUS: f64 = 6e-3;
 
 /// Energy, and what ball and ring get.
 #[derive(Default)]
-struct Found {
+struct ElasticParts {
     energy: f64,
     ball: [f64; 4],
     ring: [f64; 4],
 }
 
-impl Found {
+impl ElasticParts {
     fn add(&mut self, (ball, ring): ([f64; 4], [f64; 4])) {
         for i in 0..4 {
             self.ball[i] += ball[i];
@@ -28,7 +28,7 @@ impl Found {
     }
 }
 
-impl Sink for Found {
+impl Sink for ElasticParts {
     fn asks_energy(&self) -> bool {
         true
     }
@@ -84,9 +84,9 @@ pub(in crate::contact::defect) fn pair(
 }
 
 /// A ball at x, y, z, turned, on a ring that is turned.
-fn at(pair: &Pair, ball: &BallSide, [x, y, z, theta, ring]: [f64; 5]) -> Found {
+fn at(pair: &Pair, ball: &BallSide, [x, y, z, theta, ring]: [f64; 5]) -> ElasticParts {
     let motion = |x, y, z, theta| Motion::new(&[x, y, z, theta], &[0.0; 4]);
-    let mut found = Found::default();
+    let mut found = ElasticParts::default();
     let (b, r) = (motion(x, y, z, theta), motion(0.0, 0.0, 0.0, ring));
     pair.evaluate(ball, &b, &r, &mut found);
     found
