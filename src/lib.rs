@@ -53,7 +53,7 @@ mod signals;
 pub mod simd;
 mod statics;
 mod tilt;
-pub mod velocities;
+mod velocities;
 
 pub use base::error::{Error, Result};
 pub use base::interrupt::Interrupt;

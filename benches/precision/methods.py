@@ -38,7 +38,6 @@ ADAPTIVE = (
     "adams",
     "dormand-prince",
     "verner",
-    "implicit-friction",
 )
 PEERS = ("RK45", "DOP853", "Radau", "LSODA")
 PEER_TOLERANCES = (1e-3, 1e-4, 1e-6)
@@ -179,7 +178,6 @@ def draw_chart(rows: list[dict[str, Any]], path: Path) -> None:
         "adams": draw.RED,
         "dormand-prince": draw.BLUE,
         "verner": draw.BROWN,
-        "implicit-friction": draw.GREY,
         **dict.fromkeys(PEERS, draw.GREY),
     }
     for i, ax in enumerate(axes):

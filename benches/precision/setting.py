@@ -80,8 +80,7 @@ def largest_step() -> float:
 @cache
 def settled(slip_speed: float, cut: str) -> NDArray[np.float64]:
     """Return the state after the settling."""
-    method = "dormand-prince" if slip_speed > 0.01 else "implicit-friction"
-    scene = integrated(bearing(slip_speed, cut), Effort(method, 1e-8, 0.5))
+    scene = integrated(bearing(slip_speed, cut), Effort("dormand-prince", 1e-8, 0.5))
     return states(scene, duration=SETTLING, fs=20e3)[-1]
 
 
@@ -116,7 +115,7 @@ def truth(slip_speed: float, cut: str) -> Truth:
     if slip_speed > 0.01:
         efforts = Effort("dormand-prince", 1e-12, 0.03), Effort("verner", 1e-12, 0.03)
     else:
-        efforts = Effort("dormand-prince", 1e-11, 0.1), Effort("implicit-friction", 1e-11, 0.05)
+        efforts = Effort("dormand-prince", 1e-11, 0.1), Effort("verner", 1e-11, 0.1)
     one, other = (
         br.simulate(
             integrated(scene, e), duration=DURATION, fs=FS, start=start, threads=1, bandwidth=None

@@ -88,7 +88,6 @@ class _Equilibrium(_Turning):
     inner_zone_centre: _Array
     outer_pressure: _Array
     inner_pressure: _Array
-    iterations: int
     residual: float
     residual_share: float
 

@@ -40,8 +40,7 @@ pub(crate) use defect::{MOST_PITS, PittedContact, Sight, Sighted, Toward, pits_a
 pub use frames::Motion;
 pub(crate) use frames::{LeaningRing, attitude_accelerations, attitude_rates, centrifugal};
 pub(crate) use held::{
-    AXIAL, Around, FREE, PlaneVector, SlicePack, SlicePacking, Slopes, StageContacts,
-    StageElements, StageWrench, in_contact,
+    AXIAL, Around, FREE, HeldContacts, HeldElements, HeldSlope, SlicePack, SlicePacking, in_contact,
 };
 pub use laws::elastic::{elliptic, hertz, iso16281};
 pub use laws::film;

@@ -6,25 +6,10 @@
 use nalgebra::Vector3;
 use rayon::ThreadPool;
 
-use super::batch::{Batch, OnRings, RingView, View};
+use super::batch::{Batch, OnRings, RingView};
 use crate::contact::{LeaningRing, attitude_accelerations};
 use crate::forces::{State, Table, drive};
 use crate::model::{BodyId, Degree, Dof, Model, Race};
-
-/// Contacts that were found at a state and are held there while velocities change.
-pub(crate) trait HeldContacts {
-    /// Adds their forces to those on all bodies, where rings stand parallel.
-    fn add_to(&self, forces: &mut Table);
-
-    /// The same where rings may tilt: on balls in the scene's frame, with moments about x and y on those that spin freely; returns what
-    /// acts on the rings.
-    fn add_leaning(
-        &self,
-        views: &[View<'_>; 2],
-        forces: &mut Table,
-        across: &mut [[f64; 2]],
-    ) -> OnRings;
-}
 
 /// Data of an evaluation for rotations about x and y.
 #[derive(Debug)]
@@ -70,14 +55,6 @@ impl SpatialWork {
         on_rings.map(|[_, moment]| moment.z)
     }
 
-    /// Adds the forces of contacts that are held, at the state that was looked at last.
-    pub fn add_held(&mut self, held: &impl HeldContacts, state: &State, forces: &mut Table) {
-        self.across.fill([0.0; 2]);
-        let views = self.rings.each_ref().map(|ring| ring.view(state));
-        let on_rings = held.add_leaning(&views, forces, &mut self.across);
-        self.carry(&on_rings, forces);
-    }
-
     /// Adds what contacts do to the rings.
     fn carry(&mut self, on_rings: &OnRings, forces: &mut Table) {
         for race in Race::BOTH {
@@ -86,16 +63,6 @@ impl SpatialWork {
             forces.add(race.ring(), &[force.x, force.y, force.z, 0.0]);
             self.moments[race] = moment;
         }
-    }
-
-    /// Turns all balls of a state into the frames of both rings.
-    pub fn look(&mut self, model: &Model, state: &State) {
-        RingView::look(&mut self.rings, model, state);
-    }
-
-    /// What contacts saw when this last looked at a state.
-    pub fn views<'a>(&'a self, state: &'a State) -> [View<'a>; 2] {
-        self.rings.each_ref().map(|ring| ring.view(state))
     }
 
     /// Moments about the rings' centres of mass in the last evaluation, in the scene's frame \[N m\].

@@ -27,14 +27,14 @@ use crate::integrate::System;
 use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Race, Spring};
 use crate::reduction::Reduction;
 
-pub(crate) use batch::{Batch, Guarantees, OnRings, RingView, SideConstants, Touching, View};
+pub(crate) use batch::{Batch, Guarantees, RingView, SideConstants, Touching, View};
 pub(crate) use contributions::contributions_coated;
 pub use contributions::{contribution_names, contributions};
 
 use films::Films;
 use kept::Kept;
 use leaning::SpatialWork;
-pub(crate) use leaning::{HeldContacts, turning_accelerations};
+pub(crate) use leaning::turning_accelerations;
 use order::Order;
 use planar::{Ground, Planar};
 use rolling::RollingRows;
@@ -252,35 +252,6 @@ impl<'m> Dynamics<'m> {
     fn sum(&mut self, t: f64) {
         self.forces.copy_from(&self.constant);
         self.evaluate_contacts();
-        self.add_applied_forces(t);
-    }
-
-    /// Takes over a state vector and looks at it with both rings.
-    pub(crate) fn look(&mut self, t: f64, y: &[f64]) {
-        self.read(t, y);
-        if let Some(films) = &mut self.films {
-            films.follow(&self.state, &mut self.contacts);
-        }
-        if let Some(leaning) = &mut self.leaning {
-            leaning.look(self.model, &self.state);
-        }
-    }
-
-    /// How both rings see the state that was looked at last.
-    pub(crate) fn views(&self) -> [View<'_>; 2] {
-        match &self.leaning {
-            Some(leaning) => leaning.views(&self.state),
-            None => View::parallel(&self.state),
-        }
-    }
-
-    /// Sums the forces at the state that was looked at last, with contacts that are held.
-    pub(crate) fn sum_with(&mut self, t: f64, held: &impl HeldContacts) {
-        self.forces.copy_from(&self.constant);
-        match &mut self.leaning {
-            Some(leaning) => leaning.add_held(held, &self.state, &mut self.forces),
-            None => held.add_to(&mut self.forces),
-        }
         self.add_applied_forces(t);
     }
 

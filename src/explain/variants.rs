@@ -5,8 +5,7 @@ use serde::Serialize;
 use super::cost::{self, Cost};
 use crate::model::Model;
 use crate::reduction::Reduction;
-use crate::run::step_limit;
-use crate::scene::{Load, Method, Scene, Slices, Surface};
+use crate::scene::{Load, Scene, Slices, Surface};
 use crate::statics::compile;
 use crate::statics::start::{Start, start};
 
@@ -33,16 +32,11 @@ const WITHOUT_ROLLING: &str = "without rolling resistance";
 const WITHOUT_FILM_DAMPING: &str = "without the film's damping";
 const OF_OIL: [&str; 3] = [WITHOUT_OIL, WITHOUT_ROLLING, WITHOUT_FILM_DAMPING];
 
-/// What takes longer steps where friction holds the scene's own short.
-const IMPLICIT: &str = "with solver.method = \"implicit-friction\"";
-/// Steps over the longest that contacts allow, from which on friction holds them short.
-const SHORT: f64 = 0.25;
-
 /// A change that may make a scene cheaper; nothing where it does not apply.
 type Change = fn(&Scene) -> Option<Scene>;
 
 /// Changes by name, and what they do to the answer.
-const CHANGES: [(&str, &str, Change); 14] = [
+const CHANGES: [(&str, &str, Change); 13] = [
     (
         "with approximations.rolling",
         "of faulted races: rms to 20 %, rate of impacts to 0.3 %",
@@ -68,15 +62,6 @@ const CHANGES: [(&str, &str, Change); 14] = [
             let mut changed = scene.clone();
             changed.approximations.one_row = true;
             (changed != *scene).then_some(changed)
-        },
-    ),
-    (
-        IMPLICIT,
-        "the same answer: stiff friction is solved for at every step",
-        |scene| {
-            let mut changed = scene.clone();
-            changed.solver.method = Method::ImplicitFriction;
-            (scene.solver.method == Method::Adams).then_some(changed)
         },
     ),
     ("without friction", "another answer", |scene| {
@@ -157,11 +142,8 @@ const CHANGES: [(&str, &str, Change); 14] = [
 
 /// All that help or are of the oil, the cheapest first. Each is started and timed as the scene itself was.
 pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Vec<Variant> {
-    let longest = step_limit::largest(model.scene().solver.method, model);
-    let is_short = SHORT * longest * cost.evaluations > 1.0;
     let mut variants: Vec<Variant> = offers(model, y0)
         .into_iter()
-        .filter(|(change, ..)| *change != IMPLICIT || is_short)
         .filter_map(|(change, note, changed)| {
             let y0 = &changed.layout().carry(y0, model.layout());
             Some(Variant {
@@ -222,7 +204,7 @@ fn has_impacts(scene: &Scene) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Lubricant, Method, Probe, presets};
+    use crate::scene::{Lubricant, Probe, presets};
 
     fn offered(scene: &Scene) -> Vec<&'static str> {
         let model = compile(scene).unwrap();
@@ -252,9 +234,6 @@ mod tests {
         let mut lifted = presets::wheel_bearing(20e3);
         lifted.loads.get_mut("radial").unwrap().force = 500.0.into();
         assert_eq!(of(&lifted), [ROLLING, FLAT, ONE_ROW]);
-        let mut implicit = faulted.clone();
-        implicit.solver.method = Method::ImplicitFriction;
-        assert!(of(&implicit).is_empty());
     }
 
     /// A probe of the oil goes with it; a part that is left out already is not offered.

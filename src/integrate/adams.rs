@@ -9,33 +9,24 @@
 //! that grows from step to step. It is known to first order: with x the correction of the velocity,
 //! the acceleration at the corrected one is a + (∂a/∂v) x. The place is corrected along with the velocity, by βh/γ x, since
 //! both corrections come from that of the acceleration. Hence (1 − γh ∂a/∂v − βh² ∂a/∂q) x = r with r the correction as the
-//! evaluation gave it ([`LinearlyImplicit::correct`]). Approximate derivatives do: x is as small as the error of the
+//! evaluation gave it ([`LinearlyImplicit::solve`]). Approximate derivatives do: x is as small as the error of the
 //! prediction, so what is wrong in the matrix lowers no order. With them the method is as stable as its corrector: to −3 on
 //! the real axis (without, to −0.3); oscillations with half a percent of damping to ωh = 0.89, with five percent to 1.53
-//! (without, to 0.68 and 1.02; `tests/accuracy/methods.rs`).
+//! (without, to 0.68 and 1.02; `tests/accuracy/methods.rs`). Velocities that decay faster than that are left to backward
+//! differences (`blended.rs`).
 //!
 //! Source: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., sections III.5 (steps of any
 //! length) and III.10 (Störmer); for inexact matrices Steihaug & Wolfbrandt (1979), Math. Comp. 33, 521–534.
 
-use super::System;
-use super::combine::{Each, pass};
+use super::LinearlyImplicit;
+use super::blended;
+use super::combine::{Each, halves, pass};
 use super::control::Controller;
 use super::method::StepMethod;
-use super::multistep::{Formulae, History, KnownWeights, NODES};
-use super::step::{Stepper, check_finite};
+use super::multistep::{Formulae, History, KnownWeights, NEW, NODES};
+use super::step::Stepper;
 use super::tableau::Tableau;
 use crate::simd::{Simd, Vector};
-
-/// A second-order system that knows roughly how its accelerations answer to velocities and places.
-///
-/// The state is \[q, v\], each half of [`System::dim`].
-pub trait LinearlyImplicit: System {
-    /// Replaces r by the solution x of (1 − γh (∂a/∂v + ρ ∂a/∂q)) x = r, with derivatives from the state `y` or one not long
-    /// before. ρ is the `reach`: how far a place is corrected with its velocity \[s\].
-    ///
-    /// Leaving r as it is makes the method explicit.
-    fn correct(&mut self, t: f64, y: &[f64], gamma_h: f64, reach: f64, r: &mut [f64]);
-}
 
 /// The method, for states \[q, v\]; see above. After a start and after every breakpoint the first two steps are of lower order,
 /// which the error estimate keeps short; with fixed steps ([`Options::fixed_step`](super::Options::fixed_step)) nothing does.
@@ -84,20 +75,18 @@ impl<S: LinearlyImplicit> StepMethod<S> for Adams {
         latest: f64,
     ) -> Result<(), usize> {
         let history = work.history.get_or_insert_with(History::new);
-        history.attempt(h);
-        let formulae = history.formulae;
+        history.attempt(h, system.relaxation(), system.longest());
+        let (formulae, is_blended) = (history.formulae, history.is_blended);
         predict(work, h, &formulae);
         let t1 = t1.min(latest);
-        system.rhs(t1, &work.stage, &mut work.k[NEW]);
-        work.calls += 1;
-        check_finite(&work.k[NEW])?;
+        if is_blended {
+            return blended::attempt(work, system, t1, h, &formulae);
+        }
+        work.evaluate(system, t1)?;
         correct(work, system, t1, h, &formulae);
         Ok(())
     }
 }
-
-/// The place of the derivative at the end of the step, after those at its beginning and before.
-const NEW: usize = NODES - 1;
 
 /// Fills the stage, and for a while the error's velocities with the predicted accelerations.
 fn predict(work: &mut Stepper<'_>, h: f64, formulae: &Formulae) {
@@ -134,7 +123,8 @@ fn correct<S: LinearlyImplicit>(
     for (r, (new, predicted)) in correction.iter_mut().zip(accelerations) {
         *r = (new - predicted) * gamma_h;
     }
-    system.correct(t1, &work.stage, gamma_h, reach, correction);
+    system.prepare(t1, &work.stage, gamma_h, reach);
+    system.solve(correction);
     let [q1, x] = halves(&mut work.y1);
     let [rates, new] = halves(&mut work.k[NEW]);
     let [of_q, of_v] = halves(&mut work.error);
@@ -145,11 +135,6 @@ fn correct<S: LinearlyImplicit>(
     };
     let predicted = [&work.stage[..half], &work.stage[half..]];
     pass(&correction, [q1, x, rates, new, of_q, of_v], predicted);
-}
-
-/// Positions and velocities.
-fn halves(state: &mut [f64]) -> [&mut [f64]; 2] {
-    state.split_at_mut(state.len() / 2).into()
 }
 
 /// Position, velocity and acceleration, from those at the beginning of a step and three accelerations.

@@ -221,6 +221,11 @@ impl<E: Each<IN, OUT>, const IN: usize, const OUT: usize> OnePass<'_, E, IN, OUT
     }
 }
 
+/// Positions and velocities.
+pub(super) fn halves(state: &mut [f64]) -> [&mut [f64]; 2] {
+    state.split_at_mut(state.len() / 2).into()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

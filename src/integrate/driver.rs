@@ -125,7 +125,6 @@ pub fn integrate<S: System, M: StepMethod<S>, O: Observer<S>>(
         let stiffness = work.stiffness(plan.h, norm.weights());
         stats.accept(tableau, t, &plan, stiffness);
         stats.nfev = work.calls;
-        stats.iterations = work.iterations;
 
         let step = work.dense(t, next.now(), plan.h);
         interrupted = observer.accepted(system, &step, &stats) == ControlFlow::Break(());
@@ -141,7 +140,6 @@ pub fn integrate<S: System, M: StepMethod<S>, O: Observer<S>>(
         }
     }
     stats.nfev = work.calls;
-    stats.iterations = work.iterations;
     Ok(Solution {
         t: clock.now(),
         y: work.y,

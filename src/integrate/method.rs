@@ -1,7 +1,6 @@
 //! What the driver asks of a method.
 
 use super::System;
-use super::additive::{Additive, ImplicitVelocity};
 use super::control::Controller;
 use super::step::Stepper;
 use super::tableau::Tableau;
@@ -9,7 +8,7 @@ use super::tableau::Tableau;
 /// A way to take one step; the driver does the rest.
 ///
 /// Its implementations are the explicit [`Tableau`] for any system, and
-/// [`Additive`] and the multistep [`Adams`](super::Adams) for systems with stiff velocities.
+/// the multistep [`Adams`](super::Adams) for systems with stiff velocities.
 pub trait StepMethod<S> {
     /// Weights, error weights and dense output.
     fn tableau(&self) -> &Tableau;
@@ -29,7 +28,7 @@ pub trait StepMethod<S> {
     /// No evaluation sees a time beyond `latest`, and the last one is at the new state.
     ///
     /// # Errors
-    /// The index of the first state that is not finite, or of the one whose implicit stage has no solution.
+    /// The index of the first state that is not finite.
     fn attempt(
         &self,
         work: &mut Stepper<'_>,
@@ -54,22 +53,5 @@ impl<S: System> StepMethod<S> for Tableau {
         latest: f64,
     ) -> Result<(), usize> {
         work.attempt(system, span, h, latest)
-    }
-}
-
-impl<S: ImplicitVelocity> StepMethod<S> for Additive {
-    fn tableau(&self) -> &Tableau {
-        &self.explicit
-    }
-
-    fn attempt(
-        &self,
-        work: &mut Stepper<'_>,
-        system: &mut S,
-        span: (f64, f64),
-        h: f64,
-        latest: f64,
-    ) -> Result<(), usize> {
-        self.step(work, system, span, h, latest)
     }
 }

@@ -7,8 +7,8 @@
 //! |----------------|-----------------------------------------------------------|
 //! | `tableau*.rs`  | methods, as data: coefficients in constants                |
 //! | `method.rs`    | what the driver asks of a method                           |
-//! | `additive.rs`  | a step explicit in positions, implicit in velocities       |
 //! | `adams.rs`     | Adams' predictor–corrector, linearly implicit in velocities |
+//! | `blended.rs`   | the same for velocities that decay within a step           |
 //! | `multistep.rs` | the steps behind, and the polynomial through their accelerations |
 //! | `combine.rs`   | base + h · weighted sum of stages, in one pass             |
 //! | `step.rs`      | one step of any tableau, in preallocated memory            |
@@ -53,7 +53,7 @@
 //! the step-size control with memory and the stiffness quotient.
 
 mod adams;
-mod additive;
+mod blended;
 mod clock;
 mod combine;
 mod control;
@@ -70,11 +70,9 @@ mod step;
 mod stiffness;
 mod stops;
 mod tableau;
-mod tableau_additive;
 mod tableau_verner;
 
-pub use adams::{Adams, LinearlyImplicit};
-pub use additive::{Additive, ImplicitVelocity, Stuck};
+pub use adams::Adams;
 pub use control::Controller;
 pub use dense::DenseStep;
 pub use driver::{Solution, integrate};
@@ -84,7 +82,6 @@ pub use norm::Tolerance;
 pub use options::Options;
 pub use stats::StepStatistics;
 pub use tableau::{DORMAND_PRINCE, Tableau};
-pub use tableau_additive::KENNEDY_CARPENTER;
 pub use tableau_verner::VERNER;
 
 use std::ops::ControlFlow;
@@ -102,6 +99,24 @@ pub trait System {
     ///
     /// Every entry of `dy` must be written: it holds old numbers on entry.
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]);
+}
+
+/// A second-order system that knows roughly how its accelerations answer to velocities and places.
+///
+/// The state is \[q, v\], each half of [`System::dim`].
+pub trait LinearlyImplicit: System {
+    /// Makes ready the matrix 1 − γh (∂a/∂v + ρ ∂a/∂q), with derivatives from the state `y` or one not long before. ρ is the
+    /// `reach`: how far a place is corrected with its velocity \[s\].
+    fn prepare(&mut self, t: f64, y: &[f64], gamma_h: f64, reach: f64);
+
+    /// Replaces r by the solution x of matrix · x = r. Leaving r as it is makes the method explicit.
+    fn solve(&mut self, r: &mut [f64]);
+
+    /// The rate at which the fastest velocity decays, by the matrix that was made last \[1/s\].
+    fn relaxation(&self) -> f64;
+
+    /// The longest step that oscillations allow \[s\]: where steps are much shorter, velocities that decay may be what holds them so.
+    fn longest(&self) -> f64;
 }
 
 /// Sees every accepted step: samples, records, or ends the run.

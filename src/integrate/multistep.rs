@@ -5,6 +5,9 @@ use super::combine::combine;
 /// Accelerations that a step knows at most: at its end, at its beginning and at the two before.
 pub(super) const NODES: usize = 4;
 
+/// The place of the derivative at the end of a step, after those at its beginning and before.
+pub(super) const NEW: usize = NODES - 1;
+
 /// Weights of accelerations in a velocity, as polynomials in the share θ of the step: d₀θ + d₁θ² + d₂θ³ + d₃θ⁴.
 pub(super) type AdamsWeights = [[f64; NODES]; NODES];
 
@@ -21,7 +24,27 @@ pub(super) struct History {
     /// Length of the last attempt, and what it was made of.
     h: f64,
     pub(super) formulae: Formulae,
+    /// Whether fast velocities follow backward differences.
+    pub(super) is_blended: bool,
+    /// Attempts since that was decided, and for how many Adams' formula is kept.
+    since: usize,
+    pause: usize,
+    /// Length of the step when the last trial began.
+    tried_at: f64,
 }
+
+/// Decays of a velocity within a step at which Adams' formula is unstable for certain: it is from three on with an exact matrix.
+const UNSTABLE: f64 = 6.0;
+/// Decays at which it may be unstable with a matrix made before, in steps near the longest one and in shorter ones.
+const DOUBTFUL: f64 = 1.2;
+const DOUBTFUL_SHORT: f64 = 0.1;
+/// Attempts for which backward differences are tried, and by how much steps must grow by them; attempts before they are tried again.
+const TRIAL: usize = 32;
+const GAIN: f64 = 1.25;
+const PAUSE: usize = 64;
+const LONGEST_PAUSE: usize = 4096;
+/// Share of the longest step below which a step is short.
+const SHORT: f64 = 0.25;
 
 impl History {
     /// Nothing is known but the beginning.
@@ -31,15 +54,45 @@ impl History {
             before: [0.0; 2],
             h: 0.0,
             formulae: Formulae::default(),
+            is_blended: false,
+            since: 0,
+            pause: PAUSE,
+            tried_at: 0.0,
         }
     }
 
-    /// For an attempt of a length: the formulae of the last one serve where its times are the same.
-    pub(super) fn attempt(&mut self, h: f64) {
+    /// For an attempt of a length, of a system whose velocities decay at some rate and whose oscillations allow steps up to a longest one: the
+    /// formulae of the last attempt serve where its times are the same.
+    pub(super) fn attempt(&mut self, h: f64, relaxation: f64, longest: f64) {
         self.h = h;
+        self.choose(relaxation * h, h < SHORT * longest);
         let times = [1.0, 0.0, -self.before[0] / h, -self.before[1] / h];
         if self.formulae.known != self.known || self.formulae.times != times {
             self.formulae = Formulae::new(times, self.known);
+        }
+    }
+
+    /// Chooses how velocities are corrected, by how many times the fastest decays in the step.
+    ///
+    /// Adams' formula costs less, and may hold steps short already where its matrix is only nearly right: friction that sticks now was
+    /// slipping when it was made. So the other one is tried: where steps do not become longer by it, it is left, and tried again later
+    /// and later.
+    fn choose(&mut self, decays: f64, is_short: bool) {
+        let is_doubtful = decays > if is_short { DOUBTFUL_SHORT } else { DOUBTFUL };
+        let is_certain = decays > UNSTABLE;
+        self.since = self.since.saturating_add(1);
+        if !self.is_blended {
+            if is_certain || is_doubtful && self.since > self.pause {
+                (self.is_blended, self.since, self.tried_at) = (true, 0, self.h);
+            }
+        } else if self.since > TRIAL && !is_certain {
+            let pays = is_doubtful && self.h > GAIN * self.tried_at;
+            self.pause = if pays {
+                PAUSE
+            } else {
+                (2 * self.pause).min(LONGEST_PAUSE)
+            };
+            (self.is_blended, self.since) = (pays, 0);
         }
     }
 
@@ -67,6 +120,10 @@ pub(super) struct Formulae {
     /// Correction of the position over that of the velocity, and the errors of both over it.
     pub reach: f64,
     pub errors: [f64; 2],
+    /// Of the velocities at those times in h times the acceleration at the end of the step: backward differences.
+    pub backward: [f64; NODES],
+    /// c, for which 1 − (γ + c²b) hJ + c²h²J² = (1 − chJ)², with b the first of these.
+    pub blend: f64,
     /// Of all accelerations within the step, in the order of the derivatives: the new one last.
     pub weights: AdamsWeights,
 }
@@ -80,8 +137,13 @@ impl Formulae {
         let (less_velocity, less_position) = at(1.0, &integrals(&times[..known]));
         let gamma = of_velocity[0];
         let first = |of: [f64; NODES]| [of[0], of[1], of[2]];
+        let backward = all.map(curvature);
+        // Real up to steps that grow almost twofold; beyond, the square is only near.
+        let blend = gamma / (1.0 + (1.0 - gamma * backward[0]).max(0.0).sqrt());
         let [new, rest @ ..] = all;
         Self {
+            backward,
+            blend,
             known,
             times,
             predicted: [first(position), first(velocity), first(before.map(slope))],
@@ -103,6 +165,13 @@ fn slope(integral: [f64; NODES]) -> f64 {
         .zip(1..)
         .map(|(d, power)| d * f64::from(power));
     powers.sum()
+}
+
+/// The slope of that polynomial there.
+fn curvature(integral: [f64; NODES]) -> f64 {
+    let powers = integral.iter().zip(1..);
+    let terms = powers.map(|(d, power)| d * f64::from(power * (power - 1)));
+    terms.sum()
 }
 
 /// Integrals from 0 to θ of Lagrange's polynomials over some times.
@@ -174,7 +243,7 @@ mod tests {
             before,
             ..History::new()
         };
-        history.attempt(h);
+        history.attempt(h, 0.0, h);
         let known = [0.0, -before[0], -before[1], h].map(|t| [acceleration(t)]);
         let known = known.each_ref().map(|a| &a[..]);
         for theta in [0.0, 0.4, 1.0] {

@@ -17,8 +17,6 @@ pub struct StepStatistics {
     pub rejected: usize,
     /// Evaluations of the right-hand side by the integrator.
     pub nfev: usize,
-    /// Iterations of implicit stages; 0 for an explicit method.
-    pub iterations: usize,
     /// The smallest accepted step, leaving out those that were shortened only
     /// to land on a breakpoint or the end. Infinite if there was none.
     pub smallest_step: f64,
@@ -39,7 +37,6 @@ impl Default for StepStatistics {
             accepted: 0,
             rejected: 0,
             nfev: 0,
-            iterations: 0,
             smallest_step: f64::INFINITY,
             smallest_step_time: f64::NAN,
             largest_step: 0.0,
@@ -66,7 +63,6 @@ impl StepStatistics {
         self.accepted += next.accepted;
         self.rejected += next.rejected;
         self.nfev += next.nfev;
-        self.iterations += next.iterations;
         self.stiff += next.stiff;
         self.capped += next.capped;
     }

@@ -3,7 +3,7 @@
 use super::System;
 use super::combine::combine;
 use super::dense::{DenseStep, Weights};
-use super::multistep::History;
+use super::multistep::{History, NEW};
 use super::stiffness::quotient;
 use super::tableau::Tableau;
 use crate::simd::{InstructionSet, Simd, Vector, Wide};
@@ -27,8 +27,6 @@ pub struct Stepper<'a> {
     pub(super) history: Option<History>,
     /// Evaluations of the right-hand side so far.
     pub(super) calls: usize,
-    /// Iterations of implicit stages so far.
-    pub(super) iterations: usize,
 }
 
 impl<'a> Stepper<'a> {
@@ -44,7 +42,6 @@ impl<'a> Stepper<'a> {
             k: vec![zero; derivatives],
             history: multistep.then(History::new),
             calls: 0,
-            iterations: 0,
         }
     }
 
@@ -90,6 +87,13 @@ impl<'a> Stepper<'a> {
         }
         combine(&mut self.error, None, h, self.tableau.b_err, &self.k);
         Ok(())
+    }
+
+    /// Evaluates the derivative at the end of a step, of the state that was predicted there.
+    pub(super) fn evaluate<S: System>(&mut self, system: &mut S, t1: f64) -> Result<(), usize> {
+        system.rhs(t1, &self.stage, &mut self.k[NEW]);
+        self.calls += 1;
+        check_finite(&self.k[NEW])
     }
 
     /// The stiffness quotient at the end of the last attempt; 0 where the last stage but one is not there.

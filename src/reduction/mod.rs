@@ -13,7 +13,6 @@ mod symmetry;
 use std::ops::Range;
 
 use crate::model::{BodyId, BodyKind, DOFS, Dof, Layout, Model};
-use crate::scene::Method;
 
 use course::{Orbit, Prescribed};
 use grounds::{Grounds, Reason, is_felt};
@@ -130,19 +129,20 @@ impl Reduction {
     }
 
     /// What a run from a state of all bodies leaves out; absent where it integrates all states in the order of
-    /// [`Model::names`], since implicit steps solve for a block a body, or since rings tilt or balls spin freely.
+    /// [`Model::names`], since rings tilt or balls spin freely.
     ///
     /// # Panics
     /// If the length of `start` is wrong.
     pub fn of(model: &Model, start: &[f64]) -> Option<Self> {
         assert_eq!(start.len(), model.dim(), "length of the state");
         let solver = &model.scene.solver;
-        match solver.method {
-            Method::ImplicitFriction => None,
-            _ if !model.is_spatial() => Some(Self::leaving_out(model, start, solver.reduce)),
-            _ if solver.reduce => Self::in_space(model, start).ok(),
-            _ => None,
+        if !model.is_spatial() {
+            return Some(Self::leaving_out(model, start, solver.reduce));
         }
+        if !solver.reduce {
+            return None;
+        }
+        Self::in_space(model, start).ok()
     }
 
     /// Leaves out what is given up by request and, if `exact` reductions are wanted, what does not change the motion

@@ -174,7 +174,6 @@ fn statistics(
         accepted: stats.accepted,
         rejected: stats.rejected,
         nfev: stats.nfev,
-        iterations: stats.iterations,
         smallest_step: Some(stats.smallest_step).filter(|h| h.is_finite()),
         smallest_step_time: Some(stats.smallest_step_time).filter(|t| t.is_finite()),
         largest_step: stats.largest_step,

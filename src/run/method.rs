@@ -4,11 +4,11 @@ use std::ops::ControlFlow;
 
 use crate::dynamics::Dynamics;
 use crate::integrate::{
-    self, Adams, DORMAND_PRINCE, DenseStep, Failure, KENNEDY_CARPENTER, Observer, Options,
-    Solution, StepStatistics, System, Tolerance, VERNER, integrate,
+    self, Adams, DORMAND_PRINCE, DenseStep, Failure, Observer, Options, Solution, StepStatistics,
+    System, Tolerance, VERNER, integrate,
 };
 use crate::scene::Method;
-use crate::velocities::{Damped, ImplicitDynamics};
+use crate::velocities::Damped;
 
 /// From where to where, and how well.
 #[derive(Clone, Copy)]
@@ -31,10 +31,6 @@ pub(crate) fn run<'m, O: Observer<Dynamics<'m>>>(
         Method::Adams => {
             let system = &mut Damped::new(dynamics, task.options.max_step);
             by(&Adams, system, task, &mut Through(observer))
-        }
-        Method::ImplicitFriction => {
-            let system = &mut ImplicitDynamics::new(dynamics);
-            by(&KENNEDY_CARPENTER, system, task, &mut Through(observer))
         }
     }
 }
@@ -65,19 +61,8 @@ where
     Ok((solution, method.tableau().name))
 }
 
-/// Lets an observer of the right-hand side see implicit steps.
+/// Lets an observer of the right-hand side see steps of Adams' method.
 struct Through<'o, O>(&'o mut O);
-
-impl<'m, O: Observer<Dynamics<'m>>> Observer<ImplicitDynamics<'_, 'm>> for Through<'_, O> {
-    fn accepted(
-        &mut self,
-        system: &mut ImplicitDynamics<'_, 'm>,
-        step: &DenseStep<'_>,
-        stats: &StepStatistics,
-    ) -> ControlFlow<()> {
-        self.0.accepted(system.dynamics, step, stats)
-    }
-}
 
 impl<'m, O: Observer<Dynamics<'m>>> Observer<Damped<'_, 'm>> for Through<'_, O> {
     fn accepted(

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Drive, Method, Mount, Scene};
+use super::{Drive, Mount, Scene};
 use crate::base::error::{Error, Result};
 
 /// Simplifications that change the answer, all off by default. What each costs in accuracy is measured in
@@ -56,14 +56,6 @@ impl Approximations {
                 allowed,
             ))
         };
-        let method = scene.solver.method;
-        if self.any() && method == Method::ImplicitFriction {
-            return Err(Error::scene(
-                "approximations",
-                "asked for",
-                "none with solver.method \"implicit-friction\", which takes all states",
-            ));
-        }
         if self.rolling {
             if !matches!(scene.drive, Drive::Speed(_)) {
                 return refuse(

@@ -17,9 +17,6 @@ pub enum Method {
     DormandPrince,
     /// Verner 6(5), explicit; a dense output of order three only.
     Verner,
-    /// Kennedy–Carpenter 4(3), explicit in positions and implicit in velocities: its steps do not depend on how
-    /// stiff friction is. For slip speeds below about 0.01 m/s.
-    ImplicitFriction,
 }
 
 /// As documents name it.

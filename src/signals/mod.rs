@@ -81,8 +81,6 @@ pub struct Statistics {
     pub rejected: usize,
     /// Evaluations of the right-hand side by the integrator; sampling of accelerations adds one a sample.
     pub nfev: usize,
-    /// Iterations of implicit stages; 0 for an explicit method.
-    pub iterations: usize,
     /// Smallest accepted step \[s\], not counting steps shortened to land on a breakpoint; absent without any.
     pub smallest_step: Option<f64>,
     /// Where it began \[s\].

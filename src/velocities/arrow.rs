@@ -25,6 +25,8 @@ pub(super) struct Arrow<const N: usize> {
     right: [[Lanes; N]; 2],
     factors: Option<Factors>,
     carriers: [Carrier<N>; 2],
+    /// Largest part of a ball's own velocity in its acceleration, times γh.
+    pub stiffest: f64,
     eights: Vec<EightBalls<N>>,
 }
 
@@ -67,6 +69,7 @@ impl<const N: usize> Arrow<N> {
             right: [[Lanes::ZERO; N]; 2],
             factors: None,
             carriers: [Carrier::default(); 2],
+            stiffest: 0.0,
             eights: vec![eight; eights],
         }
     }
@@ -74,6 +77,7 @@ impl<const N: usize> Arrow<N> {
     /// Begins a new matrix.
     pub fn begin(&mut self) {
         self.rings = [[[[Lanes::ZERO; N]; N]; 2]; 2];
+        self.stiffest = 0.0;
     }
 
     /// Eliminates eight balls with their contacts and their D.
@@ -125,6 +129,7 @@ impl<const N: usize> Arrow<N> {
             for j in 0..N {
                 own[i][j] = own[i][j] * scale[i];
             }
+            self.stiffest = self.stiffest.max(own[i][i].greatest());
             own[i][i] = own[i][i] + 1.0;
         }
         invert::<FMA, N>(&mut own);

@@ -11,7 +11,7 @@ type RingMatrix<const R: usize> = SMatrix<f64, R, R>;
 type Factorised<const R: usize> = LU<f64, Const<R>, Const<R>>;
 
 /// Of both rings' directions: those of parallel rings, or all.
-// A stage has one of them; in a box the larger would be allocated for every matrix.
+// A matrix has one of them; in a box the larger would be allocated for every matrix.
 #[allow(clippy::large_enum_variant)]
 #[derive(Debug, Clone)]
 pub(super) enum Factors {

@@ -1,6 +1,6 @@
 //! Velocities corrected by the matrix of the contacts' friction, damping and stiffness, once a step: what [`Adams`](crate::integrate::Adams) needs.
 
-use super::stage::{Stage, Velocity};
+use super::matrix::{ContactMatrix, Velocity};
 use crate::contact::{AXIAL, FREE};
 use crate::dynamics::{Dynamics, RingView, View};
 use crate::forces::{self, State};
@@ -10,6 +10,9 @@ use crate::model::{BodyId, DOFS, Dof, RowModel};
 /// Steps that a matrix serves at most. On 64 scenes (two presets, random bearings) 8, 32, 128 and 512 gave errors alike and
 /// step counts within half a percent; a new one costs about six evaluations (a profile of the wheel bearing).
 const SERVES: usize = 128;
+/// The same where velocities decay by this much and more in γh: how fast they do changes with how much of a contact sticks.
+const SERVES_FAST: usize = 32;
+const FAST: f64 = 1.2;
 
 /// What contact damping takes off a velocity in a step, under the loads at the start, up to which rolling balls do without a matrix:
 /// a 6205 under thrust, at 0.43, runs 1.66 times as fast as the free model without and 1.45 with one; the wheel bearing without
@@ -22,6 +25,7 @@ pub(crate) struct Damped<'d, 'm> {
     pub dynamics: &'d mut Dynamics<'m>,
     /// None where no force of a contact depends on velocities.
     matrix: Option<Box<dyn Corrects>>,
+    longest: f64,
 }
 
 /// How much a change of an acceleration moves velocities and places within a step.
@@ -35,14 +39,20 @@ struct Corrector {
 
 /// The matrix of the contacts, of balls of any number of directions.
 trait Corrects: std::fmt::Debug {
-    /// As [`LinearlyImplicit::correct`].
-    fn correct(&mut self, dynamics: &Dynamics<'_>, t: f64, y: &[f64], by: Corrector, r: &mut [f64]);
+    /// As [`LinearlyImplicit::prepare`].
+    fn prepare(&mut self, dynamics: &Dynamics<'_>, t: f64, y: &[f64], by: Corrector);
+
+    /// As [`LinearlyImplicit::relaxation`].
+    fn relaxation(&self) -> f64;
+
+    /// As [`LinearlyImplicit::solve`].
+    fn solve(&mut self, dynamics: &Dynamics<'_>, r: &mut [f64]);
 }
 
 /// A matrix of all bodies, also where the run leaves some out.
 #[derive(Debug)]
 struct BodyMatrix<const N: usize> {
-    stage: Stage<N>,
+    matrix: ContactMatrix<N>,
     /// The velocities of the run that are corrected, along axes and about them.
     corrected: Vec<Velocity>,
     /// Those along the radii of balls.
@@ -54,6 +64,8 @@ struct BodyMatrix<const N: usize> {
     rings: Option<[RingView; 2]>,
     /// Steps that it has served.
     served: usize,
+    /// Rate of the fastest velocity when it was made \[1/s\].
+    relaxation: f64,
 }
 
 /// The velocity of a ball along its radius, where its distance from the shaft is a state.
@@ -76,7 +88,11 @@ impl<'d, 'm> Damped<'d, 'm> {
                 BodyMatrix::<AXIAL>::boxed(dynamics)
             }
         });
-        Self { dynamics, matrix }
+        Self {
+            dynamics,
+            matrix,
+            longest,
+        }
     }
 }
 
@@ -101,27 +117,64 @@ impl System for Damped<'_, '_> {
 }
 
 impl LinearlyImplicit for Damped<'_, '_> {
-    fn correct(&mut self, t: f64, y: &[f64], gamma_h: f64, reach: f64, r: &mut [f64]) {
+    fn prepare(&mut self, t: f64, y: &[f64], gamma_h: f64, reach: f64) {
         if let Some(matrix) = &mut self.matrix {
-            matrix.correct(self.dynamics, t, y, Corrector { gamma_h, reach }, r);
+            matrix.prepare(self.dynamics, t, y, Corrector { gamma_h, reach });
         }
+    }
+
+    fn solve(&mut self, r: &mut [f64]) {
+        if let Some(matrix) = &mut self.matrix {
+            matrix.solve(self.dynamics, r);
+        }
+    }
+
+    fn relaxation(&self) -> f64 {
+        self.matrix
+            .as_ref()
+            .map_or(0.0, |matrix| matrix.relaxation())
+    }
+
+    fn longest(&self) -> f64 {
+        self.longest
     }
 }
 
 impl<const N: usize> Corrects for BodyMatrix<N> {
-    fn correct(
-        &mut self,
-        dynamics: &Dynamics<'_>,
-        t: f64,
-        y: &[f64],
-        by: Corrector,
-        r: &mut [f64],
-    ) {
-        if self.served >= SERVES || !self.stage.is_like(by.gamma_h) {
+    fn prepare(&mut self, dynamics: &Dynamics<'_>, t: f64, y: &[f64], by: Corrector) {
+        let is_fast = self.relaxation * by.gamma_h > FAST;
+        let serves = if is_fast { SERVES_FAST } else { SERVES };
+        if self.served >= serves || !self.matrix.is_like(by.gamma_h) {
             self.renew(dynamics, t, y, by);
         }
         self.served += 1;
-        self.solve(dynamics, r);
+    }
+
+    fn relaxation(&self) -> f64 {
+        self.relaxation
+    }
+
+    /// Directions that the run leaves out are not corrected. A singular matrix corrects nothing.
+    fn solve(&mut self, dynamics: &Dynamics<'_>, r: &mut [f64]) {
+        let residual = &mut self.matrix.residual;
+        residual.fill([0.0; N]);
+        for Velocity { at, body, place } in &self.corrected {
+            residual[body.index()][*place] = r[*at];
+        }
+        for radial in &self.radial {
+            radial.put(r, &mut residual[radial.ball.index()]);
+        }
+        if N == DOFS {
+            dynamics.mirror(residual.as_flattened_mut());
+        }
+        if self.matrix.correct(dynamics.model()) {
+            for Velocity { at, body, place } in &self.corrected {
+                r[*at] = self.matrix.residual[body.index()][*place];
+            }
+            for radial in &self.radial {
+                radial.take(&self.matrix.residual[radial.ball.index()], r);
+            }
+        }
     }
 }
 
@@ -135,13 +188,14 @@ impl<const N: usize> BodyMatrix<N> {
         let is_radius = |at: usize| radii.iter().any(|(radius, _)| *radius == at);
         let along = degrees.filter(|(at, _)| !is_radius(*at));
         Box::new(Self {
-            stage: Stage::new(model, dynamics.rows_in_motion()),
+            matrix: ContactMatrix::new(model, dynamics.rows_in_motion()),
             corrected: along.filter_map(Velocity::of).collect(),
             radial: radii.iter().map(Radial::new).collect(),
             full,
             state,
             rings: RingView::both(model).filter(|_| dynamics.leans()),
             served: 0,
+            relaxation: 0.0,
         })
     }
 
@@ -153,37 +207,14 @@ impl<const N: usize> BodyMatrix<N> {
             Some(rings) => RingView::look(rings, dynamics.model(), &self.state),
             None => View::parallel(&self.state),
         };
-        self.stage.find_elements(dynamics, &views);
-        self.stage.slopes.reach = by.reach;
-        self.stage.forces(dynamics, &views, true);
-        self.stage.factorise(dynamics, &views, by.gamma_h);
+        self.matrix.find_elements(dynamics, &views);
+        self.matrix.find_slopes(dynamics, &views, by.reach);
+        self.matrix.factorise(dynamics, &views, by.gamma_h);
         for radial in &mut self.radial {
             radial.look(&self.state);
         }
         self.served = 0;
-    }
-
-    /// Directions that the run leaves out are not corrected. A singular matrix corrects nothing.
-    fn solve(&mut self, dynamics: &Dynamics<'_>, r: &mut [f64]) {
-        let residual = &mut self.stage.residual;
-        residual.fill([0.0; N]);
-        for Velocity { at, body, place } in &self.corrected {
-            residual[body.index()][*place] = r[*at];
-        }
-        for radial in &self.radial {
-            radial.put(r, &mut residual[radial.ball.index()]);
-        }
-        if N == DOFS {
-            dynamics.mirror(residual.as_flattened_mut());
-        }
-        if self.stage.correct(dynamics.model()) {
-            for Velocity { at, body, place } in &self.corrected {
-                r[*at] = self.stage.residual[body.index()][*place];
-            }
-            for radial in &self.radial {
-                radial.take(&self.stage.residual[radial.ball.index()], r);
-            }
-        }
+        self.relaxation = self.matrix.stiffest() / by.gamma_h;
     }
 }
 
@@ -220,9 +251,9 @@ impl Radial {
 mod tests {
     use super::*;
     use crate::reduction::Reduction;
-    use crate::scene::{Spin, presets};
+    use crate::scene::{Drive, TimeFunction, presets};
     use crate::statics::start::{Start, start};
-    use crate::velocities::tests::{compiled, oiled_wheel, rolling, scenes, state};
+    use crate::velocities::tests::{compiled, oiled_wheel, rolling, scenes, spatial, state};
 
     /// (1 − γh (∂a/∂v + ρ ∂a/∂q)) x = r holds for the correction x of any r to a share of its size, with derivatives by central
     /// differences.
@@ -230,13 +261,15 @@ mod tests {
         dynamics: &mut Dynamics<'_>,
         y: &[f64],
         reach: f64,
-        share: f64,
+        (step, share): (f64, f64),
     ) {
         let half = y.len() / 2;
         let gamma_h = 1e-6;
         let r: Vec<f64> = (0..half).map(|i| (1.0 + i as f64).sin()).collect();
         let mut x = r.clone();
-        Damped::new(dynamics, 1.0).correct(0.0, y, gamma_h, reach, &mut x);
+        let mut damped = Damped::new(dynamics, 1.0);
+        damped.prepare(0.0, y, gamma_h, reach);
+        damped.solve(&mut x);
         // Speeds of surfaces: a ball that is pushed by 1 m/s rolls away by hundreds of rad/s.
         let model = dynamics.model();
         let of = dynamics.degrees().into_iter();
@@ -254,7 +287,6 @@ mod tests {
             dynamics.rhs(0.0, &moved, &mut rates);
             rates.split_off(half)
         };
-        let step = 1e-5;
         let (up, down) = (at(step), at(-step));
         for (i, (body, dof)) in dynamics.degrees().into_iter().enumerate() {
             let slope = (up[i] - down[i]) / (2.0 * step) * size;
@@ -268,11 +300,31 @@ mod tests {
     }
 
     #[test]
-    fn free_balls_are_corrected_by_the_derivative() {
-        for mut scene in scenes().into_iter().chain([oiled_wheel(), rolling()]) {
-            scene.spin = Some(Spin::Free);
+    fn velocities_are_corrected_by_the_derivative() {
+        for scene in scenes().into_iter().chain([oiled_wheel(), rolling()]) {
             let model = compiled(&scene);
-            is_corrected_by_the_derivative(&mut Dynamics::new(&model), &state(&model), 0.0, 1e-5);
+            is_corrected_by_the_derivative(
+                &mut Dynamics::new(&model),
+                &state(&model),
+                0.0,
+                (1e-5, 1e-5),
+            );
+        }
+    }
+
+    /// Rings that tilt and balls that spin freely, to 1e-5 of the largest angular acceleration. Gyroscopic moments of the rings
+    /// are not in the matrix.
+    #[test]
+    fn velocities_in_space_are_corrected_by_the_derivative() {
+        for mut scene in spatial() {
+            scene.drive = Drive::Speed(TimeFunction::Constant(1.0));
+            let model = compiled(&scene);
+            is_corrected_by_the_derivative(
+                &mut Dynamics::new(&model),
+                &state(&model),
+                0.0,
+                (1e-6, 3e-3),
+            );
         }
     }
 
@@ -283,7 +335,7 @@ mod tests {
         for scene in scenes().into_iter().chain([oiled_wheel()]) {
             let model = compiled(&scene);
             let y = start(&model, &Start::Equilibrium).unwrap();
-            is_corrected_by_the_derivative(&mut Dynamics::new(&model), &y, 3e-6, 0.05);
+            is_corrected_by_the_derivative(&mut Dynamics::new(&model), &y, 3e-6, (1e-5, 0.05));
         }
     }
 
@@ -305,7 +357,7 @@ mod tests {
                 let ring = if body.index() < 2 { 1.0 } else { 0.1 };
                 y[half + i] += 0.02 * ring * (i as f64).sin();
             }
-            is_corrected_by_the_derivative(&mut dynamics, &y, 0.0, 1e-3);
+            is_corrected_by_the_derivative(&mut dynamics, &y, 0.0, (1e-5, 1e-3));
         }
     }
 }

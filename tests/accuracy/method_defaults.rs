@@ -13,12 +13,7 @@ use ballrace::scene::{Defect, Drive, Friction, Method, Scene, Surface, presets};
 use ballrace::{Error, Run, Signals, Start, simulate, start};
 use common::{Noise, short, soon_over_the_spall};
 
-const METHODS: [Method; 4] = [
-    Method::Adams,
-    Method::DormandPrince,
-    Method::Verner,
-    Method::ImplicitFriction,
-];
+const METHODS: [Method; 3] = [Method::Adams, Method::DormandPrince, Method::Verner];
 
 /// The largest error that needs no warning.
 const MOST: f64 = 0.05;

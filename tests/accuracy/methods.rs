@@ -7,9 +7,8 @@ use std::ops::ControlFlow;
 
 use ballrace::compile;
 use ballrace::integrate::{
-    self, Adams, Additive, Controller, DORMAND_PRINCE, DenseStep, ImplicitVelocity,
-    KENNEDY_CARPENTER, LinearlyImplicit, Options, StepStatistics, Stuck, System, Tableau,
-    Tolerance, VERNER, integrate,
+    self, Adams, DORMAND_PRINCE, DenseStep, LinearlyImplicit, Options, StepStatistics, System,
+    Tableau, Tolerance, VERNER, integrate,
 };
 use ballrace::scene::{Friction, Method, presets};
 use ballrace::{Bandwidth, Run, Scene, Signals, simulate};
@@ -21,9 +20,22 @@ struct Rubbed {
     slip_speed: f64,
     /// Velocities at which the right-hand side was asked for.
     asked: usize,
+    /// What was prepared.
+    matrix: f64,
+    relaxation: f64,
 }
 
 impl Rubbed {
+    fn new(rate: f64) -> Self {
+        Self {
+            rate,
+            slip_speed: 0.5,
+            asked: 0,
+            matrix: 1.0,
+            relaxation: 0.0,
+        }
+    }
+
     fn acceleration(&self, t: f64, q: f64, v: f64) -> (f64, f64) {
         let u = v - t.cos();
         let root = (u * u + self.slip_speed * self.slip_speed).sqrt();
@@ -47,39 +59,23 @@ impl System for Rubbed {
     }
 }
 
-impl ImplicitVelocity for Rubbed {
-    fn solve_velocity(
-        &mut self,
-        t: f64,
-        y: &mut [f64],
-        base: &[f64],
-        gamma_h: f64,
-    ) -> Result<usize, Stuck> {
-        let mut before = f64::INFINITY;
-        for iteration in 1..=50 {
-            let (a, mut slope) = self.acceleration(t, y[0], y[1]);
-            if before.is_finite() && before > 0.1 {
-                // Far away Newton's tangent leads across: the secant through rest does not.
-                slope = (a + y[0]) / (y[1] - t.cos());
-            }
-            let correction = (base[0] + gamma_h * a - y[1]) / (1.0 - gamma_h * slope);
-            y[1] += correction;
-            if correction.abs() < 1e-14 {
-                return Ok(iteration);
-            }
-            before = correction.abs();
-        }
-        Err(Stuck {
-            state: 1,
-            iterations: 50,
-        })
-    }
-}
-
 impl LinearlyImplicit for Rubbed {
-    fn correct(&mut self, t: f64, y: &[f64], gamma_h: f64, reach: f64, r: &mut [f64]) {
+    fn prepare(&mut self, t: f64, y: &[f64], gamma_h: f64, reach: f64) {
+        let slope = self.acceleration(t, y[0], y[1]).1;
         // A spring of 1 pulls back.
-        r[0] /= 1.0 - gamma_h * (self.acceleration(t, y[0], y[1]).1 - reach);
+        (self.matrix, self.relaxation) = (1.0 - gamma_h * (slope - reach), -slope);
+    }
+
+    fn solve(&mut self, r: &mut [f64]) {
+        r[0] /= self.matrix;
+    }
+
+    fn relaxation(&self) -> f64 {
+        self.relaxation
+    }
+
+    fn longest(&self) -> f64 {
+        0.1
     }
 }
 
@@ -98,11 +94,7 @@ fn follow<M: integrate::StepMethod<Rubbed>>(
     options: &Options,
     truth: impl Fn(f64) -> f64,
 ) -> (Vec<f64>, f64, StepStatistics) {
-    let mut system = Rubbed {
-        rate,
-        slip_speed: 0.5,
-        asked: 0,
-    };
+    let mut system = Rubbed::new(rate);
     let mut between: f64 = 0.0;
     let mut watch = |_: &mut _, step: &DenseStep<'_>, _: &StepStatistics| {
         for part in 0..5 {
@@ -158,7 +150,6 @@ fn has_order<M: integrate::StepMethod<Rubbed>>(method: &M, order: f64, steps: &[
 #[test]
 fn every_method_has_its_order() {
     let steps = [0.02, 0.01, 0.005];
-    has_order(&KENNEDY_CARPENTER, 4.0, &steps);
     has_order(&DORMAND_PRINCE, 5.0, &steps);
 }
 
@@ -168,11 +159,7 @@ fn dense_outputs_have_their_order() {
     let truth = {
         // The right-hand side is smooth: tiny steps of the highest order stand for the solution.
         let mut places = vec![];
-        let mut system = Rubbed {
-            rate: 2.0,
-            slip_speed: 0.5,
-            asked: 0,
-        };
+        let mut system = Rubbed::new(2.0);
         let mut watch = |_: &mut Rubbed, step: &DenseStep<'_>, _: &StepStatistics| {
             places.push(step.y0()[0]);
             ControlFlow::Continue(())
@@ -200,41 +187,11 @@ fn dense_outputs_have_their_order() {
         let measured = order(&|h| follow(tableau, 2.0, 1.0, &fixed(h), at).1);
         assert!(measured > least - 0.3, "{}: {measured}", tableau.name);
     }
-    let measured = order(&|h| follow(&KENNEDY_CARPENTER, 2.0, 1.0, &fixed(h), at).1);
-    assert!(measured > 3.7, "{measured}");
-}
-
-/// Truth: Dormand–Prince at a step a tenth of its limit. At a rate of 10⁶ the implicit method takes steps that
-/// are 3000 times too long for the explicit one, and is right.
-#[test]
-fn stiff_velocities_do_not_hold_implicit_steps() {
-    let rate = 1e6;
-    let loose = |h: f64| follow(&KENNEDY_CARPENTER, rate, 0.1, &fixed(h), |_| 0.0).0;
-    let exact = follow(&DORMAND_PRINCE, rate, 0.1, &fixed(3e-7), |_| 0.0).0;
-    for (h, most) in [(0.01, 2e-5), (0.005, 1e-5)] {
-        let end = loose(h);
-        let error = (end[0] - exact[0]).hypot(end[1] - exact[1]);
-        assert!(error < most, "h = {h}: {error:e}");
-    }
-    let options = Options {
-        controller: Controller::for_order(3),
-        ..Options::default()
-    };
-    let (end, _, stats) = follow(&KENNEDY_CARPENTER, rate, 0.1, &options, |_| 0.0);
-    assert!((end[0] - exact[0]).hypot(end[1] - exact[1]) < 1e-7);
-    assert!(stats.nfev < 3000, "{stats:?}");
-    let (_, _, explicit) = follow(&DORMAND_PRINCE, rate, 0.1, &Options::default(), |_| 0.0);
-    assert!(explicit.nfev > 50 * stats.nfev, "{explicit:?}");
-    assert!(explicit.share_stiff() > 0.5 && stats.share_stiff() == 0.0);
 }
 
 /// Adams' method with its own way to follow the error.
 fn by_adams(rate: f64, end: f64, rtol: f64) -> (f64, StepStatistics) {
-    let mut system = Rubbed {
-        rate,
-        slip_speed: 0.5,
-        asked: 0,
-    };
+    let mut system = Rubbed::new(rate);
     let tolerance = Tolerance::uniform(2, rtol, rtol).unwrap();
     let options = Options {
         controller: integrate::StepMethod::<Rubbed>::controller(&Adams),
@@ -270,20 +227,55 @@ fn adams_errs_by_the_fourth_power_of_its_step() {
     }
 }
 
-/// Truth: Verner's method at a hundredth of the time in which friction acts. With its matrix Adams' corrector of order four is
-/// stable to 3 on the negative real axis, by one evaluation a step; Dormand–Prince's six reach 3.3.
+/// Truth: Verner's method at a hundredth of the time in which friction acts. Steps of the default method do not depend on how stiff
+/// friction is; Dormand–Prince's do.
 #[test]
-fn adams_bears_friction_five_times_as_fast() {
-    let (error, stats) = by_adams(1e5, 0.1, 1e-9);
-    let (_, _, explicit) = follow(&DORMAND_PRINCE, 1e5, 0.1, &Options::default(), |_| 0.0);
-    assert!(error < 1e-8, "{error:e}");
-    assert!(explicit.nfev > 4 * stats.nfev, "{explicit:?} {stats:?}");
+fn stiff_friction_holds_no_steps_short() {
+    let counts = [1e3, 1e5, 1e6].map(|rate| {
+        let (error, stats) = by_adams(rate, 0.02, 1e-9);
+        println!("{rate:e}: {error:.1e} in {}", stats.nfev);
+        assert!(error < 3e-9, "{rate}: {error:e}");
+        stats.nfev
+    });
+    assert!(4 * counts[2] < 5 * counts[0], "{counts:?}");
+    let (_, _, explicit) = follow(&DORMAND_PRINCE, 1e6, 0.02, &Options::default(), |_| 0.0);
+    assert!(explicit.nfev > 100 * counts[2], "{explicit:?} {counts:?}");
 }
 
-/// An oscillator of frequency 1, with so much damping, of which the matrix knows the spring or not.
+/// An oscillator of frequency 1, with so much damping, of which the matrix knows the spring or not, and the damping by so much of it.
 struct Oscillator {
     damping: f64,
     stiff: bool,
+    known: f64,
+    matrix: f64,
+}
+
+impl Oscillator {
+    fn new(damping: f64, stiff: bool, known: f64) -> Self {
+        Self {
+            damping,
+            stiff,
+            known,
+            matrix: 1.0,
+        }
+    }
+
+    /// How large what began as 1 is after 200 000 steps.
+    fn after(mut self, h: f64) -> f64 {
+        let tolerance = Tolerance::uniform(2, 1e-9, 1e-9).unwrap();
+        let (end, options) = (2e5 * h, fixed(h));
+        let of = (0.0, end);
+        let found = integrate(
+            &mut self,
+            &Adams,
+            of,
+            &[1.0, 0.0],
+            &tolerance,
+            &options,
+            &mut (),
+        );
+        found.map_or(f64::INFINITY, |found| found.y[0].hypot(found.y[1]))
+    }
 }
 
 impl System for Oscillator {
@@ -297,9 +289,21 @@ impl System for Oscillator {
 }
 
 impl LinearlyImplicit for Oscillator {
-    fn correct(&mut self, _: f64, _: &[f64], gamma_h: f64, reach: f64, r: &mut [f64]) {
+    fn prepare(&mut self, _: f64, _: &[f64], gamma_h: f64, reach: f64) {
         let stiffness = if self.stiff { reach } else { 0.0 };
-        r[0] /= 1.0 + gamma_h * (2.0 * self.damping + stiffness);
+        self.matrix = 1.0 + gamma_h * (2.0 * self.damping * self.known + stiffness);
+    }
+
+    fn solve(&mut self, r: &mut [f64]) {
+        r[0] /= self.matrix;
+    }
+
+    fn relaxation(&self) -> f64 {
+        2.0 * self.damping * self.known
+    }
+
+    fn longest(&self) -> f64 {
+        0.1
     }
 }
 
@@ -315,22 +319,7 @@ fn adams_is_stable_as_far_as_its_step_says() {
         (0.2, [0.972, 2.473]),
     ] {
         for (stiff, limit) in [false, true].into_iter().zip(limits) {
-            let size_after = |h: f64| {
-                let tolerance = Tolerance::uniform(2, 1e-9, 1e-9).unwrap();
-                let system = &mut Oscillator { damping, stiff };
-                let (end, options) = (2e5 * h, fixed(h));
-                let of = (0.0, end);
-                let found = integrate(
-                    system,
-                    &Adams,
-                    of,
-                    &[1.0, 0.0],
-                    &tolerance,
-                    &options,
-                    &mut (),
-                );
-                found.map_or(f64::INFINITY, |found| found.y[0].hypot(found.y[1]))
-            };
+            let size_after = |h: f64| Oscillator::new(damping, stiff, 1.0).after(h);
             let (inside, outside) = (size_after(limit - 5e-3), size_after(limit + 5e-3));
             assert!(
                 inside < 1e-3 && outside > 1e3,
@@ -340,8 +329,30 @@ fn adams_is_stable_as_far_as_its_step_says() {
     }
 }
 
-/// A body that is pushed for a tenth of a second.
-struct Pushed;
+/// Computed: eigenvalues of a step's matrix over position, three velocities and three accelerations. Velocities that decay up to
+/// 10⁶ times within a step die out, where the matrix knows from 0.9 to twice of how fast they decay; with 0.5 they do not.
+#[test]
+fn velocities_that_decay_within_a_step_die_out() {
+    for h in [0.3, 0.8] {
+        for decays in [3.5, 10.0, 100.0, 1e4, 1e6] {
+            let after = |known| Oscillator::new(0.5 * decays / h, true, known).after(h);
+            for known in [0.9, 1.0, 1.3, 2.0] {
+                // Places follow slowly: half a decay or less a step.
+                assert!(
+                    after(known) <= 1.0,
+                    "{h} {decays} {known}: {:e}",
+                    after(known)
+                );
+            }
+            assert!(after(0.5) > 1e3, "{h} {decays}");
+        }
+    }
+}
+
+/// A body that is pushed for a tenth of a second, and said to relax at some rate.
+struct Pushed {
+    relaxation: f64,
+}
 
 impl System for Pushed {
     fn dim(&self) -> usize {
@@ -354,7 +365,17 @@ impl System for Pushed {
 }
 
 impl LinearlyImplicit for Pushed {
-    fn correct(&mut self, _: f64, _: &[f64], _: f64, _: f64, _: &mut [f64]) {}
+    fn prepare(&mut self, _: f64, _: &[f64], _: f64, _: f64) {}
+
+    fn solve(&mut self, _: &mut [f64]) {}
+
+    fn relaxation(&self) -> f64 {
+        self.relaxation
+    }
+
+    fn longest(&self) -> f64 {
+        0.1
+    }
 }
 
 /// Exact: what is not pushed any more has no acceleration. A rest that shrinks from step to step would end in numbers below
@@ -362,26 +383,27 @@ impl LinearlyImplicit for Pushed {
 #[test]
 fn accelerations_that_end_are_zero() {
     let tolerance = Tolerance::uniform(2, 1e-9, 1e-9).unwrap();
-    let mut after = 0;
-    let mut watch = |_: &mut Pushed, step: &DenseStep<'_>, _: &StepStatistics| {
-        if step.t1() > 0.105 {
-            assert_eq!(step.dy1()[1], 0.0, "at {}", step.t1());
-            after += 1;
-        }
-        ControlFlow::Continue(())
-    };
-    let start = [0.0, 0.0];
-    let found = integrate(
-        &mut Pushed,
-        &Adams,
-        (0.0, 1.0),
-        &start,
-        &tolerance,
-        &fixed(0.01),
-        &mut watch,
-    );
-    found.unwrap();
-    assert!(after > 80);
+    for relaxation in [0.0, 1e4] {
+        let mut after = 0;
+        let mut watch = |_: &mut Pushed, step: &DenseStep<'_>, _: &StepStatistics| {
+            if step.t1() > 0.105 {
+                assert_eq!(step.dy1()[1], 0.0, "at {}", step.t1());
+                after += 1;
+            }
+            ControlFlow::Continue(())
+        };
+        let found = integrate(
+            &mut Pushed { relaxation },
+            &Adams,
+            (0.0, 1.0),
+            &[0.0, 0.0],
+            &tolerance,
+            &fixed(0.01),
+            &mut watch,
+        );
+        found.unwrap();
+        assert!(after > 80);
+    }
 }
 
 /// The amplification of y' = λy over a step, |R(hλ)|, run through the method's own coefficients.
@@ -407,11 +429,7 @@ fn amplification(t: &Tableau, real: f64, imaginary: f64) -> f64 {
 /// passes 1 by less than 10⁻³ there; with a hundredth of damping they reach further.
 #[test]
 fn stability_limits_of_the_tableaux() {
-    let limits = [
-        (&DORMAND_PRINCE, 3.3066, 0.9972),
-        (&VERNER, 4.8553, 2.5849),
-        (&KENNEDY_CARPENTER.explicit, 4.2342, 4.0004),
-    ];
+    let limits = [(&DORMAND_PRINCE, 3.3066, 0.9972), (&VERNER, 4.8553, 2.5849)];
     for (tableau, real, imaginary) in limits {
         let inside = |z: f64, x: f64| amplification(tableau, -z, x) < 1.0 + 1e-11;
         let name = tableau.name;
@@ -422,44 +440,6 @@ fn stability_limits_of_the_tableaux() {
         let (below, above) = (inside(0.0, imaginary - 1e-3), inside(0.0, imaginary + 1e-3));
         assert!(below && !above, "{name}, imaginary");
     }
-}
-
-/// Spectral radius over a step of q'' = −ω²q − 2ζωq', explicit in q and implicit in q'.
-fn oscillation(t: &Additive, omega: f64, damping: f64) -> f64 {
-    let column = |q0: f64, v0: f64| {
-        let (mut v, mut a): (Vec<f64>, Vec<f64>) = (vec![], vec![]);
-        let sum = |row: &[f64], k: &[f64]| row.iter().zip(k).map(|(a, k)| a * k).sum::<f64>();
-        for i in 0..t.explicit.stages {
-            let q = q0 + sum(t.explicit.a[i], &v);
-            let base = v0 + sum(t.implicit[i], &a);
-            let gamma = if i == 0 { 0.0 } else { t.gamma };
-            let rate = 2.0 * damping * omega;
-            let speed = (base - gamma * omega * omega * q) / (1.0 + gamma * rate);
-            v.push(speed);
-            a.push(-omega * omega * q - rate * speed);
-        }
-        (q0 + sum(t.explicit.b, &v), v0 + sum(t.explicit.b, &a))
-    };
-    let ((a, c), (b, d)) = (column(1.0, 0.0), column(0.0, 1.0));
-    let (trace, determinant) = (a + d, a * d - b * c);
-    let square = trace * trace / 4.0 - determinant;
-    if square < 0.0 {
-        determinant.sqrt()
-    } else {
-        trace.abs() / 2.0 + square.sqrt()
-    }
-}
-
-/// Computed: what the additive method does to the contact modes, for which the step cap allows ωh = 1.
-#[test]
-fn implicit_velocities_and_the_contact_modes() {
-    let growth = |omega, damping| oscillation(&KENNEDY_CARPENTER, omega, damping);
-    assert!((growth(1.0, 0.0) - 1.0027).abs() < 1e-4);
-    assert!(growth(0.3, 0.0) < 1.0 + 1e-5);
-    for damping in [0.01, 0.05, 0.5, 2.0, 50.0] {
-        assert!((1..=100_u32).all(|i| growth(f64::from(i) / 100.0, damping) < 1.0));
-    }
-    assert!(growth(1.98, 0.05) < 1.0 && growth(2.02, 0.05) > 1.0);
 }
 
 /// The wheel bearing with a ball that meets the spall at about 0.6 ms.
@@ -515,24 +495,20 @@ fn methods_agree() {
         .iter()
         .fold(0.0, |most: f64, a| most.max(a.abs()));
     assert!(peak > 30.0, "no impact: {peak} m/s²");
-    for (method, most) in [
-        (Method::Adams, 1e-3),
-        (Method::Verner, 1e-3),
-        (Method::ImplicitFriction, 1e-3),
-    ] {
+    for (method, most) in [(Method::Adams, 1e-3), (Method::Verner, 1e-3)] {
         let off = error(&run(&scene, method, 1e-7), &truth);
         assert!(off < most, "{method:?}: {off:e}");
     }
 }
 
-/// Truth: Dormand–Prince at tight tolerance. At a slip speed of 1 mm/s the implicit method is within 1 % over an
-/// impact for a fifth of the evaluations of the cheapest explicit run that is.
+/// Truth: Dormand–Prince at tight tolerance. At a slip speed of 1 mm/s the default is within 1 % over an impact for a tenth of the
+/// evaluations of the cheapest explicit run that is, and at a tenth of that slip speed takes four times as many at most.
 #[test]
-fn stiff_friction_costs_an_implicit_step_nothing() {
+fn a_small_slip_speed_costs_the_default_nothing() {
     let scene = scene(1e-3);
     let truth = run(&scene, Method::DormandPrince, 1e-9);
-    let implicit = run(&scene, Method::ImplicitFriction, 1e-5);
-    let off = error(&implicit, &truth);
+    let found = run(&scene, Method::Adams, 1e-7);
+    let off = error(&found, &truth);
     assert!(off < 1e-2, "{off:e}");
     let explicit = [1e-3, 1e-4, 1e-5, 1e-6].map(|rtol| run(&scene, Method::DormandPrince, rtol));
     let cheapest = explicit
@@ -541,7 +517,12 @@ fn stiff_friction_costs_an_implicit_step_nothing() {
         .map(|signals| signals.stats.nfev)
         .min()
         .unwrap();
-    let ratio = cheapest as f64 / implicit.stats.nfev as f64;
-    assert!(ratio > 5.0, "{ratio}");
-    assert!(implicit.stats.iterations < 3 * implicit.stats.nfev);
+    let ratio = cheapest as f64 / found.stats.nfev as f64;
+    let stiffer = run(&self::scene(1e-4), Method::Adams, 1e-7);
+    println!(
+        "{off:.1e}, {ratio}, {} {}",
+        found.stats.nfev, stiffer.stats.nfev
+    );
+    assert!(ratio > 10.0, "{ratio}");
+    assert!(stiffer.stats.nfev < 4 * found.stats.nfev);
 }

@@ -352,19 +352,6 @@ fn errors_name_the_oil_that_they_are_of() {
     }
 }
 
-/// A slow bearing in oil, whose friction holds the default method's steps short, is offered the method for that; a fast one is not.
-#[test]
-fn stiff_films_are_offered_the_implicit_method() {
-    let offered = |rpm: f64| {
-        let mut scene = presets::deep_groove_6205(500.0, 0.0, rpm);
-        scene.lubricant = Some(Lubricant::named("vg68", 328.15));
-        let told = explain(&scene).unwrap().variants;
-        told.iter()
-            .any(|of| of.change.contains("implicit-friction"))
-    };
-    assert!(offered(200.0) && !offered(SPEED_RPM));
-}
-
 /// Ordinary bearings in ordinary oil are not doubted.
 #[test]
 fn ordinary_films_are_not_doubted() {

@@ -199,10 +199,10 @@ fn films_follow_the_speed() {
     assert!(held > 1e-3, "{held:e}");
 }
 
-/// Truth: Verner at a tight tolerance, over a run-up. With the films of the first speed implicit steps were off by 47 %, and took four
-/// times as many.
+/// Truth: Verner at a tight tolerance, over a run-up. With the films of the first speed methods that solve for velocities
+/// were off by 47 %, and took four times as many steps.
 #[test]
-fn methods_that_solve_for_velocities_follow_films() {
+fn the_default_method_follows_films() {
     let mut scene = oiled(presets::deep_groove_6205(2000.0, 500.0, 1800.0));
     scene.drive = Drive::Speed(TimeFunction::Profile(Profile::Ramp {
         from: 100.0,
@@ -220,11 +220,39 @@ fn methods_that_solve_for_velocities_follow_films() {
         run(&scene, &asked).get("outer.ay").unwrap().to_vec()
     };
     let truth = by(Method::Verner, 1e-9);
-    for method in [Method::Adams, Method::ImplicitFriction] {
-        let off = apart(&by(method, scene.solver.rtol), &truth);
-        println!("{method:?}: {off:.1e}");
-        assert!(off < 0.015, "{method:?}: {off}");
-    }
+    let off = apart(&by(Method::Adams, scene.solver.rtol), &truth);
+    println!("{off:.1e}");
+    assert!(off < 0.015, "{off}");
+}
+
+/// Truth: Dormand–Prince at a tight tolerance. Thick oil rubs so stiffly on slow balls that their velocities decay a hundred times within
+/// a step of the default method; explicit pairs take sixty times its evaluations.
+#[test]
+fn slow_thick_oil_holds_no_steps_short() {
+    let scene = bearing(500.0, 60.0, 40.0);
+    let by = |method, rtol| {
+        let mut scene = scene.clone();
+        scene.solver.method = method;
+        let asked = Run {
+            rtol: Some(rtol),
+            start: Start::Equilibrium,
+            ..short(1e-3)
+        };
+        let out = run(&scene, &asked);
+        (out.get("outer.ay").unwrap().to_vec(), out.stats)
+    };
+    let (truth, explicit) = by(Method::DormandPrince, 1e-8);
+    let (found, stats) = by(Method::Adams, scene.solver.rtol);
+    let off = apart(&found, &truth);
+    println!("{off:.1e} in {} of {}", stats.nfev, explicit.nfev);
+    assert!(off < 1e-3, "{off}");
+    assert!(
+        60 * stats.nfev < explicit.nfev,
+        "{} {}",
+        stats.nfev,
+        explicit.nfev
+    );
+    assert!(stats.acceleration_residual.unwrap() < 1e-3);
 }
 
 /// Limits: balls that roll are not warned of, balls that stand still in turning rings are.

@@ -368,7 +368,7 @@ fn what_does_not_hold_is_told() {
 /// What cannot be is refused by name.
 #[test]
 fn impossible_requests_are_refused() {
-    let cases: [(&str, Approximations, Change); 4] = [
+    let cases: [(&str, Approximations, Change); 3] = [
         ("approximations.rolling", ROLLING, |s| {
             s.drive = Drive::Torque {
                 value: 1.0.into(),
@@ -382,9 +382,6 @@ fn impossible_requests_are_refused() {
             s.rows.truncate(1);
             s.defects.clear();
             s.probes.clear();
-        }),
-        ("approximations", SYMMETRIC, |s| {
-            s.solver.method = Method::ImplicitFriction;
         }),
     ];
     for (field, approximations, change) in cases {

@@ -67,10 +67,6 @@ def test_what_cannot_be_is_refused() -> None:
         br.simulate(scene, duration=1e-3)
     with pytest.raises(br.SceneError, match=r"approximations\.one_row.*two rows"):
         br.simulate(spalled().replace({"approximations.one_row": True}), duration=1e-3)
-    with pytest.raises(br.SceneError, match=r"approximations.*implicit-friction"):
-        br.simulate(
-            replace(spalled(), approximations=FLAT), duration=1e-3, method="implicit-friction"
-        )
 
 
 def test_a_healthy_bearing_is_offered_none() -> None:

@@ -44,15 +44,6 @@ def test_a_run_ends_at_its_number_of_steps() -> None:
         br.simulate(SCENE, **options, max_steps=steps - 1)
 
 
-def test_steps_of_both_methods_of_auto_count() -> None:
-    options: dict[str, Any] = {"duration": 5e-3, "method": "implicit-friction", "settle": 0.0}
-    whole = br.simulate(br.presets.wheel_bearing(), **options)
-    steps = whole.stats.accepted + whole.stats.rejected
-    br.simulate(br.presets.wheel_bearing(), **options, max_steps=steps)
-    with pytest.raises(br.BudgetError):
-        br.simulate(br.presets.wheel_bearing(), **options, max_steps=steps - 1)
-
-
 @pytest.mark.parametrize("accuracy", [None, 1e-2])
 def test_a_run_ends_at_its_time(accuracy: float | None) -> None:
     with pytest.raises(br.BudgetError, match=r"time_limit = 0\.05 is spent") as caught:

@@ -10,11 +10,7 @@ import pytest
 import ballrace as br
 from ballrace.scene import Method, Solver
 
-ADAPTIVE: tuple[Method, ...] = (
-    "dormand-prince",
-    "verner",
-    "implicit-friction",
-)
+ADAPTIVE: tuple[Method, ...] = ("dormand-prince", "verner")
 
 
 def run(method: Method | None, slip_speed: float = 0.1, **solver: object) -> br.Signals:

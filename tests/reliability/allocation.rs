@@ -1,11 +1,10 @@
-//! An evaluation allocates nothing, nor does an implicit stage.
+//! An evaluation allocates nothing.
 
 use ballrace::dynamics::Dynamics;
-use ballrace::integrate::{ImplicitVelocity, System};
+use ballrace::integrate::System;
 use ballrace::scene::{
     Drive, Lubricant, Mount, Profile, Scene, Slices, Spin, TimeFunction, presets,
 };
-use ballrace::velocities::ImplicitDynamics;
 use ballrace::{BodyId, Dof, compile};
 use ballrace::{Start, start};
 
@@ -64,30 +63,4 @@ fn a_right_hand_side_in_oil_allocates_nothing() {
     };
     scene.drive = Drive::Speed(TimeFunction::Profile(run_up));
     assert_eq!(allocated(&scene), 0, "a run-up");
-}
-
-/// Analytic: counted by the allocator, once the memory of implicit stages is there.
-#[test]
-fn an_implicit_stage_allocates_nothing() {
-    let mut scene = presets::wheel_bearing(3000.0);
-    implicit_stage_allocates_nothing(&scene);
-    let support = &mut scene.inner_ring.support;
-    (support.tilt_x, support.tilt_y) = (Some(Mount::Free), Some(Mount::Free));
-    scene.spin = Some(Spin::Free);
-    implicit_stage_allocates_nothing(&scene);
-}
-
-fn implicit_stage_allocates_nothing(scene: &Scene) {
-    let model = compile(scene).unwrap();
-    let y = start(&model, &Start::Equilibrium).unwrap();
-    let base = &y[model.dim() / 2..];
-    let mut dynamics = Dynamics::new(&model);
-    let mut implicit = ImplicitDynamics::new(&mut dynamics);
-    let mut stage = |y: &mut [f64]| implicit.solve_velocity(0.0, y, base, 1e-6).unwrap();
-    stage(&mut y.clone());
-    let mut y = y.clone();
-    let counted = allocation_counter::measure(|| {
-        stage(&mut y);
-    });
-    assert_eq!(counted.count_total, 0, "{counted:?}");
 }

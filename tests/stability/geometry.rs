@@ -257,7 +257,8 @@ fn light_and_small_balls() {
         );
         calls.push(carried(&scene, 0.5e-3));
     }
-    assert!(calls[2] > 8 * calls[0]);
+    // The first steps are short, whatever the balls.
+    assert!(calls[2] > 6 * calls[0], "{calls:?}");
     for scale in [0.1, 0.01] {
         let mut scene = bearing(&format!("size {scale}"), 500.0 * scale * scale, 0.0);
         let row = &mut scene.rows[0];
@@ -323,7 +324,7 @@ fn few_slices_kink_where_fitted_nodes_do_not() {
         );
         (out.stats.rejected, size)
     });
-    assert!(found[0].0 > 3 * found[2].0);
+    assert!(2 * found[0].0 > 5 * found[2].0);
     let error = |i: usize| (found[i].1 / found[2].1 - 1.0).abs();
     assert!(error(0) > 0.05 && error(1) < 0.01);
 }

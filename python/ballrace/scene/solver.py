@@ -14,10 +14,9 @@ Method = Literal[
     "adams",
     "dormand-prince",
     "verner",
-    "implicit-friction",
 ]
-"""The method of integration: a predictor–corrector of order 4 with one evaluation a step, explicit pairs of
-order 5 and 6, and the one that is explicit in positions and implicit in velocities."""
+"""The method of integration: a predictor–corrector of order 4 with one evaluation a step, and explicit pairs of
+order 5 and 6."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,8 +27,8 @@ class Solver(Part):
     ----------
     method : Method
         The method. ``"adams"`` takes one evaluation a step and a third to a fifth of those that explicit pairs
-        take for the same error. Explicit steps shrink with the slip speed of friction, those of ``"adams"``
-        later and those of ``"implicit-friction"`` not at all.
+        take for the same error; friction, however stiff, does not shorten its steps as it does those of explicit
+        pairs.
     rtol : float
         Relative tolerance [1], 1e-12 to 1e-1; each kind of state has its scale from the scene.
     first_step : float or None

@@ -1,9 +1,9 @@
-//! Contacts of an implicit stage: the part of their elements that does not depend on velocities, for any velocities.
+//! Contacts held where they are: the part of their elements that does not depend on velocities, and how they answer to these.
 //!
 //! With all of a node's force at one point, slip and approach depend only on the relative twist
 //! w = (v_b − v_r − θ̇_r ẑ × a, θ̇_b − θ̇_r), where a leads from the ring's centre to the ball's: four numbers a
-//! contact, and the ball's turning about x and y behind them where it spins freely. The wrench on the ball about its centre and
-//! its derivative by w say all about both bodies.
+//! contact, and the ball's turning about x and y behind them where it spins freely. The derivative by w of the wrench on the ball about
+//! its centre says all about both bodies.
 
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
@@ -12,10 +12,10 @@
 
 mod films;
 mod packs;
-mod wrench;
+mod slope;
 
 pub(crate) use packs::{SlicePack, SlicePacking};
-pub(crate) use wrench::{AXIAL, FREE, PlaneVector, StageWrench, in_contact};
+pub(crate) use slope::{AXIAL, FREE, HeldSlope, PlaneVector, in_contact};
 
 use super::batch::{Across, EightContacts, Rubbing};
 use super::kernel::{self, Element, ElementForce, ElementState, Receiver, Whole};
@@ -23,16 +23,16 @@ use super::laws::traction::Rolling;
 use super::slip::Moves;
 use super::{FilmEffect, Motion, Pair};
 use crate::simd::{InstructionSet, Lanes, Mask};
-use wrench::Slope;
+use slope::{Slope, moment};
 
 /// An element of eight contacts, or eight slices of one: what of its [`ElementState`] does not depend on velocities.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct StageElement {
+pub(crate) struct HeldElement {
     elastic: Lanes,
     /// Relative growth of the elastic force with the penetration \[1/m\].
     hardening: Lanes,
     share: (Lanes, Lanes),
-    /// That of the velocities at which the stage was found.
+    /// That of the velocities at which it was found.
     rubbing: Lanes,
     slope: (Lanes, Lanes),
     /// Moments about the ball's centre of unit forces along n_e and t_e.
@@ -41,40 +41,40 @@ pub(crate) struct StageElement {
     place: Lanes,
 }
 
-/// Which slopes of forces by velocities are wanted.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Slopes {
-    /// Whether friction's slope is the steeper one through rest, φ for φ + φ'(u) u: from far away, where Newton's tangent leads across
-    /// to the other side, iterations by it do not overshoot.
-    pub secant: bool,
-    /// By how much a place moves with its velocity \[s\]: so much of the elastic stiffness adds to damping. 0 at fixed places.
-    pub reach: f64,
-}
-
 /// What traction laws read of an element beside its slip, where they do ([`super::Traction::reads_rolling`]).
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct StageRolling {
+pub(crate) struct HeldRolling {
     load: Lanes,
     depth: Lanes,
     arm: Lanes,
 }
 
+/// A node that moves.
+struct MovedElement {
+    state: ElementState<Lanes>,
+    force: ElementForce<Lanes>,
+    /// Slip along t_e and the meridian by turning about n_e and t_e; about n_e also, beside, where a point stands off the line of
+    /// centres, as edges of the ball's own do.
+    turns: [Lanes; 2],
+    beside: Lanes,
+}
+
 /// The elements of eight contacts.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct StageElements {
-    elements: Vec<StageElement>,
+pub(crate) struct HeldElements {
+    elements: Vec<HeldElement>,
     /// As many, or none where the law reads slip alone.
-    rolling: Vec<StageRolling>,
+    rolling: Vec<HeldRolling>,
     rubbing: Rubbing,
 }
 
-impl StageElements {
+impl HeldElements {
     pub fn clear(&mut self) {
         self.elements.clear();
         self.rolling.clear();
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = (&StageElement, Option<&StageRolling>)> {
+    pub fn iter(&self) -> impl Iterator<Item = (&HeldElement, Option<&HeldRolling>)> {
         let numbered = self.elements.iter().enumerate();
         numbered.map(|(k, element)| (element, self.rolling.get(k)))
     }
@@ -118,15 +118,13 @@ impl Around {
     }
 }
 
-/// Where eight contacts of a stage are.
+/// Where eight held contacts are.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct StageContacts {
+pub(crate) struct HeldContacts {
     /// Unit vector out of the ball at the contact.
     pub n_e: PlaneVector,
     /// From the ring's centre to the ball's.
     pub apart: PlaneVector,
-    /// What the slopes of waves and texture do to the balls, x, y, z and about z (see `gradient`).
-    pub aside: [Lanes; AXIAL],
     /// Contacts whose nodes are there; the others get none that press.
     pub regular: Mask,
     pub around: Around,
@@ -137,20 +135,20 @@ pub(crate) struct StageContacts {
 }
 
 impl Pair {
-    /// Finds eight contacts of a stage, those of `whole` with their elements; with angular velocities about x and y where balls spin
+    /// Holds eight contacts, those of `whole` with their elements; with angular velocities about x and y where balls spin
     /// freely \[rad/s\].
     #[inline(always)]
-    pub(crate) fn stage_elements<const FMA: bool>(
+    pub(crate) fn held_elements<const FMA: bool>(
         &self,
         (eight, turning): (&EightContacts, Option<Across>),
         ring: &Motion,
         whole: Mask,
         instructions: InstructionSet,
-        nodes: &mut StageElements,
-    ) -> StageContacts {
+        nodes: &mut HeldElements,
+    ) -> HeldContacts {
         let (contact, moves, place) = self.place::<FMA, false>(eight, ring, whole.not());
         let (regular, sigma) = (place.regular.and(whole), self.race.sigma);
-        let StageElements {
+        let HeldElements {
             elements,
             rolling,
             rubbing,
@@ -171,23 +169,10 @@ impl Pair {
             sigma,
             radius: contact.section.radius,
             regular,
-            radial: Lanes::ZERO,
         };
         let slices = &self.slices;
         kernel::elements::<_, FMA, false>(&self.law, slices, rubbing, &contact, &mut holding);
-        let radial = holding.radial;
-        let mut across = radial * place.lean.unwrap_or_default() * sigma;
-        let moment = radial * place.turn.unwrap_or_default();
-        if place.turn.is_some() {
-            across += -(moment / place.d);
-        }
-        StageContacts {
-            aside: [
-                -(across * place.n.1),
-                across * place.n.0,
-                Lanes::ZERO,
-                moment,
-            ],
+        HeldContacts {
             whole: contact,
             arm: moves.arm,
             n_e: [place.n.0 * sigma, place.n.1 * sigma],
@@ -203,27 +188,68 @@ impl Pair {
         }
     }
 
-    /// Adds what a node does at a relative twist in the frame (n_e, t_e, z, about z), with its slope or without.
-    ///
+    /// Adds how a node answers to a relative twist in the frame (n_e, t_e, z, about z), of whose places it moves by so much \[s\].
     #[inline(always)]
-    pub(crate) fn force<const FMA: bool, const SLOPE: bool, const N: usize>(
+    pub(crate) fn add_slope<const FMA: bool, const N: usize>(
         &self,
-        (element, rolling): (&StageElement, Option<&StageRolling>),
+        element: (&HeldElement, Option<&HeldRolling>),
         around: &Around,
         twist: &[Lanes; N],
-        slopes: Slopes,
-        to: &mut StageWrench<N>,
+        reach: f64,
+        to: &mut HeldSlope<N>,
     ) {
+        let moved = self.moved::<FMA, true, N>(element, around, twist);
+        let (element, _) = element;
+        let slope = self.slope::<FMA>(&moved.state, &moved.force, element.hardening, reach);
+        to.subtract::<FMA>(&slope.force, element.levers);
+        if N > AXIAL {
+            to.subtract_turning::<FMA>(&slope, element.levers, moved.turns, element.slope);
+        }
+    }
+
+    /// Adds the wrench on the ball of a node at a relative twist in that frame.
+    #[inline(always)]
+    fn add_wrench<const FMA: bool, const N: usize>(
+        &self,
+        element: (&HeldElement, Option<&HeldRolling>),
+        around: &Around,
+        twist: &[Lanes; N],
+        to: &mut [Lanes; N],
+    ) {
+        let moved = self.moved::<FMA, false, N>(element, around, twist);
+        let (HeldElement { levers, slope, .. }, force) = (element.0, &moved.force);
+        for i in 0..3 {
+            to[i] = to[i] - force.on_ring[i];
+        }
+        let [n, t, _] = force.on_ring;
+        to[3] = to[3] - moment::<FMA>(n, t, *levers);
+        if N > AXIAL {
+            let (sin, cos) = *slope;
+            let rubs = force.friction;
+            let along = [rubs[1], rubs[2] * cos - rubs[0] * sin];
+            for k in 0..2 {
+                to[AXIAL + k] = moved.turns[k].mul_add::<FMA>(along[k], to[AXIAL + k]);
+            }
+            to[AXIAL] = moved.beside.mul_add::<FMA>(along[1], to[AXIAL]);
+        }
+    }
+
+    /// A node at a relative twist, with what its slope asks for or without.
+    #[inline(always)]
+    fn moved<const FMA: bool, const SLOPE: bool, const N: usize>(
+        &self,
+        (element, rolling): (&HeldElement, Option<&HeldRolling>),
+        around: &Around,
+        twist: &[Lanes; N],
+    ) -> MovedElement {
         let levers = element.levers;
-        let StageRolling { load, depth, arm } = rolling.copied().unwrap_or_default();
+        let HeldRolling { load, depth, arm } = rolling.copied().unwrap_or_default();
         let mut velocity = [
             twist[3].mul_add::<FMA>(levers[0], twist[0]),
             twist[3].mul_add::<FMA>(levers[1], twist[1]),
             twist[2],
         ];
         let (one, none) = (Lanes::all(1.0), Lanes::ZERO);
-        // Slip along t_e and the meridian by turning about n_e and t_e; about n_e also where a point stands off the line of centres, as
-        // edges of the ball's own do.
         let beside = -(levers[0] * element.slope.1);
         let mut turns = [none; 2];
         let mut across = none;
@@ -251,22 +277,11 @@ impl Pair {
         } else {
             kernel::force::<_, FMA, false, SLOPE, false>(&self.law, &state, none)
         };
-        to.subtract_force::<FMA>(&force.on_ring, levers);
-        if N > AXIAL {
-            let (sin, cos) = element.slope;
-            let rubs = force.friction;
-            let along = [rubs[1], rubs[2] * cos - rubs[0] * sin];
-            for k in 0..2 {
-                to.wrench[AXIAL + k] = turns[k].mul_add::<FMA>(along[k], to.wrench[AXIAL + k]);
-            }
-            to.wrench[AXIAL] = beside.mul_add::<FMA>(along[1], to.wrench[AXIAL]);
-        }
-        if SLOPE {
-            let slope = self.slope::<FMA>(&state, &force, element.hardening, slopes);
-            to.subtract_slope::<FMA>(&slope.force, levers);
-            if N > AXIAL {
-                to.subtract_turning::<FMA>(&slope, levers, turns, element.slope);
-            }
+        MovedElement {
+            state,
+            force,
+            turns,
+            beside,
         }
     }
 
@@ -278,7 +293,7 @@ impl Pair {
         state: &ElementState<Lanes>,
         force: &ElementForce<Lanes>,
         hardening: Lanes,
-        Slopes { secant, reach }: Slopes,
+        reach: f64,
     ) -> Slope {
         let ((in_plane, axial), (sin, cos)) = (state.share, state.slope);
         let zero = Lanes::ZERO;
@@ -310,7 +325,7 @@ impl Pair {
         // By slip at constant normal force: N (φ 1 + (φ'/u) u⃗ u⃗ᵀ).
         let pressed = force.damped.or_zero();
         let drag = factor * pressed;
-        let bent = if secant { zero } else { force.bend * pressed };
+        let bent = force.bend * pressed;
         let tt = (bent * v_t).mul_add::<FMA>(v_t, drag);
         let tm = bent * v_t * u_m;
         let mm = (bent * u_m).mul_add::<FMA>(u_m, drag);
@@ -338,10 +353,10 @@ impl Pair {
     }
 }
 
-impl StageElement {
+impl HeldElement {
     /// Adds the slope of the elastic force alone, where places move with velocities: −(dN/dδ) n nᵀ times their reach.
     #[inline(always)]
-    fn stiffen<const FMA: bool, const N: usize>(&self, reach: f64, to: &mut StageWrench<N>) {
+    fn stiffen<const FMA: bool, const N: usize>(&self, reach: f64, to: &mut HeldSlope<N>) {
         let stiff = self.elastic * self.hardening * reach;
         let (in_plane, axial) = self.share;
         let zero = Lanes::ZERO;
@@ -351,14 +366,14 @@ impl StageElement {
             [zero; 3],
             [mixed, zero, stiff * axial * axial],
         ];
-        to.subtract_slope::<FMA>(&slope, self.levers);
+        to.subtract::<FMA>(&slope, self.levers);
     }
 }
 
 /// Collects the elements of eight contacts, of those that are whole.
 struct Holding<'a> {
-    elements: &'a mut Vec<StageElement>,
-    rolling: &'a mut Vec<StageRolling>,
+    elements: &'a mut Vec<HeldElement>,
+    rolling: &'a mut Vec<HeldRolling>,
     reads_rolling: bool,
     /// Of the elastic law for an element.
     exponent: f64,
@@ -367,8 +382,6 @@ struct Holding<'a> {
     /// Of the balls.
     radius: Lanes,
     regular: Mask,
-    /// Sum of the elastic forces in the plane.
-    radial: Lanes,
 }
 
 impl Receiver<Lanes> for Holding<'_> {
@@ -382,8 +395,7 @@ impl Receiver<Lanes> for Holding<'_> {
         let arm = element.groove.mul_add::<FMA>(sigma, self.moves.arm);
         let elastic = element.load * element.length;
         let elastic = self.regular.choose(elastic, Lanes::ZERO);
-        self.radial += elastic * element.share.0;
-        self.elements.push(StageElement {
+        self.elements.push(HeldElement {
             elastic,
             hardening: element
                 .depth
@@ -396,7 +408,7 @@ impl Receiver<Lanes> for Holding<'_> {
             place: element.sin * self.radius,
         });
         if self.reads_rolling {
-            self.rolling.push(StageRolling {
+            self.rolling.push(HeldRolling {
                 load: element.load,
                 depth: element.depth,
                 arm,

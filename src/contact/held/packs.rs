@@ -3,23 +3,23 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::{AXIAL, Around, FREE, PlaneVector, StageElement, StageRolling};
-use crate::contact::{Aside, OilTouch, Sink, Touch, V2, cross, turned};
+use super::{AXIAL, Around, HeldElement, HeldRolling, PlaneVector};
+use crate::contact::{OilTouch, Sink, Touch, V2, cross, turned};
 use crate::simd::{LANES, Lanes};
 
 /// Eight slices of one contact, each with its own direction.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct SlicePack {
     pub n_e: PlaneVector,
-    pub element: StageElement,
-    pub rolling: StageRolling,
+    pub element: HeldElement,
+    pub rolling: HeldRolling,
     /// What turns edges of the ball's own beside the ring's axis, along n_e and t_e (see [`Touch`]).
     swing: PlaneVector,
 }
 
 impl SlicePack {
     /// What a ball does that turns across the ring's axis at a relative twist in the frame (n_e, t_e, z, about z …): its own edges come
-    /// nearer, without slip.
+    /// nearer, without slip. What their moments do in turn is left out: few slices have such edges, and what they dampen is slow.
     #[inline(always)]
     pub fn approach<const N: usize>(&self, twist: &mut [Lanes; N]) {
         if N > AXIAL {
@@ -29,23 +29,6 @@ impl SlicePack {
             twist[0] += size * cos;
             twist[2] += size * sin;
         }
-    }
-
-    /// Adds the moments across the ring's axis of the normal forces in a wrench, which turn these edges; returns them. The wrench's slope
-    /// is without them: few slices have any, and what they dampen is slow.
-    #[inline(always)]
-    pub fn swing<const N: usize>(&self, wrench: &mut [Lanes; N]) -> PlaneVector {
-        if N <= AXIAL {
-            return [Lanes::ZERO; 2];
-        }
-        // Friction lies across the normal force.
-        let (sin, cos) = self.element.slope;
-        let normal = wrench[0] * cos + wrench[2] * sin;
-        let moment = normal * self.pressing() * self.element.levers[0];
-        let moments = self.swing.map(|swing| swing * moment);
-        wrench[AXIAL] += moments[0];
-        wrench[AXIAL + 1] += moments[1];
-        moments
     }
 
     /// The part of a normal force in the plane, over what of it shows along (cos α, sin α).
@@ -67,8 +50,6 @@ pub(crate) struct SlicePacking<'a> {
     pub lane: usize,
     /// From the ring's centre to the ball's, of length 1.
     pub outwards: V2,
-    /// Sum of forces beside those of slices: x, y, z, and about z, x and y of the ball's centre.
-    pub aside: [f64; FREE],
     /// Of the elastic law for a slice.
     pub exponent: f64,
     /// Slices so far.
@@ -138,14 +119,5 @@ impl Sink for SlicePacking<'_> {
             around.lever = Lanes::all(touch.lever);
         }
         self.is_new = true;
-    }
-
-    fn aside(&mut self, force: &Aside) {
-        let ([x, y, z, about], _) = force.wrenches();
-        let on_cap = force.on_cap();
-        let parts = [x, y, z, about, on_cap.x, on_cap.y];
-        for (sum, part) in self.aside.iter_mut().zip(parts) {
-            *sum += part;
-        }
     }
 }

@@ -63,12 +63,8 @@ fn the_slope_is_the_kernels() {
             let lanes = state(Lanes::all, velocity.map(Lanes::all));
             let force = kernel::force::<_, false, false, true, false>(&law, &lanes, Lanes::ZERO);
             let (hardening, reach) = (1.1 / 1e-5, 1e-6);
-            let slopes = Slopes {
-                secant: false,
-                reach,
-            };
             let written = pair
-                .slope::<false>(&lanes, &force, Lanes::all(hardening), slopes)
+                .slope::<false>(&lanes, &force, Lanes::all(hardening), reach)
                 .force;
             let of = Dual::<f64, 3>::constant;
             let variables = [0, 1, 2].map(|i| Dual::variable(velocity[i], i));

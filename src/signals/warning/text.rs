@@ -43,8 +43,7 @@ fn accelerations(f: &mut Formatter<'_>, residual: f64, stiff_share: f64, rtol: f
         f,
         "accelerations are uncertain by about {:.0} %: they differ that much from the derivative of the \
          velocities; {:.0} % of the steps stood at the stability limit (rtol = {rtol:e}). Use a smaller \
-         rtol, keep solver.frequency_cap on, take solver.method = \"implicit-friction\" where friction is that stiff, or \
-         raise its slip_speed",
+         rtol, keep solver.frequency_cap on, or raise friction's slip_speed",
         100.0 * residual,
         100.0 * stiff_share
     )

@@ -1,12 +1,10 @@
-//! Eight balls of an implicit stage between both races, ready for any velocities.
+//! Eight balls between both races, held where they are, and how their contacts answer to velocities.
 
 use std::array::from_fn;
 
-use nalgebra::Vector3;
-
 use crate::contact::{
-    AXIAL, Around, EightContacts, FREE, PlaneVector, Raise, SlicePack, SlicePacking, Slopes,
-    StageContacts, StageElements, StageWrench, V2, Wrench, in_contact,
+    AXIAL, Around, EightContacts, HeldContacts, HeldElements, HeldSlope, Raise, SlicePack,
+    SlicePacking, in_contact,
 };
 use crate::dynamics::{SideConstants, Touching, View};
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
@@ -25,7 +23,7 @@ pub(super) enum Met {
 
 /// Up to eight balls that touch something; the last one fills the lanes that are left.
 #[derive(Debug, Clone, Default)]
-pub(super) struct StageBatch<const N: usize> {
+pub(super) struct HeldBalls<const N: usize> {
     /// The class of their rows.
     class: usize,
     pub balls: [usize; LANES],
@@ -37,22 +35,18 @@ pub(super) struct StageBatch<const N: usize> {
 /// Their contacts with one ring.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Side<const N: usize> {
-    held: StageContacts,
-    nodes: StageElements,
+    held: HeldContacts,
+    nodes: HeldElements,
     /// Slices of contacts that are evaluated alone, and the numbers of these.
     packs: Vec<(usize, SlicePack)>,
     /// These contacts: their lane, and what their slices share.
     singles: Vec<(usize, Around)>,
     /// Axial places of the balls, in the ring's frame.
     raised: Lanes,
-    /// Forces on the balls that do not depend on velocities, of waves and of the ends of defects: (x, y, z, about z …).
-    aside: [Lanes; FREE],
     /// Whether any touches.
     pub touches: bool,
-    /// Force and moment on the balls, in (x, y, z, about z …) of the ring's frame, with slopes.
-    pub wrenches: StageWrench<N>,
-    /// Of the moments what turns caps of the balls across the ring's axis.
-    pub on_caps: PlaneVector,
+    /// Of force and moment on the balls, in (x, y, z, about z …) of the ring's frame.
+    pub slope: HeldSlope<N>,
 }
 
 impl<const N: usize> Side<N> {
@@ -61,21 +55,9 @@ impl<const N: usize> Side<N> {
         let [x, y] = self.held.apart;
         [x, y, self.raised]
     }
-
-    /// What one of them does to its ball, where that is, and what of the moment turns its caps across the ring's axis.
-    pub fn of(&self, lane: usize) -> (Wrench, Vector3<f64>, V2) {
-        let number = |i: usize| self.wrenches.wrench.get(i).map_or(0.0, |of| of[lane]);
-        let wrench = Wrench {
-            force: Vector3::new(number(0), number(1), number(2)),
-            moment: Vector3::new(number(AXIAL), number(AXIAL + 1), number(3)),
-        };
-        let [x, y] = self.on_caps;
-        let place = self.apart().map(|along| along[lane]);
-        (wrench, place.into(), V2::new(x[lane], y[lane]))
-    }
 }
 
-impl<const N: usize> StageBatch<N> {
+impl<const N: usize> HeldBalls<N> {
     /// Empties it, for balls of a class of rows.
     pub fn clear(&mut self, class: usize) {
         (self.class, self.count) = (class, 0);
@@ -106,7 +88,7 @@ impl<const N: usize> StageBatch<N> {
             side.singles.clear();
             side.touches = meetings.iter().any(|m| *m != Met::Nothing);
             if !side.touches {
-                side.wrenches = StageWrench::default();
+                side.slope = HeldSlope::default();
                 continue;
             }
             let whole = |lane: usize| matches!(meetings[lane], Met::Whole(_));
@@ -128,8 +110,6 @@ impl<const N: usize> StageBatch<N> {
                 view: &views[race],
                 free: N > AXIAL,
             });
-            side.aside = [Lanes::ZERO; FREE];
-            side.aside[..AXIAL].copy_from_slice(&side.held.aside);
             let View { q, ring, .. } = &views[race];
             let place = |ball: usize| q.get(BodyId::ball(ball), Dof::Z) - ring.z;
             side.raised = Lanes::from_fn(|lane| place(self.balls[lane]));
@@ -141,23 +121,13 @@ impl<const N: usize> StageBatch<N> {
         }
     }
 
-    /// Finds what all contacts do at some velocities.
-    pub fn forces(&mut self, model: &Model, views: &[View<'_>; 2]) {
-        model.instructions.run(StageForces::<N, false> {
+    /// Finds how all contacts answer to velocities, and to places that move by so much with these \[s\].
+    pub fn find_slopes(&mut self, model: &Model, views: &[View<'_>; 2], reach: f64) {
+        model.instructions.run(FindSlopes {
             batch: self,
             model,
             views,
-            slopes: Slopes::default(),
-        });
-    }
-
-    /// The same with the slopes; see [`crate::contact::Pair::force`].
-    pub fn forces_and_slopes(&mut self, model: &Model, views: &[View<'_>; 2], slopes: Slopes) {
-        model.instructions.run(StageForces::<N, true> {
-            batch: self,
-            model,
-            views,
-            slopes,
+            reach,
         });
     }
 }
@@ -172,7 +142,6 @@ impl<const N: usize> Side<N> {
             lane,
             packs: &mut self.packs,
             outwards: at.seen_from(&view.ring).centre.normalize(),
-            aside: [0.0; FREE],
             exponent: pair.law.elastic.exponent(),
             count: 0,
             contacts: &mut self.singles,
@@ -180,16 +149,13 @@ impl<const N: usize> Side<N> {
             is_new: true,
         };
         pair.evaluate_into(&compiled.side, &at, &view.ring, &mut packing);
-        for (sum, part) in self.aside.iter_mut().zip(packing.aside) {
-            sum[lane] += part;
-        }
     }
 }
 
 /// Finds the nodes of whole contacts.
 struct FindElements<'a> {
     class: usize,
-    nodes: &'a mut StageElements,
+    nodes: &'a mut HeldElements,
     race: Race,
     contacts: &'a [Touching; LANES],
     whole: Mask,
@@ -201,12 +167,12 @@ struct FindElements<'a> {
 }
 
 impl Task for FindElements<'_> {
-    type Output = StageContacts;
+    type Output = HeldContacts;
 
     // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
-    fn run<const FMA: bool>(self) -> StageContacts {
+    fn run<const FMA: bool>(self) -> HeldContacts {
         let mut eight = EightContacts::default();
         self.constants[self.race].eight(self.class, self.contacts, self.view, &mut eight);
         let pair = &self.model.rows[self.class].pairs[self.race];
@@ -215,19 +181,19 @@ impl Task for FindElements<'_> {
         let balls = self.contacts.iter().map(|contact| contact.ball);
         let turning = self.free.then(|| self.view.turning(balls));
         let of = (&eight, turning);
-        pair.stage_elements::<FMA>(of, ring, self.whole, instructions, self.nodes)
+        pair.held_elements::<FMA>(of, ring, self.whole, instructions, self.nodes)
     }
 }
 
-/// Finds what the nodes do.
-struct StageForces<'a, const N: usize, const SLOPE: bool> {
-    batch: &'a mut StageBatch<N>,
+/// Finds how the nodes answer.
+struct FindSlopes<'a, const N: usize> {
+    batch: &'a mut HeldBalls<N>,
     model: &'a Model,
     views: &'a [View<'a>; 2],
-    slopes: Slopes,
+    reach: f64,
 }
 
-impl<const N: usize, const SLOPE: bool> Task for StageForces<'_, N, SLOPE> {
+impl<const N: usize> Task for FindSlopes<'_, N> {
     type Output = ();
 
     // Compiled for the instruction set that runs it.
@@ -238,7 +204,7 @@ impl<const N: usize, const SLOPE: bool> Task for StageForces<'_, N, SLOPE> {
             batch,
             model,
             views,
-            slopes,
+            reach,
         } = self;
         for race in Race::BOTH {
             let side = &mut batch.sides[race];
@@ -269,43 +235,27 @@ impl<const N: usize, const SLOPE: bool> Task for StageForces<'_, N, SLOPE> {
             twist[3] = twist[3] - ring[3];
             let local = in_contact(&twist, n_e);
             let held = (&mut side.nodes, &side.held);
-            let found =
-                pair.stage_forces::<FMA, SLOPE, N>(held, &local, slopes, model.instructions);
-            let sum = &mut side.wrenches;
-            sum.wrench = found.wrench;
-            if SLOPE {
-                sum.slope = found.slope;
-            }
-            pair.rolling_resistance::<SLOPE, N>(&side.held.around, &local, sum);
-            sum.turn::<SLOPE>(n_e);
-            for (wrench, aside) in sum.wrench.iter_mut().zip(side.aside) {
-                *wrench += aside;
-            }
-            if N > AXIAL {
-                side.on_caps.copy_from_slice(&side.aside[AXIAL..]);
-            }
+            let sum = &mut side.slope;
+            *sum = pair.slopes::<FMA, N>(held, &local, reach, model.instructions);
+            pair.add_rolling_resistance::<N>(&side.held.around, sum);
+            sum.turn(n_e);
             for (contact, pack) in &side.packs {
                 let (lane, around) = &side.singles[*contact];
                 let all = twist.map(|w| Lanes::all(w[*lane]));
-                let mut part = StageWrench::default();
+                let mut part = HeldSlope::default();
                 let mut local = in_contact(&all, pack.n_e);
                 pack.approach(&mut local);
                 let element = (&pack.element, Some(&pack.rolling));
-                pair.force::<FMA, SLOPE, N>(element, around, &local, slopes, &mut part);
-                let [along, across] = pack.swing(&mut part.wrench);
-                let [n_x, n_y] = pack.n_e;
-                side.on_caps[0][*lane] += (along * n_x - across * n_y).sum();
-                side.on_caps[1][*lane] += (along * n_y + across * n_x).sum();
-                part.turn::<SLOPE>(pack.n_e);
-                sum.gather::<SLOPE>(*lane, &part);
+                pair.add_slope::<FMA, N>(element, around, &local, reach, &mut part);
+                part.turn(pack.n_e);
+                sum.gather(*lane, &part);
             }
             for (lane, around) in &side.singles {
-                let all = twist.map(|w| Lanes::all(w[*lane]));
                 let n_e = n_e.map(|n| Lanes::all(n[*lane]));
-                let mut part = StageWrench::default();
-                pair.rolling_resistance::<SLOPE, N>(around, &in_contact(&all, n_e), &mut part);
-                part.turn::<SLOPE>(n_e);
-                sum.add_lane::<SLOPE>(*lane, &part);
+                let mut part = HeldSlope::default();
+                pair.add_rolling_resistance::<N>(around, &mut part);
+                part.turn(n_e);
+                sum.add_lane(*lane, &part);
             }
         }
     }

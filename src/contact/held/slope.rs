@@ -1,4 +1,4 @@
-//! The wrench of a contact of a stage on its ball, and its derivative by the relative twist.
+//! The derivative of a contact's wrench on its ball by the relative twist.
 
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
@@ -14,19 +14,17 @@ pub(crate) type PlaneVector = [Lanes; 2];
 pub(crate) const AXIAL: usize = 4;
 pub(crate) const FREE: usize = 6;
 
-/// Wrench on the ball about its centre, (n_e, t_e, z \[N\], about z \[N m\]) or (x, y, z, about z), and its
-/// derivative by the relative twist. Of a ball that spins freely the moments about n_e and t_e, or x and y, stand behind.
+/// Derivative of the wrench on the ball about its centre, (n_e, t_e, z, about z) or (x, y, z, about z), by the relative twist. Of a ball
+/// that spins freely the moments about n_e and t_e, or x and y, stand behind.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct StageWrench<const N: usize> {
-    pub wrench: [Lanes; N],
-    pub slope: [[Lanes; N]; N],
+pub(crate) struct HeldSlope<const N: usize> {
+    pub by: [[Lanes; N]; N],
 }
 
-impl<const N: usize> Default for StageWrench<N> {
+impl<const N: usize> Default for HeldSlope<N> {
     fn default() -> Self {
         Self {
-            wrench: [Lanes::ZERO; N],
-            slope: [[Lanes::ZERO; N]; N],
+            by: [[Lanes::ZERO; N]; N],
         }
     }
 }
@@ -41,40 +39,27 @@ pub(super) struct Slope {
     pub slip: [Lanes; 3],
 }
 
-impl<const N: usize> StageWrench<N> {
-    /// Subtracts a force at a point with those levers.
+impl<const N: usize> HeldSlope<N> {
+    /// Subtracts the slope of a force at a point with those levers by the velocity of the point.
     #[inline(always)]
-    pub(super) fn subtract_force<const FMA: bool>(
-        &mut self,
-        force: &[Lanes; 3],
-        levers: PlaneVector,
-    ) {
-        for i in 0..3 {
-            self.wrench[i] = self.wrench[i] - force[i];
-        }
-        self.wrench[3] = self.wrench[3] - moment::<FMA>(force[0], force[1], levers);
-    }
-
-    /// Subtracts the slope of such a force by the velocity of the point.
-    #[inline(always)]
-    pub(super) fn subtract_slope<const FMA: bool>(
+    pub(super) fn subtract<const FMA: bool>(
         &mut self,
         slope: &[[Lanes; 3]; 3],
         levers: PlaneVector,
     ) {
         for i in 0..3 {
             for j in 0..3 {
-                self.slope[i][j] = self.slope[i][j] - slope[i][j];
+                self.by[i][j] = self.by[i][j] - slope[i][j];
             }
             let turning = moment::<FMA>(slope[i][0], slope[i][1], levers);
-            self.slope[i][3] = self.slope[i][3] - turning;
+            self.by[i][3] = self.by[i][3] - turning;
         }
         let mut turning = [Lanes::ZERO; 3];
         for j in 0..3 {
             turning[j] = moment::<FMA>(slope[0][j], slope[1][j], levers);
-            self.slope[3][j] = self.slope[3][j] - turning[j];
+            self.by[3][j] = self.by[3][j] - turning[j];
         }
-        self.slope[3][3] = self.slope[3][3] - moment::<FMA>(turning[0], turning[1], levers);
+        self.by[3][3] = self.by[3][3] - moment::<FMA>(turning[0], turning[1], levers);
     }
 
     /// Subtracts what a slope does by turning about n_e and t_e, which adds so much to slip along t_e and the meridian, and to the
@@ -95,15 +80,15 @@ impl<const N: usize> StageWrench<N> {
             let (along, across) = by_slip[k];
             let column = [-(across * sin), along, across * cos];
             for i in 0..3 {
-                self.slope[i][at] = self.slope[i][at] - turns[k] * column[i];
-                self.slope[at][i] = self.slope[at][i] - turns[k] * rubbing[k][i];
+                self.by[i][at] = self.by[i][at] - turns[k] * column[i];
+                self.by[at][i] = self.by[at][i] - turns[k] * rubbing[k][i];
             }
             let about = moment::<FMA>(column[0], column[1], levers);
-            self.slope[3][at] = self.slope[3][at] - turns[k] * about;
+            self.by[3][at] = self.by[3][at] - turns[k] * about;
             let about = moment::<FMA>(rubbing[k][0], rubbing[k][1], levers);
-            self.slope[at][3] = self.slope[at][3] - turns[k] * about;
+            self.by[at][3] = self.by[at][3] - turns[k] * about;
             for (l, by) in [along, across].into_iter().enumerate() {
-                let to = &mut self.slope[AXIAL + l][at];
+                let to = &mut self.by[AXIAL + l][at];
                 *to = *to - turns[l] * by * turns[k];
             }
         }
@@ -111,41 +96,35 @@ impl<const N: usize> StageWrench<N> {
 
     /// Turns it from the contact's frame into (x, y, z, about z).
     #[inline(always)]
-    pub(crate) fn turn<const SLOPE: bool>(&mut self, n_e: PlaneVector) {
+    pub(crate) fn turn(&mut self, n_e: PlaneVector) {
         let turn = |n: Lanes, t: Lanes| (n * n_e[0] - t * n_e[1], n * n_e[1] + t * n_e[0]);
         // Where components along n_e stand, with those along t_e behind.
         for n in (0..N).step_by(AXIAL) {
             let t = n + 1;
-            let force = &mut self.wrench;
-            (force[n], force[t]) = turn(force[n], force[t]);
-            if SLOPE {
-                let slope = &mut self.slope;
-                for j in 0..N {
-                    (slope[n][j], slope[t][j]) = turn(slope[n][j], slope[t][j]);
-                }
-                for row in slope {
-                    (row[n], row[t]) = turn(row[n], row[t]);
-                }
+            let slope = &mut self.by;
+            for j in 0..N {
+                (slope[n][j], slope[t][j]) = turn(slope[n][j], slope[t][j]);
+            }
+            for row in slope {
+                (row[n], row[t]) = turn(row[n], row[t]);
             }
         }
     }
 
     /// Adds one lane of another, whose lanes are alike, to that lane.
-    pub(crate) fn add_lane<const SLOPE: bool>(&mut self, lane: usize, other: &Self) {
+    pub(crate) fn add_lane(&mut self, lane: usize, other: &Self) {
         for i in 0..N {
-            self.wrench[i][lane] += other.wrench[i][lane];
-            for j in 0..if SLOPE { N } else { 0 } {
-                self.slope[i][j][lane] += other.slope[i][j][lane];
+            for j in 0..N {
+                self.by[i][j][lane] += other.by[i][j][lane];
             }
         }
     }
 
     /// Adds all lanes of another to one lane.
-    pub(crate) fn gather<const SLOPE: bool>(&mut self, lane: usize, other: &Self) {
+    pub(crate) fn gather(&mut self, lane: usize, other: &Self) {
         for i in 0..N {
-            self.wrench[i][lane] += other.wrench[i].sum();
-            for j in 0..if SLOPE { N } else { 0 } {
-                self.slope[i][j][lane] += other.slope[i][j].sum();
+            for j in 0..N {
+                self.by[i][j][lane] += other.by[i][j].sum();
             }
         }
     }
@@ -153,7 +132,7 @@ impl<const N: usize> StageWrench<N> {
 
 /// About z of components along n_e and t_e.
 #[inline(always)]
-fn moment<const FMA: bool>(n: Lanes, t: Lanes, levers: PlaneVector) -> Lanes {
+pub(super) fn moment<const FMA: bool>(n: Lanes, t: Lanes, levers: PlaneVector) -> Lanes {
     levers[0].mul_add::<FMA>(n, levers[1] * t)
 }
 

@@ -1,4 +1,4 @@
-//! The contacts of an implicit stage, held at its positions, and the matrix of their slopes.
+//! The contacts, held at the places of a state, and the matrix of their slopes.
 
 use std::ops::Range;
 
@@ -6,41 +6,34 @@ use rayon::prelude::*;
 
 use super::arrow::{Arrow, EightOnRing};
 use super::carrier::{Carrier, RingRotation};
-use super::stage_batch::{Met, StageBatch};
-use crate::contact::{AXIAL, Slopes};
-use crate::dynamics::{Batch, Dynamics, Guarantees, HeldContacts, OnRings, View};
-use crate::forces::Table;
-use crate::model::{BodyId, DOFS, Dof, Layout, Model, Race};
+use super::held_balls::{HeldBalls, Met};
+use crate::contact::AXIAL;
+use crate::dynamics::{Batch, Dynamics, Guarantees, View};
+use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Task};
 
 /// Relative change of γh up to which a matrix serves on.
 const SAME: f64 = 0.2;
 
-/// Memory of an implicit stage.
+/// The matrix, with the memory that making it takes.
 #[derive(Debug, Clone)]
-pub(super) struct Stage<const N: usize> {
+pub(super) struct ContactMatrix<const N: usize> {
     /// Used to search what touches.
     search: Batch,
     /// What every ball may meet at both rings.
     meetings: Vec<[Met; 2]>,
     /// The balls that meet something, by eights: the first `active` of these.
-    batches: Vec<StageBatch<N>>,
+    batches: Vec<HeldBalls<N>>,
     active: usize,
     arrow: Arrow<N>,
     /// Residuals of all velocities, by body: along x, y and z, about z, and tilts of rings or turning about x and y of balls. After
-    /// [`Stage::correct`] their corrections.
+    /// [`ContactMatrix::correct`] their corrections.
     pub residual: Vec<[f64; N]>,
-    /// Radii that make speeds of rotation comparable, by body.
-    radii: Vec<f64>,
-    /// Which slopes are wanted; secants, once tangents led astray.
-    pub slopes: Slopes,
-    /// γh of the matrix, as long as it serves.
-    pub kept: Option<f64>,
-    /// Which rings every ball met when it was made.
-    kept_meetings: Vec<[bool; 2]>,
+    /// γh of the matrix, once there is one.
+    kept: Option<f64>,
 }
 
-impl<const N: usize> Stage<N> {
+impl<const N: usize> ContactMatrix<N> {
     /// For the contacts of some rows.
     pub fn new(model: &Model, rows: Range<usize>) -> Self {
         let kind = Guarantees {
@@ -52,14 +45,11 @@ impl<const N: usize> Stage<N> {
         Self {
             search: Batch::new(model, kind),
             meetings: vec![<[Met; 2]>::default(); balls],
-            batches: vec![StageBatch::default(); eights],
+            batches: vec![HeldBalls::default(); eights],
             active: 0,
             arrow: Arrow::new(eights),
             residual: vec![[0.0; N]; model.bodies.len()],
-            radii: model.layout().bodies().map(|id| model.radius(id)).collect(),
-            slopes: Slopes::default(),
             kept: None,
-            kept_meetings: vec![[false; 2]; balls],
         }
     }
 
@@ -72,7 +62,7 @@ impl<const N: usize> Stage<N> {
         self.search.find(None, model, views);
         self.gather(model);
         let constants = &self.search.constants;
-        let find = |batch: &mut StageBatch<N>| batch.find_elements(model, constants, views);
+        let find = |batch: &mut HeldBalls<N>| batch.find_elements(model, constants, views);
         let batches = &mut self.batches[..self.active];
         match dynamics.pool() {
             Some(pool) => pool.install(|| batches.par_iter_mut().for_each(find)),
@@ -86,7 +76,7 @@ impl<const N: usize> Stage<N> {
         self.meetings.fill(<[Met; 2]>::default());
         for race in Race::BOTH {
             for contact in self.search.touching(race) {
-                // The elements of a stage are those of a torus.
+                // Held elements are those of a torus.
                 let row = &model.rows[model.balls[contact.ball].row];
                 self.meetings[contact.ball][race] = if row.pairs[race].shape.is_torus() {
                     Met::Whole([contact.raise, contact.swell])
@@ -120,16 +110,10 @@ impl<const N: usize> Stage<N> {
         }
     }
 
-    /// Finds what the contacts do at the velocities that are seen, with slopes or without.
-    pub fn forces(&mut self, dynamics: &Dynamics<'_>, views: &[View<'_>; 2], slopes: bool) {
-        let (model, wanted) = (dynamics.coated(), self.slopes);
-        let find = |batch: &mut StageBatch<N>| {
-            if slopes {
-                batch.forces_and_slopes(model, views, wanted);
-            } else {
-                batch.forces(model, views);
-            }
-        };
+    /// Finds how the contacts answer to the velocities that are seen, and to places that move by so much with these \[s\].
+    pub fn find_slopes(&mut self, dynamics: &Dynamics<'_>, views: &[View<'_>; 2], reach: f64) {
+        let model = dynamics.coated();
+        let find = |batch: &mut HeldBalls<N>| batch.find_slopes(model, views, reach);
         let batches = &mut self.batches[..self.active];
         match dynamics.pool() {
             Some(pool) => pool.install(|| batches.par_iter_mut().for_each(find)),
@@ -146,9 +130,6 @@ impl<const N: usize> Stage<N> {
             gamma_h,
         });
         self.kept = Some(gamma_h);
-        for (kept, meetings) in self.kept_meetings.iter_mut().zip(&self.meetings) {
-            *kept = meetings.map(|meeting| meeting != Met::Nothing);
-        }
     }
 
     /// Whether the matrix that is there was made for nearly the same γh.
@@ -157,37 +138,9 @@ impl<const N: usize> Stage<N> {
         self.kept.is_some_and(same)
     }
 
-    /// Whether the matrix that is there was made for nearly the same equations.
-    pub fn is_kept(&self, gamma_h: f64) -> bool {
-        let meets = |meeting: Met| meeting != Met::Nothing;
-        self.is_like(gamma_h)
-            && self
-                .kept_meetings
-                .iter()
-                .zip(&self.meetings)
-                .all(|(kept, meetings)| *kept == meetings.map(meets))
-    }
-
-    /// Adds the corrections to the velocities of all bodies, and returns the largest; `across` are those beside the directions that every
-    /// body has.
-    pub fn apply(&self, velocities: &mut [f64], across: &[Velocity]) -> Largest {
-        let mut largest = Largest::default();
-        let bodies = Layout::each_mut(velocities).iter_mut();
-        let corrections = self.residual.iter().zip(&self.radii);
-        for (b, (v, (correction, radius))) in bodies.zip(corrections).enumerate() {
-            let mut levers = [1.0; DOFS];
-            levers[Dof::Theta] = *radius;
-            for (i, lever) in levers.into_iter().enumerate() {
-                v[i] += correction[i];
-                largest.take(correction[i] * lever, DOFS * b + i);
-            }
-        }
-        for Velocity { at, body, place } in across {
-            let correction = self.residual[body.index()][*place];
-            velocities[*at] += correction;
-            largest.take(correction * self.radii[body.index()], *at);
-        }
-        largest
+    /// How much of the fastest velocity the matrix takes off in γh.
+    pub fn stiffest(&self) -> f64 {
+        self.arrow.stiffest
     }
 
     /// Solves for the correction of all velocities; `residual` is replaced by it. False if singular.
@@ -196,79 +149,7 @@ impl<const N: usize> Stage<N> {
     }
 }
 
-impl<const N: usize> HeldContacts for Stage<N> {
-    fn add_to(&self, forces: &mut Table) {
-        for batch in &self.batches[..self.active] {
-            for race in Race::BOTH {
-                let side = &batch.sides[race];
-                if !side.touches {
-                    continue;
-                }
-                let (wrench, apart) = (&side.wrenches.wrench, side.apart());
-                let [x, y, z, turn] = [0, 1, 2, 3].map(|i| wrench[i]);
-                for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
-                    let wrench = [x[lane], y[lane], z[lane], turn[lane]];
-                    forces.add(BodyId::ball(*ball), &wrench);
-                }
-                // −Tᵀ of the wrench on the ball.
-                let about = turn + y * apart[0] - x * apart[1];
-                forces.add(race.ring(), &[x, y, z, about].map(|part| -part.sum()));
-            }
-        }
-    }
-
-    fn add_leaning(
-        &self,
-        views: &[View<'_>; 2],
-        forces: &mut Table,
-        across: &mut [[f64; 2]],
-    ) -> OnRings {
-        let mut on_rings = OnRings::default();
-        for batch in &self.batches[..self.active] {
-            for race in Race::BOTH {
-                let side = &batch.sides[race];
-                if !side.touches {
-                    continue;
-                }
-                for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
-                    let (wrench, place, on_cap) = side.of(lane);
-                    let [force, about] = &mut on_rings[race];
-                    *force -= wrench.force;
-                    *about += wrench.moment_on_ring(&place);
-                    let [force, moment] = match views[race].leaning {
-                        Some(view) => wrench.on_ball(&view.ring, &on_cap),
-                        None => [wrench.force, wrench.moment],
-                    };
-                    let on_ball = [force.x, force.y, force.z, moment.z];
-                    forces.add(BodyId::ball(*ball), &on_ball);
-                    if let Some(across) = across.get_mut(*ball) {
-                        across[0] += moment.x;
-                        across[1] += moment.y;
-                    }
-                }
-            }
-        }
-        on_rings
-    }
-}
-
-/// The largest correction \[m/s\], or one that is not a number, and of which velocity it is.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Largest {
-    pub size: f64,
-    pub velocity: usize,
-}
-
-impl Largest {
-    fn take(&mut self, correction: f64, velocity: usize) {
-        let size = correction.abs();
-        if size > self.size || size.is_nan() {
-            *self = Self { size, velocity };
-        }
-    }
-}
-
-/// Where a velocity stands: among those of a run, and among those of its body in a [`Stage`].
+/// Where a velocity stands: among those of a run, and among those of its body in a [`ContactMatrix`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Velocity {
     pub at: usize,
@@ -290,7 +171,7 @@ impl Velocity {
 
 /// Makes the matrix.
 struct Factorise<'a, const N: usize> {
-    work: &'a mut Stage<N>,
+    work: &'a mut ContactMatrix<N>,
     dynamics: &'a Dynamics<'a>,
     views: &'a [View<'a>; 2],
     gamma_h: f64,
@@ -305,7 +186,7 @@ impl<const N: usize> Task for Factorise<'_, N> {
     fn run<const FMA: bool>(self) {
         let (dynamics, views, gamma_h) = (self.dynamics, self.views, self.gamma_h);
         let (model, mobilities) = (dynamics.model(), dynamics.mobility());
-        let Stage {
+        let ContactMatrix {
             arrow,
             batches,
             active,
@@ -328,7 +209,7 @@ impl<const N: usize> Task for Factorise<'_, N> {
             }
             let contacts = Race::BOTH.map(|race| {
                 let (side, turn) = (&batch.sides[race], turns[race]);
-                let (slope, apart) = (&side.wrenches.slope, side.apart());
+                let (slope, apart) = (&side.slope.by, side.apart());
                 side.touches.then_some(EightOnRing { slope, apart, turn })
             });
             arrow.eliminate::<FMA>(eight, &contacts, &scale);
@@ -344,7 +225,7 @@ impl<const N: usize> Task for Factorise<'_, N> {
 
 /// Solves for the corrections.
 struct Correct<'a, const N: usize> {
-    work: &'a mut Stage<N>,
+    work: &'a mut ContactMatrix<N>,
 }
 
 impl<const N: usize> Task for Correct<'_, N> {
@@ -354,7 +235,7 @@ impl<const N: usize> Task for Correct<'_, N> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) -> bool {
-        let Stage {
+        let ContactMatrix {
             arrow,
             residual,
             batches,
