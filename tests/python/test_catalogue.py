@@ -472,7 +472,7 @@ SPALL = br.defects.spall(on="inner_race", width_mm=1.0)
     [
         ({"defects": [SPALL, SPALL]}, "defects", r"several by their names, \{\"first\""),
         ({"defects": "inner_race"}, "defects", r"br\.defects\.spall\(on=\"inner_race\""),
-        ({"defects": {"a": "inner_race"}}, "defects", r"br\.defects\.spall"),
+        ({"defects": {"a": "inner_race"}}, "defects.a", r"br\.defects\.spall"),
         ({"speed": 1797.0}, "speed", r"speed_rpm, .* \[rev/min\]"),
         ({"d": 25e-3}, "d", r"br\.bearing\(\"6205\"\)"),
         ({"load": 1e3}, "load", "radial_load"),

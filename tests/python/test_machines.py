@@ -57,7 +57,7 @@ def test_forces_and_moments_balance_in_space() -> None:
     tilt = np.array([*found.inner_tilt, 0.0])
     turn = np.eye(3) + np.array([[0, 0, tilt[1]], [0, 0, -tilt[0]], [-tilt[1], tilt[0], 0]])
     total, about = np.array([0.0, -load, 0.0]), np.zeros(3)
-    for each in reactions(made, found):
+    for each in reactions(made):
         total += each.force
         about += each.moment + np.cross(turn @ [0.0, 0.0, each.at - place], each.force)
     for pull in made.loads.values():
@@ -203,6 +203,7 @@ def test_the_motor_is_a_preset() -> None:
     [
         ({"bearings": [("6309", 0.0)]}, "bearings"), ({"bearings": "6309"}, "bearings"),
         ({"bearings": [("6309", 0.0), ("6207", 0.0)]}, "bearings"),
+        ({"bearings": [("6309", 0.0), ("6207", 0.25), ("6207", -0.015)]}, "bearings"),
         ({"bearings": [("6309", 0.0), 3.0]}, "bearings"),
         ({"bearings": [("6309", 0.0), ("6207", math.nan)]}, "bearings"),
         ({"bearings": [("6309", 0.0, 1), ("6207", 0.2)]}, "bearings"),
@@ -213,6 +214,16 @@ def test_the_motor_is_a_preset() -> None:
         ({"masses": [(1.0, 0.1, -1.0)]}, "masses"),
         ({"unbalances": [(1e-6,)]}, "unbalances"), ({"unbalances": [("a", 0.1)]}, "unbalances"),
         ({"housing": None}, "housing"),
+        ({"loads": 3.0}, "loads"), ({"loads": [force(y=1.0, at=0.0)]}, "loads"),
+        ({"loads": {1: force(y=1.0, at=0.0)}}, "loads"), ({"loads": {"a": 900.0}}, "loads.a"),
+        ({"loads": {"a": br.scene.Moment(ring="inner", direction=(1, 0, 0), moment=1.0)}}, "loads.a"),
+        ({"loads": {"a b": force(y=1.0, at=0.0)}}, 'loads."a b"'),
+        ({"loads": {"a": br.scene.Load(ring="inner", direction=(0, 1, 0), force=math.nan)}}, "loads.a.force"),
+        ({"loads": {"a": br.scene.Load(ring="shaft", direction=(0, 1, 0), force=1.0)}}, "loads.a.ring"),  # type: ignore[arg-type]
+        ({"loads": {"a": br.scene.Load(ring="inner", direction=(0, 1), force=1.0)}}, "loads.a.direction"),  # type: ignore[arg-type]
+        ({"loads": {"a": br.scene.Load(ring="inner", direction=(0, 1, 0), force=1.0, at=0.1)}}, "loads.a.at"),  # type: ignore[arg-type]
+        ({"defects": 1.0}, "defects"), ({"defects": {"a": "spall"}}, "defects.a"),
+        ({"speed": 100.0}, "speed"), ({"radial_load": 100.0}, "radial_load"),
     ],
 )  # fmt: skip
 def test_a_shaft_names_what_is_wrong(arguments: dict[str, object], field: str) -> None:
@@ -222,6 +233,24 @@ def test_a_shaft_names_what_is_wrong(arguments: dict[str, object], field: str) -
     assert refused.value.path == field
 
 
+def test_bearings_side_by_side_touch_and_do_not_overlap() -> None:
+    """By the widths of ISO 15: a 6309 has 25 mm, a 6207 17 mm; 21 mm from middle to middle they touch."""
+    assert len(br.shaft([("6207", 0.1), ("6309", 0.1 + 0.021)]).rows) == 2
+    allowed = r"^bearings = 6207 at 0\.1 m, 6309 at 0\.12 m: places 0\.021 m apart or more"
+    with pytest.raises(br.SceneError, match=allowed):
+        br.shaft([("6309", 0.12), ("6207", 0.1)])
+
+
+def test_one_defect_of_a_shaft_needs_no_name() -> None:
+    spall = br.defects.spall(on="inner_race", width_mm=1.0, row=1)
+    assert dict(br.shaft(BEARINGS, defects=spall).defects)["defect"].row == 1
+
+
+def test_reactions_are_of_a_scene() -> None:
+    with pytest.raises(br.SceneError, match=r"^scene = '6205': a Scene"):
+        reactions("6205")  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize(
     ("arguments", "field"),
     [
@@ -229,7 +258,7 @@ def test_a_shaft_names_what_is_wrong(arguments: dict[str, object], field: str) -
         ({"preload": -1.0}, "preload"),
         ({"preload": 10.0, "arrangement": "tandem"}, "preload"), ({"radial_load": -1.0}, "radial_load"),
         ({"at": math.nan}, "at"),
-        ({"axial_load": math.inf}, "axial_load"),
+        ({"axial_load": math.inf}, "axial_load"), ({"load": 1.0}, "load"), ({"rpm": 1.0}, "rpm"),
     ],
 )  # fmt: skip
 def test_a_pair_names_what_is_wrong(arguments: dict[str, object], field: str) -> None:

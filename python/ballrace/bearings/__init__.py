@@ -14,7 +14,8 @@
 ``estimate``   a bearing of which bore, outside diameter and width are known
 ``clearance``  the classes of ISO 5753
 ``pedestal``   the housing that the outer ring sits in
-``build``      a scene of a bearing: clearance, cage, friction, supports
+``build``      a scene of a bearing: clearance, loads, supports
+``filled``     what all such scenes have: friction, cage, drive, probes
 =============  ====================================================================
 
 Makers publish bore, outside diameter, width, load ratings and often a factor f₀ of a bearing, not its balls. Those

@@ -3,33 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from .._arguments import knows
 from .._numbers import real
 from ..errors import SceneError
-from ..scene import (
-    Cage,
-    Coulomb,
-    Defect,
-    Load,
-    Lubricant,
-    MotionProbe,
-    Ring,
-    Row,
-    Scene,
-    SpeedDrive,
-    Spring,
-    Support,
-    Texture,
-)
-from ..scene.lubricant import chosen
+from ..scene import Defect, Load, Lubricant, Ring, Row, Scene, Spring, Support, Texture
 from .clearance import radial_clearance
 from .entry import Bearing
+from .filled import filled
 from .pedestal import Pedestal, chosen_housing
 from .rows import catalogue
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 __all__ = ["bearing", "rows_of", "said_clearance"]
 
@@ -137,40 +125,22 @@ def bearing(
     rows = tuple(replace(row, texture=texture) for row in smooth)
     radial = 0.1 * made.static_rating if radial_load is None else _load("radial_load", radial_load)
     axial = _thrust(made, radial, axial_load)
-    if not math.isfinite(real(speed_rpm)):
-        raise SceneError("speed_rpm", str(speed_rpm), "a speed [rev/min]")
-    named = _named(defects)
-    oil = chosen(lubricant, temperature_c)
     size = (made.outside_diameter**2 - made.pitch_diameter**2) * made.width / _OF_6205
-    return Scene(
+    return filled(
         name=made.designation,
         rows=rows,
         outer_ring=_outer(made, chosen_housing(housing, made.outside_diameter), size),
         # With 1 kg of shaft in a 6205, damped by its surroundings.
         inner_ring=_ring(made.bore, made, 0.0, 300.0 * size, 1.0 * size),
-        friction=Coulomb(coefficient=0.05, slip_speed=0.1),
-        lubricant=oil,
-        cage=Cage(stiffness=1e6, damping=20.0, play=0.1e-3),
         loads={
             "radial": Load(ring="inner", direction=(0.0, -1.0, 0.0), force=radial),
             "axial": Load(ring="inner", direction=(0.0, 0.0, 1.0), force=axial),
         },
-        drive=SpeedDrive(speed_rpm * math.pi / 30.0),
-        defects=named,
-        probes={"outer": MotionProbe(body="outer"), "inner": MotionProbe(body="inner")},
-    ).validate()
-
-
-def _named(defects: Defect | Mapping[str, Defect] | None) -> dict[str, Defect]:
-    """Return defects by their names."""
-    named = {"defect": defects} if isinstance(defects, Defect) else defects or {}
-    if not isinstance(named, Mapping) or not all(isinstance(d, Defect) for d in named.values()):
-        allowed = (
-            'one of br.defects, such as br.defects.spall(on="inner_race", width_mm=1.0), or several by their '
-            'names, {"first": …, "second": …}'
-        )
-        raise SceneError("defects", repr(defects), allowed)
-    return dict(named)
+        speed_rpm=speed_rpm,
+        defects=defects,
+        lubricant=lubricant,
+        temperature_c=temperature_c,
+    )
 
 
 def rows_of(made: Bearing, clearance: str | float) -> tuple[Row, ...]:

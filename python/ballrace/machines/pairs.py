@@ -6,12 +6,13 @@ import math
 from dataclasses import replace
 from typing import Literal, get_args
 
+from .._arguments import knows
 from .._numbers import real
 from ..bearings import Bearing, Pedestal, bearing, catalogue
 from ..errors import SceneError
 from ..scene import Load, Scene
 from ..statics import equilibrium
-from .shafts import shaft
+from .shafts import SPEEDS, shaft
 
 __all__ = ["Arrangement", "pair"]
 
@@ -21,6 +22,7 @@ Arrangement = Literal["back_to_back", "face_to_face", "tandem"]
 _SIDES = {"back_to_back": (1, -1), "face_to_face": (-1, 1), "tandem": (1, 1)}
 
 
+@knows(SPEEDS | dict.fromkeys(("load", "force"), "radial_load and axial_load [N]"))
 def pair(
     name: str | Bearing,
     *,

@@ -41,15 +41,13 @@ class Reaction:
     largest_load: float
 
 
-def reactions(scene: Scene, found: Equilibrium | None = None) -> tuple[Reaction, ...]:
-    """Return what each row of a scene carries at rest, in its order; a bearing of two rows is two of them.
+def reactions(scene: Scene) -> tuple[Reaction, ...]:
+    """Solve the equilibrium of a scene, and return what each row carries, in order; a bearing may have two rows.
 
     Parameters
     ----------
     scene : Scene
         The scene, as of :func:`ballrace.shaft`.
-    found : Equilibrium, optional
-        Its equilibrium, if that is known already.
 
     Raises
     ------
@@ -63,7 +61,7 @@ def reactions(scene: Scene, found: Equilibrium | None = None) -> tuple[Reaction,
     >>> [round(each.force[1]) for each in br.machines.reactions(made.replace({"gravity": [0.0, 0.0, 0.0]}))]
     [450, 450]
     """
-    found = equilibrium(scene) if found is None else found
+    found = equilibrium(scene)
     return tuple(_of_row(scene, found, row) for row in range(len(scene.rows)))
 
 

@@ -5,42 +5,38 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
+from .._arguments import knows
 from .._numbers import real
 from ..bearings import Bearing, Pedestal, catalogue
 from ..bearings.build import rows_of, said_clearance
+from ..bearings.filled import filled
 from ..bearings.pedestal import pillow_block
 from ..errors import SceneError
-from ..scene import (
-    Cage,
-    Coulomb,
-    Defect,
-    Load,
-    Lubricant,
-    MotionProbe,
-    Ring,
-    Row,
-    Scene,
-    SpeedDrive,
-    Spring,
-    Support,
-    Unbalance,
-)
-from ..scene.lubricant import chosen
+from ..scene import Defect, Load, Lubricant, Ring, Row, Scene, Spring, Support, Unbalance
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["shaft"]
+__all__ = ["SPEEDS", "shaft"]
+
+SPEEDS = dict.fromkeys(("speed", "rpm", "n"), "speed_rpm, the speed of the shaft [rev/min]")
+_MEANT = {
+    **SPEEDS,
+    **dict.fromkeys(
+        ("load", "force", "radial_load", "axial_load"),
+        'loads={"name": br.machines.force(y=-500.0, at=0.1)}, each at its place',
+    ),
+}
+"""What to write instead of arguments that there are not."""
 
 _STEEL = 7850.0
 _DAMPING = 300.0
 """Of the shaft's surroundings at each bearing [N s/m], as of a bearing of its own."""
 
-_BEARINGS = (
-    'bearings with their places [m], such as [("6309", 0.0), ("6207", 0.25)], each at another place'
-)
+_BEARINGS = 'bearings with their places [m], such as [("6309", 0.0), ("6207", 0.25)]'
 _MASSES = (
     "masses and their places, such as [(12.0, 0.12)] [kg, m], of discs with a diameter behind them"
 )
@@ -58,6 +54,7 @@ class _Place:
     rows: tuple[Row, ...]
 
 
+@knows(_MEANT)
 def shaft(
     bearings: Sequence[tuple[str | Bearing, float] | tuple[str | Bearing, float, int]],
     *,
@@ -65,7 +62,7 @@ def shaft(
     masses: Sequence[tuple[float, float] | tuple[float, float, float]] = (),
     unbalances: Sequence[tuple[float, float] | tuple[float, float, float]] = (),
     loads: Mapping[str, Load] | None = None,
-    defects: Mapping[str, Defect] | None = None,
+    defects: Defect | Mapping[str, Defect] | None = None,
     lubricant: str | Lubricant | None = None,
     temperature_c: float | None = None,
     housing: Literal["pedestal"] | Pedestal = "pedestal",
@@ -81,7 +78,8 @@ def shaft(
     Parameters
     ----------
     bearings : sequence of (str or Bearing, float) or (str or Bearing, float, int)
-        Names as of :func:`ballrace.bearing`, and axial places [m]; of angular contact bearings of one row also
+        Names as of :func:`ballrace.bearing`, and axial places of their middles [m]; by their widths they may touch
+        and not overlap. Of angular contact bearings of one row also
         the side: +1 takes thrust on the shaft towards +z, -1 towards -z.
     speed_rpm : float
         Speed of the shaft [rev/min].
@@ -91,8 +89,8 @@ def shaft(
         Mass times eccentricity [kg m], axial place [m], and angle on the shaft [rad] (without: 0).
     loads : mapping of str to Load
         Loads by name, as :func:`ballrace.machines.belt`, ``gear`` and ``force`` make them. Gravity acts besides.
-    defects : mapping of str to Defect
-        Defects by name; their ``row`` counts the rows in the order of the bearings, from 0.
+    defects : Defect, or mapping of str to Defect
+        Defects by name, or one alone; their ``row`` counts the rows in the order of the bearings, from 0.
     lubricant, temperature_c
         As of :func:`ballrace.bearing`.
     housing : {"pedestal"} or Pedestal
@@ -120,34 +118,39 @@ def shaft(
     [1239, -232]
     """
     places = [_placed(each) for each in _several(bearings)]
-    if not math.isfinite(real(speed_rpm)):
-        raise SceneError("speed_rpm", repr(speed_rpm), "a speed [rev/min]")
-    inner = _inner(places, masses)
-    scene = Scene(
+    _check_apart(places)
+    return filled(
         name=" + ".join(place.made.designation for place in places),
         rows=tuple(row for place in places for row in place.rows),
         outer_ring=_outer(places, housing),
-        inner_ring=inner,
-        friction=Coulomb(coefficient=0.05, slip_speed=0.1),
-        lubricant=chosen(lubricant, temperature_c),
-        cage=Cage(stiffness=1e6, damping=20.0, play=0.1e-3),
-        loads=dict(loads or {}),
+        inner_ring=_inner(places, masses),
+        speed_rpm=speed_rpm,
+        loads=loads,
         unbalances=_unbalances(unbalances),
-        drive=SpeedDrive(speed_rpm * math.pi / 30.0),
-        defects=dict(defects or {}),
-        probes={"outer": MotionProbe(body="outer"), "inner": MotionProbe(body="inner")},
+        defects=defects,
+        lubricant=lubricant,
+        temperature_c=temperature_c,
     )
-    return scene.validate()
 
 
 def _several(bearings: object) -> list[tuple[object, ...]]:
-    """Return bearings with their places, which differ."""
+    """Return bearings with their places."""
     given = list(bearings) if isinstance(bearings, Sequence) else []
     pairs = [tuple(each) for each in given if isinstance(each, Sequence) and len(each) in (2, 3)]
-    at = {each[1] for each in pairs if math.isfinite(real(each[1]))}
-    if len(given) < 2 or not len(given) == len(pairs) == len(at):
+    placed = [each for each in pairs if math.isfinite(real(each[1]))]
+    if len(given) < 2 or len(placed) < len(given):
         raise SceneError("bearings", repr(bearings), f"two or more {_BEARINGS}")
     return pairs
+
+
+def _check_apart(places: list[_Place]) -> None:
+    """Refuse bearings that stand in each other; side by side they may touch."""
+    for first, second in pairwise(sorted(places, key=lambda place: place.at)):
+        apart, least = second.at - first.at, 0.5 * (first.made.width + second.made.width)
+        if apart < least * (1.0 - 1e-9):
+            pair = f"{first.made.designation} at {first.at:g} m, {second.made.designation} at {second.at:g} m"
+            allowed = f"places {least:g} m apart or more: by their widths these two overlap"
+            raise SceneError("bearings", pair, allowed)
 
 
 def _placed(each: tuple[object, ...]) -> _Place:

@@ -1,0 +1,98 @@
+"""A scene of rows and rings, filled with what all scenes of the catalogue have: friction, cage, drive, probes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, TypeVar
+
+from .._numbers import real
+from ..errors import SceneError
+from ..scene import (
+    Cage,
+    Coulomb,
+    Defect,
+    Load,
+    Lubricant,
+    MotionProbe,
+    Ring,
+    Row,
+    Scene,
+    SpeedDrive,
+)
+from ..scene.lubricant import chosen
+
+if TYPE_CHECKING:
+    from ..scene import Unbalance
+
+__all__ = ["filled", "named"]
+
+T = TypeVar("T")
+
+_LOADS = (
+    'loads on a ring by their names, such as {"belt": br.machines.belt(900.0, at=-0.08)} or '
+    '{"push": br.scene.Load(ring="inner", direction=(0.0, -1.0, 0.0), force=500.0)}'
+)
+_DEFECTS = (
+    'one of br.defects, such as br.defects.spall(on="inner_race", width_mm=1.0), or several by their '
+    'names, {"first": …, "second": …}'
+)
+
+
+def filled(
+    *,
+    name: str,
+    rows: tuple[Row, ...],
+    outer_ring: Ring,
+    inner_ring: Ring,
+    speed_rpm: float,
+    loads: Mapping[str, Load] | None,
+    unbalances: Mapping[str, Unbalance] | None = None,
+    defects: Defect | Mapping[str, Defect] | None,
+    lubricant: str | Lubricant | None,
+    temperature_c: float | None,
+) -> Scene:
+    """Return the checked scene; the fields are those of :class:`ballrace.Scene`, the arguments of ``bearing``.
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable.
+    """
+    if not math.isfinite(real(speed_rpm)):
+        raise SceneError("speed_rpm", repr(speed_rpm), "a speed [rev/min]")
+    one = {"defect": defects} if isinstance(defects, Defect) else defects
+    return Scene(
+        name=name,
+        rows=rows,
+        outer_ring=outer_ring,
+        inner_ring=inner_ring,
+        friction=Coulomb(coefficient=0.05, slip_speed=0.1),
+        lubricant=chosen(lubricant, temperature_c),
+        cage=Cage(stiffness=1e6, damping=20.0, play=0.1e-3),
+        loads=named("loads", loads, Load, _LOADS),
+        unbalances=unbalances or {},
+        drive=SpeedDrive(speed_rpm * math.pi / 30.0),
+        defects=named("defects", one, Defect, _DEFECTS),
+        probes={"outer": MotionProbe(body="outer"), "inner": MotionProbe(body="inner")},
+    ).validate()
+
+
+def named(field: str, given: object, kind: type[T], allowed: str) -> dict[str, T]:
+    """Return parts of one kind by their names; None is none of them.
+
+    Raises
+    ------
+    SceneError
+        It is something else, or an entry of it is; the message names the entry.
+    """
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        raise SceneError(field, repr(given), allowed)
+    for name, part in given.items():
+        if not isinstance(name, str):
+            raise SceneError(field, repr(name), "names that are text")
+        if not isinstance(part, kind):
+            raise SceneError(f"{field}.{name}", repr(part), allowed)
+    return dict(given)
