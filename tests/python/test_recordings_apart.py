@@ -23,7 +23,7 @@ import pytest
 from scipy.io import savemat, wavfile
 
 import ballrace as br
-from ballrace._memory import LIMITED
+from ballrace import _memory
 from ballrace.recordings import apart
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 X = np.sin(np.arange(500.0))
 
 
-of_linux = pytest.mark.skipif(not LIMITED, reason="only Linux limits memory")
+of_linux = pytest.mark.skipif(_memory.used() is None, reason="only Linux limits memory")
 
 
 @pytest.fixture
@@ -121,6 +121,77 @@ def test_memory_is_limited_and_the_limit_can_be_raised(
     with pytest.raises(br.FileError, match=r"sensor\.csv: .* more memory than there is; raise"):
         br.read(csv, memory_limit=1e8)
     assert br.read(csv, memory_limit=1e9).n_samples == 30_000_000
+
+
+NO_PROC = """
+import pathlib
+from ballrace import _memory
+_memory._STATM = pathlib.Path('/nowhere')
+def peak(status=pathlib.Path('/proc/self/status')):
+    return 1024 * int(status.read_text().split('VmHWM:')[1].split()[0])
+_memory.peak = peak
+"""
+"""As where there is no /proc: on macOS, or in some containers. The peak is the program's own, as on macOS."""
+
+FILL = """
+import time
+def fill(path):
+    taken = np.ones(int(path.read_text()))
+    time.sleep(0.1)
+    return samples.Samples(columns={'a': taken[:3]}, fs=1.0)
+here.READERS['csv'] = fill
+"""
+
+
+@of_linux
+def test_without_proc_a_child_reads_and_is_ended_when_it_takes_too_much(
+    csv: Path, reading: Callable[[str], None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(_memory, "_STATM", Path("/nowhere"))
+    assert _memory.used() is None
+    assert _memory.left() == float("inf")
+    assert _memory.peak() > 30e6  # type: ignore[operator]
+    reading(f"{NO_PROC}{FILL}")
+    csv.write_text("30_000_000")  # and gives three of them
+    message = r"sensor\.csv: ended the process .* needs more than memory_limit \(0\.1 GB\)"
+    with pytest.raises(br.FileError, match=message):
+        br.read(csv, memory_limit=1e8)
+    assert br.read(csv, memory_limit=1e9).n_samples == 3
+
+
+@of_linux
+def test_without_proc_a_peak_does_not_hide_the_next(
+    csv: Path, reading: Callable[[str], None]
+) -> None:
+    """Only the peak is known there, which does not fall: a child that has grown is replaced, others stay."""
+    reading(f"{NO_PROC}{FILL}")
+    children = []
+    for numbers in (3, 50_000_000, 3, 3):
+        csv.write_text(str(numbers))
+        assert br.read(csv, memory_limit=1e9).n_samples == 3
+        assert apart._Own.child is not None
+        children.append(apart._Own.child._process.pid)
+    assert children[0] == children[1] != children[2] == children[3]
+
+
+def test_without_a_clock_of_the_system_the_parent_ends_the_child(
+    csv: Path, reading: Callable[[str], None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As on Windows."""
+    monkeypatch.setattr(apart, "_ALARM", None)
+    reading(
+        "from ballrace.recordings import apart; apart._ALARM = None\n"
+        "def wait(path):\n    while True: pass\nhere.READERS['csv'] = wait"
+    )
+    with pytest.raises(br.FileError, match=r"sensor\.csv: took longer than 0\.5 s to read"):
+        br.read(csv, time_limit=0.5)
+
+
+@of_linux
+def test_the_peak_is_what_linux_tells() -> None:
+    status = Path("/proc/self/status").read_text()
+    highest = 1024.0 * int(status.split("VmHWM:")[1].split()[0])
+    assert _memory.peak() == pytest.approx(highest, rel=0.3)  # 1024 apart in another unit
 
 
 @pytest.mark.parametrize("name", ["time_limit", "memory_limit"])

@@ -45,6 +45,12 @@ _LIBRARIES = {
 _ALARM = getattr(signal, "ITIMER_REAL", None)
 """The clock by which the system ends a process, whatever library it is in; Windows has none."""
 
+_WATCHED = 0.01
+"""How often the child looks at its memory where the system does not limit it [s]."""
+
+_WORN = 1 << 28
+"""Growth of such a child after which it reads no further file [bytes]: of its memory only the peak is known."""
+
 _LONGEST = 1 << 26
 """Most bytes of an answer's line."""
 
@@ -55,7 +61,7 @@ class _Child:
     def __init__(self) -> None:
         if getattr(sys, "frozen", False):
             raise OSError("a frozen program has no Python for a child; read with trusted=True")
-        self.timed_out = False
+        self.timed_out = self.worn = False
         self._process = subprocess.Popen(
             [spawn.get_executable(), "-P", "-c", _PROGRAM, *map(os.path.abspath, sys.path)],
             stdin=subprocess.PIPE,
@@ -79,6 +85,7 @@ class _Child:
         if not line.endswith(b"\n"):
             raise EOFError
         answer: dict[str, Any] = json.loads(line)
+        self.worn = "worn" in answer and bool(answer["worn"])
         if "groups" in answer:
             return _received(answer["groups"], self._process.stdout, request["memory_limit"])
         return _error(answer["error"], answer["arguments"], answer.get("name"))
@@ -125,7 +132,7 @@ def read_apart(path: Path, format: str, time_limit: float, memory_limit: float) 
     request = {"path": str(path.absolute()), "format": format}
     limited = {"time_limit": time_limit, "memory_limit": memory_limit}
     with _Own.lock:
-        if _Own.child is None or not _Own.child.is_alive():
+        if _Own.child is None or _Own.child.worn or not _Own.child.is_alive():
             end_child()
             _Own.child = _Child()
         child = _Own.child
@@ -252,17 +259,39 @@ def _answer(request: dict[str, Any]) -> Iterator[bytes | memoryview]:
     with suppress(ImportError):
         importlib.import_module(_LIBRARIES[form])  # what is missing is told by what needs it
     limits.most = request["memory_limit"]
-    _memory.let(limits.most)
+    before = _memory.peak() or 0
     try:
-        samples = read_here(path, form)
+        with _memory_limited(before):
+            samples = read_here(path, form)
         groups = [samples, *samples.others]
-        told = {"groups": [_told(group) for group in groups]}
+        told: dict[str, Any] = {"groups": [_told(group) for group in groups]}
         columns = [x for group in groups for x in group.columns.values()]
     except (BallraceError, ImportError, OSError) as error:
         told, columns = _told_of(error), []
+    told["worn"] = _memory.used() is None and (_memory.peak() or 0) > before + _WORN
     yield json.dumps(told).encode() + b"\n"
     for x in columns:
         yield np.ascontiguousarray(x, dtype=np.float64).data.cast("B")
+
+
+@contextmanager
+def _memory_limited(before: int) -> Iterator[None]:
+    """Have the system limit what reading takes, or else watch it from a thread, which ends this process."""
+    if _memory.let(limits.most):
+        yield
+        return
+    done = threading.Event()
+
+    def watch() -> None:
+        while not done.wait(_WATCHED):
+            if (_memory.peak() or 0) > before + limits.most:
+                os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+    try:
+        yield
+    finally:
+        done.set()
 
 
 def _told(samples: Samples) -> dict[str, Any]:

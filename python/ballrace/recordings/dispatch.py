@@ -55,8 +55,8 @@ def read(
         How long reading may take [s]; ``math.inf`` for any time.
     memory_limit : float
         What reading may take beside the libraries [bytes]; ``math.inf`` for any. Ten times the samples,
-        8 bytes each, suffice. Only Linux holds a process to it; elsewhere what a file declares is compared
-        with it (HDF5, Parquet), and what reading takes in between is not limited.
+        8 bytes each, suffice. Linux holds a process to it. macOS does not: there the child looks at its memory
+        every 10 ms, and ends. On Windows only what a file declares is compared with it (HDF5, Parquet).
     trusted : bool
         Read in this process, without limits. A damaged file may end it.
 
