@@ -12,10 +12,14 @@ from .errors import SceneError
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["LARGEST", "real", "real_row"]
+__all__ = ["LARGEST", "RATES", "real", "real_row", "sampling_rate"]
 
 LARGEST = 1e60
 """Magnitude of a signal: sums of its fourth powers, which a kurtosis takes, are still numbers."""
+
+
+RATES = 1e-9, 1e15
+"""Sampling rates that are taken [Hz]."""
 
 
 def real(value: object) -> float:
@@ -23,13 +27,29 @@ def real(value: object) -> float:
 
     >>> real(np.int64(3)), real("3"), real(None), real(True)
     (3.0, nan, nan, nan)
+    >>> real(-(10**400))
+    -inf
     """
     if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
         return math.nan
     try:
         return float(value)
     except OverflowError:
-        return math.copysign(math.inf, value)
+        return math.inf if value > 0 else -math.inf
+
+
+def sampling_rate(fs: object) -> float:
+    """Return a sampling rate [Hz].
+
+    Raises
+    ------
+    SceneError
+        It is none that is taken.
+    """
+    rate = real(fs)
+    if not RATES[0] <= rate <= RATES[1]:
+        raise SceneError("fs", repr(fs), f"a rate [Hz], {RATES[0]:g} to {RATES[1]:g}")
+    return rate
 
 
 def real_row(name: str, x: ArrayLike) -> NDArray[np.float64]:

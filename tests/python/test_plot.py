@@ -89,6 +89,21 @@ def test_pictures_come_with_the_package_and_plotly_when_drawn() -> None:
         br.plots  # type: ignore[attr-defined]  # noqa: B018
 
 
+def test_a_missing_plotly_is_named_with_its_extra(tmp_path: Path) -> None:
+    (tmp_path / "plotly.py").write_text("raise ImportError('none', name='plotly')")
+    code = (
+        "import sys; sys.path.insert(0, sys.argv[1]); import ballrace as br; scene = br.bearing('6205')\n"
+        "spread = br.equilibrium(scene)\n"
+        "for draw, of in ((br.plot.section, scene), (br.plot.unrolled, scene), (br.plot.load_distribution, spread)):\n"
+        "    try: draw(of)\n"
+        "    except ImportError as error: print(error.name, error)\n"
+    )
+    command = [sys.executable, "-c", code, str(tmp_path)]
+    told = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    needs = 'plotly a picture needs plotly (none): pip install "ballrace[plot]"'
+    assert told.splitlines() == [needs] * 3
+
+
 def drawn(faulty: br.Signals, wheel: br.Scene) -> dict[str, Callable[..., go.Figure]]:
     eq = br.equilibrium(wheel)
     found = br.spectra.kurtogram(faulty["outer.ay"], faulty.fs, narrowest=2000.0)

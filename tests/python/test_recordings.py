@@ -178,7 +178,13 @@ def test_measured_records_go_into_the_same_functions(record: br.Recording) -> No
         ("columns", {"columns": {"a": [1.0], "b": [1.0, 2.0]}}),
         ("columns['a']", {"columns": {"a": [[1.0]]}}),
         ("columns['a']", {"columns": {"a": "text"}}),
+        ("columns", {"columns": [[1.0]]}),
+        ("columns", {"columns": None}),
+        ("units", {"units": ["g"]}),
+        ("metadata", {"metadata": "text"}),
         ("fs", {"fs": 0.0}),
+        ("fs", {"fs": 1e300}),
+        ("fs", {"fs": "1"}),
         ("shaft", {"shaft": -1.0}),
     ],
 )
@@ -259,6 +265,11 @@ def test_a_missing_library_is_named_with_its_extra(
         br.read(path, trusted=True)
     with pytest.raises(ImportError, match="pip install xarray"):
         record.to_xarray()
+
+
+def test_columns_are_names(record: br.Recording) -> None:
+    with pytest.raises(br.SceneError, match=r"^columns = 3: columns: "):
+        record.to_windows(2, columns=3)  # type: ignore[arg-type]
 
 
 def test_import_needs_none_of_the_libraries() -> None:

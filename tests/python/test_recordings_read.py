@@ -300,6 +300,36 @@ def test_the_format_is_told_by_contents_where_the_name_tells_none(tmp_path: Path
         br.read(plain, format="csv")
 
 
+WRONG: list[tuple[str, Any]] = [
+    *(("fs", fs) for fs in (-1.0, 0.0, float("nan"), 1e300, 1e-300, 10**400, "12e3", [1.0], np.ones(2), True)),
+    *(("format", name) for name in ("flac", "CSV", "", ["csv"], 3)),
+    *((limit, x) for limit in ("time_limit", "memory_limit") for x in (-(10**400), 0, "1")),
+    ("trusted", "no"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "value"), WRONG, ids=repr)
+def test_rates_formats_and_sizes_are_refused_by_name(
+    tmp_path: Path, name: str, value: object
+) -> None:
+    path = tmp_path / "record.csv"
+    path.write_text("a\n1\n2\n")
+    read: Any = br.read
+    with pytest.raises(br.SceneError) as caught:
+        read(path, **({"fs": 1.0, "trusted": True} | {name: value}))
+    assert caught.value.path == name
+    assert read(path, 1.0, time_limit=10**400, memory_limit=10**400).n_samples == 2
+
+
+@pytest.mark.parametrize("told", [-5.0, float("nan"), 1e300])
+def test_a_rate_that_is_none_is_the_files_fault(tmp_path: Path, told: float) -> None:
+    path = tmp_path / "a.mat"
+    savemat(path, {"ay": np.arange(4.0), "fs": told})
+    with pytest.raises(br.FileError, match=r"a\.mat: tells a sampling rate of .* Hz; give fs"):
+        br.read(path)
+    assert br.read(path, fs=12e3).fs == 12e3
+
+
 def test_bad_arguments_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "record.csv"
     path.write_text("a\n1\n2\n")

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._libraries import needed
 from .._numbers import real
 from ..channel import Channel, Recorded
 from ..diagnosis.kinematics import kinematics_of
 from ..errors import SceneError
-from ..recordings.libraries import needed
 from .features import features_of, names_of
 
 if TYPE_CHECKING:

@@ -89,7 +89,7 @@ def animation(
     >>> len(fig.frames)
     20
     """
-    from plotly.graph_objects import Frame
+    from .._plotly import Frame
 
     _check(out, column, row, frames)
     samples = _samples(out, start, end, frames)
@@ -142,7 +142,7 @@ def _samples(out: Signals, start: float, end: float | None, frames: int) -> list
 
 
 def _panels() -> go.Figure:
-    from plotly.subplots import make_subplots
+    from .._plotly import make_subplots
 
     return make_subplots(
         rows=2, cols=2, specs=[[{}, {}], [{"colspan": 2}, None]], column_widths=[0.62, 0.38],
@@ -152,7 +152,7 @@ def _panels() -> go.Figure:
 
 
 def _signal(fig: go.Figure, out: Signals, column: str, samples: list[int]) -> None:
-    from plotly.graph_objects import Scatter
+    from .._plotly import Scatter
 
     signal = source(out, column, None)
     part = slice(samples[0], samples[-1] + 1)
@@ -167,7 +167,7 @@ def _signal(fig: go.Figure, out: Signals, column: str, samples: list[int]) -> No
 
 
 def _cursor(fig: go.Figure, out: Signals, sample: int) -> Any:
-    from plotly.graph_objects import Scatter
+    from .._plotly import Scatter
 
     low, high = fig.layout.yaxis3.range or (-1.0, 1.0)
     now = 1e3 * float(out.t[sample])

@@ -60,8 +60,7 @@ def campaign_map(
     >>> fig.data[0].z.tolist()
     [[3.0, 4.0]]
     """
-    from plotly.graph_objects import Figure, Heatmap
-
+    from .._plotly import Figure, Heatmap
     from .._polars import pl
 
     table = _table(done, (x, y, value)).drop_nulls([x, y, value])
@@ -129,7 +128,7 @@ def distribution(
     >>> [box.name for box in br.plot.distribution(table, "rms", by="faulty").data]
     ['faulty: no', 'faulty: yes']
     """
-    from plotly.graph_objects import Box, Figure
+    from .._plotly import Box, Figure
 
     table = _table(done, (value,) if by is None else (value, by)).drop_nulls(value)
     groups = {"all cases": table}

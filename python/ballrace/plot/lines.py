@@ -40,7 +40,7 @@ def add_lines(fig: go.Figure, bands: Sequence[FaultBand], top: float, *, unit: s
     The labels are upright, so that those of neighbours do not meet. With several faults in one picture only the
     harmonics are labelled; sidebands tell their name under the pointer.
     """
-    from plotly.graph_objects import Scatter
+    from .._plotly import Scatter
 
     faults = list(dict.fromkeys(band.fault for band in bands))
     for fault in faults:

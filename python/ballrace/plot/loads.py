@@ -146,7 +146,7 @@ def slice_forces(
     >>> scene = br.bearing("6205").replace({"probes.slices": probe})
     >>> fig = br.plot.slice_forces(br.simulate(scene, duration=1e-4))
     """
-    from plotly.graph_objects import Bar
+    from .._plotly import Bar
 
     tables = _slices(cases) if isinstance(cases, Columns) else cases
     fig = fig if fig is not None else stack(tuple(tables))
@@ -199,7 +199,7 @@ def _around(found: Loads, row: int) -> tuple[NDArray[np.float64], NDArray[np.flo
 
 
 def _polars(titles: tuple[str, ...]) -> go.Figure:
-    from plotly.subplots import make_subplots
+    from .._plotly import make_subplots
 
     specs = [[{"type": "polar"} for _ in titles]]
     fig = make_subplots(rows=1, cols=len(titles), specs=specs, subplot_titles=titles)
@@ -215,7 +215,7 @@ def _polar_line(
     *,
     marked: bool = True,
 ) -> Any:
-    from plotly.graph_objects import Scatterpolar
+    from .._plotly import Scatterpolar
 
     kind = number % len(COLOURS)
     return Scatterpolar(

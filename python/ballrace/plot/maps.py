@@ -73,7 +73,7 @@ def spectrogram(
     >>> import ballrace as br
     >>> fig = br.plot.spectrogram(br.simulate(br.bearing("6205"), duration=0.05))
     """
-    from plotly.graph_objects import Figure
+    from .._plotly import Figure
 
     signal = source(of, column, fs)
     f, t, value = spectra.spectrogram(signal.x, signal.fs, length)
@@ -141,7 +141,7 @@ def order_map(
     >>> scene = br.bearing("6205").replace({"drive": br.scene.SpeedDrive(speed)})
     >>> fig = br.plot.order_map(br.simulate(scene, duration=0.2))
     """
-    from plotly.graph_objects import Figure
+    from .._plotly import Figure
 
     if not 0.0 < highest < math.inf:
         raise SceneError("highest", str(highest), "an order above 0")
@@ -234,7 +234,7 @@ def kurtogram(found: Kurtogram, fig: go.Figure | None = None, **layout: Any) -> 
     >>> len(fig.data[0].y) == len(set(found.level))
     True
     """
-    from plotly.graph_objects import Figure, Heatmap
+    from .._plotly import Figure, Heatmap
 
     fig = fig if fig is not None else Figure()
     levels = np.unique(found.level)
@@ -280,7 +280,7 @@ def _shaded(
     span: float = 60.0,
 ) -> Any:
     """Return a heat map in decibels down to ``-span``, with no more cells than a screen shows."""
-    from plotly.graph_objects import Heatmap
+    from .._plotly import Heatmap
 
     x, power = x[:: _step(x.size)], power[:, :: _step(x.size)]
     every = _step(y.size)

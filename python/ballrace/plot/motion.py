@@ -55,7 +55,7 @@ def orbit(
     >>> import ballrace as br
     >>> fig = br.plot.orbit(br.simulate(br.bearing("6205"), duration=0.02))
     """
-    from plotly.graph_objects import Figure, Scatter
+    from .._plotly import Figure, Scatter
 
     kept = out.t >= skip
     if not kept.any():
@@ -118,7 +118,7 @@ def ball_path(
     >>> out = br.simulate(scene.replace({"probes.ball": ball}), duration=0.1)
     >>> fig = br.plot.ball_path(out)
     """
-    from plotly.graph_objects import Figure
+    from .._plotly import Figure
 
     name, race, width, radius = _chosen(out, defect)
     fig = fig if fig is not None else Figure()
@@ -137,7 +137,7 @@ def ball_path(
 
 
 def _pass(fig: go.Figure, arc: Array, height: Array, name: str) -> None:
-    from plotly.graph_objects import Scatter
+    from .._plotly import Scatter
 
     number = len(fig.data) % len(COLOURS)
     ends = 0.5 * (height[0] + height[-1])

@@ -43,7 +43,7 @@ class Moving:
 
     def still(self) -> Iterator[Any]:
         """Give what stands still in the front view: circles of the races, defects of the outer race, a scale."""
-        from plotly.graph_objects import Scatter
+        from .._plotly import Scatter
 
         row, shapes = self._of_row, self._shapes
         pitch, half = 0.5e3 * row.pitch_diameter, 0.5e3 * row.ball_diameter
@@ -72,7 +72,7 @@ class Moving:
 
     def section_still(self) -> Iterator[Any]:
         """Give the rings in the section."""
-        from plotly.graph_objects import Scatter
+        from .._plotly import Scatter
 
         for half in (1.0, -1.0):
             for outline, colour in (
@@ -105,7 +105,7 @@ class Moving:
         return x, y, z
 
     def _shade(self, load: float) -> str:
-        from plotly.colors import sample_colorscale
+        from .._plotly import sample_colorscale
 
         return str(sample_colorscale(SHADES, [min(max(load / self._largest, 0.0), 1.0)])[0])
 
@@ -117,7 +117,7 @@ class Moving:
 
     def _bars(self, places: Array, k: int) -> Any:
         """Bars from the outside, as long as the loads on the outer race are large."""
-        from plotly.graph_objects import Scatter
+        from .._plotly import Scatter
 
         angle = np.arctan2(places[:, 1], places[:, 0])
         load = np.array([self._load(self._row, ball)[k] for ball in range(self._balls)])
@@ -133,7 +133,7 @@ class Moving:
 
     def _cage(self, places: Array) -> Any:
         """Bars of the cage: arcs on the pitch circle between neighbouring balls."""
-        from plotly.graph_objects import Scatter
+        from .._plotly import Scatter
 
         angle = np.arctan2(places[:, 1], places[:, 0])
         radius = 0.5e3 * self._of_row.pitch_diameter
@@ -146,7 +146,7 @@ class Moving:
 
     def _turned(self, k: int) -> Any:
         """Mark the inner ring, which shows how far the shaft has turned."""
-        from plotly.graph_objects import Scatter
+        from .._plotly import Scatter
 
         angle = float(self._out["inner.theta"][k])
         ends = np.array(
@@ -191,7 +191,7 @@ def _width(defect: Defect) -> float:
 
 def _mark(centre: tuple[float, float], radius: float, angle: float, half: float, name: str) -> Any:
     """Draw a thick piece of a circle; at least two degrees, so that it is seen."""
-    from plotly.graph_objects import Scatter
+    from .._plotly import Scatter
 
     arc = np.linspace(angle - max(half, 0.02), angle + max(half, 0.02), 7)
     line = {"color": COLOURS[1], "width": 7}
@@ -201,7 +201,7 @@ def _mark(centre: tuple[float, float], radius: float, angle: float, half: float,
 
 
 def _filled(x: Array, y: Array, colour: str) -> Any:
-    from plotly.graph_objects import Scatter
+    from .._plotly import Scatter
 
     line = {"color": _INK, "width": 1}
     return Scatter(

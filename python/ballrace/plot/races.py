@@ -66,7 +66,7 @@ def unrolled(
     >>> import ballrace as br
     >>> fig = br.plot.unrolled(br.presets.wheel_bearing(axial_load=3000.0))
     """
-    from plotly.subplots import make_subplots
+    from .._plotly import make_subplots
 
     eq = equilibrium(scene) if loads is None else loads
     if fig is None:
@@ -91,8 +91,7 @@ def unrolled(
 def _contacts(
     fig: go.Figure, row: Row, eq: Equilibrium, *, number: int, race: Literal["outer", "inner"], largest: float,
 ) -> None:  # fmt: skip
-    from plotly.colors import sample_colorscale
-    from plotly.graph_objects import Scatter
+    from .._plotly import Scatter, sample_colorscale
 
     place = _RACES.index(race) + 1
 
@@ -133,7 +132,7 @@ def _extent(load: Array, z: Array, reach: Array) -> tuple[float, float]:
 
 
 def _defect(fig: go.Figure, row: Row, name: str, defect: Defect, place: int) -> None:
-    from plotly.graph_objects import Scatter
+    from .._plotly import Scatter
 
     race = _RACES[place - 1]
     width = defect.width if isinstance(defect.width, float) else max(defect.width.widths)

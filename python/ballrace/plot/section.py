@@ -59,7 +59,7 @@ def section(
     >>> [a.text for a in fig.layout.annotations if "race" in a.text]
     ['spall on the outer race, at −90°']
     """
-    from plotly.graph_objects import Figure
+    from .._plotly import Figure
 
     fig = fig if fig is not None else Figure()
     shapes = outlines(scene)
@@ -88,7 +88,7 @@ def section(
 
 
 def _filled(fig: go.Figure, half: float, outline: Array, colour: str, name: str) -> None:
-    from plotly.graph_objects import Scatter
+    from .._plotly import Scatter
 
     fig.add_trace(
         Scatter(
@@ -99,7 +99,7 @@ def _filled(fig: go.Figure, half: float, outline: Array, colour: str, name: str)
 
 
 def _line(fig: go.Figure, x: list[float], y: list[float], **line: Any) -> None:
-    from plotly.graph_objects import Scatter
+    from .._plotly import Scatter
 
     style = {"color": _INK, "width": 1, **line}
     fig.add_trace(Scatter(x=x, y=y, mode="lines", line=style, hoverinfo="skip"))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from .._io.files import as_path
 from .._io.whole import whole
-from ..recordings.libraries import needed
+from .._libraries import needed
 
 if TYPE_CHECKING:
     import os

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .._libraries import needed
 from ..channel import Channel
 from ..errors import SceneError
-from .libraries import needed
 from .windows import Origin, windows
 
 if TYPE_CHECKING:
@@ -217,6 +217,8 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         if columns is None:
             accelerations = [name for name in self if self.units.get(name) in ("m/s^2", "g")]
             return accelerations or list(self)
+        if not isinstance(columns, Iterable):
+            raise SceneError("columns", repr(columns), f"columns: {', '.join(self)}")
         names = [columns] if isinstance(columns, str) else list(columns)
         for name in names:
             if name not in self:

@@ -6,8 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 from .._io.files import as_path
-from .._numbers import real
-from ..errors import SceneError
+from .._numbers import RATES, real, sampling_rate
+from ..errors import FileError, SceneError
 from .apart import read_apart
 from .formats import by_contents
 from .here import READERS, read_here
@@ -87,14 +87,15 @@ def read(
     (1000.0, 'g', [0.1, 0.3, -0.2])
     """
     path = as_path(path)
-    if fs is not None and not 0.0 < fs < math.inf:
-        raise SceneError("fs", str(fs), "above 0")
-    if format is not None and format not in READERS:
+    fs = None if fs is None else sampling_rate(fs)
+    if format is not None and not (isinstance(format, str) and format in READERS):
         raise SceneError("format", repr(format), f"one of {', '.join(READERS)}")
-    limits = {"time_limit": time_limit, "memory_limit": memory_limit}
-    for name, limit in limits.items():
-        if not real(limit) > 0.0:
-            raise SceneError(name, repr(limit), "above 0, or math.inf")
+    limits = {"time_limit": real(time_limit), "memory_limit": real(memory_limit)}
+    for name, given in (("time_limit", time_limit), ("memory_limit", memory_limit)):
+        if not limits[name] > 0.0:
+            raise SceneError(name, repr(given), "above 0, or math.inf")
+    if not isinstance(trusted, bool):
+        raise SceneError("trusted", repr(trusted), "True or False")
     with path.open("rb"):
         pass
     form = format or by_contents(path)
@@ -103,7 +104,7 @@ def read(
 
 
 def _recording(path: Path, samples: Samples, fs: float | None) -> Recording:
-    told = samples.fs
+    told = _usable(path, samples.fs, fs)
     if told is not None and fs is not None and not math.isclose(fs, told, rel_tol=1e-3):
         raise SceneError("fs", str(fs), f"what {path.name} tells, {told:g} Hz, or left out")
     rate = fs if told is None else told
@@ -118,3 +119,14 @@ def _recording(path: Path, samples: Samples, fs: float | None) -> Recording:
         metadata=samples.metadata,
         others=tuple(_recording(path, other, None) for other in samples.others),
     )
+
+
+def _usable(path: Path, told: float | None, fs: float | None) -> float | None:
+    """Return the rate that a file tells; one that is none counts as not told where another is given."""
+    if told is None or RATES[0] <= told <= RATES[1]:
+        return told
+    if fs is None:
+        raise FileError(
+            str(path), f"tells a sampling rate of {told:g} Hz; give fs where you know it"
+        )
+    return None

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._libraries import needed
 from ..errors import FileError
-from .libraries import needed
 from .limits import check_declared
 from .samples import RATES, Samples, from_told
 

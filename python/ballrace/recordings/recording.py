@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .._numbers import real, real_row
+from .._numbers import real, real_row, sampling_rate
 from ..errors import SceneError
 from .columns import Columns, no_column
 from .samples import Samples
@@ -65,12 +65,14 @@ class Recording(Columns):
     others: tuple[Recording, ...] = ()
 
     def __post_init__(self) -> None:
+        for name in ("columns", "units", "metadata"):
+            if not isinstance(getattr(self, name), Mapping):
+                raise SceneError(name, type(getattr(self, name)).__name__, "a mapping by names")
         columns = {str(name): _checked(str(name), x) for name, x in self.columns.items()}
         if len({x.size for x in columns.values()}) != 1:
             sizes = ", ".join(f"{name}: {x.size}" for name, x in columns.items())
             raise SceneError("columns", sizes or "none", "at least one, all of one length")
-        if not 0.0 < real(self.fs) < math.inf:
-            raise SceneError("fs", repr(self.fs), "above 0")
+        sampling_rate(self.fs)
         if self.shaft is not None and not 0.0 <= real(self.shaft) < math.inf:
             raise SceneError("shaft", repr(self.shaft), "a rate, or None")
         units = {name: str(self.units.get(name, "")) for name in columns}

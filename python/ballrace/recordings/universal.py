@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._libraries import needed
 from ..errors import FileError, SceneError
-from .libraries import needed
 from .samples import Samples
 
 if TYPE_CHECKING:

@@ -112,7 +112,7 @@ class Page:
 
     def html(self) -> str:
         """Return the page; plotly.js stands in it once, if there is a figure."""
-        from plotly.offline import get_plotlyjs
+        from .._plotly import get_plotlyjs
 
         script = f"<script>{get_plotlyjs()}</script>" if self._figures else ""
         head = (

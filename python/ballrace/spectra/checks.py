@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from .._numbers import LARGEST, real, real_row
+from .._numbers import LARGEST, real, real_row, sampling_rate
 from ..channel import channel_of
 from ..errors import SceneError
 
@@ -21,9 +21,6 @@ __all__ = ["Given", "checked_band", "checked_length", "checked_signal", "given_s
 
 Given: TypeAlias = "Recorded | ArrayLike"
 """A run, a measurement, a recording or a channel of one, or an array."""
-
-RATES = 1e-9, 1e15
-"""Sampling rates that are taken [Hz]."""
 
 
 def given_signal(x: Given, fs: float | None) -> tuple[NDArray[np.float64], float]:
@@ -55,8 +52,7 @@ def checked_signal(x: ArrayLike, fs: float, name: str = "x") -> NDArray[np.float
         raise SceneError(name, "not a number, or infinite, at places", "finite everywhere")
     if np.abs(signal).max() > LARGEST:
         raise SceneError(name, f"up to {np.abs(signal).max():g}", f"magnitudes up to {LARGEST:g}")
-    if not RATES[0] <= real(fs) <= RATES[1]:
-        raise SceneError("fs", repr(fs), f"a rate [Hz], {RATES[0]:g} to {RATES[1]:g}")
+    sampling_rate(fs)
     return signal
 
 

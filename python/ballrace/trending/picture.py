@@ -51,7 +51,7 @@ def picture(of: Trend, fig: go.Figure | None, layout: dict[str, Any]) -> go.Figu
 
 
 def _add(fig: go.Figure, row: int, time: Any, value: Any, *, name: str, number: int) -> None:
-    from plotly.graph_objects import Scatter
+    from .._plotly import Scatter
 
     line = {
         "color": COLOURS[number % len(COLOURS)],
