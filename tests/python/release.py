@@ -101,8 +101,14 @@ def _changes(root: Path) -> str:
     return text(root, "CHANGELOG.md")
 
 
-def main(command: str, tag: str = "") -> str | None:
+COMMANDS = ("check", "notes", "readme")
+
+
+def main(command: str = "", *rest: str) -> str | None:
     """Do what is asked for; what is returned is why it cannot be done."""
+    if command not in COMMANDS or len(rest) != (command == "check"):
+        return f"{' '.join((command, *rest)) or 'nothing'}: no such command\n{__doc__}"
+    tag = "".join(rest)
     if refused := obstacles(tag) if command == "check" else placeholders():
         return "\n".join(refused)
     if command == "notes":

@@ -93,8 +93,8 @@ def test_a_missing_plotly_is_named_with_its_extra(tmp_path: Path) -> None:
     (tmp_path / "plotly.py").write_text("raise ImportError('none', name='plotly')")
     code = (
         "import sys; sys.path.insert(0, sys.argv[1]); import ballrace as br; scene = br.bearing('6205')\n"
-        "spread = br.equilibrium(scene)\n"
-        "for draw, of in ((br.plot.section, scene), (br.plot.unrolled, scene), (br.plot.load_distribution, spread)):\n"
+        "eq = br.equilibrium(scene); plot = br.plot\n"
+        "for draw, of in ((plot.section, scene), (plot.unrolled, scene), (plot.load_distribution, eq)):\n"
         "    try: draw(of)\n"
         "    except ImportError as error: print(error.name, error)\n"
     )

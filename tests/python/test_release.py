@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 import shutil
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -137,3 +139,18 @@ def test_notes_are_those_of_the_version(copy: Path) -> None:
     assert told.startswith("The first release.")
     assert "Not yet." not in told
     assert "Long ago." not in told
+
+
+@pytest.mark.parametrize(
+    "words", [(), ("publish",), ("check",), ("check", "v0.2.0", "v0.3.0"), ("readme", "now"), ("--help",)]
+)  # fmt: skip
+def test_what_is_no_command_is_refused_and_changes_nothing(words: tuple[str, ...]) -> None:
+    """A typing error must neither pass for a check nor rewrite the README."""
+    before = text(ROOT, "README.md")
+    command = [sys.executable, str(ROOT / "tests" / "python" / "release.py"), *words]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert done.stdout == ""
+    assert "no such command" in done.stderr
+    assert "release.py check v0.2.0" in done.stderr
+    assert text(ROOT, "README.md") == before
