@@ -1,4 +1,4 @@
-"""A progress bar for a terminal."""
+"""A progress bar for a terminal or a notebook."""
 
 from __future__ import annotations
 
@@ -14,13 +14,19 @@ if TYPE_CHECKING:
 _WIDTH = 30
 
 
+def is_watched(stream: TextIO) -> bool:
+    """Return whether somebody sees a line change: at a terminal, or in a notebook."""
+    return stream.isatty() or "ipykernel" in sys.modules
+
+
 class Bar:
-    """One line on standard error that grows, and goes away at the end; silent where there is no terminal."""
+    """One line on standard error that grows, and goes away at the end; silent where nobody sees it change."""
 
     def __init__(self, label: str, stream: TextIO | None = None) -> None:
         self._label = printable(label)
         self._stream = sys.stderr if stream is None else stream
-        self._shown = self._stream.isatty()
+        self._shown = is_watched(self._stream)
+        self._length = 0
         self._began = time.monotonic()
 
     def __enter__(self) -> Self:
@@ -43,5 +49,7 @@ class Bar:
 
     def _write(self, line: str) -> None:
         if self._shown:
-            self._stream.write(f"\r\033[K{line}")
+            # A notebook knows no command to erase a line.
+            self._stream.write(f"\r{' ' * self._length}\r{line}")
+            self._length = len(line)
             self._stream.flush()

@@ -6,6 +6,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from ._html import folded
 from .scene.scene import checked_scene
 from .signals import Record
 
@@ -69,6 +70,10 @@ class Explanation(Record):
     def __str__(self) -> str:
         text: str = self.__dict__["_text"]
         return text
+
+    def _repr_html_(self) -> str:
+        """Return the page of text, as notebooks show it."""
+        return folded("What a run integrates, and what it costs", str(self), opened=True)
 
 
 def explain(scene: Scene) -> Explanation:

@@ -100,8 +100,8 @@ def simulate(
     threads : int
         Threads of the run; 0 chooses. The result is the same, bit by bit, for any number.
     progress : bool or callable, optional
-        True shows a bar on a terminal. A callable is given the share done, from 0 to 1, about twenty times
-        a second; what it raises stops the run.
+        True shows a bar on a terminal or in a notebook. A callable is given the share done, from 0 to 1, about
+        twenty times a second; what it raises stops the run.
     bandwidth : {"auto"} or None
         ``"auto"`` reads motion, cage forces and friction torques as finely as the steps go, and decimates them
         through a linear-phase low-pass: flat within 0.004 dB up to 0.4 `fs`, 83 dB down beyond 0.6 `fs`, without

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from . import _core
 from ._features import feature_options
+from ._html import paragraph, points, waveform
 from ._interrupt import heard_once
 from ._io.files import PARQUET, as_path
 from ._io.parquet import read_sealed, scan_sealed, seal, writing_to
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
     from .recordings.windows import Origin
 
 __all__ = ["Record", "Signals", "Touched"]
+
+_SHOWN = 6
+"""Columns of a run that a notebook shows."""
 
 
 class Record(Mapping[str, Any]):
@@ -196,6 +200,16 @@ class Signals(Columns):
         lines = [f"  {group}: {_shortened(columns, 12)}" for group, columns in groups.items()]
         return printable("\n".join([title, *lines])) + ">"
 
+    def _repr_html_(self) -> str:
+        """Return warnings and some columns with their waveforms, accelerations first, as notebooks show it."""
+        size = f"{len(self)} columns, {self.n_samples} samples at {self._fs:g} Hz"
+        names = sorted(self, key=lambda name: self.units.get(name) != "m/s^2")[:_SHOWN]
+        rest = len(self) - len(names)
+        lines = "".join(waveform(name, self.units.get(name, ""), self[name]) for name in names)
+        more = paragraph("", f"and {rest} more: print() names them") if rest else ""
+        told = paragraph(f"Signals of {self.scene.name!r}", size) + points(self.warnings)
+        return f"{told}<table>{lines}</table>{more}"
+
     @property
     def t(self) -> NDArray[np.float64]:
         """Times, shape (n_samples,) [s]."""
@@ -342,7 +356,7 @@ class Signals(Columns):
         return Samples(
             columns={name: self[name] for name in chosen},
             fs=float(self._fs),
-            units={name: self._units[name] for name in chosen},
+            units={name: self._units.get(name, "") for name in chosen},
             shaft=shaft_of(self.scene),
             metadata={"scene": self.scene.to_dict(), "provenance": self._provenance.to_dict()},
         )

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
+from ._html import paragraph, points, table
 from .errors import SceneError, SceneWarning
 from .scene.scene import checked_scene
 
@@ -159,6 +160,21 @@ class Equilibrium:
             f"<Equilibrium: {loaded} of {self.ball.size} balls loaded, "
             f"largest load {self.outer_load.max():.1f} N, after {self.iterations} iterations>"
         )
+
+    def _repr_html_(self) -> str:
+        """Return displacements, warnings and the balls, as notebooks show it."""
+        moved = ", ".join(f"{1e6 * each:.2f}" for each in self.inner - self.outer)
+        told = paragraph(
+            repr(self).strip("<>"), f"Inner against outer ring: {moved} µm along x, y, z."
+        )
+        names = ("row", "ball", "at / °", "load / N", "contact angle / °", "largest pressure / GPa")
+        at, angle = np.degrees(self.angle), np.degrees(self.outer_angle)
+        rows = [
+            (str(self.row[k]), str(self.ball[k]), f"{at[k]:.1f}", f"{self.outer_load[k]:.1f}", f"{angle[k]:.2f}",
+             f"{1e-9 * max(self.outer_pressure[k], self.inner_pressure[k]):.3f}")
+            for k in range(self.ball.size)
+        ]  # fmt: skip
+        return told + points(self.warnings) + table(names, rows)
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with a line per ball and the columns ``row``, ``ball``, ``angle``, …."""

@@ -7,6 +7,7 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, TextIO
 
+from .._progress import is_watched
 from .._text import printable
 
 if TYPE_CHECKING:
@@ -102,9 +103,7 @@ class Teller:
     ) -> None:
         self._callback = progress if callable(progress) else None
         self._stream = None if progress is False or self._callback else stream or sys.stderr
-        self._bar = self._stream is not None and (
-            self._stream.isatty() or "ipykernel" in sys.modules
-        )
+        self._bar = self._stream is not None and is_watched(self._stream)
         self._total, self._before = total, before
         self._began = time.monotonic()
         self._drawn = 0.0

@@ -6,6 +6,7 @@ import json
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from .._html import paragraph
 from .._io.files import as_path
 from .._io.parquet import collected
 from .._text import printable
@@ -27,6 +28,9 @@ if TYPE_CHECKING:
     from ..signals import Signals
 
 __all__ = ["Campaign"]
+
+_FEW = 10
+"""Rows of the manifest that a notebook shows."""
 
 
 class Campaign:
@@ -447,3 +451,7 @@ class Campaign:
 
     def __repr__(self) -> str:
         return f"<Campaign {self.status()}>"
+
+    def _repr_html_(self) -> str:
+        """Return how many cases have finished, and the first of the manifest, as notebooks show it."""
+        return paragraph("Campaign", self.status()) + self.manifest.head(_FEW)._repr_html_()

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from html import escape
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+from .._html import paragraph, table
 from .._text import printable
 from .combs import Part
 from .envelopes import Levels
@@ -100,14 +100,9 @@ class Diagnosis:
 
     def _repr_html_(self) -> str:
         """Return the verdict and a table of the evidence, as notebooks show it."""
-        head = "".join(f"<th>{escape(cell)}</th>" for cell in header_of(self.unit))
-        body = "".join(
-            "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>"
-            for row in self.rows()
-        )
-        what = escape(self.verdict + "".join(f", {NAMES[part]}" for part in self.parts))
-        told = f"<p><strong>{escape(self.bearing)}: {what}.</strong> {escape(capital(reason(self)))}.</p>"
-        return f"{told}<table><tr>{head}</tr>{body}</table>"
+        what = self.verdict + "".join(f", {NAMES[part]}" for part in self.parts)
+        told = paragraph(f"{self.bearing}: {what}.", f"{capital(reason(self))}.")
+        return told + table(header_of(self.unit), self.rows())
 
     def _row(self, one: Evidence) -> int:
         """Return the row of the levels in which a part stands out most."""

@@ -72,7 +72,12 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         name = name or ("outer.ay" if "outer.ay" in self else next(iter(self)))
         start = float(self.t[0]) if self.t.size else 0.0
         return Channel(
-            x=self[name], fs=self.fs, name=name, unit=self.units[name], start=start, **self._known()
+            x=self[name],
+            fs=self.fs,
+            name=name,
+            unit=self.units.get(name, ""),
+            start=start,
+            **self._known(),
         )
 
     def to_polars(self) -> pl.DataFrame:

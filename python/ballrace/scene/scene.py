@@ -11,6 +11,7 @@ from typing import Any, Literal
 
 from .. import _core
 from .._document import LEFT_OUT, Part, decode, encode
+from .._html import folded, paragraph, points
 from .._io.files import as_path
 from .._io.toml import check_depth, loads
 from ..errors import SceneError
@@ -129,6 +130,19 @@ class Scene(Part):
         named = {kind: getattr(self, kind) for kind in _NAMED}
         parts = [f"{balls} balls", *(f"{kind}: {', '.join(v)}" for kind, v in named.items() if v)]
         return f"<Scene {self.name!r}: {'; '.join(parts)}>"
+
+    def _repr_html_(self) -> str:
+        """Return a drawing, what is unusual, and the document, as notebooks show it."""
+        from .drawing import drawing
+
+        title = paragraph(repr(self).strip("<>"))
+        try:
+            doubts, text = self.doubts(), self.to_toml()
+        except SceneError as error:
+            return title + points([f"not usable: {error}"])
+        loads, defects = self.loads.values(), self.defects.values()
+        drawn = drawing(self.rows, (self.outer_ring, self.inner_ring), defects, loads)
+        return title + drawn + points(doubts) + folded("as TOML", text)
 
     @classmethod
     def from_toml(cls, text: str) -> Scene:
