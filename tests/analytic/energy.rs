@@ -14,7 +14,7 @@ use ballrace::scene::{
 use ballrace::{Error, Run, Signals, Start, equilibrium, start};
 use common::{effects, oiled, run, short, through_points};
 
-const LAWS: [NormalLaw; 2] = [
+pub(crate) const LAWS: [NormalLaw; 2] = [
     NormalLaw::Hertz,
     NormalLaw::Iso16281 {
         constant: 7.765e10,
@@ -23,7 +23,7 @@ const LAWS: [NormalLaw; 2] = [
 ];
 
 /// A 6205 under radial load and thrust whose inner ring coasts at 3000 rpm: nothing gives or takes energy but the loads.
-fn coasting(law: &NormalLaw) -> Scene {
+pub(crate) fn coasting(law: &NormalLaw) -> Scene {
     conservative(presets::deep_groove_6205(400.0, 150.0, 3000.0), law)
 }
 
@@ -89,7 +89,7 @@ fn with_defect(law: &NormalLaw, on: Surface, change: impl Fn(&mut Defect)) -> Sc
 }
 
 /// A pit a fifth of a millimetre wide where ball 0 meets it as it meets [`defect`].
-fn with_pit(law: &NormalLaw, on: Surface) -> Scene {
+pub(crate) fn with_pit(law: &NormalLaw, on: Surface) -> Scene {
     with_defect(law, on, |defect| {
         let ball = defect.ball;
         *defect = Defect::pit(on, defect.angle, 0.2e-3);
@@ -237,7 +237,7 @@ fn driven(scene: &Scene, out: &Signals) -> Vec<f64> {
 }
 
 /// Largest change of the energy less the work of the loads, over the swing of the kinetic energy.
-fn drift(scene: &Scene, duration: f64) -> f64 {
+pub(crate) fn drift(scene: &Scene, duration: f64) -> f64 {
     let out = run(
         scene,
         &Run {

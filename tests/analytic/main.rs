@@ -15,6 +15,7 @@ mod lubricant;
 mod lubrication;
 mod oil_contact;
 mod oil_run;
+mod pits;
 mod profiles;
 mod ring_force;
 mod start;

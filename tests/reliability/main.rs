@@ -9,4 +9,5 @@ mod campaign;
 mod determinism;
 mod doubts;
 mod levels;
+mod pits;
 mod public;

@@ -71,7 +71,7 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
     Ok(())
 }
 
-/// A pit has a width and perhaps a length, lies in a plain groove, and overlaps no other.
+/// A pit has a width and perhaps a length, lies in a plain groove, and overlaps no other defect.
 fn pit(scene: &Scene, path: &str, row: &Row, defect: &Defect) -> Result<()> {
     let refuse = |field: &str, value: &dyn Display, allowed: &str| {
         Err(Error::scene(format!("{path}.{field}"), value, allowed))
@@ -91,11 +91,11 @@ fn pit(scene: &Scene, path: &str, row: &Row, defect: &Defect) -> Result<()> {
         let allowed = "absent on races through points and gothic arches";
         return refuse("shape", &"pit", allowed);
     }
-    let before = scene
+    let others = scene
         .defects
         .iter()
-        .take_while(|(_, other)| !std::ptr::eq(*other, defect));
-    for (name, other) in before.filter(|(_, other)| other.is_pit()) {
+        .filter(|(_, other)| !std::ptr::eq(*other, defect));
+    for (name, other) in others {
         if overlaps(row, defect, other) {
             let allowed = format!("apart from defects.{name}, which it overlaps");
             return refuse("angle", &defect.angle, &allowed);
@@ -104,20 +104,21 @@ fn pit(scene: &Scene, path: &str, row: &Row, defect: &Defect) -> Result<()> {
     Ok(())
 }
 
-/// Whether two pits of one body overlap; what is yet to be placed lies where the other one does.
+/// Whether two defects of one body overlap; what is yet to be placed is checked again when it is.
 fn overlaps(row: &Row, one: &Defect, other: &Defect) -> bool {
     let body = |defect: &Defect| (defect.on, defect.row, defect.ball);
-    let along = (row.pitch_diameter - row.ball_diameter) / 2.0;
-    let radius = if one.on == Surface::Ball {
-        row.ball_diameter / 2.0
-    } else {
-        along
+    let [pitch, ball] = [row.pitch_diameter / 2.0, row.ball_diameter / 2.0];
+    let radius = match one.on {
+        Surface::OuterRace => pitch + ball,
+        Surface::InnerRace => pitch - ball,
+        Surface::Ball => ball,
     };
     let aside = (one.angle - other.angle).rem_euclid(2.0 * PI);
     let apart = radius * aside.min(2.0 * PI - aside);
     let across = match (one.axial_offset.number(), other.axial_offset.number()) {
         (Some(one), Some(other)) => (one - other).abs(),
-        _ => 0.0,
+        (None, None) => 0.0,
+        _ => f64::INFINITY,
     };
     body(one) == body(other)
         && apart < f64::midpoint(one.width.largest(), other.width.largest())
