@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from .machines import pair, shaft
     from .measuring import measure
     from .model import Model
+    from .noise import NoiseTest, noise_test
     from .options import Run
     from .ratings.friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf
     from .ratings.life import RatingLife, rating_life
@@ -81,6 +82,7 @@ else:
             "machines": ("pair", "shaft"),
             "measuring": ("measure",),
             "model": ("Model",),
+            "noise": ("NoiseTest", "noise_test"),
             "options": ("Run",),
             "plot": (),
             "ratings.friction": (
@@ -130,6 +132,7 @@ __all__ = [
     "LoadDistribution",
     "MemoryLimitError",
     "Model",
+    "NoiseTest",
     "Pedestal",
     "RaceFilm",
     "RatingLife",
@@ -165,6 +168,7 @@ __all__ = [
     "machines",
     "measure",
     "measuring",
+    "noise_test",
     "pair",
     "plot",
     "presets",

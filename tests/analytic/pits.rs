@@ -141,12 +141,13 @@ fn exactly(scene: &Scene, angle: f64) -> Vec<f64> {
 }
 
 /// Symmetry: pit, balls and loads turned together give the same run, turned, as exactly as statics finds where it starts.
+/// By this angle the outer race's pit comes to where angles begin anew.
 #[test]
 fn no_direction_of_a_pit_is_special() {
     for on in SURFACES {
         let record = |angle: f64| exactly(&turned_by(on, angle), angle);
         let healthy = without_defects(turned_by(on, 0.0));
-        let (plain, other) = (record(0.0), record(4.0));
+        let (plain, other) = (record(0.0), record(4.6));
         let felt = apart(&exactly(&healthy, 0.0), &plain);
         let found = apart(&other, &plain);
         println!("{on:?}: {found:.1e}, without the pit {felt:.1e}");

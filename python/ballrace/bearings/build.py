@@ -19,7 +19,7 @@ from .rows import catalogue
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["bearing", "rows_of", "said_clearance"]
+__all__ = ["bearing", "metal", "rows_of", "said_clearance"]
 
 _HALF_THE_BALLS = 1.22
 """Thrust over Fr tan α with which half of the balls carry (Sjövall's integrals at ε = 0.5)."""
@@ -125,7 +125,7 @@ def bearing(
     rows = tuple(replace(row, texture=texture) for row in smooth)
     radial = 0.1 * made.static_rating if radial_load is None else _load("radial_load", radial_load)
     axial = _thrust(made, radial, axial_load)
-    size = (made.outside_diameter**2 - made.pitch_diameter**2) * made.width / _OF_6205
+    size = metal(made)
     return filled(
         name=made.designation,
         rows=rows,
@@ -187,6 +187,11 @@ def said_clearance(
     if said and clearance not in (None, said):
         raise SceneError("clearance", repr(clearance), f"{said!r}, which {name!r} says, or absent")
     return said or ("CN" if clearance is None else clearance)
+
+
+def metal(made: Bearing) -> float:
+    """Return how much metal the outer ring of a bearing has, over that of a 6205."""
+    return (made.outside_diameter**2 - made.pitch_diameter**2) * made.width / _OF_6205
 
 
 def _outer(made: Bearing, housing: Pedestal | None, size: float) -> Ring:

@@ -26,12 +26,15 @@ from .densities import psd, spectrogram
 from .envelopes import envelope_spectrum, squared_envelope, squared_envelope_spectrum
 from .kurtograms import Kurtogram, kurtogram
 from .lines import comb, floor, line, spectrum
+from .standard_bands import VelocityBand, bands_iso15242
 from .whitening import prewhitened
 
 __all__ = [
     "FaultBand",
     "FaultMetrics",
     "Kurtogram",
+    "VelocityBand",
+    "bands_iso15242",
     "by_order",
     "comb",
     "envelope_spectrum",
