@@ -17,7 +17,7 @@ them into a scene by name: ``br.bearing("6205", defects={"spall": spall(on="inne
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from ._numbers import real
 from .errors import SceneError
@@ -31,6 +31,9 @@ __all__ = ["cap", "dent", "line", "pit", "spall"]
 _DOWN = -math.pi / 2.0
 """Where a load along -y presses the balls into the outer race."""
 
+_ROLLED = 0.3
+"""Radius of rolled edges [mm]."""
+
 _CHORDS = 16
 """Pieces that the outline of a dent is drawn with."""
 
@@ -41,7 +44,8 @@ def spall(
     width_mm: float,
     length_mm: float = 2.0,
     depth_mm: float | None = None,
-    edge_radius_mm: float = 0.3,
+    edge_radius_mm: float | None = None,
+    walls: Literal["rolled", "steep"] = "rolled",
     angle: float = _DOWN,
     axial_offset: AxialOffset = "contact",
     row: int = 0,
@@ -57,8 +61,12 @@ def spall(
         Extent along the rolling direction, and across it [mm].
     depth_mm : float, optional
         Depth of its floor [mm]; by default so deep that no ball meets it. A shallow floor is a bed of ten bumps.
-    edge_radius_mm : float
-        How far its edges are rolled over: radius of the fault circles there [mm].
+    edge_radius_mm : float, optional
+        How far its edges are rolled over: radius of the fault circles there [mm]; by default 0.3 of rolled edges.
+    walls : {"rolled", "steep"}
+        Edges that are rolled over, or steep walls, which set the radius and widen the spall by half of its
+        contact's width, so that contacts unload as a solver by boundary elements has them do: see
+        :class:`ballrace.scene.Defect`. Steep ones want a spall of 1.25 contacts and more.
     angle : float
         Angular place on the body, counter-clockwise from its own x axis [rad]; by default where a load along -y
         presses on the outer race.
@@ -72,7 +80,8 @@ def spall(
     SceneError
         A number is not usable. What depends on the bearing is checked with the scene.
     """
-    _positive(width_mm=width_mm, length_mm=length_mm, edge_radius_mm=edge_radius_mm)
+    _positive(width_mm=width_mm, length_mm=length_mm)
+    edge_radius = _edge_radius(walls, edge_radius_mm)
     floor = None
     if depth_mm is not None:
         _positive(depth_mm=depth_mm)
@@ -85,9 +94,25 @@ def spall(
         axial_offset=axial_offset,
         length=1e-3 * length_mm,
         width=1e-3 * width_mm,
-        edge_radius=1e-3 * edge_radius_mm,
+        edge_radius=edge_radius,
+        walls="steep" if walls == "steep" else None,
         floor=floor,
     )
+
+
+def _edge_radius(walls: str, given: float | None) -> float:
+    """Return the radius of fault circles beside walls [m]; 0 where it follows from them."""
+    if walls not in ("rolled", "steep"):
+        raise SceneError("walls", repr(walls), "'rolled' or 'steep'")
+    if walls == "steep":
+        if given is not None:
+            raise SceneError(
+                "edge_radius_mm", repr(given), "left out with walls='steep', from which it follows"
+            )
+        return 0.0
+    radius = _ROLLED if given is None else given
+    _positive(edge_radius_mm=radius)
+    return 1e-3 * radius
 
 
 def dent(

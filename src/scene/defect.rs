@@ -31,9 +31,12 @@ pub struct Defect {
     pub length: f64,
     /// Width w, arc length along the surface \[m\]; a number or a profile along z.
     pub width: Width,
-    /// Radius R_f of the fault circles at the edges \[m\]; a pit has none.
+    /// Radius R_f of the fault circles at the edges \[m\]; a pit has none, and one with walls none of its own.
     #[serde(default)]
     pub edge_radius: f64,
+    /// Walls from which width and edge radius of the fault circles follow; absent: they are as given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub walls: Option<Walls>,
     /// Recessed circles between the edges; absent: no floor.
     #[serde(default)]
     pub floor: Option<Floor>,
@@ -66,6 +69,7 @@ impl Defect {
             length,
             width: width.into(),
             edge_radius,
+            walls: None,
             floor: None,
         }
     }
@@ -117,6 +121,11 @@ impl Defect {
     /// Whether it is a cap of a ball.
     pub(crate) fn is_cap(&self) -> bool {
         self.shape == Some(DefectShape::Cap)
+    }
+
+    /// Whether its walls are steep.
+    pub(crate) fn is_steep(&self) -> bool {
+        self.walls == Some(Walls::Steep)
     }
 
     /// Whether it is a pit.
@@ -174,6 +183,17 @@ pub enum DefectShape {
     /// A hole smaller than its contact, which bulges into it and shares load: an ellipse of `width` along rolling and of `length` across, round
     /// without one, so deep that nothing meets its floor. It has no edge radius.
     Pit,
+}
+
+/// Walls of a patch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Walls {
+    /// Steep ones, over which half of a contact hangs before it reaches them: fault circles of a quarter of the ball's diameter, wider apart than
+    /// `width` by the half-width of the most loaded contact at equilibrium that meets the defect, unload a contact as a solver by boundary
+    /// elements does. A run records both numbers.
+    Steep,
 }
 
 /// Axial place of a defect's middle: a number, or `"contact"`.

@@ -53,7 +53,7 @@ pub use bearing::{
     CoupledSupport, GothicArch, Mount, RaceProfile, Ring, RingName, Row, Support, Waviness,
 };
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
-pub use defect::{AxialOffset, Defect, DefectShape, Floor, Surface, Width, WidthProfile};
+pub use defect::{AxialOffset, Defect, DefectShape, Floor, Surface, Walls, Width, WidthProfile};
 pub(crate) use document::interpret;
 pub(crate) use doubt::FilmJudged;
 pub use doubt::{Doubt, STATIC_PRESSURE};

@@ -10,3 +10,4 @@ mod spall;
 mod statics;
 mod stiffness;
 mod tilt;
+mod walls;

@@ -131,6 +131,7 @@ def every_field() -> s.Scene:
             "outer": defect,
             "inner": dataclasses.replace(defect, on="inner_race", width=1e-3),
             "ball": dataclasses.replace(defect, on="ball", ball=3, width=1e-3, length=5e-4),
+            "steep": s.Defect(on="inner_race", angle=0.3, length=2e-3, width=1e-3, walls="steep"),
             "cap": s.Defect(
                 on="ball", ball=2, angle=0.3, shape="cap", width=1e-3, edge_radius=3e-4
             ),
@@ -546,6 +547,37 @@ def test_a_cap_is_refused_by_the_field(
 def test_documents_of_patches_do_not_speak_of_shapes(wheel: s.Scene) -> None:
     assert "shape" not in wheel.to_dict()["defects"]["spall"]
     assert "shape" not in wheel.to_json()
+
+
+def test_a_spall_between_steep_walls_is_placed_with_its_numbers() -> None:
+    """Half a contact's width wider, and circles of a quarter of the ball's diameter."""
+    spall = br.defects.spall(on="outer_race", width_mm=0.8, walls="steep")
+    scene = br.bearing("6205", radial_load=500.0, defects=spall)
+    assert s.Scene.from_toml(scene.to_toml()) == scene
+    assert scene.to_dict()["defects"]["defect"]["walls"] == "steep"
+    out = br.simulate(scene, duration=0.01)
+    placed, met = out.scene.defects["defect"], out.defects["defect"]
+    assert placed.walls is None
+    assert placed.edge_radius == pytest.approx(7.94e-3 / 4.0, rel=1e-12)
+    # The run's heaviest contact is not quite that at rest.
+    assert met.contact_width is not None
+    assert placed.width == pytest.approx(0.8e-3 + met.contact_width / 2.0, rel=0.05)
+    assert "walls" not in out.scene.to_dict()["defects"]["defect"]
+    rolled = br.defects.spall(on="outer_race", width_mm=0.8)
+    assert (rolled.edge_radius, rolled.walls) == (0.3e-3, None)
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"walls": "sheer"}, "walls = 'sheer': 'rolled' or 'steep'"),
+        ({"walls": "steep", "edge_radius_mm": 0.3}, r"edge_radius_mm = 0\.3: left out"),
+        ({"edge_radius_mm": -0.3}, "edge_radius_mm"),
+    ],
+)
+def test_walls_are_refused_by_the_field(given: dict[str, Any], told: str) -> None:
+    with pytest.raises(br.SceneError, match=told):
+        br.defects.spall(on="outer_race", width_mm=1.0, **given)
 
 
 def test_parts_cannot_be_changed(wheel: s.Scene) -> None:

@@ -15,7 +15,16 @@ from .approximations import Approximations
 from .bearing import GothicArch, RaceProfile, Ring, RingName, Row, Waviness
 from .cage import Cage
 from .contact import AccurateSlices, Contact, FittedSlices, FixedSlices, Iso16281, NormalLaw, Slices
-from .defect import AxialOffset, Defect, DefectShape, Floor, Surface, Width, WidthProfile
+from .defect import (
+    AxialOffset,
+    Defect,
+    DefectShape,
+    DefectWalls,
+    Floor,
+    Surface,
+    Width,
+    WidthProfile,
+)
 from .drive import Drive, SpeedDrive, TorqueDrive
 from .friction import Coulomb, Friction, Stribeck, Traction
 from .load import Load, Moment, TableForce, Unbalance
@@ -56,6 +65,7 @@ __all__ = [
     "CoupledSupport",
     "Defect",
     "DefectShape",
+    "DefectWalls",
     "Drive",
     "EnergyProbe",
     "FittedSlices",

@@ -7,7 +7,16 @@ from typing import Literal
 
 from .._document import LEFT_OUT, Part
 
-__all__ = ["AxialOffset", "Defect", "DefectShape", "Floor", "Surface", "Width", "WidthProfile"]
+__all__ = [
+    "AxialOffset",
+    "Defect",
+    "DefectShape",
+    "DefectWalls",
+    "Floor",
+    "Surface",
+    "Width",
+    "WidthProfile",
+]
 
 
 Surface = Literal["outer_race", "inner_race", "ball"]
@@ -16,6 +25,10 @@ Surface = Literal["outer_race", "inner_race", "ball"]
 
 DefectShape = Literal["cap", "pit"]
 """Outline of a defect that is not a patch of its length and width (see :class:`Defect`)."""
+
+
+DefectWalls = Literal["steep"]
+"""Walls from which the fault circles of a patch follow (see :class:`Defect`)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,7 +102,13 @@ class Defect(Part):
     width : Width
         Arc length along the surface [m]; of a cap or pit a plain number.
     edge_radius : float
-        Radius of the fault circles at the edges [m]; a pit has none.
+        Radius of the fault circles at the edges [m]; a pit has none, and one with walls none of its own.
+    walls : "steep" or None
+        Walls of a patch of one width; None: the fault circles are as given. A contact hangs over a steep wall by
+        half of itself before it reaches the surface beside it: its fault circles get a radius of a quarter of the
+        ball's diameter and stand further apart than ``width`` by the half-width of the most loaded contact that
+        meets the defect at the static equilibrium of the healthy bearing. What is narrower than 1.25 contacts is
+        refused. A run records both numbers in ``out.scene``.
     floor : Floor or None
         Recessed circles between the edges; None: no floor.
     """
@@ -103,6 +122,7 @@ class Defect(Part):
     length: float = 0.0
     width: Width
     edge_radius: float = 0.0
+    walls: DefectWalls | None = field(default=None, metadata=LEFT_OUT)
     floor: Floor | None = None
 
 

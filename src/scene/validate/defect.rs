@@ -14,7 +14,9 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
     let row = scene.row_index(path, defect.row)?;
     let radius = row.ball_diameter / 2.0;
     within(&at("angle"), defect.angle, -1e3..=1e3, "rad")?;
-    if defect.is_pit() {
+    if defect.is_steep() {
+        between_walls(path, defect)?;
+    } else if defect.is_pit() {
         pit(scene, path, row, defect)?;
     } else {
         positive(&at("edge_radius"), defect.edge_radius, "m")?;
@@ -69,6 +71,24 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// What stands between walls is a patch of one width, whose fault circles follow from them.
+fn between_walls(path: &str, defect: &Defect) -> Result<()> {
+    let refuse = |field: &str, value: &dyn Display, allowed: &str| {
+        Err(Error::scene(format!("{path}.{field}"), value, allowed))
+    };
+    if defect.shape.is_some() {
+        return refuse("walls", &"steep", "absent for a cap or a pit");
+    }
+    if defect.edge_radius != 0.0 {
+        let allowed = "absent with steep walls, from which it follows";
+        return refuse("edge_radius", &defect.edge_radius, allowed);
+    }
+    match &defect.width {
+        Width::Constant(_) => Ok(()),
+        Width::Profile(_) => refuse("width", &"a profile", "one number with steep walls"),
+    }
 }
 
 /// A pit has a width and perhaps a length, lies in a plain groove, and overlaps no other defect.
