@@ -10,7 +10,7 @@ use ballrace::dynamics::Dynamics;
 use ballrace::inspect;
 use ballrace::integrate::{DORMAND_PRINCE, Options, System, Tolerance, integrate};
 use ballrace::scene::{
-    Friction, Lubricant, Mount, NormalLaw, Scene, Slices, TimeFunction, presets,
+    Defect, Friction, Lubricant, Mount, NormalLaw, Scene, Slices, Surface, TimeFunction, presets,
 };
 use ballrace::simd::InstructionSet;
 use ballrace::{Model, Race, Run, Start, equilibrium, load_distribution, simulate, start};
@@ -52,6 +52,17 @@ fn contact(c: &mut Criterion) {
         // Ball 1 of row 0 carries most.
         group.bench_function(format!("{slices:?}"), |b| {
             b.iter(|| inspect::contact(&model, black_box(&y), 1, Race::Outer));
+        });
+    }
+    // Its ball 0 stands over the pit.
+    let whole = presets::deep_groove_6205(500.0, 0.0, 1797.0);
+    let mut pitted = whole.clone();
+    let pit = Defect::pit(Surface::OuterRace, whole.rows[0].start_angle, 0.178e-3);
+    pitted.defects.insert("pit".to_owned(), pit);
+    for (name, scene) in [("6205", whole), ("6205 at a pit", pitted)] {
+        let (model, y) = loaded(&scene);
+        group.bench_function(name, |b| {
+            b.iter(|| inspect::contact(&model, black_box(&y), 0, Race::Outer));
         });
     }
     group.finish();

@@ -1,4 +1,4 @@
-//! The six scenes by which a change of the code is judged for speed: a line each with its name, the seconds that a simulated second takes
+//! The scenes by which a change of the code is judged for speed: a line each with its name, the seconds that a simulated second takes
 //! (median of the runs), evaluations of the right-hand side, and a number that changes with any bit of the signals.
 //!
 //! `cargo run --release -p ballrace-benches --bin scenes -- 9`, and behind it a part of a name for some of them. To compare two builds, run their programs in turn, once a time.
@@ -6,10 +6,10 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::time::Instant;
 
-use ballrace::scene::{Friction, Lubricant, Scene, Texture, presets};
+use ballrace::scene::{Defect, Friction, Lubricant, Scene, Surface, Texture, presets};
 use ballrace::{Run, simulate};
 
-fn scenes() -> [(&'static str, Scene); 6] {
+fn scenes() -> [(&'static str, Scene); 8] {
     let dry = presets::deep_groove_6205(500.0, 0.0, 1797.0);
     let mut oiled = dry.clone();
     oiled.lubricant = Some(Lubricant::named("vg68", 328.15));
@@ -19,9 +19,19 @@ fn scenes() -> [(&'static str, Scene); 6] {
     let mut texture = Texture::of_races(1e-9);
     texture.ball = 3e-11;
     textured.rows[0].texture = Some(texture);
+    let pitted = |pit: Defect| {
+        let mut scene = dry.clone();
+        scene.defects.insert("pit".to_owned(), pit);
+        scene
+    };
+    let pit = |on| Defect::pit(on, -std::f64::consts::FRAC_PI_2, 0.178e-3);
+    let pits = [pit(Surface::OuterRace), pit(Surface::Ball).on_ball(0)].map(pitted);
+    let [pitted_race, pitted_ball] = pits;
     [
         ("wheel bearing", presets::wheel_bearing(3000.0)),
-        ("6205", dry),
+        ("6205", dry.clone()),
+        ("6205 pitted race", pitted_race),
+        ("6205 pitted ball", pitted_ball),
         ("6205 in oil", oiled),
         ("6205 textured", textured),
         ("plane 6205", plane),
@@ -56,7 +66,7 @@ fn main() {
         }
         seconds.sort_by(f64::total_cmp);
         println!(
-            "{name:16} {:8.4} {:8} {:016x}",
+            "{name:17} {:8.4} {:8} {:016x}",
             seconds[runs / 2],
             told.0,
             told.1

@@ -16,14 +16,14 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from precision import contact, features, knobs, methods, signals
+from precision import contact, features, knobs, methods, pits, signals
 
 import ballrace as br
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-CHARTS = {chart.NAME: chart for chart in (contact, signals, methods, features, knobs)}
+CHARTS = {chart.NAME: chart for chart in (contact, signals, methods, features, knobs, pits)}
 
 
 def write(rows: list[dict[str, Any]], path: Path) -> None:
@@ -66,6 +66,8 @@ def make(names: Iterable[str], folder: Path, *, quick: bool, redraw: bool) -> No
         if name == "methods":
             for cost in ("evaluations", "wall_ms"):
                 print(*methods.cheapest(rows, cost), sep="\n")
+        if name == "pits":
+            print(*pits.cheapest(rows), sep="\n")
         print(f"{name}: {len(rows)} rows, {time.perf_counter() - begun:.0f} s", flush=True)
 
 

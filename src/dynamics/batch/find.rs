@@ -15,7 +15,7 @@ pub(super) struct Neighbours {
     /// Which lanes are balls.
     filled: Mask,
     /// Which of them have defects of their own.
-    faulted: Mask,
+    with_defects: Mask,
     /// Whether they have a texture.
     textured: bool,
     /// Constants of their contacts with the outer and with the inner race.
@@ -36,7 +36,7 @@ impl Neighbours {
             first,
             radius: Lanes::from_fn(|i| model.balls[lane(i)].side.radius),
             filled: Mask::from_fn(|i| i < count),
-            faulted: Mask::from_fn(|i| !model.balls[lane(i)].side.faults.is_empty()),
+            with_defects: Mask::from_fn(|i| !model.balls[lane(i)].side.faults.is_empty()),
             textured: model.has_textured_balls(&model.rows[row]),
             constants: Race::BOTH.map(|race| {
                 let mut all = Constants::default();
@@ -62,6 +62,21 @@ impl Neighbours {
             *table = ball.side.waves.table()?;
         }
         Some(tables)
+    }
+
+    /// Which of its balls touch where a defect of their own may be met.
+    fn facing(&self, model: &Model, race: Race, view: &View<'_>, touching: Mask) -> Mask {
+        let pair = &model.rows[self.row].pairs[race];
+        let asked = self.with_defects.and(touching);
+        if !asked.any() {
+            return asked;
+        }
+        Mask::from_fn(|lane| {
+            asked.lane(lane) && {
+                let ball = self.first + lane;
+                pair.may_meet_defects_of(&model.balls[ball].side, &view.ball(ball), &view.ring)
+            }
+        })
     }
 
     /// Numbers of its balls along one direction; in lanes that are left, of whatever comes next.
@@ -124,7 +139,8 @@ impl Task for Find<'_> {
                 if !touching.any() {
                     continue;
                 }
-                let faulted = near.faulted.or(stretch.faulted).and(touching);
+                let facing = stretch.facing(model, race, &views[race], touching);
+                let faulted = near.faulted.or(facing).and(touching);
                 let stiffness = batch.stiffness[stretch.row][race];
                 if let Some((stiffness, forces)) = stiffness.zip(forces.as_deref_mut()) {
                     let skip = faulted.or(touching.not());
