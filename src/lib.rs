@@ -59,8 +59,8 @@ pub use base::error::{Error, Result};
 pub use base::interrupt::Interrupt;
 pub use campaign::{Case, Finished, Outcome, campaign, stream};
 pub use explain::{
-    ContactKind, Cost, Explanation, LawExplanation, OilExplanation, TextureExplanation, Variant,
-    explain,
+    ContactKind, Cost, Explanation, LawExplanation, OilExplanation, PitExplanation,
+    TextureExplanation, Variant, explain,
 };
 pub use features::{Feature, FeatureOptions, feature_columns, features, signal_features};
 pub use model::{Body, BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Race, Scales};

@@ -53,6 +53,11 @@ class Explanation(Record):
         ``knots`` of its table, ``roughness`` around the circumference and ``fine_roughness`` from order 15 on
         (root mean square) [m], length of the ``shortest`` waves, of which a contact leaves nothing [m], their
         ``frequency`` [Hz], and the ``largest_step`` that sees them [s].
+    pits : list of dict
+        Pits beneath the most loaded contact that meets them at the healthy bearing's equilibrium: ``name``,
+        ``on``, ``size`` along rolling and across [m], ``load`` and size of the ``contact``, 2b and 2a [N], [m],
+        what is ``lost`` of the load at the pit's middle and one approach [N], the ``depth`` of race worth as much
+        [m], the share X of the contact's elastic energy that is ``released``, and the ``duration`` of a pass [s].
     doubts : list of dict
         Numbers that no bearing is likely to have, and columns that cannot change: ``path``, ``value``, ``usual``.
     defects : list of dict

@@ -3,6 +3,7 @@
 mod cost;
 mod law;
 mod oil;
+mod pit;
 mod space;
 mod texture;
 mod variants;
@@ -28,6 +29,7 @@ use crate::statics::{DefectPasses, Placed, describe, place};
 pub use cost::Cost;
 pub use law::LawExplanation;
 pub use oil::OilExplanation;
+pub use pit::PitExplanation;
 pub use texture::TextureExplanation;
 pub use variants::Variant;
 
@@ -65,6 +67,8 @@ pub struct Explanation {
     pub oils: Vec<OilExplanation>,
     /// The textures of races and balls.
     pub textures: Vec<TextureExplanation>,
+    /// The pits that a loaded contact meets.
+    pub pits: Vec<PitExplanation>,
     /// What is unusual about the scene, about the pressure in its contacts and about its films.
     pub doubts: Vec<Doubt>,
     /// Where defects are placed, and what contacts carry there at the healthy bearing's equilibrium: over a turn of
@@ -136,6 +140,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         law: law::of(&model, &at_start),
         oils: oil::of(&model)?,
         textures: texture::of(&model),
+        pits: pit::of(&scene)?,
         doubts: at_start
             .doubts
             .into_iter()
@@ -259,6 +264,9 @@ impl fmt::Display for Explanation {
         }
         for defect in &self.defects {
             writeln!(f, "  {}", in_words(defect))?;
+        }
+        for pit in &self.pits {
+            writeln!(f, "  {pit}")?;
         }
         for (name, forces) in [
             ("evaluated", &self.evaluated),

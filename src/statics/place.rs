@@ -11,6 +11,7 @@ use serde::Serialize;
 use super::{loads, positions};
 use crate::base::error::{Error, Result};
 use crate::base::quantities::{self, number};
+use crate::contact::Fault;
 use crate::inspect;
 use crate::model::{BodyId, Dof, Model, Race, ball_fault, compile_placed, race_fault};
 use crate::scene::{AxialOffset, Defect, Row, Scene, Surface, TimeFunction, Width};
@@ -54,18 +55,9 @@ fn check_pits(scene: &Scene) -> Result<()> {
         let Some(meeting) = DefectPasses::of(scene, defect)? else {
             continue;
         };
-        let Some((load, race)) = meeting.heaviest() else {
-            continue;
-        };
-        let model = &meeting.model;
-        let row = &model.rows[defect.row];
-        let geometry = &scene.rows[defect.row];
-        let compiled = if defect.on == Surface::Ball {
-            ball_fault(defect, geometry.ball_diameter / 2.0, &row.hertz)
-        } else {
-            race_fault(defect, geometry, (&row.pairs[race], &row.hertz[race]))
-        };
-        if compiled.outgrows(&row.hertz[race], load) {
+        if let Some((pit, load, race)) = meeting.pit(defect)
+            && pit.outgrows(&meeting.model.rows[defect.row].hertz[race], load)
+        {
             return Err(Error::scene(
                 format!("defects.{name}.width"),
                 defect.width.largest(),
@@ -202,6 +194,19 @@ impl DefectPasses {
         let loads = self.contacts.iter().map(load);
         let heaviest = loads.max_by(|a, b| a.0.total_cmp(&b.0));
         heaviest.filter(|(load, _)| *load > LOADED * self.model.scales.load)
+    }
+
+    /// A pit, compiled, with the load \[N\] of that contact and its race.
+    pub fn pit(&self, defect: &Defect) -> Option<(Fault, f64, Race)> {
+        let (load, race) = self.heaviest()?;
+        let row = &self.model.rows[defect.row];
+        let geometry = &self.model.scene().rows[defect.row];
+        let fault = if defect.on == Surface::Ball {
+            ball_fault(defect, geometry.ball_diameter / 2.0, &row.hertz)
+        } else {
+            race_fault(defect, geometry, (&row.pairs[race], &row.hertz[race]))
+        };
+        Some((fault, load, race))
     }
 
     /// Half-width of that contact along rolling \[m\].

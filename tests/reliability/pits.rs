@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use ballrace::scene::{Defect, Floor, GothicArch, Scene, Surface, Width, WidthProfile, presets};
-use ballrace::{Error, compile};
+use ballrace::{Error, compile, explain};
 
 use crate::common::through_points;
 
@@ -136,4 +136,34 @@ fn more_than_four_pits_at_once_are_refused() {
             "{told}"
         );
     }
+}
+
+/// Model section 15.1: a circle wholly in its contact loses (4/3)(c³/E*) p²/δ whatever the load, 3.49 N for 0.178 mm on the outer race of a
+/// 6205; the fields belong together.
+#[test]
+fn an_explanation_tells_what_a_pit_takes() {
+    let mut scene = presets::deep_groove_6205(500.0, 0.0, 1797.0);
+    let seeded = pit(Surface::OuterRace, -FRAC_PI_2, 0.178e-3);
+    scene.defects.insert("seeded".to_owned(), seeded);
+    let told = explain(&scene).unwrap();
+    let of = &told.pits[0];
+    println!("{of}");
+    assert!((of.lost / 3.49 - 1.0).abs() < 0.01, "{of:?}");
+    // F = K δ^{3/2}: so much less approach takes as much.
+    let stiffness = 1.5 * of.load / (of.lost / of.depth);
+    assert!((5e-6..12e-6).contains(&stiffness), "approach {stiffness:e}");
+    assert!(
+        (of.released * of.load - 0.0307 * 250.0).abs() < 1.5,
+        "{of:?}"
+    );
+    // The contact moves over the race with the orbit, 0.398 of the shaft's speed, at 23.49 mm.
+    let speed = (of.size[0] + of.contact[0]) / of.duration;
+    assert!((speed / 1.76 - 1.0).abs() < 0.02, "{speed}");
+    assert!(
+        told.to_string()
+            .contains("seeded: pit on the outer race, 0.178 mm: under ")
+    );
+    assert!(told.to_string().contains("takes 3.5 N of it"));
+    scene.defects.clear();
+    assert!(explain(&scene).unwrap().pits.is_empty());
 }

@@ -109,12 +109,18 @@ impl Fault {
     pub(crate) fn outgrows(&self, contact: &Hertz, load: f64) -> bool {
         const LONGEST: f64 = 0.9;
         const MOST_RELEASED: f64 = 1.8;
-        let Some(pit) = &self.pit else { return false };
+        let (Some(pit), Some((_, released))) = (&self.pit, self.takes(contact, load)) else {
+            return false;
+        };
+        pit.hole.across() > LONGEST * contact.half_length * load.cbrt() || released > MOST_RELEASED
+    }
+
+    /// What a pit takes of a contact's load at its middle, at one and the same approach \[N\], and X; none of other defects.
+    pub(crate) fn takes(&self, contact: &Hertz, load: f64) -> Option<(f64, f64)> {
         let (of, depth) = (PittedContact::of(contact), contact.approach(load));
-        let energy = 0.4 * load * depth;
-        let released = pit.hole.released(&of, depth, [0.0; 2]);
-        pit.hole.across() > LONGEST * contact.half_length * load.cbrt()
-            || released.energy > MOST_RELEASED * energy
+        let released = self.pit?.hole.released(&of, depth, [0.0; 2]);
+        let found = Yield::of(&of, 0.4 * load * depth, &[released]);
+        Some((load * (1.0 - found.share), found.exponent))
     }
 
     /// Whether a ball's pit may lie in a contact in this direction: the contact leans by less than 80 degrees, and is short.

@@ -1,7 +1,7 @@
 //! Finds which balls touch which race, eight at a time.
 
 use super::{Batch, SideConstants, Single, Touching, View};
-use crate::contact::{Constants, EightContacts, HeightTable, Places, Raise, Summing};
+use crate::contact::{Constants, EightContacts, HeightTable, Near, Places, Raise, Summing};
 use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
@@ -64,19 +64,20 @@ impl Neighbours {
         Some(tables)
     }
 
-    /// Which of its balls touch where a defect of their own may be met.
-    fn facing(&self, model: &Model, race: Race, view: &View<'_>, touching: Mask) -> Mask {
+    /// Which of its balls touch where a defect of the race or of their own may be met.
+    fn faulted(&self, model: &Model, race: Race, view: &View<'_>, near: &Near) -> Mask {
         let pair = &model.rows[self.row].pairs[race];
-        let asked = self.with_defects.and(touching);
+        let asked = self.with_defects.and(near.touching).and(self.filled);
         if !asked.any() {
-            return asked;
+            return near.faulted;
         }
-        Mask::from_fn(|lane| {
+        let own = Mask::from_fn(|lane| {
             asked.lane(lane) && {
                 let ball = self.first + lane;
                 pair.may_meet_defects_of(&model.balls[ball].side, &view.ball(ball), &view.ring)
             }
-        })
+        });
+        near.faulted.or(own)
     }
 
     /// Numbers of its balls along one direction; in lanes that are left, of whatever comes next.
@@ -139,8 +140,7 @@ impl Task for Find<'_> {
                 if !touching.any() {
                     continue;
                 }
-                let facing = stretch.facing(model, race, &views[race], touching);
-                let faulted = near.faulted.or(facing).and(touching);
+                let faulted = stretch.faulted(model, race, &views[race], &near);
                 let stiffness = batch.stiffness[stretch.row][race];
                 if let Some((stiffness, forces)) = stiffness.zip(forces.as_deref_mut()) {
                     let skip = faulted.or(touching.not());
