@@ -376,6 +376,49 @@ def test_random_housings_differ_by_their_seeds() -> None:
         assert sum(mode.residue**2 for mode in housing.modes) == pytest.approx(0.25)
 
 
+def test_machines_by_chance_repeat_by_their_seeds_and_hold_their_ranges() -> None:
+    made = [m.random_machine(seed) for seed in range(30)]
+    assert made[3] == m.random_machine(3)
+    assert len({machine.shaft for machine in made}) == 30
+    level = [np.interp(1e3, *machine.noise_density) for machine in made]  # type: ignore[misc]
+    measured = np.interp(1e3, *m.Machine().noise_density)  # type: ignore[misc]
+    assert 0.01 <= min(level) / measured < 0.1
+    assert 10.0 < max(level) / measured <= 100.0
+    for machine in made:
+        assert all(3e-3 <= a <= 1.0 for a in machine.shaft[:3])
+        assert 20 <= np.count_nonzero(machine.shaft) <= 90
+        assert 0.0 <= machine.wander <= 0.3
+        assert len(machine.modulation or ()) == 3
+
+
+def test_chains_by_chance_begin_alike_whatever_their_number() -> None:
+    few, many = m.random_chains(2, seed=5), m.random_chains(4, seed=5)
+    assert [many[name] for name in few] == list(few.values())
+    assert len({repr(chain) for chain in many.values()}) == 4
+
+
+def test_a_floor_of_ones_own_leaves_lines_out() -> None:
+    """White noise of 1e-4 with a strong tone: its density is found, at 0.5 to 2 times and tilted about 1 kHz."""
+    noise = math.sqrt(0.5e-4 * FS) * np.random.default_rng(2).standard_normal(100_000)
+    record = br.Channel(x=noise + sine(997.0, 2.0), fs=FS)
+    for seed in range(5):
+        made = m.random_machine(seed, background=record)
+        assert 0.45e-4 < np.interp(1e3, *made.noise_density) < 2.2e-4  # type: ignore[misc]
+
+
+def test_noise_that_wanders_is_slow_and_leaves_other_numbers_alone() -> None:
+    t = np.zeros(200_000)
+    steady = br.measure(t, fs=1e4, machine=m.Machine(noise_density=1e-2, shaft=(0.5,)), shaft=25.0)
+    wander = m.Machine(noise_density=1e-2, shaft=(0.5,), wander=0.3)
+    found = br.measure(t, fs=1e4, machine=wander, shaft=25.0)
+    tone = br.measure(t, fs=1e4, machine=m.Machine(noise_density=0.0, shaft=(0.5,)), shaft=25.0).x
+    plain = steady.x - tone
+    loud = np.abs(plain) > 0.1
+    log = np.log((found.x - tone)[loud] / plain[loud])  # the same noise, louder or quieter
+    assert 0.15 < log.std() < 0.5
+    assert np.abs(np.diff(log)).max() < 0.02
+
+
 # ------------------------------------------------------------------------------- what is refused
 
 
@@ -392,6 +435,11 @@ def test_random_housings_differ_by_their_seeds() -> None:
         (lambda: m.Sensor(resonance=-1.0), "sensor.resonance"),
         (lambda: m.Machine(noise_density=-1.0), "machine.noise_density"),
         (lambda: m.Machine(shaft=(math.nan,)), "machine.shaft"),
+        (lambda: m.Machine(wander=-0.1), "machine.wander"),
+        (lambda: m.random_machine(-1), "seed"),
+        (lambda: m.random_machine(1, background="97.mat"), "background"),  # type: ignore[arg-type]
+        (lambda: m.random_machine(1, background=br.Channel(x=np.ones(9), fs=1e3)), "background"),
+        (lambda: m.random_chains(0, seed=1), "n"),
         (lambda: m.Logger(range=0.0), "logger.range"),
         (lambda: m.Logger(bits=1, range=1.0), "logger.bits"),
         (lambda: m.Tacho(pulses=0), "tacho.pulses"),

@@ -27,6 +27,7 @@ seed, a stage at a time: leaving one out does not change the noise of another.
 ``mixing``    onto a measured healthy record
 ``chain``     the stages one after the other
 ``named``     several chains, by their names
+``drawn``     machines and chains by chance
 ============  ==================================================================================
 
 Housing and sensor are linear and are applied to the spectrum, the record padded until their ringing has died
@@ -38,6 +39,7 @@ percent at a tenth of the sampling rate. They are at rest as the record begins.
 from __future__ import annotations
 
 from .chain import Chain, Measurement, measure
+from .drawn import random_chains, random_machine
 from .housing import Housing, ImpulseResponse, MeasuredResponse, Mode, random_housing
 from .logger import Logger
 from .machine import Machine
@@ -59,6 +61,8 @@ __all__ = [
     "Tacho",
     "measure",
     "mix_into",
+    "random_chains",
     "random_housing",
+    "random_machine",
     "table",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -16,9 +17,9 @@ if TYPE_CHECKING:
 
     from .source import Source
 
-__all__ = ["Machine"]
+__all__ = ["MEASURED_FLOOR", "Machine"]
 
-_FLOOR: Density = (
+MEASURED_FLOOR = (
     (50.0, 150.0, 300.0, 550.0, 850.0, 1200.0, 1700.0, 2400.0, 3400.0, 4800.0, 6800.0, 9600.0, 13_600.0, 19_200.0,
      24_000.0),
     (2e-7, 1.6e-5, 1.1e-5, 3.5e-5, 1e-5, 3.3e-6, 3.5e-6, 9.4e-6, 1.3e-5, 5.5e-6, 5.6e-7, 1.3e-7, 3.4e-8, 3.5e-8,
@@ -35,6 +36,9 @@ _SWELLING = (0.1, 0.05)
 """Of that record: its squared envelope has lines of 0.15 to 0.28 of its mean at the shaft's frequency and 0.06 to
 0.24 at twice that, in bands from 0.5 to 16 kHz but 4 to 5 kHz, where a line of the motor stands; a modulation m
 gives 2 m."""
+
+_SLOW, _WAVES = (0.1, 3.0), 8
+"""Frequencies of what swells the noise slowly [Hz], and how many waves of them."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,16 +61,21 @@ class Machine:
         How the shaft's orders 1, 2, … swell the noise: it is multiplied by ``1 + Σ m_k cos(k θ + φ_k)``, which
         gives the squared envelope lines there; phases are drawn. None: as measured on that motor, 0.1 and 0.05,
         wherever the shaft's angle is known.
+    wander : float
+        How the noise swells slowly, standard deviation of the logarithm of its amplitude: waves of 0.1 to 3 Hz by
+        chance, as load, temperature and the grip of mounts change.
     """
 
     shaft: tuple[float, ...] = ()
     mains: tuple[float, ...] = ()
     mains_frequency: float = 50.0
-    noise_density: Density = _FLOOR
+    noise_density: Density = MEASURED_FLOOR
     modulation: tuple[float, ...] | None = None
+    wander: float = 0.0
 
     def __post_init__(self) -> None:
         positive("machine.mains_frequency", self.mains_frequency)
+        positive("machine.wander", self.wander, zero=True)
         density = checked_density("machine.noise_density", self.noise_density)
         object.__setattr__(self, "noise_density", density)
         for name in ("shaft", "mains", "modulation"):
@@ -86,7 +95,7 @@ class Machine:
             The angle of the shaft is needed, and not known.
         """
         # A stream for each, so that one does not change the numbers of another.
-        rough, swelling, shaft, mains = rng.spawn(4)
+        rough, swelling, shaft, mains, slow = rng.spawn(5)
         total = np.zeros(source.x.size)
         if self.noise_density != 0.0:
             total += noise(self.noise_density, source.fs, source.x.size, rough)
@@ -95,10 +104,20 @@ class Machine:
             orders = () if source.angle is None else _SWELLING
         if orders:
             total *= 1.0 + _orders(orders, source.needed_angle(), swelling)
+        if self.wander:
+            total *= np.exp(self.wander * _slow(source.t, slow))
         if self.shaft:
             total += _orders(self.shaft, source.needed_angle(), shaft)
         turn = 2.0 * np.pi * self.mains_frequency * source.t
         return total + _orders(self.mains, turn, mains)
+
+
+def _slow(t: NDArray[np.float64], rng: np.random.Generator) -> NDArray[np.float64]:
+    """Return slow waves at some times [s], of mean 0 and variance 1 over many seeds."""
+    total = np.zeros(t.size)
+    for f in np.geomspace(*_SLOW, _WAVES):
+        total += math.sqrt(2.0 / _WAVES) * np.cos(2.0 * np.pi * (f * t + rng.random()))
+    return total
 
 
 def _orders(
