@@ -7,7 +7,7 @@ import math
 from .._numbers import real
 from ..errors import SceneError
 
-__all__ = ["CLASSES", "radial_clearance"]
+__all__ = ["CLASSES", "clearance_limits", "radial_clearance"]
 
 CLASSES = ("C2", "CN", "C3", "C4", "C5")
 
@@ -52,12 +52,33 @@ def radial_clearance(bore: float, clearance: str | float) -> float:
                 "clearance", repr(clearance), "a number [m], or one of " + ", ".join(CLASSES)
             )
         return float(clearance)
+    low, high = _micrometres(bore, clearance)
+    return 0.5e-6 * (low + high)
+
+
+def clearance_limits(bore: float, clearance: str) -> tuple[float, float]:
+    """Return the least and the largest diametral clearance of a class [m].
+
+    Raises
+    ------
+    SceneError
+        There is no such class, or the bore is beyond the table.
+
+    Examples
+    --------
+    >>> [round(1e6 * limit) for limit in clearance_limits(25e-3, "CN")]
+    [5, 20]
+    """
+    low, high = _micrometres(bore, clearance)
+    return 1e-6 * low, 1e-6 * high
+
+
+def _micrometres(bore: float, clearance: str) -> tuple[int, int]:
     if clearance not in CLASSES:
         raise SceneError(
             "clearance", repr(clearance), "a number [m], or one of " + ", ".join(CLASSES)
         )
     for largest, limits in _TABLE:
         if bore <= largest * (1e-3 + 1e-12):
-            low, high = limits[CLASSES.index(clearance)]
-            return 0.5e-6 * (low + high)
+            return limits[CLASSES.index(clearance)]
     raise SceneError("clearance", clearance, "a number [m]: the table ends at a bore of 120 mm")

@@ -1,7 +1,9 @@
-"""From records to what learns: arrays of windows, and features, the same of simulated and measured records.
+"""From records to what learns: recipes, windows, features, a classifier, and what betrays the simulation.
 
-:func:`examples` makes writable arrays of a table of windows; :class:`EnvelopeLines` is a transformer of
-scikit-learn (``pip install "ballrace[learn]"``).
+A :class:`Recipe` says what is simulated, and :func:`dataset` does it; :func:`examples` makes writable arrays of
+a table of windows. With scikit-learn (``pip install "ballrace[learn]"``): :class:`EnvelopeLines`, a transformer
+whose features are the same of simulated and measured records, :class:`Diagnoser`, a classifier that has learnt
+from them, and :func:`domain_report`.
 """
 
 from __future__ import annotations
@@ -12,11 +14,34 @@ from .._later import later
 
 if TYPE_CHECKING:
     from .arrays import Examples, examples
+    from .data import Simulated, dataset
+    from .diagnoser import Diagnoser, Judgement
+    from .domain import DomainReport, domain_report
     from .envelope_lines import EnvelopeLines
+    from .recipe import Recipe
 else:
-    # Arrays do not need scikit-learn.
+    # Arrays and recipes do not need scikit-learn.
     __getattr__ = later(
-        __name__, {"envelope_lines": ("EnvelopeLines",), "arrays": ("Examples", "examples")}
+        __name__,
+        {
+            "arrays": ("Examples", "examples"),
+            "data": ("Simulated", "dataset"),
+            "diagnoser": ("Diagnoser", "Judgement"),
+            "domain": ("DomainReport", "domain_report"),
+            "envelope_lines": ("EnvelopeLines",),
+            "recipe": ("Recipe",),
+        },
     )
 
-__all__ = ["EnvelopeLines", "Examples", "examples"]
+__all__ = [
+    "Diagnoser",
+    "DomainReport",
+    "EnvelopeLines",
+    "Examples",
+    "Judgement",
+    "Recipe",
+    "Simulated",
+    "dataset",
+    "domain_report",
+    "examples",
+]

@@ -48,8 +48,9 @@ class EnvelopeLines(_base.TransformerMixin, _base.BaseEstimator):  # type: ignor
 
     Parameters
     ----------
-    bearing : str, Bearing, Scene, Row, Orders, FaultFrequencies or mapping
-        As of :func:`ballrace.diagnose`.
+    bearing : str, Bearing, Scene, Row, Orders, FaultFrequencies or mapping, optional
+        As of :func:`ballrace.diagnose`. None: whichever bearing the records are of, where something that knows it
+        uses these features (:meth:`ballrace.learn.Simulated.features`, :class:`ballrace.learn.Diagnoser`).
     fs : float, optional
         Sampling rate of arrays [Hz]; records know theirs.
     speed_rpm : float, optional
@@ -77,7 +78,7 @@ class EnvelopeLines(_base.TransformerMixin, _base.BaseEstimator):  # type: ignor
 
     def __init__(
         self,
-        bearing: AnyBearing,
+        bearing: AnyBearing | None = None,
         *,
         fs: float | None = None,
         speed_rpm: float | None = None,
@@ -108,6 +109,8 @@ class EnvelopeLines(_base.TransformerMixin, _base.BaseEstimator):  # type: ignor
             A parameter is not usable, or missing for what is given.
         """
         self.orders_ = self._orders()
+        if self.bearing is None:
+            raise SceneError("bearing", "None", "what names the bearing, such as '6205'")
         self.kinematics_ = kinematics_of(self.bearing, self.row)
         self._channels(X, reset=True)
         return self
@@ -134,6 +137,11 @@ class EnvelopeLines(_base.TransformerMixin, _base.BaseEstimator):  # type: ignor
         # Arrays do not tell their sampling rate: without one only records are taken.
         tags.input_tags.two_d_array = self.fs is not None and self.speed_rpm is not None
         return tags
+
+    def of(self, bearing: AnyBearing) -> EnvelopeLines:
+        """Return the same features of a bearing, where none is named yet."""
+        made = _base.clone(self)
+        return made if self.bearing is not None else made.set_params(bearing=bearing)  # type: ignore[no-any-return]
 
     def _orders(self) -> NDArray[np.float64]:
         """Return the middles of the steps of orders; the first is two steps off 0, where the mean was removed."""

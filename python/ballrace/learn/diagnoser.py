@@ -1,0 +1,272 @@
+"""A classifier of records that has learnt from simulated ones."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .._document import counted
+from .._numbers import real
+from ..channel import channel_of
+from ..errors import SceneError
+from ..recordings.libraries import needed
+from .envelope_lines import EnvelopeLines
+from .pieces import checked_turns, pieces_of
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from ..channel import Recorded
+    from ..diagnosis.kinematics import AnyBearing
+
+__all__ = ["Diagnoser", "Judgement"]
+
+_base = needed("sklearn.base", "ballrace.learn", extra="learn")
+_checks = needed("sklearn.utils.validation", "ballrace.learn", extra="learn")
+
+HEALTHY = "healthy"
+NO_LINES = "shows no lines"
+
+_SEEN = 0.95
+"""Share of healthy records whose lines are lower than those that count as shown."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Judgement:
+    """What a model says of a record.
+
+    Attributes
+    ----------
+    verdict : str
+        The class that most pieces have; ``shows no lines`` where that is a fault, and yet no lines of any fault
+        stand higher than those of healthy bearings: there is nothing to know it by.
+    probabilities : dict of str to float
+        Mean probability of each class over the pieces.
+    votes : dict of str to int
+        Pieces by their class.
+    shows_lines : bool
+        Whether lines of a fault stand higher, in the mean over the pieces, than in 95 % of the healthy records
+        that it has learnt from.
+    """
+
+    verdict: str
+    probabilities: dict[str, float]
+    votes: dict[str, int]
+    shows_lines: bool
+
+    def __str__(self) -> str:
+        total = sum(self.votes.values())
+        votes = ", ".join(
+            f"{name} {count} of {total}" for name, count in self.votes.items() if count
+        )
+        sure = ", ".join(f"{name} {p:.2f}" for name, p in self.probabilities.items())
+        lines = "shown" if self.shows_lines else "no higher than healthy ones"
+        return f"{self.verdict}: pieces {votes}; probabilities {sure}; lines {lines}"
+
+
+class Diagnoser(_base.ClassifierMixin, _base.BaseEstimator):  # type: ignore[misc, name-defined]
+    """Names the fault of a record, by boosted trees on features that know neither level nor speed.
+
+    A classifier of scikit-learn's conventions. With ``groups`` it fits a model for each of some folds, no
+    bearing on both sides, whose probabilities it averages: what each says of the bearings that it has not seen
+    is the held-out accuracy.
+
+    Parameters
+    ----------
+    lines : EnvelopeLines, optional
+        The features that it learns from, needed by :meth:`diagnose`; by default those of ``EnvelopeLines()``.
+    classifier : classifier of scikit-learn, optional
+        Another model, with ``predict_proba``; by default ``HistGradientBoostingClassifier`` with balanced classes.
+    turns : float
+        Length of the pieces that :meth:`diagnose` cuts, in turns of the shaft: about that of the records it has
+        learnt from (``Simulated.turns``).
+    fs : float
+        Sampling rate of the records that it has learnt from; denser ones are brought down to it [Hz].
+    folds : int
+        Number of folds.
+    seed : int
+        Seed of models and folds.
+
+    Attributes
+    ----------
+    classes_ : ndarray
+        Names of the classes.
+    models_ : list
+        Fitted models, one without ``groups``.
+    held_out_accuracy_ : float
+        Balanced accuracy on bearings not seen; NaN without ``groups``.
+    confusion_ : ndarray, shape (classes, classes)
+        Held-out records by true class (rows) and found class; zeros without ``groups``.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> rng = np.random.default_rng(0)
+    >>> y = np.repeat(["healthy", "outer_race"], 60)
+    >>> X = rng.normal(size=(120, 10)) + 3.0 * (y == "outer_race")[:, np.newaxis]
+    >>> found = Diagnoser().fit(X, y, groups=np.arange(120) % 20)
+    >>> found.held_out_accuracy_ > 0.95, list(found.predict(X[:1]))
+    (True, ['healthy'])
+    """
+
+    def __init__(
+        self,
+        lines: EnvelopeLines | None = None,
+        *,
+        classifier: Any = None,
+        turns: float = 12.5,
+        fs: float = 12_000.0,
+        folds: int = 5,
+        seed: int = 0,
+    ) -> None:
+        self.lines = lines
+        self.classifier = classifier
+        self.turns = turns
+        self.fs = fs
+        self.folds = folds
+        self.seed = seed
+
+    def fit(self, X: Any, y: Any, groups: ArrayLike | None = None) -> Diagnoser:
+        """Learn from features, classes and, if told, bearings.
+
+        Parameters
+        ----------
+        X : array_like, shape (n, features)
+            Features, as :meth:`ballrace.learn.Simulated.features` gives them.
+        y : array_like of str, shape (n,)
+            Classes.
+        groups : array_like, shape (n,), optional
+            Bearings.
+
+        Raises
+        ------
+        SceneError
+            ``groups`` or a parameter is not usable.
+        ValueError
+            The arrays are not usable, as scikit-learn words it.
+        """
+        from sklearn.utils.multiclass import check_classification_targets
+
+        X, y = _checks.validate_data(self, X, y, dtype=[np.float64, np.float32])
+        check_classification_targets(y)
+        self.classes_, truth = np.unique(y, return_inverse=True)
+        if self.classes_.size < 2:
+            raise ValueError(
+                f"Diagnoser wants two classes and more, and there is one class: {self.classes_[0]!r}"
+            )
+        self.models_, self.held_out_accuracy_ = [], np.nan
+        self.confusion_ = np.zeros((self.classes_.size,) * 2, dtype=int)
+        if groups is None:
+            self.models_.append(self._fitted(X, truth))
+        else:
+            self._fit_folds(X, truth, groups)
+        healthy = X[y == HEALTHY] if y.dtype.kind in "OU" else X[:0]
+        self.healthy_ = (
+            np.quantile(healthy, _SEEN, axis=0) if len(healthy) else np.full(X.shape[1], -np.inf)
+        )
+        return self
+
+    def predict_proba(self, X: ArrayLike) -> NDArray[np.float64]:
+        """Return the probability of each class, shape (n, classes)."""
+        _checks.check_is_fitted(self)
+        X = _checks.validate_data(self, X, reset=False, dtype=[np.float64, np.float32])
+        return np.asarray(
+            np.mean([self._spread(model, np.asarray(X)) for model in self.models_], axis=0)
+        )
+
+    def predict(self, X: ArrayLike) -> NDArray[Any]:
+        """Return the most probable class of each record, shape (n,)."""
+        chance = self.predict_proba(X)
+        return np.asarray(self.classes_[chance.argmax(axis=1)])
+
+    def diagnose(
+        self,
+        record: Recorded | ArrayLike,
+        bearing: AnyBearing | None = None,
+        speed_rpm: float | None = None,
+        *,
+        fs: float | None = None,
+        column: str | None = None,
+    ) -> Judgement:
+        """Judge a record by the vote of its pieces.
+
+        Parameters
+        ----------
+        record, bearing, speed_rpm, fs, column
+            As of :func:`ballrace.diagnose`; at least five turns of the shaft.
+
+        Returns
+        -------
+        Judgement
+            Verdict, probabilities and votes.
+
+        Raises
+        ------
+        SceneError
+            An argument is not usable, or the features are not those that it has learnt from.
+        KeyError
+            There is no such column.
+        """
+        _checks.check_is_fitted(self)
+        known = channel_of(record, fs, column, name="record").scene if bearing is None else bearing
+        if known is None:
+            raise SceneError("bearing", "None", "a bearing: the record does not know its own")
+        lines = (EnvelopeLines() if self.lines is None else self.lines).of(known)
+        if not real(self.fs) > 0.0:
+            raise SceneError("fs", repr(self.fs), "above 0 [Hz]")
+        pieces = pieces_of(
+            record, checked_turns(self.turns), self.fs, speed_rpm=speed_rpm, fs=fs, column=column
+        )
+        X = lines.fit_transform(pieces).astype(np.float32)
+        if X.shape[1] != self.n_features_in_:
+            allowed = f"the features that it has learnt from, {self.n_features_in_}"
+            raise SceneError("lines", f"{X.shape[1]} features", allowed)
+        return self._judged(X, [name.endswith(".height") for name in lines.get_feature_names_out()])
+
+    def _judged(self, X: NDArray[np.float32], heights: list[bool]) -> Judgement:
+        chance = self.predict_proba(X)
+        votes = np.bincount(chance.argmax(axis=1), minlength=self.classes_.size)
+        mean = chance.mean(axis=0)
+        verdict = str(self.classes_[np.argmax(votes + mean)])  # of as many votes the likelier one
+        shown = bool((X.mean(axis=0) > self.healthy_)[heights].any())
+        return Judgement(
+            verdict=verdict if shown or verdict == HEALTHY else NO_LINES,
+            probabilities=dict(zip(map(str, self.classes_), mean.tolist(), strict=True)),
+            votes=dict(zip(map(str, self.classes_), votes.tolist(), strict=True)),
+            shows_lines=shown,
+        )
+
+    def _fitted(self, X: NDArray[Any], truth: NDArray[np.intp]) -> Any:
+        from sklearn.ensemble import HistGradientBoostingClassifier
+
+        trees = HistGradientBoostingClassifier(class_weight="balanced", random_state=self.seed)
+        model = trees if self.classifier is None else _base.clone(self.classifier)
+        return model.fit(X, truth)
+
+    def _fit_folds(self, X: NDArray[Any], truth: NDArray[np.intp], groups: ArrayLike) -> None:
+        from sklearn.metrics import balanced_accuracy_score, confusion_matrix
+        from sklearn.model_selection import StratifiedGroupKFold
+
+        given = np.asarray(groups)
+        if given.shape != truth.shape or np.unique(given).size < 2:
+            raise SceneError(
+                "groups",
+                f"an array of shape {given.shape}",
+                f"{truth.size} bearings, two and more of them unlike",
+            )
+        folds = min(counted("folds", self.folds, 2), np.unique(given).size)
+        found = np.zeros_like(truth)
+        for train, test in StratifiedGroupKFold(folds).split(X, truth, given):
+            model = self._fitted(X[train], truth[train])
+            self.models_.append(model)
+            found[test] = self._spread(model, X[test]).argmax(axis=1)
+        self.held_out_accuracy_ = float(balanced_accuracy_score(truth, found))
+        self.confusion_ = confusion_matrix(truth, found, labels=range(self.classes_.size))
+
+    def _spread(self, model: Any, X: NDArray[Any]) -> NDArray[np.float64]:
+        """Return the probabilities of a model, 0 for classes that it has not seen."""
+        found = np.zeros((X.shape[0], self.classes_.size))
+        found[:, model.classes_] = model.predict_proba(X)
+        return found
