@@ -28,10 +28,13 @@ LABELS = ("bearing_id", "part", "shape", "size_mm")
 _SLIP_BY_BALLS = 1.2e4
 """Scatter of the times between blows over that of the balls' diameters [1/m].
 
-Of a 6205 under 300 N and 80 N of thrust with 0.2 mm of play 0.3 and 0.63 % at 0.3 and 0.5 µm (docs/campaigns.md).
+Measured of a 6205 under 300 N and 80 N of thrust (docs/campaigns.md): 0.23 to 0.37 % at 0.2 µm, 0.44 to 0.59 % at
+0.5 µm, both with 0.2 mm of play; more needs more play as well, 0.96 to 1.14 % at 0.83 µm and 0.33 mm, 2.0 to 2.2 %
+at 1.67 µm and 0.67 mm.
 """
 _PLAY = (0.1e-3, 0.3e-3)
-"""Play of the cage of a 6205 [m]; others by the ball's diameter."""
+"""Play of the cage of a 6205 [m], up to the slip below, with which it grows; others by the ball diameter."""
+_PLAIN_SLIP = 6e-3
 _BALL_OF_6205 = 7.94e-3
 
 _AMPLITUDE = (0.2e-9, 5e-9)
@@ -117,9 +120,9 @@ class Drawing:
         if recipe.clearances is not None:
             own["rows[0].clearance"] = float(rng.uniform(*recipe.clearances))
         if recipe.slip is not None:
-            deviation = _log(rng, ends_of(recipe.slip)) / _SLIP_BY_BALLS
-            unlike = deviation * rng.standard_normal(recipe.made.ball_count)
-            scale = recipe.made.ball_diameter / _BALL_OF_6205
+            slip = _log(rng, ends_of(recipe.slip))
+            unlike = slip / _SLIP_BY_BALLS * rng.standard_normal(recipe.made.ball_count)
+            scale = recipe.made.ball_diameter / _BALL_OF_6205 * max(1.0, slip / _PLAIN_SLIP)
             own["rows[0].diameter_errors"] = unlike.tolist()
             own["cage.play"] = scale * float(rng.uniform(*_PLAY))
         return own | (self._texture(rng) if recipe.surfaces == "as_made" else {})

@@ -28,7 +28,7 @@ SURFACES: dict[str, Surface] = {"outer": "outer_race", "inner": "inner_race", "b
 """Names in scenes, verdicts and labels."""
 
 LARGEST_SLIP = 0.02
-"""Scatter of the blows that balls of 1.7 µm of scatter make: none that are sold are that unlike."""
+"""Scatter that balls of 1.7 µm of scatter make in 0.7 mm of play: none that are sold are that unlike."""
 
 _Surfaces = Literal["as_made", "smooth"]
 
@@ -64,9 +64,9 @@ class Recipe:
         with a slope of 1.5 to 2.5.
     slip : float, pair of float or None
         How unevenly balls follow each other: standard deviation of the times between blows of a fault on the
-        outer race, over their mean, up to 0.02. It comes from balls of unlike diameters (5e-7 m of standard
-        deviation for 6e-3) in a cage with 0.1 to 0.3 mm of play; record 130 has 7e-3. None: equal balls in a cage
-        as it is.
+        outer race, over their mean, up to 0.02. It comes from balls of unlike diameters in a cage with play: of a
+        6205 0.5 µm of standard deviation in 0.2 mm for 5e-3, what balls of grade 10 have at most (ISO 3290-1);
+        record 130 has 7e-3. None: equal balls in a cage as it is.
 
     Raises
     ------
