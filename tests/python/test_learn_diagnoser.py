@@ -19,6 +19,7 @@ from ballrace.learn.pieces import pieces_of
 from test_learn import FS, RPM, blows
 
 pytest.importorskip("sklearn", reason="scikit-learn is not installed")
+from sklearn.ensemble import ExtraTreesClassifier
 from sklearn.linear_model import LogisticRegression
 from sklearn.utils.estimator_checks import check_estimator
 
@@ -49,11 +50,29 @@ def test_held_out_accuracy_is_that_of_bearings_not_seen() -> None:
     bearing = np.arange(240) // 8
     y = np.where(bearing % 2, "healthy", "outer_race")
     X = bearing[:, np.newaxis] + 1e-3 * np.random.default_rng(1).normal(size=(240, 3))
-    assert (br.learn.Diagnoser().fit(X, y).predict(X) == y).mean() > 0.9
-    fair = br.learn.Diagnoser().fit(X, y, groups=bearing)
+    by_heart = br.learn.Diagnoser(classifier=ExtraTreesClassifier(random_state=0), false_alarm=None)
+    assert (by_heart.fit(X, y).predict(X) == y).mean() > 0.9
+    fair = by_heart.fit(X, y, groups=bearing)
     assert fair.held_out_accuracy_ < 0.7
     assert fair.confusion_.sum() == 240
     assert len(fair.models_) == 5
+
+
+def test_no_more_healthy_records_are_accused_than_asked_for() -> None:
+    """Two classes that overlap by 16 %, named by the nearer one or so that 2 % of the healthy ones are accused."""
+    rng = np.random.default_rng(2)
+    y = np.repeat(["healthy", "outer_race"], 600)
+    X = rng.normal(size=(1200, 2)) + 2.0 * (y == "outer_race")[:, np.newaxis] / np.sqrt(2.0)
+    Z = rng.normal(size=(2000, 2))
+    accused = {}
+    for rate in (None, 0.02):
+        model = br.learn.Diagnoser(false_alarm=rate, classifier=LogisticRegression())
+        model.fit(X, y, groups=np.arange(1200) % 60)
+        accused[rate] = float((model.predict(Z) != "healthy").mean())
+    assert accused[None] == pytest.approx(0.159, abs=0.03)
+    assert accused[0.02] == pytest.approx(0.02, abs=0.015)
+    with pytest.raises(br.SceneError, match="false_alarm"):
+        br.learn.Diagnoser(false_alarm=1.5).fit(X, y)
 
 
 @pytest.mark.parametrize("part", PARTS)
