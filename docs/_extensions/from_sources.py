@@ -27,6 +27,7 @@ PAGES = {
     "benches/README.md": "benchmarks.md",
     "benches/records.md": "records.md",
     "benches/identified.md": "identified.md",
+    "benches/transfer.md": "transfer.md",
     "tests/README.md": "validation.md",
     "CHANGELOG.md": "changelog.md",
     "README.md": "index.md",
