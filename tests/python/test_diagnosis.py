@@ -113,6 +113,21 @@ def test_a_run_up_is_judged_over_the_angle() -> None:
     assert not judged(x, rpm=1800.0).parts
 
 
+@pytest.mark.parametrize("sides", [(-1, 0, 1), (-2, -1, 1, 2)])
+def test_a_ball_is_found_by_either_of_its_families(sides: tuple[int, ...]) -> None:
+    """Noise that swells at 2·BSF with sidebands of the cage; of a ball whose axis turns with sidebands alone."""
+    t = np.arange(round(2.0 * FS)) / FS
+    rates = [k * RATES["ball"] + side * ORDERS.ftf for k in (1, 2, 3) for side in sides]
+    swelling = np.sum([np.cos(2 * np.pi * rate * SHAFT * t + rate) for rate in rates], axis=0)
+    x = np.random.default_rng(1).normal(size=t.size) * (1.0 + 0.06 * swelling)
+    evidence = judged(x).evidence
+    found = evidence["ball"]
+    assert found.z > 8.0
+    assert max(evidence[race].z for race in ("outer_race", "inner_race")) < 4.0
+    assert any("FTF" in line.label for line in found.lines)
+    assert any("2·FTF" in line.label for line in found.lines) == (2 in sides)
+
+
 def test_what_names_the_bearing_does_not_matter() -> None:
     x = noise(blows(ORDERS.bpfi, 1.0), 0.3)
     scene = br.bearing("6205", radial_load=500.0, speed_rpm=RPM)
@@ -191,6 +206,20 @@ def test_waves_without_blows_need_a_unit() -> None:
     assert found.evidence["outer_race"].strength.depth > 0.4
     assert (found.verdict, "size tells" in found.why) == ("undecided", True)
     assert judged(10.0 * x, unit="m/s^2").parts == ("outer_race",)
+
+
+def test_lines_that_are_not_strong_need_blows() -> None:
+    """Tones at multiples of BPFO, as of a waved race, and blows: 1 m/s² of both, as healthy ones have, and 9."""
+    t = np.arange(round(4.0 * FS)) / FS
+    tones = [np.cos(2 * np.pi * k * ORDERS.bpfo * SHAFT * t + k * k) for k in range(4, 12)]
+    waves = noise(np.sum(tones, axis=0), 1.0)
+    struck = noise(blows(ORDERS.bpfo, duration=4.0), 0.05)
+    for x, told in ((waves, "undecided"), (struck, "damaged")):
+        scale = 1.0 / judged(x, unit="m/s^2").evidence["outer_race"].strength.acceleration
+        found, strong = (judged(size * scale * x, unit="m/s^2") for size in (1.0, 9.0))
+        assert found.evidence["outer_race"].strength.acceleration == pytest.approx(1.0)
+        assert (found.verdict, strong.verdict) == (told, "damaged")
+        assert ("sound bearings may have" in found.why) == (told == "undecided")
 
 
 def test_blows_at_no_rate_of_the_bearing_leave_it_open() -> None:
@@ -294,6 +323,26 @@ def test_false_alarms_come_at_the_rate_asked_for(kind: str) -> None:
         )
         for rate in (0.05, 0.2):
             assert np.mean(least < rate) == pytest.approx(rate, rel=0.35)
+
+
+def test_500_records_that_allow_no_evidence_accuse_nobody() -> None:
+    """Silence at any level and 0.1 s of blows are left open, what is no number is refused, each by its name."""
+    for k in range(500):
+        rng = np.random.default_rng([9, k])
+        silent = judged(np.full(24_000, rng.normal()))
+        assert (silent.verdict, "silent" in silent.why) == ("undecided", True)
+        x = noise(blows(ORDERS.bpfo, seed=k, duration=0.1), 0.1, k)
+        short = judged(x)
+        assert (short.verdict, short.why.startswith("a longer record")) == ("undecided", True)
+        x[rng.integers(x.size)] = rng.choice([math.nan, math.inf, -math.inf])
+        with pytest.raises(br.SceneError, match=r"^record = not a number, or infinite"):
+            judged(x)
+    for kind, told in (
+        ("silence", "left open"),
+        ("0.1 s", "left open"),
+        ("not a number", "refused"),
+    ):
+        print(f"\n[verdict] {kind}, 500 records | 0 | all {told}")
 
 
 def test_probabilities_are_those_of_extreme_values() -> None:

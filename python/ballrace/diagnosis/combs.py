@@ -42,54 +42,70 @@ class Comb:
         Its nominal value.
     sideband : float
         Distance of the sidebands, as an order; 0: none.
-    lines : tuple of tuple of two ints
-        Harmonic and sideband of each line, from (1, 0) on.
+    families : tuple of tuple of tuple of two ints
+        Lines that stand out together, each by its harmonic and its sideband, from (1, 0) on; one family is enough.
     """
 
     name: str
     order: float
     sideband: float
     sideband_name: str
-    lines: tuple[tuple[int, int], ...]
+    families: tuple[tuple[tuple[int, int], ...], ...]
+
+    @property
+    def lines(self) -> tuple[tuple[int, int], ...]:
+        """Harmonic and sideband of each line of any family."""
+        return tuple(dict.fromkeys(line for family in self.families for line in family))
 
     def frequencies(self, base: NDArray[np.float64], shaft: float) -> NDArray[np.float64]:
         """Return the frequencies of the lines [Hz] over those of base frequencies [Hz], a line a row."""
         rows = [k * base + side * self.sideband * shaft for k, side in self.lines]
         return np.array(rows)
 
-    def height(
+    def heights(
         self, levels: Levels, base: NDArray[np.float64], shaft: float
     ) -> NDArray[np.float64]:
-        """Return the mean level of the lines [dB], shape (spectra, *base.shape, factors)."""
+        """Return the mean level of each family [dB], shape (families, spectra, *base.shape, factors)."""
         tried = base[..., np.newaxis] * FACTORS
-        total = np.zeros((levels.db.shape[0], *tried.shape))
-        for row in self.frequencies(tried, shaft):
-            total += levels.highest(row, WIDTH)
-        return total / len(self.lines)
+        total = np.zeros((len(self.families), levels.db.shape[0], *tried.shape))
+        for line, row in zip(self.lines, self.frequencies(tried, shaft), strict=True):
+            level = levels.highest(row, WIDTH)
+            for k, family in enumerate(self.families):
+                if line in family:
+                    total[k] += level / len(family)
+        return total
 
     def label(self, line: tuple[int, int]) -> str:
         """Return the name of a line, such as ``2·BPFI − f_r``."""
         harmonic, side = line
         head = self.name if harmonic == 1 else f"{harmonic}·{self.name}"
-        return head if side == 0 else f"{head} {'+' if side > 0 else '−'} {self.sideband_name}"
+        tail = self.sideband_name if abs(side) == 1 else f"{abs(side)}·{self.sideband_name}"
+        return head if side == 0 else f"{head} {'+' if side > 0 else '−'} {tail}"
 
 
 def comb_of(part: Part, orders: Orders) -> Comb:
     """Return the comb of a part.
 
     A place on the inner race goes through the load zone once a turn of the shaft, a ball once a turn of the cage:
-    their lines have sidebands there. A ball's defect meets a race twice a turn of the ball.
+    their lines have sidebands there. A ball's defect meets a race twice a turn of the ball. Where the ball's axis
+    turns, blows change from pass to pass through the load zone, and the lines between sidebands fade: two
+    sidebands on each side are a family of their own.
     """
     plain = tuple((k, 0) for k in _HARMONICS)
     sides = tuple((k, side) for k in _WITH_SIDEBANDS for side in (-1, 1))
+    wide = tuple((k, side) for k in _WITH_SIDEBANDS for side in (-2, -1, 1, 2))
     match part:
         case "outer_race":
-            return Comb(name="BPFO", order=orders.bpfo, sideband=0.0, sideband_name="", lines=plain)
+            return Comb(
+                name="BPFO", order=orders.bpfo, sideband=0.0, sideband_name="", families=(plain,)
+            )
         case "inner_race":
             return Comb(name="BPFI", order=orders.bpfi, sideband=1.0, sideband_name="f_r",
-                        lines=plain + sides)  # fmt: skip
+                        families=(plain + sides,))  # fmt: skip
         case "ball":
             return Comb(name="2·BSF", order=2.0 * orders.bsf, sideband=orders.ftf, sideband_name="FTF",
-                        lines=plain + sides)  # fmt: skip
+                        families=(plain + sides, wide))  # fmt: skip
         case "cage":
-            return Comb(name="FTF", order=orders.ftf, sideband=0.0, sideband_name="", lines=plain)
+            return Comb(
+                name="FTF", order=orders.ftf, sideband=0.0, sideband_name="", families=(plain,)
+            )

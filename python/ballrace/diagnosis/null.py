@@ -95,8 +95,8 @@ def null_orders(orders: Orders, part: str, rng: np.random.Generator) -> NDArray[
 
 def found_of(comb: Comb, levels: Levels, shaft: float, null: NDArray[np.float64]) -> Found:
     """Return a comb beside the null's [orders]."""
-    by_chance = comb.height(levels, null * shaft, shaft).max(axis=-1)
-    tried = comb.height(levels, np.array([comb.order * shaft]), shaft)[:, 0]
+    by_chance = np.concatenate(comb.heights(levels, null * shaft, shaft).max(axis=-1))
+    tried = np.concatenate(comb.heights(levels, np.array([comb.order * shaft]), shaft)[:, :, 0])
     middle = np.median(by_chance, axis=1, keepdims=True)
     spread = _SPREAD * np.median(np.abs(by_chance - middle), axis=1, keepdims=True) + _LEAST
     scores = ((by_chance - middle) / spread).max(axis=0)
@@ -106,7 +106,7 @@ def found_of(comb: Comb, levels: Levels, shaft: float, null: NDArray[np.float64]
     deviation = _SPREAD * float(np.median(np.abs(scores - centre)))
     return Found(
         z=(float(own.max()) - centre) / max(deviation, 1e-9),
-        row=int(row),
+        row=int(row) % levels.db.shape[0],
         factor=float(FACTORS[factor]),
         height=float(tried[row, factor]),
     )

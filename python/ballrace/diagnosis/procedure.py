@@ -156,7 +156,7 @@ def diagnose(
     limits = None if circle is None else limits_of(circle)
     verdict = decided(
         evidence, own, false_alarm, limits=limits, silent=not has_background(channel.x),
-        blows=found.envelopes.blows(limits[0] if limits else 0.0),
+        blows=found.envelopes.blows(limits.faint if limits else 0.0),
         wanting=wanting_of(channel, shaft.rate, kinematics),
     )  # fmt: skip
     deciding = bands.index(max((evidence[part] for part in ACCUSED), key=lambda one: one.z).band)

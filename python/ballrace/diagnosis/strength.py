@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["Envelopes", "Strength", "has_background", "limits_of", "strength_at"]
+__all__ = ["Envelopes", "Limits", "Strength", "has_background", "limits_of", "strength_at"]
 
 _HARMONICS = 6
 
@@ -41,6 +41,13 @@ _LOUD = 0.5
 What unloaded balls do to the cage and the races does not fade with the speed: of simulated dry bearings under a
 twentieth of their static rating, a 6205 at 600 1/min has 0.32 and a 6004 0.27 without damage, 1.9 and 2.0 times
 the limit above.
+"""
+
+_PLAIN = 2.0
+"""Acceleration over the speed of the pitch circle from which on no library has to be asked [m/s² per m/s].
+
+Below it, healthy bearings have lines of the outer race, too: lightly loaded ones with waves up to 0.54, one with
+texture through a housing that rings up to 1.8 (``benches/verdict_set.py``, seeds 44 and 45).
 """
 
 _SHALLOW = 0.4
@@ -182,13 +189,28 @@ def strength_at(envelopes: Envelopes, rate: float) -> Strength:
     )
 
 
-def limits_of(circle: float) -> tuple[float, float]:
-    """Return accelerations [m/s²] at a speed of the pitch circle [m/s].
+@dataclass(frozen=True, kw_only=True)
+class Limits:
+    """Accelerations that lines may carry [m/s²].
 
-    Below the first one lines are no damage, from the second one on they are.
+    Attributes
+    ----------
+    faint : float
+        Below it lines are no damage.
+    slow : float
+        Below it lines may be those of a slow healthy bearing.
+    plain : float
+        Below it lines are damage only if simulated bearings say so, from it on by themselves.
     """
-    faint = _FAINT * circle
-    return faint, max(faint, _LOUD)
+
+    faint: float
+    slow: float
+    plain: float
+
+
+def limits_of(circle: float) -> Limits:
+    """Return the limits at a speed of the pitch circle [m/s]."""
+    return Limits(faint=_FAINT * circle, slow=_LOUD, plain=_PLAIN * circle)
 
 
 def has_background(x: NDArray[np.float64]) -> bool:

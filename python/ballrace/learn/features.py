@@ -62,7 +62,7 @@ def features_of(
     heights, depths = [], []
     for part in PARTS:
         comb = comb_of(part, kinematic)
-        found = comb.height(levels, np.array([comb.order * shaft]), shaft)[:, 0]
+        found = comb.heights(levels, np.array([comb.order * shaft]), shaft)[0, :, 0]
         factor = FACTORS[int(np.argmax(found.max(axis=0)))]
         rate = comb.order * factor * shaft
         heights.append(float(found.max()))
