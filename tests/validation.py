@@ -213,10 +213,10 @@ record, whose inner race has significant but shallow lines.
 """
 
 SET = """The *set* is 432 records of eight bearings that no limit was chosen on, healthy (smooth, waved, textured
-races) and damaged (spalls of 0.02 to 0.45 ball diameters; damaged balls spin freely), of 40 turns, through housings
-by chance (`python benches/verdict_set.py`). Records are called damaged by more than lines, so fewer than were asked
-for are accused at 5 and 10 %. z alone, which loaded healthy bearings have too, tells nothing of a run; the likelihood
-ratio knows the record's unit.
+races) and damaged (spalls of 0.02 to 0.45 ball diameters; damaged balls spin freely), of 40 turns, through
+housings by chance (`python benches/verdict_set.py`). More than lines is asked for, so fewer are accused at 5 and
+10 % than may be. z alone, which loaded healthy bearings have too, tells nothing of a run; the likelihood ratio
+knows the record's unit.
 
 ![detection over the width of the spall, and receiver operating characteristic](verdicts.svg)
 """
