@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import json
+import math
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._html import folded
+from .errors import SceneError
 from .scene.scene import checked_scene
 from .signals import Record
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from .bearings import OperatingClearance
     from .scene import Scene
 
 __all__ = ["Explanation", "explain"]
@@ -64,6 +68,9 @@ class Explanation(Record):
         Where defects lie and what contacts carry there at the healthy bearing's equilibrium, the fields as of
         :class:`ballrace.Touched`; ``passes`` counts the contacts looked at: over a turn of the inner race or the
         ball past all balls, or of a ball at the angle of a defect on the outer race.
+    clearance : Record, where it was given
+        What the clearance in operation is made of, the fields of
+        :class:`ballrace.bearings.OperatingClearance` [m].
     notes : list of str
         What to know of the scene before believing a long run: that nothing drives the balls' orbit.
     """
@@ -81,7 +88,7 @@ class Explanation(Record):
         return folded("What a run integrates, and what it costs", str(self), opened=True)
 
 
-def explain(scene: Scene) -> Explanation:
+def explain(scene: Scene, *, clearance: OperatingClearance | None = None) -> Explanation:
     """Report what a run of a scene integrates and leaves out, what it costs, and what would make it cheaper.
 
     The scene is compiled and started from equilibrium, and some steps are timed: a fraction of a second; with oil
@@ -91,6 +98,8 @@ def explain(scene: Scene) -> Explanation:
     ----------
     scene : Scene
         The scene.
+    clearance : OperatingClearance, optional
+        What the scene's clearance is made of (:func:`ballrace.bearings.operating_clearance`); told as well.
 
     Returns
     -------
@@ -100,7 +109,7 @@ def explain(scene: Scene) -> Explanation:
     Raises
     ------
     SceneError
-        A field of the scene is not usable.
+        A field of the scene is not usable, or its clearance is another.
     EquilibriumError
         There is no stable equilibrium to start from.
 
@@ -115,5 +124,20 @@ def explain(scene: Scene) -> Explanation:
     >>> told.law.law, round(told.law.approach / told.law.hertz_approach, 2)
     ('hertz', 1.0)
     """
-    entries, text = _core.explain(checked_scene(scene).to_json())
-    return Explanation(json.loads(entries), text)
+    document = checked_scene(scene).to_json()
+    if clearance is not None:
+        _check_clearance(scene, clearance)
+    entries, text = _core.explain(document)
+    told = json.loads(entries)
+    if clearance is not None:
+        told["clearance"] = {**asdict(clearance), "clearance": clearance.clearance}
+        text = f"{text.rstrip()}\n{clearance}\n"
+    return Explanation(told, text)
+
+
+def _check_clearance(scene: Scene, told: OperatingClearance) -> None:
+    for k, row in enumerate(scene.rows):
+        if not math.isclose(row.clearance, told.clearance, rel_tol=1e-9, abs_tol=1e-12):
+            given = f"{told.clearance:g} of {told.designation}"
+            allowed = f"the clearance in operation of row {k}, {row.clearance:g}; clearance.apply(scene) sets it"
+            raise SceneError("clearance", given, allowed)

@@ -16,6 +16,8 @@
 ``pedestal``   the housing that the outer ring sits in
 ``build``      a scene of a bearing: clearance, loads, supports
 ``filled``     what all such scenes have: friction, cage, drive, probes
+``fits``       classes of ISO 286, and interferences after Lamé
+``heat``       the clearance in operation, steady temperatures
 =============  ====================================================================
 
 Makers publish bore, outside diameter, width, load ratings and often a factor f₀ of a bearing, not its balls. Those
@@ -30,8 +32,23 @@ from __future__ import annotations
 
 from .build import bearing
 from .entry import Bearing, Uncertainty
+from .fits import Seat
+from .heat import OperatingClearance, Temperatures, operating_clearance, steady_temperatures
 from .names import Name
 from .pedestal import Pedestal
 from .rows import Catalogue, catalogue
 
-__all__ = ["Bearing", "Catalogue", "Name", "Pedestal", "Uncertainty", "bearing", "catalogue"]
+__all__ = [
+    "Bearing",
+    "Catalogue",
+    "Name",
+    "OperatingClearance",
+    "Pedestal",
+    "Seat",
+    "Temperatures",
+    "Uncertainty",
+    "bearing",
+    "catalogue",
+    "operating_clearance",
+    "steady_temperatures",
+]
