@@ -234,8 +234,8 @@ def steady_temperatures(
     Parameters
     ----------
     losses : float or callable
-        Power of friction [W], or a function that returns it at a mean temperature of the rings [°C], such as of the
-        oil's viscosity there.
+        Power of friction [W], or a function that returns it at a mean temperature of the rings [°C], such as by
+        the oil's viscosity there.
     inner_conductance, outer_conductance : float
         From each ring by its seat to the surroundings [W/K].
     ambient : float
@@ -256,7 +256,8 @@ def steady_temperatures(
     >>> round(found.inner, 3), round(found.outer, 3)
     (45.0, 30.0)
     """
-    for name, value in (("inner_conductance", inner_conductance), ("outer_conductance", outer_conductance)):  # fmt: skip
+    conductances = {"inner_conductance": inner_conductance, "outer_conductance": outer_conductance}
+    for name, value in conductances.items():
         if not 0.0 < real(value) < math.inf:
             raise SceneError(name, repr(value), "above 0 [W/K]")
     if not 0.0 <= real(inner_share) <= 1.0:

@@ -23,6 +23,7 @@ No colour stands alone: lines differ in their dashes and markers, and what matte
 from __future__ import annotations
 
 from .animation import animation, probes
+from .animation3d import animation3d
 from .campaigns import campaign_map, distribution
 from .loads import force_distribution, load_distribution, slice_forces
 from .maps import kurtogram, order_map, spectrogram
@@ -36,6 +37,7 @@ from .times import impacts, load_cases, signals
 __all__ = [
     "CONFIG",
     "animation",
+    "animation3d",
     "ball_path",
     "campaign_map",
     "distribution",

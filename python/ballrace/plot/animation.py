@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..scene import Probe, Scene
     from ..signals import Signals
 
-__all__ = ["animation", "probes"]
+__all__ = ["animation", "check", "player", "probes", "samples"]
 
 
 def probes(scene: Scene) -> dict[str, Probe]:
@@ -91,19 +91,19 @@ def animation(
     """
     from .._plotly import Frame
 
-    _check(out, column, row, frames)
-    samples = _samples(out, start, end, frames)
+    check(out, column, row, frames)
+    shown = samples(out, start, end, frames)
     moving = Moving(out, row)
     fig = fig if fig is not None else _panels()
     for trace in moving.still():
         fig.add_trace(trace, row=1, col=1)
     for trace in moving.section_still():
         fig.add_trace(trace, row=1, col=2)
-    _signal(fig, out, column, samples)
+    _signal(fig, out, column, shown)
     first = len(fig.data)
-    for panel, trace in moving.at(samples[0]):
+    for panel, trace in moving.at(shown[0]):
         fig.add_trace(trace, row=1, col=panel)
-    fig.add_trace(_cursor(fig, out, samples[0]), row=2, col=1)
+    fig.add_trace(_cursor(fig, out, shown[0]), row=2, col=1)
     places = list(range(first, len(fig.data)))
     fig.frames = [
         Frame(
@@ -111,12 +111,13 @@ def animation(
             traces=places,
             name=f"{1e3 * out.t[k]:.2f}",
         )
-        for k in samples
+        for k in shown
     ]
     return _finish(fig, out, row, layout)
 
 
-def _check(out: Signals, column: str, row: int, frames: int) -> None:
+def check(out: Signals, column: str, row: int, frames: int) -> None:
+    """Refuse a row that there is not, too few or too many frames, and a run without the columns that are drawn."""
     if not 0 <= row < len(out.scene.rows):
         raise SceneError("row", str(row), f"a row, 0 to {len(out.scene.rows) - 1}")
     if isinstance(frames, bool) or not 2 <= frames <= 500:
@@ -132,7 +133,8 @@ def _check(out: Signals, column: str, row: int, frames: int) -> None:
         raise SceneError("out", f"no column {missing[0]}", allowed)
 
 
-def _samples(out: Signals, start: float, end: float | None, frames: int) -> list[int]:
+def samples(out: Signals, start: float, end: float | None, frames: int) -> list[int]:
+    """Return the samples that are shown."""
     last = float(out.t[-1]) if end is None else end
     if not 0.0 <= start < last:
         raise SceneError("start", str(start), f"from 0 to below the end, {last:g} s")
@@ -190,23 +192,30 @@ def _finish(fig: go.Figure, out: Signals, row: int, layout: dict[str, Any]) -> g
     fig.update_yaxes(
         range=[-reach, reach], scaleanchor="x2", showticklabels=False, **plain, row=1, col=2
     )
+    return finished(
+        fig, layout, height=760, showlegend=False, margin={"t": 130}, **player(fig, redraw=False)
+    )
+
+
+def player(fig: go.Figure, *, redraw: bool) -> dict[str, Any]:
+    """Return the buttons and the slider of a figure's frames, as fields of its layout."""
     run = {
-        "frame": {"duration": 60, "redraw": False},
+        "frame": {"duration": 60, "redraw": redraw},
         "fromcurrent": True,
         "transition": {"duration": 0},
     }
-    stop = {"frame": {"duration": 0, "redraw": False}, "mode": "immediate"}
+    stop = {"frame": {"duration": 0, "redraw": redraw}, "mode": "immediate"}
     buttons = [
         {"label": "▶ run", "method": "animate", "args": [None, run]},
         {"label": "❚❚ stop", "method": "animate", "args": [[None], stop]},
     ]
     steps = [{"label": f.name, "method": "animate", "args": [[f.name], stop]} for f in fig.frames]
-    own = {
+    own: dict[str, Any] = {
         "updatemenus": [{"type": "buttons", "direction": "left", "buttons": buttons, "x": 0.0, "y": 1.2,
                          "xanchor": "left", "yanchor": "top", "showactive": False}],
         "sliders": [{"steps": steps, "x": 0.0, "len": 1.0, "y": -0.13, "pad": {"t": 8},
                      "currentvalue": {"prefix": "time / ms: "}, "ticklen": 0, "minorticklen": 0,
                      "font": {"color": "rgba(0,0,0,0)"}}],
     }  # fmt: skip
-    own["sliders"][0]["currentvalue"]["font"] = {"color": "#222"}  # type: ignore[index]
-    return finished(fig, layout, height=760, showlegend=False, margin={"t": 130}, **own)
+    own["sliders"][0]["currentvalue"]["font"] = {"color": "#222"}
+    return own
