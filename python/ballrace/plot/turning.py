@@ -138,7 +138,8 @@ class Turning:
         across = np.cos(turned) * x - np.sin(turned) * y
         up = np.sin(turned) * x + np.cos(turned) * y
         points = np.stack([across, up, z + 0.0 * turned], -1) + self._places[:, None, :, k]
-        return points.reshape(-1, 3)
+        whole: Array = points.reshape(-1, 3)
+        return whole
 
     def _patches(self, k: int) -> Array:
         found = []
@@ -206,7 +207,8 @@ def _thinned(outline: Array) -> Array:
     step = np.linalg.norm(np.diff(outline, axis=0), axis=1)
     small = np.append(step < 2.0 * np.median(step), False)
     kept = ~small | ~np.roll(small, 1) | (np.arange(len(outline)) % 2 == 0)
-    return outline[kept]
+    thinned: Array = outline[kept]
+    return thinned
 
 
 def _arc(radius: float, angles: Array, z: Any) -> Array:
