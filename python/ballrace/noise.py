@@ -46,7 +46,7 @@ _LOADS = (
 )
 """Outside diameter up to which [mm], and thrust at contact angles up to 10, 23 and 45° [N].
 
-ISO 15242-2:2015, Table 1, the middle of its ranges (± 10 %), as quoted elsewhere; its print was not at hand."""
+ISO 15242-2:2015, Table 1, the middle of its ranges (± 10 %), from memory: not compared with its print."""
 
 _ANGLES = (10.0, 23.0, 45.0)
 

@@ -33,8 +33,8 @@ pub(super) struct History {
     tried_at: f64,
 }
 
-/// Decays of a velocity within a step at which Adams' formula is unstable for certain: it is from three on with an exact matrix.
-const UNSTABLE: f64 = 6.0;
+/// Decays of a velocity within a step at which Adams' formula is unstable: with an exact matrix it is from three on.
+const UNSTABLE: f64 = 3.5;
 /// Decays at which it may be unstable with a matrix made before, in steps near the longest one and in shorter ones.
 const DOUBTFUL: f64 = 1.2;
 const DOUBTFUL_SHORT: f64 = 0.1;

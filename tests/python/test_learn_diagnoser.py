@@ -131,7 +131,8 @@ def test_what_is_missing_is_named(
     changed.__dict__.update(
         {name: value for name, value in vars(model).items() if name.endswith("_")}
     )
-    asked = {"record": blows("none"), "bearing": "6205", "speed_rpm": RPM, "fs": FS} | given
+    asked: dict[str, Any] = {"record": blows("none"), "bearing": "6205", "speed_rpm": RPM, "fs": FS}
+    asked |= given
     with pytest.raises(br.SceneError) as caught:
         changed.diagnose(asked.pop("record"), **asked)
     assert caught.value.path == path

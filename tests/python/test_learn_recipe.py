@@ -57,7 +57,8 @@ def test_as_many_records_of_each_class_grouped_by_bearing(data: br.learn.Simulat
 
 def test_features_are_32_bit_numbers_of_the_recipes_bearing(data: br.learn.Simulated) -> None:
     X, y, groups = data.features()
-    assert (X.dtype, X.shape) == (np.float32, (12, 10))
+    assert X.dtype == np.float32
+    assert X.shape == (12, 10)
     assert (sorted(set(y)), sorted(set(groups))) == (
         ["healthy", "inner_race", "outer_race"],
         [0, 1],

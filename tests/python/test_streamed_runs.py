@@ -108,7 +108,7 @@ def test_warnings_are_told(tmp_path: Path) -> None:
     scene = br.presets.deep_groove_6205().replace({"contact.damping": 5.0})
     with pytest.warns(br.AccuracyWarning, match="accelerations are uncertain"):
         out = br.simulate(
-            scene, duration=2e-3, rtol=1e-2, settle=0.0, out=tmp_path / "record.parquet"
+            scene, duration=2e-3, rtol=1e-1, settle=0.0, out=tmp_path / "record.parquet"
         )
     assert out.warnings
     assert br.Signals.read_parquet(tmp_path / "record.parquet").warnings == out.warnings

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._document import counted
+from .._libraries import needed
 from .._numbers import real
 from ..channel import channel_of
 from ..errors import SceneError
-from ..recordings.libraries import needed
 from .envelope_lines import EnvelopeLines
 from .pieces import checked_turns, pieces_of
 

@@ -12,7 +12,7 @@ mod leaning;
 mod points;
 mod rubbing;
 
-pub(crate) use gather::{Across, Constants, EightContacts, Near, Places};
+pub(crate) use gather::{Across, Constants, EightContacts, Places};
 pub(crate) use rubbing::Rubbing;
 
 use super::kernel::{self, Element, ElementForce, ElementState, Receiver, Whole};

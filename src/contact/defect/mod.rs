@@ -128,15 +128,6 @@ impl Fault {
         }
     }
 
-    /// Whether a contact in this direction may have it, a pit included.
-    pub(crate) fn may_be_met(&self, toward: &Toward) -> bool {
-        if self.is_pit() {
-            self.pit_is_near(toward)
-        } else {
-            self.in_reach(toward)
-        }
-    }
-
     /// Its two axial ends, in the ring's frame or from the ball's centre \[m\]; a cap has a rim all round.
     pub(super) fn ends(&self) -> impl Iterator<Item = f64> + Clone + use<> {
         let (middle, length) = (self.middle, self.length);

@@ -15,10 +15,10 @@
 use nalgebra::Vector3;
 
 use super::hole::{Hole, PittedContact, Released, Yield};
-use super::{Fault, Toward, WITH_RING_AXIS};
+use super::{Fault, WITH_RING_AXIS};
 use crate::contact::hertz::Hertz;
 use crate::contact::scalar::{Line, OneContact};
-use crate::contact::{Aside, Motion, Sink, Touch, V2, cross, turned, wrapped};
+use crate::contact::{Aside, Motion, Sink, Touch, V2, turned, wrapped};
 use crate::scene::Defect;
 
 /// A pit, compiled; its place is that of its [`Fault`].
@@ -121,16 +121,6 @@ impl Fault {
         let released = self.pit?.hole.released(&of, depth, [0.0; 2]);
         let found = Yield::of(&of, 0.4 * load * depth, &[released]);
         Some((load * (1.0 - found.share), found.exponent))
-    }
-
-    /// Whether a ball's pit may lie in a contact in this direction: the contact leans by less than 80 degrees, and is short.
-    pub(super) fn pit_is_near(&self, toward: &Toward) -> bool {
-        /// cos of what lies behind any contact, from the race's normal.
-        const BEHIND: f64 = -0.3;
-        toward.pit_pole(self).is_some_and(|e| {
-            let (ahead, aside) = (toward.n.dot(&e.xy()), cross(toward.n, e.xy()));
-            ahead > BEHIND && aside.abs() <= self.reach
-        })
     }
 
     /// The direction of a ball's pit in the frame in which the ball is seen.

@@ -41,15 +41,10 @@ impl<'a> Toward<'a> {
         fault.pole(self.ball?)
     }
 
-    /// The direction e of a ball's defect that is a pit.
-    pub(super) fn pit_pole(&self, fault: &Fault) -> Option<Vector3<f64>> {
-        fault.pit_pole(self.ball?)
-    }
-
     /// The direction e of a ball's defect that is round: a cap or a pit.
     fn middle(&self, fault: &Fault) -> Option<Vector3<f64>> {
         let cap = self.pole(fault).map(|(_, e)| e);
-        cap.or_else(|| self.pit_pole(fault))
+        cap.or_else(|| fault.pit_pole(self.ball?))
     }
 
     /// The angle from here to a direction e of the ball \[rad\].

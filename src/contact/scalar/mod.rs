@@ -224,14 +224,6 @@ impl Pair {
         }
     }
 
-    /// Whether a ball's own defects may be met; where not, the contact is that of a whole ball.
-    pub(crate) fn may_meet_defects_of(&self, ball: &BallSide, b: &Motion, r: &Motion) -> bool {
-        let seen = b.seen_from(r);
-        let n = seen.centre.normalize() * self.race.sigma;
-        let toward = Toward::ball(b, n, self.outwards(seen.direction()));
-        ball.faults.iter().any(|fault| fault.may_be_met(&toward))
-    }
-
     /// Whether a defect of the race may be met at an angle from the ring's mark \[rad\].
     pub(super) fn is_near(&self, angle: f64) -> bool {
         let toward = Toward::race(angle);

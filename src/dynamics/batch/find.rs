@@ -1,7 +1,7 @@
 //! Finds which balls touch which race, eight at a time.
 
 use super::{Batch, SideConstants, Single, Touching, View};
-use crate::contact::{Constants, EightContacts, HeightTable, Near, Places, Raise, Summing};
+use crate::contact::{Constants, EightContacts, HeightTable, Places, Raise, Summing};
 use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
@@ -15,7 +15,7 @@ pub(super) struct Neighbours {
     /// Which lanes are balls.
     filled: Mask,
     /// Which of them have defects of their own.
-    with_defects: Mask,
+    faulted: Mask,
     /// Whether they have a texture.
     textured: bool,
     /// Constants of their contacts with the outer and with the inner race.
@@ -36,7 +36,7 @@ impl Neighbours {
             first,
             radius: Lanes::from_fn(|i| model.balls[lane(i)].side.radius),
             filled: Mask::from_fn(|i| i < count),
-            with_defects: Mask::from_fn(|i| !model.balls[lane(i)].side.faults.is_empty()),
+            faulted: Mask::from_fn(|i| !model.balls[lane(i)].side.faults.is_empty()),
             textured: model.has_textured_balls(&model.rows[row]),
             constants: Race::BOTH.map(|race| {
                 let mut all = Constants::default();
@@ -62,22 +62,6 @@ impl Neighbours {
             *table = ball.side.waves.table()?;
         }
         Some(tables)
-    }
-
-    /// Which of its balls touch where a defect of the race or of their own may be met.
-    fn faulted(&self, model: &Model, race: Race, view: &View<'_>, near: &Near) -> Mask {
-        let pair = &model.rows[self.row].pairs[race];
-        let asked = self.with_defects.and(near.touching).and(self.filled);
-        if !asked.any() {
-            return near.faulted;
-        }
-        let own = Mask::from_fn(|lane| {
-            asked.lane(lane) && {
-                let ball = self.first + lane;
-                pair.may_meet_defects_of(&model.balls[ball].side, &view.ball(ball), &view.ring)
-            }
-        });
-        near.faulted.or(own)
     }
 
     /// Numbers of its balls along one direction; in lanes that are left, of whatever comes next.
@@ -140,7 +124,7 @@ impl Task for Find<'_> {
                 if !touching.any() {
                     continue;
                 }
-                let faulted = stretch.faulted(model, race, &views[race], &near);
+                let faulted = near.faulted.or(stretch.faulted).and(touching);
                 let stiffness = batch.stiffness[stretch.row][race];
                 if let Some((stiffness, forces)) = stiffness.zip(forces.as_deref_mut()) {
                     let skip = faulted.or(touching.not());
