@@ -130,7 +130,7 @@ fn wall(name: &str, defect: &mut Defect, row: &Row, half_width: Option<f64>) -> 
         );
         return Err(Error::scene(
             format!("defects.{name}.width"),
-            width,
+            quantities::length(width),
             allowed,
         ));
     }

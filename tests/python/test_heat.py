@@ -175,10 +175,10 @@ def test_losses_that_fall_with_heat_meet_what_is_given_off() -> None:
 
 
 WRONG: list[tuple[dict[str, Any], str]] = [
-    ({"name": "7205B"}, "name"), ({"shaft_fit": "k9"}, "fit"), ({"shaft_fit": "H7"}, "shaft_fit"),
+    ({"name": "7205B"}, "name"), ({"shaft_fit": "k9"}, "shaft_fit"), ({"shaft_fit": "H7"}, "shaft_fit"),
     ({"housing_fit": "k5"}, "housing_fit"), ({"shaft_fit": math.nan}, "shaft_fit"),
     ({"shaft_fit": 1.0}, "shaft_fit"),
-    ({"smoothing": -1e-6}, "smoothing"), ({"clearance": "C9"}, "clearance"), ({"shaft_fit": "m8"}, "fit"),
+    ({"smoothing": -1e-6}, "smoothing"), ({"clearance": "C9"}, "clearance"), ({"shaft_fit": "m8"}, "shaft_fit"),
 ]  # fmt: skip
 
 

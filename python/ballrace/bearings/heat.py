@@ -119,12 +119,19 @@ class OperatingClearance:
             ("heat", -self.heat, ""),
             ("in operation", self.clearance, ""),
         )
-        lines = [f"  {name:<20} {1e6 * value:+8.2f} µm{note}" for name, value, note in parts]
-        smoothed = f"  smoothing took {1e6 * self.smoothing:.2f} µm of each interference"
-        return "\n".join([f"diametral clearance of {self.designation}", *lines, smoothed])
+        # Nothing taken is 0, not -0.
+        lines = [
+            f"  {name:<20} {round(1e6 * value, 2) + 0.0:+8.2f} µm{note}"
+            for name, value, note in parts
+        ]
+        if max(self.shaft_interference, self.housing_interference) > 0.0:
+            lines.append(f"  smoothing took {1e6 * self.smoothing:.2f} µm of each interference")
+        return "\n".join([f"diametral clearance of {self.designation}", *lines])
 
 
 def _told(size: float) -> str:
+    if size == 0.0:
+        return ""
     kind = "interference" if size > 0.0 else "play"
     return f"  ({kind} {1e6 * abs(size):.2f} µm)"
 
@@ -211,7 +218,12 @@ def _size(
         if fit.islower() is not (name == "shaft_fit"):
             allowed = "small letters, such as k5" if name == "shaft_fit" else "capitals, such as H7"
             raise SceneError(name, repr(fit), f"a class of ISO 286 in {allowed}")
-        size = interference(fit, diameter)
+        try:
+            size = interference(fit, diameter)
+        except SceneError as refused:
+            if refused.path != "fit":
+                raise
+            raise SceneError(name, repr(fit), refused.allowed) from None
     else:
         size = real(fit)
         if not -1e-3 < size < 1e-3:
