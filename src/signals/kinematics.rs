@@ -15,7 +15,7 @@ use crate::inspect;
 use crate::integrate::DenseStep;
 use crate::model::{BodyId, Model, Race, RowModel};
 use crate::scene::{Drive, TimeFunction};
-use crate::statics::{RaceControl, in_motion, steady::keep, steady::orbit};
+use crate::statics::{RaceControl, Spacing, in_motion, steady::keep, steady::orbit};
 
 /// Mean speeds of a row over a run \[Hz\], all in the positive sense about z.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -198,7 +198,7 @@ pub struct RowRolling {
 /// As [`crate::start()`] from [`crate::Start::Equilibrium`].
 pub fn rolling(model: &Model, control: RaceControl) -> Result<Vec<Option<RowRolling>>> {
     let control = control.on(model);
-    let mut y = in_motion(model, control)?;
+    let mut y = in_motion(model, control, Spacing::Equal)?;
     if control == RaceControl::Friction {
         keep(model, &mut y);
     }

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
+use super::fallen::{self, Spacing};
 use super::problem::Problem;
 use super::springs::CageSpring;
 use super::unknowns::Rings;
@@ -145,6 +146,35 @@ impl Chain {
     }
 }
 
+/// The angle that a link of a length spans from a ball of a row, at its radius, to the next one: law of cosines.
+fn span(balls: &[Vector2<f64>], k: usize, length: f64) -> f64 {
+    let (a, b) = (balls[k].x, balls[(k + 1) % balls.len()].x);
+    let cos = (a * a + b * b - length * length) / (2.0 * a * b);
+    cos.clamp(-1.0, 1.0).acos()
+}
+
+/// The mean length with which links that are longer than it by so much close the circle.
+fn closing(balls: &[Vector2<f64>], longer: &[f64], guess: f64) -> f64 {
+    let count = balls.len();
+    let mut mean = guess;
+    for _ in 0..LENGTH_ITERATIONS {
+        let (mut sum, mut slope) = (0.0, 0.0);
+        for k in 0..count {
+            let length = mean + longer[k];
+            let span = span(balls, k, length);
+            sum += span;
+            // Each span grows with the length ℓ by ℓ/(a b sin span).
+            slope += length / (balls[k].x * balls[(k + 1) % count].x * span.sin());
+        }
+        let step = (TAU - sum) / slope;
+        mean += step;
+        if step.abs() <= f64::EPSILON * mean {
+            break;
+        }
+    }
+    mean
+}
+
 impl Problem<'_> {
     /// The cage's part at the balls' present places: angles at which all links of a row are equally long, their
     /// tension, and where the balls are under it. Returns how far the forces on a ball were from that.
@@ -161,7 +191,7 @@ impl Problem<'_> {
         let mut left: f64 = 0.0;
         for row in model.rows.iter().filter(|row| row.count > 1) {
             let places = &mut places[row.balls()];
-            let (length, turned) = self.spread(row, places);
+            let (length, turned) = self.spread(row, rings, places);
             left = left.max(self.share() * turned);
             let balls = places.iter().enumerate();
             let chain = Chain {
@@ -199,42 +229,32 @@ impl Problem<'_> {
         left
     }
 
-    /// Turns the balls of a row to where all links are equally long; returns their length and the largest turn.
-    fn spread(&mut self, row: &RowModel, balls: &[Vector2<f64>]) -> (f64, f64) {
+    /// Turns the balls of a row to where all links are equally long, or as far from it as its spacing says; returns their mean length
+    /// and the largest turn.
+    fn spread(&mut self, row: &RowModel, rings: &Rings, balls: &[Vector2<f64>]) -> (f64, f64) {
         if let [first, second] = balls {
             return (first.x + second.x, 0.0);
         }
-        let mut turned: f64 = 0.0;
-        let next = |k: usize| (k + 1) % row.count;
-        // Law of cosines: the angle that a link of this length spans.
-        let span = |k: usize, length: f64| {
-            let (a, b) = (balls[k].x, balls[next(k)].x);
-            ((a * a + b * b - length * length) / (2.0 * a * b))
-                .clamp(-1.0, 1.0)
-                .acos()
+        let equal = vec![0.0; row.count];
+        let mut length = closing(balls, &equal, row.cage_distance);
+        // Where all balls are held none can fall.
+        let fall = |row: &RowModel| row.balls().any(|j| self.loose(j, rings).is_some());
+        let longer = match self.spacing {
+            Spacing::Fallen if fall(row) => fallen::longer_links(self.model, row, length),
+            _ => None,
         };
-        // All spans together make the circle, and each grows with the length ℓ by ℓ/(a b sin span).
-        let mut length = row.cage_distance;
-        for _ in 0..LENGTH_ITERATIONS {
-            let (mut sum, mut slope) = (0.0, 0.0);
-            for k in 0..row.count {
-                let span = span(k, length);
-                sum += span;
-                slope += length / (balls[k].x * balls[next(k)].x * span.sin());
-            }
-            let step = (TAU - sum) / slope;
-            length += step;
-            if step.abs() <= f64::EPSILON * length {
-                break;
-            }
+        let longer = longer.unwrap_or(equal);
+        if longer.iter().any(|longer| *longer != 0.0) {
+            length = closing(balls, &longer, length);
         }
         // The mean of the shifts is zero.
         let pitch = TAU / row.count as f64;
         let mut shift = vec![0.0; row.count];
         for k in 1..row.count {
-            shift[k] = shift[k - 1] + span(k - 1, length) - pitch;
+            shift[k] = shift[k - 1] + span(balls, k - 1, length + longer[k - 1]) - pitch;
         }
         let mean = shift.iter().sum::<f64>() / row.count as f64;
+        let mut turned: f64 = 0.0;
         for (k, shift) in shift.into_iter().enumerate() {
             let nominal = &self.model.bodies[BodyId::ball(row.first + k)].nominal;
             let angle = nominal[Dof::Y].atan2(nominal[Dof::X]) + shift - mean;

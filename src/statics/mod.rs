@@ -16,6 +16,7 @@ mod arms;
 mod ball;
 mod cage;
 mod distribution;
+mod fallen;
 mod guess;
 mod gyroscopic;
 mod leaning;
@@ -42,6 +43,7 @@ use crate::model::{Ball, BodyId, Dof, Model, Race};
 use crate::reduction::axial_places;
 use crate::scene::{Doubt, Scene};
 pub use distribution::{EquivalentLoads, LoadDistribution, load_distribution};
+pub(crate) use fallen::Spacing;
 pub(crate) use place::DefectPasses;
 pub use place::{Placed, compile, place};
 use problem::Problem;
@@ -174,13 +176,13 @@ pub fn equilibrium_under(scene: &Scene, control: RaceControl) -> Result<Equilibr
 /// places, those of the equilibrium with balls that move along z tell which, and the rest balances anew: balls that
 /// share one place would else be pressed more or less than they bear.
 pub(crate) fn positions(model: &Model) -> Result<Vec<f64>> {
-    in_place(model, RaceControl::Friction).map(|solved| solved.y)
+    in_place(model, (RaceControl::Friction, Spacing::Equal)).map(|solved| solved.y)
 }
 
 /// The same with the speeds of all bodies: of balls that run fast those at which they go on as they stand there, of others those at which
 /// they roll at their contact angles, which are next to them.
-pub(crate) fn in_motion(model: &Model, control: RaceControl) -> Result<Vec<f64>> {
-    let Solved { mut y, speeds, .. } = in_place(model, control)?;
+pub(crate) fn in_motion(model: &Model, control: RaceControl, spacing: Spacing) -> Result<Vec<f64>> {
+    let Solved { mut y, speeds, .. } = in_place(model, (control, spacing))?;
     if speeds.is_empty() {
         rolling::at_contacts(model, control, &mut y);
     } else {
@@ -190,11 +192,14 @@ pub(crate) fn in_motion(model: &Model, control: RaceControl) -> Result<Vec<f64>>
             steady::keep(model, &mut y);
         }
     }
+    if spacing == Spacing::Fallen {
+        fallen::pass_on(model, &mut y);
+    }
     Ok(y)
 }
 
-fn in_place(model: &Model, control: RaceControl) -> Result<Solved> {
-    let solved = solve(model, control)?;
+fn in_place(model: &Model, (control, spacing): (RaceControl, Spacing)) -> Result<Solved> {
+    let solved = solve_with(|| Problem::new(model).controlled(control).spaced(spacing))?;
     let Some(axial_places) = axial_places(model, &solved.y) else {
         return Ok(solved);
     };
@@ -208,8 +213,8 @@ fn in_place(model: &Model, control: RaceControl) -> Result<Solved> {
             _ => solved.y[layout.at(race.ring(), dof)],
         };
     }
-    let problem = Problem::in_planes(model, axial_places).controlled(control);
-    solve_from(problem, rings)
+    let problem = Problem::in_planes(model, axial_places);
+    solve_from(problem.controlled(control).spaced(spacing), rings)
 }
 
 /// What the solver found.
@@ -241,21 +246,11 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
     let mut on_rings = Race::BOTH.map(|race| MomentOnRing::new(model, y, race));
     let mut contact = |j: usize, race: Race| {
         let summary = on_rings[race].add_and_tell(y, j);
-        let ball = &model.balls[j];
-        let pair = &model.rows[ball.row].pairs[race];
-        let [b, r] = model.facing(y, j, race);
-        let seen = b.seen_from(&r);
-        let (dx, dy) = (seen.centre.x, seen.centre.y);
-        let wave = pair.waves.at(r.angle_of(dy.atan2(dx)));
-        let radius = ball.side.radius;
-        let (approach, _) = pair.foot(radius, dx.hypot(dy), seen.z, wave);
-        let outwards = pair.outwards(dy.atan2(dx));
-        let deflection = approach + ball.side.waves.at(b.angle_of(outwards));
         let loaded = summary.load > 0.0;
         ContactEquilibrium {
             load: summary.load,
             angle: loaded.then_some(summary.angle),
-            deflection,
+            deflection: deflection(model, y, j, race),
             zone_centre: loaded.then_some(summary.zone_centre),
             pressure: inspect::pressure(model, y, (j, race), summary.load),
         }
@@ -290,6 +285,19 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
     };
     found.doubts = doubts(&model.scene, &found);
     found
+}
+
+/// Normal approach of a ball and a race \[m\], negative for a gap.
+fn deflection(model: &Model, y: &[f64], j: usize, race: Race) -> f64 {
+    let ball = &model.balls[j];
+    let pair = &model.rows[ball.row].pairs[race];
+    let [b, r] = model.facing(y, j, race);
+    let seen = b.seen_from(&r);
+    let (dx, dy) = (seen.centre.x, seen.centre.y);
+    let wave = pair.waves.at(r.angle_of(dy.atan2(dx)));
+    let (approach, _) = pair.foot(ball.side.radius, dx.hypot(dy), seen.z, wave);
+    let outwards = pair.outwards(dy.atan2(dx));
+    approach + ball.side.waves.at(b.angle_of(outwards))
 }
 
 /// Of a scene, of the pressures and films in its contacts, and of rings that have tilted from where they nominally are.

@@ -3,6 +3,7 @@
 use nalgebra::{DVector, Matrix2, Matrix3, SMatrix, Vector2, Vector3};
 
 use super::arms::{Arm, Push};
+use super::fallen::Spacing;
 use super::rolling::RaceControl;
 use super::springs::{CageSpring, RowSpring};
 use super::unknowns::{self, OF_A_RING, OF_RINGS, RingStiffness, Rings};
@@ -22,6 +23,7 @@ pub(super) struct Problem<'m> {
     /// Speeds of all bodies, once friction has told them.
     pub(super) speeds: Vec<f64>,
     pub(super) control: RaceControl,
+    pub(super) spacing: Spacing,
     pub(super) directions: Vec<V2>,
     /// The cage's hold on each ball.
     pub(super) cage_spring: Vec<CageSpring>,
@@ -90,6 +92,7 @@ impl<'m> Problem<'m> {
             couples: [Vector3::zeros(); 2],
             speeds: Vec::new(),
             control: RaceControl::Friction,
+            spacing: Spacing::default(),
             cage_spring: vec![CageSpring::default(); directions.len()],
             cage_share: 0.0,
             directions,
@@ -126,6 +129,11 @@ impl<'m> Problem<'m> {
     /// The same where a race controls how balls spin.
     pub(super) fn controlled(self, control: RaceControl) -> Self {
         Self { control, ..self }
+    }
+
+    /// The same with balls of a row so far apart.
+    pub(super) fn spaced(self, spacing: Spacing) -> Self {
+        Self { spacing, ..self }
     }
 
     /// The same where rings and rows keep their axial places.

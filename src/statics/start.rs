@@ -3,7 +3,7 @@
 use crate::base::error::{Error, Result};
 use crate::contact::attitude_rates;
 use crate::model::{BodyId, Dof, Layout, Model, Race};
-use crate::statics::{self, RaceControl, rolling};
+use crate::statics::{self, RaceControl, Spacing, rolling};
 
 /// How far Euler parameters of a given state may be from length one: they are brought there. Those that are further off are a slip.
 const LENGTH: f64 = 5e-3;
@@ -40,12 +40,7 @@ pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
             face(model, &mut y);
             Ok(y)
         }
-        Start::Equilibrium => {
-            let mut y = statics::in_motion(model, RaceControl::Friction)?;
-            hold(model, &mut y);
-            face(model, &mut y);
-            Ok(y)
-        }
+        Start::Equilibrium => from_equilibrium(model, Spacing::Equal),
         Start::State(state) => {
             check_length(state.len(), model.dim())?;
             match state.iter().position(|x| !x.is_finite()) {
@@ -58,6 +53,14 @@ pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
             }
         }
     }
+}
+
+/// Equilibrium in the cage's frame, with balls that roll.
+pub(crate) fn from_equilibrium(model: &Model, spacing: Spacing) -> Result<Vec<f64>> {
+    let mut y = statics::in_motion(model, RaceControl::Friction, spacing)?;
+    hold(model, &mut y);
+    face(model, &mut y);
+    Ok(y)
 }
 
 /// A state of the right length, with attitudes that are some and that change as the balls turn.
