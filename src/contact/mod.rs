@@ -36,7 +36,7 @@ use nalgebra::{Vector2, Vector3};
 pub(crate) use batch::{Across, BatchForces, Constants, EightContacts, Places, Rubbing, Summing};
 pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz_stiffness};
 pub use defect::Fault;
-pub(crate) use defect::{MOST_PITS, PittedContact, Sight, Sighted, Toward, pits_at_once};
+pub(crate) use defect::{MOST_PITS, PittedContact, Sight, Toward, pits_at_once};
 pub use frames::Motion;
 pub(crate) use frames::{LeaningRing, attitude_accelerations, attitude_rates, centrifugal};
 pub(crate) use held::{
@@ -51,6 +51,7 @@ pub use oil::OilTouch;
 pub(crate) use profile::{Before, Contour, Curve, HeightTable, Raise, Section};
 pub use profile::{Torus, Waves};
 pub use quadrature::{Rules, ZoneSlices};
+pub(crate) use scalar::Sighted;
 pub use scalar::{BallSide, Pair, Shape};
 pub(crate) use spatial::Wrench;
 pub(crate) use stiffness::Tangent;

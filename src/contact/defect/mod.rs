@@ -1,23 +1,15 @@
 //! Arcs where a surface is absent, and the fault circles at their edges (model section 7).
 
 mod cap;
-#[cfg(test)]
-mod cap_tests;
-mod circles;
-mod depth;
-mod elements;
-pub(super) mod gradient;
 mod hole;
 mod pit;
-mod pressing;
 mod toward;
-mod within;
 
 pub(crate) use hole::PittedContact;
-pub(super) use hole::Yield;
+pub(super) use hole::{Released, Yield};
+pub(super) use pit::Pit;
 pub(crate) use pit::{MOST_PITS, pits_at_once};
 pub(crate) use toward::Toward;
-pub(crate) use within::Sighted;
 
 use std::f64::consts::PI;
 
@@ -26,8 +18,9 @@ use nalgebra::Vector3;
 use super::{Motion, V2, wrapped};
 use crate::scene::{Defect, Width};
 use cap::{Cap, Lost, Rim};
-use elements::WITH_RING_AXIS;
-use pit::Pit;
+
+/// How rotations of a ball move what is not its own along a slice: only about the ring's axis.
+pub(super) const WITH_RING_AXIS: Vector3<f64> = Vector3::new(0.0, 0.0, 1.0);
 
 /// A defect of a surface, compiled: places in the frame of its body.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,7 +42,7 @@ pub struct Fault {
     pub reach: f64,
     width: Width,
     cap: Option<Cap>,
-    pit: Option<Pit>,
+    pub(super) pit: Option<Pit>,
 }
 
 /// Directions in the frame of the scene: those whose component along the middle, over their length, is above a bound.

@@ -2,10 +2,12 @@
 
 mod coat;
 mod ends;
+mod over_defects;
 mod rubbing;
 mod shape;
 mod slices;
 
+pub(crate) use over_defects::Sighted;
 pub(super) use shape::Kind;
 pub use shape::Shape;
 pub(super) use slices::{Line, Node};

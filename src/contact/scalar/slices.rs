@@ -10,10 +10,19 @@
 
 use super::OneContact;
 use crate::contact::defect::Station;
-use crate::contact::defect::gradient::{HAIR, Owner};
 use crate::contact::profile::{Chord, Ends, Section, Zone};
 use crate::contact::quadrature::MOST;
 use crate::contact::{Fault, Rules, Sink, Toward, ZoneSlices};
+
+/// To which body an axial end of a defect belongs.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Owner {
+    Ring,
+    Ball,
+}
+
+/// How far beside an end its two sides are looked at \[m\]: rounding only.
+pub(super) const BESIDE: f64 = 1e-12;
 
 /// The line along which a contact is cut, over the zone low … high of u.
 pub(in crate::contact) struct Line {
@@ -364,7 +373,7 @@ impl OneContact<'_> {
 fn different(places: impl Iterator<Item = f64> + Clone) -> impl Iterator<Item = f64> {
     let all = places.clone();
     places.enumerate().filter_map(move |(i, place)| {
-        let known = |other: f64| (other - place).abs() <= 2.0 * HAIR;
+        let known = |other: f64| (other - place).abs() <= 2.0 * BESIDE;
         (!all.clone().take(i).any(known)).then_some(place)
     })
 }

@@ -5,9 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::sources::{Source, all, code, test_files, word};
 use super::{entries, named_after};
 
-/// The one circle that stands: evaluating a contact one by one asks for defects, and these are written upon it.
-const STANDING: [&str; 1] = ["contact: defect, scalar"];
-
 /// Who of a folder names whom.
 type Graph<'a> = BTreeMap<&'a str, BTreeSet<&'a str>>;
 
@@ -128,7 +125,7 @@ fn circles(sources: &[Source]) -> (BTreeSet<String>, usize) {
 #[test]
 fn files_of_a_folder_name_each_other_one_way() {
     let (found, seen) = circles(&all());
-    assert_eq!(found, STANDING.map(str::to_owned).into());
+    assert!(found.is_empty(), "{found:?}");
     assert!(seen > 150, "the test looked at {seen} uses only");
 }
 

@@ -9,7 +9,7 @@ use crate::contact::{
 };
 use crate::scene::{Defect, Floor, Material, Surface, Waviness, Width, WidthProfile};
 
-pub(in crate::contact::defect) const RADIUS: f64 = 6e-3;
+pub(in crate::contact::scalar::over_defects) const RADIUS: f64 = 6e-3;
 
 /// Energy, and what ball and ring get.
 #[derive(Default)]
@@ -44,7 +44,7 @@ impl Sink for ElasticParts {
 }
 
 /// A race whose groove is centred at 0.1 mm, without damping and friction, and a defect of it.
-pub(in crate::contact::defect) fn pair(
+pub(in crate::contact::scalar::over_defects) fn pair(
     sigma: f64,
     is_hertz: bool,
     defect: Option<&Defect>,

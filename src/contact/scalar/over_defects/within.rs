@@ -1,7 +1,6 @@
 //! The load of a contact within a defect.
 
-use super::Fault;
-use crate::contact::{BallSide, Motion, Pair, Sink, Touch};
+use crate::contact::{BallSide, Fault, Motion, Pair, Sink, Touch};
 
 /// A defect as a contact sees it.
 #[derive(Debug, Clone, Copy)]

@@ -36,19 +36,11 @@
 //! terms, with their error.
 
 use super::depth::Sloped;
-use super::elements::{ElementPair, WITH_RING_AXIS};
+use super::elements::ElementPair;
+use crate::contact::defect::WITH_RING_AXIS;
+use crate::contact::scalar::slices::{BESIDE, Owner};
 use crate::contact::scalar::{Line, Node, OneContact};
 use crate::contact::{Aside, Sink, V2, turned};
-
-/// To which body an axial end of a defect belongs.
-#[derive(Clone, Copy, PartialEq)]
-pub(in crate::contact) enum Owner {
-    Ring,
-    Ball,
-}
-
-/// How far beside an end its two sides are looked at \[m\]: rounding only.
-pub(in crate::contact) const HAIR: f64 = 1e-12;
 
 impl OneContact<'_> {
     /// What the meridional direction and the axial place have to say to an element's energy under the Hertz law.
@@ -91,7 +83,7 @@ impl OneContact<'_> {
     }
 
     /// What the axial end of a defect at a place ζ adds.
-    pub(in crate::contact) fn end<S: Sink + ?Sized>(
+    pub(in crate::contact::scalar) fn end<S: Sink + ?Sized>(
         &self,
         line: &Line,
         zeta: f64,
@@ -127,7 +119,7 @@ impl OneContact<'_> {
         let node = self.node_of(line, zeta)?;
         let reaches = node.depth > 0.0 && self.race.reaches(node.z);
         let side = |beside: f64| self.energy(&Node { beside, ..node });
-        let jump = side(-HAIR) - side(HAIR);
+        let jump = side(-BESIDE) - side(BESIDE);
         (reaches && jump != 0.0).then_some(jump)
     }
 

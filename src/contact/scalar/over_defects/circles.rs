@@ -1,8 +1,9 @@
 //! Fault circles of ring and ball against whatever stands opposite (model section 7).
 
-use super::Edge;
 use super::depth::Depth;
-use super::elements::{FeatureShape, Lean, RingElement, WITH_RING_AXIS};
+use super::elements::{FeatureShape, Lean, RingElement};
+use crate::contact::defect::Edge;
+use crate::contact::defect::WITH_RING_AXIS;
 use crate::contact::profile::Raise;
 use crate::contact::scalar::{Node, OneContact};
 use crate::contact::{V2, turned};

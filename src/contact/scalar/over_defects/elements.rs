@@ -18,7 +18,7 @@
 use nalgebra::Vector3;
 
 use super::depth::Depth;
-use super::{Arc, Edge, Toward, absent, floors};
+use crate::contact::defect::{Arc, Edge, Toward, WITH_RING_AXIS, absent, floors};
 use crate::contact::scalar::{Node, OneContact};
 use crate::contact::{V2, turned};
 
@@ -55,9 +55,6 @@ pub(super) struct RingElement<D> {
     /// How rotations of the ball move it along its slice (see `cap`).
     pub(super) swing: Vector3<f64>,
 }
-
-/// Only about the ring's axis.
-pub(super) const WITH_RING_AXIS: Vector3<f64> = Vector3::new(0.0, 0.0, 1.0);
 
 /// One feature of the ring against one of the ball.
 #[derive(Clone, Copy)]
