@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from .._text import printable
 from ..campaigns.cli import add_command as add_campaign
 from ..errors import BallraceError, SceneError
-from . import about, diagnosing, running, signals, statics, studies
+from . import about, diagnosing, exploring, running, signals, statics, studies
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -56,7 +56,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"ballrace {about.version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for room in (studies, running, statics, signals, diagnosing, about):
+    for room in (studies, exploring, running, statics, signals, diagnosing, about):
         room.add_commands(commands)
     add_campaign(commands)
     return parser

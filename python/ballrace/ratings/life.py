@@ -278,7 +278,7 @@ def _mean_load(loads: list[tuple[float, float | None]]) -> float | None:
 def _rating(scene: Scene) -> tuple[float, str]:
     row = scene.rows[0]
     # By its designation alone: a scene may have any name.
-    known = dict(catalogue).get(scene.name)
+    known = catalogue[scene.name] if scene.name in tuple(catalogue) else None
     same = known is not None and (known.ball_count, known.ball_diameter, known.pitch_diameter) == (
         row.ball_count,
         row.ball_diameter,

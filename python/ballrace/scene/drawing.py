@@ -12,10 +12,13 @@ if TYPE_CHECKING:
     from .defect import Defect
     from .load import Load
 
-__all__ = ["drawing"]
+__all__ = ["drawing", "seen_along_axis"]
 
 _SIZE = 220
 """Width and height of a row's drawing [px]."""
+
+_FILLED = 0.47
+"""Radius of the bearing over the width of its drawing."""
 
 _WALL = 0.35
 """Wall of a ring under the ball over the ball's diameter, where no boundary diameter is given."""
@@ -43,12 +46,25 @@ def drawing(
 def _row(
     number: int, row: Row, rings: tuple[Ring, Ring], defects: list[Defect], loads: list[Load]
 ) -> str:
+    parts, outside = seen_along_axis(row, rings, defects, loads)
+    half = outside / (2.0 * _FILLED)
+    line = f'stroke="{_INK}" stroke-width="{2.0 * half / _SIZE:.4g}"'
+    box = f"{-half:.6g} {-half:.6g} {2.0 * half:.6g} {2.0 * half:.6g}"
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{_SIZE}" height="{_SIZE}" viewBox="{box}" role="img" '
+        f'aria-label="row {number} from +z"><g transform="scale(1,-1)" {line}>{parts}</g></svg>'
+    )
+
+
+def seen_along_axis(
+    row: Row, rings: tuple[Ring, Ring], defects: Iterable[Defect], loads: Iterable[Load]
+) -> tuple[str, float]:
+    """Return the shapes of a row in metres, y up, and the radius that they reach to."""
     outer, inner = rings
     pitch, ball = 0.5 * row.pitch_diameter, 0.5 * row.ball_diameter
     wall = (1.0 + 2.0 * _WALL) * ball
     outside = 0.5 * outer.diameter if outer.diameter else pitch + wall
     bore = 0.5 * inner.diameter if inner.diameter else max(pitch - wall, 0.1 * pitch)
-    scale = 0.47 * _SIZE / outside
     parts = [
         _circle(0.0, 0.0, outside, _STEEL),
         # Races lie by the groove's depth behind the balls' outermost points; shoulders are what is seen.
@@ -61,13 +77,7 @@ def _row(
         parts.append(_circle(pitch * math.cos(angle), pitch * math.sin(angle), ball, _BALL))
     parts += [_damage(row, defect) for defect in defects]
     parts += [_arrow(load, 0.9 * min(bore, pitch - ball)) for load in loads]
-    half = 0.5 * _SIZE / scale
-    box = f"{-half:.6g} {-half:.6g} {2.0 * half:.6g} {2.0 * half:.6g}"
-    line = f'stroke="{_INK}" stroke-width="{1.0 / scale:.4g}"'
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{_SIZE}" height="{_SIZE}" viewBox="{box}" role="img" '
-        f'aria-label="row {number} from +z"><g transform="scale(1,-1)" {line}>{"".join(parts)}</g></svg>'
-    )
+    return "".join(parts), outside
 
 
 def _circle(x: float, y: float, radius: float, fill: str) -> str:

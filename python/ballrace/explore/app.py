@@ -1,0 +1,324 @@
+"""The page: controls, and cells of marimo that show what the other modules compute."""
+
+import marimo
+
+app = marimo.App(width="full", app_title="ballrace explore", css_file="explore.css")
+
+
+@app.cell
+def parts():
+    """Import what the page shows."""
+    from pathlib import Path
+
+    import marimo as mo
+
+    import ballrace as br
+    from ballrace.errors import BallraceError
+    from ballrace.explore import beside, chosen, heard, live, picture, saved, told
+    from ballrace.explore.controls import controls, taken
+    from ballrace.explore.running import Runner
+    from ballrace.explore.settings import DAMAGE, SURFACES, Settings
+    from ballrace.plot.style import CONFIG
+
+    def refused(error):
+        """Return an error as the page shows it, in words alone."""
+        from html import escape
+
+        return mo.Html(f'<p class="refused" role="alert">{escape(str(error))}</p>')
+
+    given = mo.cli_args().get("file")
+    file = Path(given) if given else None
+    opened = None if file is None else chosen.read_file(file)
+    return (
+        BallraceError, CONFIG, DAMAGE, Runner, SURFACES, Settings, beside, br, chosen, controls, file, heard, live,
+        mo, opened, picture, refused, saved, taken, told,
+    )  # fmt: skip
+
+
+@app.cell
+def bearing(mo, opened):
+    """Choose or describe the bearing."""
+    ways = {"by the name on its box": "name", "by its size": "size"}
+    if opened is not None:
+        ways = {"from the file": "file", **ways}
+    how = mo.ui.dropdown(ways, value=next(iter(ways)), label="bearing")
+    name = mo.ui.text(value="6205", label="name", placeholder="6205-2RSH/C3", full_width=True)
+    kinds = {
+        "deep groove": "deep_groove", "angular contact": "angular_contact", "double row": "double_row",
+    }  # fmt: skip
+    size = mo.ui.dictionary({
+        "bore_mm": mo.ui.number(1, 500, value=25, label="bore d / mm"),
+        "outside_mm": mo.ui.number(2, 1000, value=52, label="outside diameter D / mm"),
+        "width_mm": mo.ui.number(1, 300, value=15, label="width B / mm"),
+        "kind": mo.ui.dropdown(kinds, value="deep groove", label="kind"),
+        "contact_angle_deg": mo.ui.number(0, 60, value=40, label="contact angle / °"),
+        "ball_count": mo.ui.number(0, 60, step=1, value=0, label="balls counted (0: estimate)"),
+        "ball_diameter_mm": mo.ui.number(
+            0, 100, step=0.001, value=0, label="ball diameter measured / mm (0: estimate)"
+        ),
+    })  # fmt: skip
+    housing = mo.ui.dropdown(["pedestal", "bare ring"], value="pedestal", label="housing")
+    return housing, how, name, size
+
+
+@app.cell
+def choice(housing, how, mo, name, size):
+    """Show what the bearing is chosen by."""
+    shown = {"name": [name, housing], "size": [*size.elements.values(), housing], "file": []}
+    mo.vstack([mo.md("# ballrace explore"), how, *shown[how.value]])
+    return
+
+
+@app.cell
+def base(BallraceError, Settings, chosen, controls, housing, how, mo, name, opened, refused, size):
+    """Make the scene that the controls begin with."""
+
+    def begin():
+        if how.value == "file":
+            return opened, None
+        if how.value == "name":
+            return chosen.named(name.value, housing.value), None
+        given = dict(size.value)
+        for optional in ("ball_count", "ball_diameter_mm"):
+            given[optional] = given[optional] or None
+        if given["kind"] == "deep_groove":
+            given["contact_angle_deg"] = None
+        return chosen.described(**given, housing=housing.value)
+
+    try:
+        scene_begun, guess = begin()
+        trouble = None
+    except BallraceError as error:
+        trouble = refused(error)
+    mo.stop(trouble is not None, trouble)
+    begun = Settings.of(scene_begun)
+    knobs = controls(begun)
+    what = f"{scene_begun.name or 'bearing'}: {begun.base.rows[0].ball_count} balls of "
+    what += f"{1e3 * begun.base.rows[0].ball_diameter:.3g} mm on {1e3 * begun.base.rows[0].pitch_diameter:.4g} mm"
+    if guess is not None and guess.uncertainty is not None:
+        off = guess.uncertainty
+        what += f"; an estimate: balls ±{off.ball_count}, BPFO ±{off.orders.bpfo:.2f} per turn"
+    mo.md(what)
+    return begun, knobs
+
+
+@app.cell
+def turned_knobs(DAMAGE, SURFACES, begun, br, knobs, mo):
+    """Make the controls anew for another bearing."""
+    sliders = mo.ui.dictionary({
+        each.field: mo.ui.slider(
+            each.start, each.stop, each.step, each.value, label=each.label, include_input=True, full_width=True
+        )
+        for each in knobs
+    })  # fmt: skip
+    oils = {"dry": None, **{oil.name: oil.name for oil in br.lubricants()}}
+    began = next((told for told, oil in oils.items() if oil == begun.oil), "dry")
+    picks = mo.ui.dictionary({
+        "oil": mo.ui.dropdown(oils, value=began, label="oil"),
+        "damage": mo.ui.dropdown(list(DAMAGE), value="none", label="damage"),
+        "on": mo.ui.dropdown(
+            {where.replace("_", " "): where for where in SURFACES}, value="outer race", label="damage on"
+        ),
+    })  # fmt: skip
+    return picks, sliders
+
+
+@app.cell
+def knobs_shown(mo, picks, sliders):
+    """Show the controls in groups."""
+
+    def of(*names):
+        return [sliders.elements[name] for name in names if name in sliders.elements]
+
+    mo.vstack([
+        *of("radial_load", "axial_load", "moment", "speed_rpm", "clearance"),
+        picks.elements["oil"], *of("temperature_c"),
+        picks.elements["damage"], picks.elements["on"], *of("width_mm", "angle_deg"),
+        *of("housing_mass", "housing_frequency", "noise"),
+    ])  # fmt: skip
+    return
+
+
+@app.cell
+def answer(BallraceError, begun, knobs, live, mo, picks, picture, refused, sliders, taken, told):
+    """Answer a move of any control."""
+    settings = taken(begun, knobs, sliders.value).moved(**picks.value)
+    scene, solution, unsolved = None, None, None
+    try:
+        scene = settings.scene()
+        solution = live.solved(scene, steady=settings.speed_rpm is not None)
+    except BallraceError as error:
+        unsolved = refused(error)
+    if solution is None:
+        rest = unsolved
+    else:
+        rest = mo.Html(f'<div class="live">{picture.pictures(solution)}{told.page(solution)}</div>')
+    rest
+    return scene, settings, solution
+
+
+@app.cell
+def running(Runner, mo):
+    """Make what starts and stops a run."""
+    runner = Runner()
+    get_out, set_out = mo.state(None)
+    get_seen, set_seen = mo.state(None)
+    duration = mo.ui.slider(
+        0.1, 2.0, 0.1, 0.4, label="simulated time / s", include_input=True, full_width=True
+    )
+    idle = mo.ui.switch(label="run when idle")
+    start = mo.ui.run_button(label="Run")
+    stop = mo.ui.run_button(label="Stop", kind="warn")
+    tick = mo.ui.refresh(default_interval="500ms")
+    return duration, get_out, idle, runner, set_out, start, stop, tick
+
+
+@app.cell
+def running_shown(duration, idle, mo, start, stop, tick):
+    """Show it."""
+    mo.vstack([
+        mo.md("## A run"), duration, mo.hstack([start, stop, idle], justify="start", wrap=True),
+        mo.Html(f"<div hidden>{tick.text}</div>"),
+    ])  # fmt: skip
+    return
+
+
+@app.cell
+def started(duration, idle, runner, scene, start):
+    """Start a run by the button, or half a second after the last move."""
+    if scene is not None and (start.value or idle.value):
+        newest = runner.newest
+        if start.value or newest is None or newest.scene != scene:
+            runner.start(scene, duration=duration.value, delay=0.0 if start.value else 0.5)
+    return
+
+
+@app.cell
+def stopped(runner, stop):
+    """Stop it by the button."""
+    if stop.value:
+        runner.stop()
+    return
+
+
+@app.cell
+def progress(get_out, mo, refused, runner, scene, set_out, tick):
+    """Look after the run twice a second."""
+    tick.value  # noqa: B018 (a tick makes this cell run again)
+    run = runner.newest
+    if run is None:
+        state = mo.md("No run yet.")
+    elif run.state == "failed":
+        state = refused(run.why)
+    else:
+        if run.state == "done" and get_out() is not run.out:
+            set_out(run.out)
+        fits = "" if run.scene == scene else " The run is of other settings than those above."
+        state = mo.Html(
+            f'<p class="progress" role="status"><progress value="{run.share:.3f}" max="1"></progress> '
+            f"{run.state}, {run.share:.0%}.{fits}</p>"
+        )
+    state
+    return
+
+
+@app.cell
+def results(BallraceError, CONFIG, get_out, heard, mo, refused, settings):
+    """Show the run as a sensor has it."""
+    out = get_out()
+    mo.stop(out is None)
+    simulated = heard.sensed(out, settings.noise)
+    rates = heard.rates_of(out)
+    shown_run = [
+        mo.ui.plotly(heard.waveform(simulated, rates), config=CONFIG),
+        mo.ui.plotly(heard.envelope(simulated, rates), config=CONFIG),
+        mo.md("The run as sound; its loudness says nothing."),
+        mo.audio(heard.sound(simulated)),
+    ]
+    try:
+        shown_run.append(mo.ui.plotly(heard.orders(simulated, out), config=CONFIG))
+    except BallraceError as error:
+        shown_run.append(refused(error))
+    mo.vstack(shown_run)
+    return out, rates, simulated
+
+
+@app.cell
+def dropping(file, mo, opened):
+    """Take a measured file."""
+    dropped_file = mo.ui.file(
+        kind="area", label="Drop a measured file here: MATLAB, CSV, WAV, UFF, HDF5, Parquet"
+    )
+    record_fs = mo.ui.number(
+        0, 1e7, step=1, value=0, label="its sampling rate / Hz (0: the file tells)", debounce=True
+    )
+    record_rpm = mo.ui.number(
+        0, 1e5, step=0.1, value=0, label="its speed / rev/min (0: the file tells, or as above)", debounce=True
+    )  # fmt: skip
+    record_unit = mo.ui.dropdown(["m/s^2", "g"], label="its unit, where the file does not tell")
+    begun_with = None if opened is not None or file is None else (file.name, file.read_bytes())
+    mo.vstack([mo.md("## A measured record"), dropped_file, record_fs, record_rpm, record_unit])
+    return begun_with, dropped_file, record_fs, record_rpm, record_unit
+
+
+@app.cell
+def received(BallraceError, beside, begun_with, dropped_file, mo, record_fs, refused):
+    """Read it."""
+    holding = [(one.name, one.contents) for one in dropped_file.value] or [begun_with]
+    mo.stop(holding[0] is None)
+    unread = None
+    try:
+        dropped = beside.received(*holding[0], record_fs.value or None)
+    except (BallraceError, ImportError, OSError) as error:
+        unread = refused(error)
+    mo.stop(unread is not None, unread)
+    columns = list(dropped.record)
+    column = mo.ui.dropdown(columns, value=dropped.record.channel().name, label="column")
+    column
+    return column, dropped
+
+
+@app.cell
+def verdict(
+    BallraceError, CONFIG, beside, column, dropped, get_out, heard, mo, rates, record_rpm, record_unit, refused,
+    settings, simulated,
+):  # fmt: skip
+    """Say what the record is of, and lay its envelope over that of the run."""
+    unjudged = None
+    try:
+        measured, found = beside.judged(
+            dropped, column.value, settings.scene(), speed_rpm=record_rpm.value or None,
+            begun_rpm=settings.speed_rpm, unit=record_unit.value,
+        )  # fmt: skip
+    except BallraceError as error:
+        unjudged = refused(error)
+    mo.stop(unjudged is not None, unjudged)
+    mo.vstack([
+        mo.Html(f'<div class="told verdict">{found._repr_html_()}</div>'),
+        mo.ui.plotly(beside.overlaid(simulated, measured, rates, found), config=CONFIG),
+    ])  # fmt: skip
+    return
+
+
+@app.cell
+def saving(duration, get_out, mo, saved, scene, settings):
+    """Save scene, report and notebook."""
+    mo.stop(scene is None)
+    finished = get_out()
+    files = [
+        mo.download(saved.scene_file(scene), filename="scene.toml", label="Scene"),
+        mo.download(
+            saved.notebook(scene, duration.value, settings.noise), filename="bearing.ipynb", label="Notebook"
+        ),
+    ]  # fmt: skip
+    if finished is not None:
+        report = mo.download(
+            lambda: saved.report(finished), filename="report.html", label="Report of the run"
+        )
+        files.append(report)
+    mo.vstack([mo.md("## Save"), mo.hstack(files, justify="start", wrap=True)])
+    return
+
+
+if __name__ == "__main__":
+    app.run()

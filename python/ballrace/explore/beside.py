@@ -1,0 +1,141 @@
+"""A measured record beside the run: its envelope, and the verdict on it."""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .. import spectra
+from ..diagnosis import diagnose
+from ..errors import FileError, SceneError
+from ..recordings import Recording, read
+from .heard import envelope
+
+if TYPE_CHECKING:
+    from ..channel import Channel
+    import plotly.graph_objects as go
+
+    from ..diagnosis import Diagnosis
+    from ..frequencies.operating import FaultFrequencies
+    from ..scene import Scene
+
+__all__ = ["Dropped", "judged", "overlaid", "received"]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Dropped:
+    """A file that was dropped, read.
+
+    Attributes
+    ----------
+    name : str
+        Its name.
+    record : Recording
+        What it holds.
+    """
+
+    name: str
+    record: Recording
+
+
+def received(name: str, contents: bytes, fs: float | None = None) -> Dropped:
+    """Read a dropped file in a child process, within limits.
+
+    Parameters
+    ----------
+    name : str
+        Its name, whose ending says the format.
+    contents : bytes
+        What is in it.
+    fs : float, optional
+        Sampling rate [Hz], where the file does not tell it.
+
+    Raises
+    ------
+    SceneError
+        The rate is missing, or another than the file tells.
+    FileError
+        It is damaged or no record.
+    """
+    suffix = Path(name).suffix
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"record{suffix}"
+        path.write_bytes(contents)
+        try:
+            return Dropped(name=name, record=read(path, fs))
+        except FileError as error:
+            # The reader knows the copy alone.
+            raise FileError(name, str(error).replace(str(path), name)) from error
+
+
+def judged(
+    dropped: Dropped,
+    column: str,
+    scene: Scene,
+    *,
+    speed_rpm: float | None,
+    begun_rpm: float | None,
+    unit: str | None,
+) -> tuple[Channel, Diagnosis]:
+    """Return the record's channel, and the verdict on it for the bearing of a scene.
+
+    Parameters
+    ----------
+    dropped : Dropped
+        The file.
+    column : str
+        Column of it.
+    scene : Scene
+        Whose bearing it is.
+    speed_rpm : float, optional
+        Speed during the record [rev/min]; by default what the file knows.
+    begun_rpm : float, optional
+        Speed where neither tells it, that of the controls [rev/min].
+    unit : {"m/s^2", "g"}, optional
+        Unit, where the file does not tell it.
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable, or the speed is missing.
+    """
+    channel = dropped.record.channel(column)
+    if unit is not None and not channel.unit:
+        channel = replace(channel, unit=unit)
+    if channel.unit == "g":
+        channel = channel.to("m/s^2")
+    healthy = scene.replace({"defects": {}})
+    speed = speed_rpm if speed_rpm is not None or channel.shaft is not None else begun_rpm
+    return channel, diagnose(channel, healthy, speed)
+
+
+def overlaid(
+    simulated: Channel, measured: Channel, rates: FaultFrequencies | None, found: Diagnosis
+) -> go.Figure:
+    """Return both envelopes in the band that decided the verdict, each over its own largest line.
+
+    A machine lies between a simulated ring and a sensor: places of lines are compared, not heights.
+    """
+    band = _band(found, min(simulated.fs, measured.fs))
+    fig = envelope(_levelled(simulated, band), rates)
+    end = fig.layout.xaxis.range[1]
+    from ..plot import envelope_spectrum
+
+    return envelope_spectrum(
+        _levelled(measured, band), faults=(), name="measured", fig=fig, limit=end, band=band
+    )
+
+
+def _band(found: Diagnosis, fs: float) -> tuple[float, float] | None:
+    parts = [one for one in found.evidence.values() if one.part != "cage"]
+    band = max(parts, key=lambda one: one.z).band if parts else None
+    return band if band is not None and band[1] <= 0.5 * fs else None
+
+
+def _levelled(channel: Channel, band: tuple[float, float] | None) -> Channel:
+    """Return a signal so scaled that the largest line of its squared envelope is 1."""
+    f, value = spectra.envelope_spectrum(channel.x, channel.fs, band)
+    largest = float(value[f > 0.0].max(initial=0.0)) or 1.0
+    return replace(channel, x=channel.x / largest**0.5, unit="")

@@ -1,0 +1,102 @@
+"""The bearing to begin with: by the name on its box, by its size, or from a file."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal
+
+from ..bearings import Bearing, bearing
+from ..presets import names as presets
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from ..bearings.entry import Kind
+    from ..scene import Scene
+
+__all__ = ["described", "named", "read_file"]
+
+Housing = Literal["pedestal", "bare ring"]
+
+
+def named(name: str, housing: Housing = "pedestal") -> Scene:
+    """Return a scene by what stands on the box, such as ``6205-2RSH/C3``, or by the name of a preset.
+
+    Raises
+    ------
+    SceneError
+        The name is not known, or not of a radial ball bearing.
+    """
+    from .. import presets as made
+
+    plain = name.strip().replace("-", "_")
+    if plain in presets():
+        ready: Scene = getattr(made, plain)()
+        return ready
+    return bearing(name.strip(), housing=_housing(housing))
+
+
+def described(
+    bore_mm: float,
+    outside_mm: float,
+    width_mm: float,
+    *,
+    kind: Kind = "deep_groove",
+    contact_angle_deg: float | None = None,
+    ball_count: int | None = None,
+    ball_diameter_mm: float | None = None,
+    housing: Housing = "pedestal",
+) -> tuple[Scene, Bearing]:
+    """Return a scene by boundary dimensions, and the bearing that was worked out from them.
+
+    Parameters
+    ----------
+    bore_mm, outside_mm, width_mm : float
+        Boundary dimensions [mm].
+    kind : {"deep_groove", "angular_contact", "double_row"}
+        Kind.
+    contact_angle_deg : float, optional
+        Contact angle [°], of angular contact.
+    ball_count : int, optional
+        Number of balls that were counted; by default an estimate.
+    ball_diameter_mm : float, optional
+        Diameter of the balls that was measured [mm]; by default an estimate.
+    housing : {"pedestal", "bare ring"}
+        What the outer ring sits in.
+
+    Raises
+    ------
+    SceneError
+        A number is not usable.
+    """
+    angle = None if contact_angle_deg is None else contact_angle_deg * _RADIAN
+    made = Bearing.from_dimensions(
+        1e-3 * bore_mm, 1e-3 * outside_mm, 1e-3 * width_mm, kind=kind, contact_angle=angle
+    )
+    if ball_count is not None:
+        made = replace(made, ball_count=ball_count)
+    if ball_diameter_mm is not None:
+        made = replace(made, ball_diameter=1e-3 * ball_diameter_mm)
+    return bearing(made, housing=_housing(housing)), made
+
+
+def read_file(path: Path) -> Scene | None:
+    """Return the scene of a file; None of a record, whatever its format.
+
+    Raises
+    ------
+    SceneError
+        It is no usable scene.
+    OSError
+        It cannot be read.
+    """
+    from ..scene import Scene
+
+    return Scene.load(path) if path.suffix.lower() in (".toml", ".json") else None
+
+
+_RADIAN = 0.017453292519943295
+
+
+def _housing(name: Housing) -> Literal["pedestal"] | None:
+    return "pedestal" if name == "pedestal" else None

@@ -1,0 +1,136 @@
+"""The controls of numbers: their ranges about a scene, and how what they show becomes settings."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from .settings import Settings
+
+__all__ = ["Control", "controls", "taken"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Control:
+    """A number that is turned.
+
+    Attributes
+    ----------
+    field : str
+        Field of :class:`ballrace.explore.settings.Settings`.
+    label : str
+        What it is, with its unit.
+    start, stop, step, value : float
+        Range, steps and where it begins, in the unit of its label.
+    scale : float
+        What a value is multiplied with to be in the unit of the field.
+    """
+
+    field: str
+    label: str
+    start: float
+    stop: float
+    step: float
+    value: float
+    scale: float = 1.0
+
+
+def controls(begun: Settings) -> tuple[Control, ...]:
+    """Return the controls of a scene's settings; what is not one number in the scene has none."""
+    made = (
+        *_forces(begun),
+        _speed(begun),
+        _clearance(begun),
+        _plain("temperature_c", "oil temperature / °C", 0.0, 120.0, 1.0, begun.temperature_c),
+        _plain("width_mm", "damage: size / mm", 0.1, 8.0, 0.1, begun.width_mm),
+        _plain("angle_deg", "damage: place / °", -180.0, 180.0, 5.0, begun.angle_deg),
+        *_mount(begun),
+        _plain("noise", "noise of the sensor / m/s²", 0.0, 20.0, 0.1, begun.noise),
+    )
+    return tuple(each for each in made if each is not None)
+
+
+def taken(begun: Settings, made: tuple[Control, ...], shown: Mapping[str, float]) -> Settings:
+    """Return settings by what the controls show; one that stands where it began leaves its field as it was."""
+    moved: dict[str, Any] = {
+        each.field: each.scale * shown[each.field]
+        for each in made
+        if each.field in shown and shown[each.field] != each.value
+    }
+    return begun.moved(**moved)
+
+
+def _forces(begun: Settings) -> tuple[Control | None, ...]:
+    known = [abs(f) for f in (begun.radial_load, begun.axial_load) if f is not None]
+    stop = _round_up(5.0 * max([*known, 20.0]))
+    lever = 0.1 * begun.base.rows[0].pitch_diameter
+    moment = _round_up(stop * lever)
+    return (
+        _given("radial_load", "radial load / N", 0.0, stop, stop / 200.0, begun.radial_load),
+        _given("axial_load", "thrust / N", -stop, stop, stop / 200.0, begun.axial_load),
+        _plain("moment", "moment / N m", -moment, moment, moment / 100.0, begun.moment),
+    )
+
+
+def _speed(begun: Settings) -> Control | None:
+    stop = _round_up(max(6000.0, 2.0 * abs(begun.speed_rpm or 0.0)))
+    return _given("speed_rpm", "speed / rev/min", 60.0, stop, 10.0, begun.speed_rpm)
+
+
+def _clearance(begun: Settings) -> Control | None:
+    if begun.clearance is None:
+        return None
+    micro = 1e6 * begun.clearance
+    stop = _round_up(max(5.0 * micro, 50.0))
+    return Control(
+        field="clearance", label="clearance / µm", start=-20.0, stop=stop, step=0.5,
+        value=_shown(micro), scale=1e-6,
+    )  # fmt: skip
+
+
+def _mount(begun: Settings) -> tuple[Control | None, ...]:
+    mass = begun.housing_mass
+    if mass is None or begun.housing_frequency is None:
+        return ()
+    least, most = 0.2 * mass, _round_up(10.0 * mass)
+    return (
+        _given("housing_mass", "housing: mass / kg", _shown(least, 2), most, 0.01, mass),
+        _given(
+            "housing_frequency", "housing: mount / Hz", 50.0, 8000.0, 10.0, begun.housing_frequency
+        ),
+    )
+
+
+def _given(
+    field: str, label: str, start: float, stop: float, step: float, value: float | None
+) -> Control | None:
+    """Return a control of what may be no number; a value outside of the range widens it."""
+    if value is None:
+        return None
+    start, stop = min(start, _floor(value)), max(stop, value)
+    return _plain(field, label, start, stop, step, value)
+
+
+def _plain(field: str, label: str, start: float, stop: float, step: float, value: float) -> Control:
+    return Control(
+        field=field, label=label, start=start, stop=stop, step=step, value=_shown(value)
+    )  # fmt: skip
+
+
+def _floor(value: float) -> float:
+    return float(math.floor(value))
+
+
+def _shown(value: float, digits: int = 4) -> float:
+    """Return a number as it is shown, rounded to some digits."""
+    return float(f"{value:.{digits}g}")
+
+
+def _round_up(value: float) -> float:
+    """Return the next 1, 2 or 5 times a power of ten."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(each * power for each in (1.0, 2.0, 5.0, 10.0) if value <= 1.000001 * each * power)

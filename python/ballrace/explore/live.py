@@ -1,0 +1,107 @@
+"""What is solved at rest for every move of a control."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..errors import BallraceError, SceneWarning
+from ..frequencies.operating import FaultFrequencies, fault_frequencies, spin_of
+from ..ratings.life import RatingLife, rating_life
+from ..statics import Equilibrium, LoadDistribution, Stiffness, load_distribution, stiffness
+from ..scene import Scene
+
+
+__all__ = ["Live", "solved"]
+
+_ONE_HERTZ = 60.0
+"""A speed at which frequencies are orders [rev/min]."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Live:
+    """A bearing at rest in the cage's frame, without its damage.
+
+    Attributes
+    ----------
+    scene : Scene
+        As the controls say it, with its damage.
+    around : LoadDistribution
+        Loads of the balls all around.
+    stiffness : Stiffness
+        Tangent stiffness.
+    life : RatingLife or None
+        Rating life.
+    no_life : str
+        Why there is none.
+    rates : tuple of FaultFrequencies
+        Of each row, at the scene's speed [Hz], or at one turn a second where that changes.
+    spin : tuple of float and int, or None
+        Of a ball's damage, as :func:`ballrace.frequencies.operating.spin_of` has it.
+    steady : bool
+        Whether the speed is given and constant.
+    doubts : tuple of str
+        What was warned of.
+    """
+
+    scene: Scene
+    around: LoadDistribution
+    stiffness: Stiffness
+    life: RatingLife | None
+    no_life: str
+    rates: tuple[FaultFrequencies, ...]
+    spin: tuple[float, int] | None
+    steady: bool
+    doubts: tuple[str, ...]
+
+    @property
+    def equilibrium(self) -> Equilibrium:
+        """Where rings and balls are."""
+        return self.stiffness.equilibrium
+
+
+def solved(scene: Scene, *, steady: bool = True) -> Live:
+    """Solve a scene at rest.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    steady : bool
+        Whether its speed is one number; if not, rates are orders.
+
+    Raises
+    ------
+    SceneError
+        A field is not usable.
+    EquilibriumError
+        The bearing cannot carry its load.
+    """
+    healthy = scene.replace({"defects": {}})
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always", SceneWarning)
+        tangent = stiffness(healthy)
+        around = load_distribution(healthy)
+        speed = None if steady else _ONE_HERTZ
+        rates = tuple(fault_frequencies(healthy, speed, row=k) for k in range(len(scene.rows)))
+        life, why = _life(healthy)
+        doubts = dict.fromkeys([*scene.doubts(), *(str(each.message) for each in told)])
+    return Live(
+        scene=scene,
+        around=around,
+        stiffness=tangent,
+        life=life,
+        no_life=why,
+        rates=rates,
+        spin=spin_of(scene, rates[0]) if scene.defects else None,
+        steady=steady,
+        doubts=tuple(doubts),
+    )
+
+
+def _life(scene: Scene) -> tuple[RatingLife | None, str]:
+    try:
+        return rating_life(scene), ""
+    except BallraceError as error:
+        return None, str(error)
