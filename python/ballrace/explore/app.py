@@ -62,15 +62,7 @@ def bearing(mo, opened):
 
 
 @app.cell
-def choice(housing, how, mo, name, size):
-    """Show what the bearing is chosen by."""
-    shown = {"name": [name, housing], "size": [*size.elements.values(), housing], "file": []}
-    mo.vstack([mo.md("# ballrace explore"), how, *shown[how.value]])
-    return
-
-
-@app.cell
-def base(BallraceError, Settings, chosen, controls, housing, how, mo, name, opened, refused, size):
+def base(BallraceError, Settings, chosen, controls, housing, how, name, opened, refused, size):
     """Make the scene that the controls begin with."""
 
     def begin():
@@ -78,28 +70,22 @@ def base(BallraceError, Settings, chosen, controls, housing, how, mo, name, open
             return opened, None
         if how.value == "name":
             return chosen.named(name.value, housing.value), None
-        given = dict(size.value)
+        given = {**size.value, "housing": housing.value}
         for optional in ("ball_count", "ball_diameter_mm"):
             given[optional] = given[optional] or None
         if given["kind"] == "deep_groove":
             given["contact_angle_deg"] = None
-        return chosen.described(**given, housing=housing.value)
+        return chosen.described(**given)
 
     try:
-        scene_begun, guess = begin()
+        scene_begun, made = begin()
+        begun, what, knobs = Settings.of(scene_begun), chosen.summary(scene_begun, made), ()
+        knobs = controls(begun)
         trouble = None
     except BallraceError as error:
+        begun, what, knobs = None, "", ()
         trouble = refused(error)
-    mo.stop(trouble is not None, trouble)
-    begun = Settings.of(scene_begun)
-    knobs = controls(begun)
-    what = f"{scene_begun.name or 'bearing'}: {begun.base.rows[0].ball_count} balls of "
-    what += f"{1e3 * begun.base.rows[0].ball_diameter:.3g} mm on {1e3 * begun.base.rows[0].pitch_diameter:.4g} mm"
-    if guess is not None and guess.uncertainty is not None:
-        off = guess.uncertainty
-        what += f"; an estimate: balls ±{off.ball_count}, BPFO ±{off.orders.bpfo:.2f} per turn"
-    mo.md(what)
-    return begun, knobs
+    return begun, knobs, trouble, what
 
 
 @app.cell
@@ -112,7 +98,8 @@ def turned_knobs(DAMAGE, SURFACES, begun, br, knobs, mo):
         for each in knobs
     })  # fmt: skip
     oils = {"dry": None, **{oil.name: oil.name for oil in br.lubricants()}}
-    began = next((told for told, oil in oils.items() if oil == begun.oil), "dry")
+    own = None if begun is None else begun.oil
+    began = next((told for told, oil in oils.items() if oil == own), "dry")
     picks = mo.ui.dictionary({
         "oil": mo.ui.dropdown(oils, value=began, label="oil"),
         "damage": mo.ui.dropdown(list(DAMAGE), value="none", label="damage"),
@@ -124,45 +111,10 @@ def turned_knobs(DAMAGE, SURFACES, begun, br, knobs, mo):
 
 
 @app.cell
-def knobs_shown(mo, picks, sliders):
-    """Show the controls in groups."""
-
-    def of(*names):
-        return [sliders.elements[name] for name in names if name in sliders.elements]
-
-    mo.vstack([
-        *of("radial_load", "axial_load", "moment", "speed_rpm", "clearance"),
-        picks.elements["oil"], *of("temperature_c"),
-        picks.elements["damage"], picks.elements["on"], *of("width_mm", "angle_deg"),
-        *of("housing_mass", "housing_frequency", "noise"),
-    ])  # fmt: skip
-    return
-
-
-@app.cell
-def answer(BallraceError, begun, knobs, live, mo, picks, picture, refused, sliders, taken, told):
-    """Answer a move of any control."""
-    settings = taken(begun, knobs, sliders.value).moved(**picks.value)
-    scene, solution, unsolved = None, None, None
-    try:
-        scene = settings.scene()
-        solution = live.solved(scene, steady=settings.speed_rpm is not None)
-    except BallraceError as error:
-        unsolved = refused(error)
-    if solution is None:
-        rest = unsolved
-    else:
-        rest = mo.Html(f'<div class="live">{picture.pictures(solution)}{told.page(solution)}</div>')
-    rest
-    return scene, settings, solution
-
-
-@app.cell
 def running(Runner, mo):
     """Make what starts and stops a run."""
     runner = Runner()
     get_out, set_out = mo.state(None)
-    get_seen, set_seen = mo.state(None)
     duration = mo.ui.slider(
         0.1, 2.0, 0.1, 0.4, label="simulated time / s", include_input=True, full_width=True
     )
@@ -174,13 +126,61 @@ def running(Runner, mo):
 
 
 @app.cell
-def running_shown(duration, idle, mo, start, stop, tick):
-    """Show it."""
+def panel(
+    duration, housing, how, idle, mo, name, picks, size, sliders, start, stop, tick, trouble, what,
+):  # fmt: skip
+    """Show all controls."""
+
+    def of(*names):
+        return [sliders.elements[each] for each in names if each in sliders.elements]
+
+    by = {"name": [name, housing], "size": [*size.elements.values(), housing], "file": []}
     mo.vstack([
-        mo.md("## A run"), duration, mo.hstack([start, stop, idle], justify="start", wrap=True),
+        mo.md("# ballrace explore"), how, *by[how.value], mo.md(what) if trouble is None else trouble,
+        *of("radial_load", "axial_load", "moment", "speed_rpm", "clearance"),
+        picks.elements["oil"], *of("temperature_c"),
+        mo.hstack([picks.elements["damage"], picks.elements["on"]], justify="start", wrap=True),
+        *of("width_mm", "angle_deg", "housing_mass", "housing_frequency", "noise"),
+        duration, mo.hstack([start, stop, idle], justify="start", wrap=True),
         mo.Html(f"<div hidden>{tick.text}</div>"),
     ])  # fmt: skip
     return
+
+
+@app.cell
+def solving(BallraceError, begun, knobs, live, picks, refused, sliders, taken):
+    """Solve what the controls say."""
+    settings, scene, solution, unsolved = None, None, None, None
+    if begun is not None:
+        settings = taken(begun, knobs, sliders.value).moved(**picks.value)
+        try:
+            scene = settings.scene()
+            solution = live.solved(scene, steady=settings.speed_rpm is not None)
+        except BallraceError as error:
+            unsolved = refused(error)
+    return scene, settings, solution, unsolved
+
+
+@app.cell
+def drawn(mo, picture, solution, unsolved):
+    """Draw it."""
+    mo.Html(picture.pictures(solution)) if solution is not None else unsolved
+    return
+
+
+@app.cell
+def answer(mo, solution, told):
+    """Tell it in numbers."""
+    mo.Html(told.page(solution)) if solution is not None else None
+    return
+
+
+@app.cell
+def apart(settings):
+    """Name what only some cells depend on, so that the others do not run again."""
+    noise = 0.0 if settings is None else settings.noise
+    speed_rpm = None if settings is None else settings.speed_rpm
+    return noise, speed_rpm
 
 
 @app.cell
@@ -203,8 +203,8 @@ def stopped(runner, stop):
 
 @app.cell
 def progress(get_out, mo, refused, runner, scene, set_out, tick):
-    """Look after the run twice a second."""
-    tick.value  # noqa: B018 (a tick makes this cell run again)
+    """Look after the run twice a second: a tick makes this cell run again."""
+    _ = tick.value
     run = runner.newest
     if run is None:
         state = mo.md("No run yet.")
@@ -223,24 +223,31 @@ def progress(get_out, mo, refused, runner, scene, set_out, tick):
 
 
 @app.cell
-def results(BallraceError, CONFIG, get_out, heard, mo, refused, settings):
-    """Show the run as a sensor has it."""
+def sensing(get_out, heard, noise):
+    """Take the run through the sensor."""
     out = get_out()
-    mo.stop(out is None)
-    simulated = heard.sensed(out, settings.noise)
-    rates = heard.rates_of(out)
-    shown_run = [
-        mo.ui.plotly(heard.waveform(simulated, rates), config=CONFIG),
-        mo.ui.plotly(heard.envelope(simulated, rates), config=CONFIG),
-        mo.md("The run as sound; its loudness says nothing."),
-        mo.audio(heard.sound(simulated)),
-    ]
-    try:
-        shown_run.append(mo.ui.plotly(heard.orders(simulated, out), config=CONFIG))
-    except BallraceError as error:
-        shown_run.append(refused(error))
-    mo.vstack(shown_run)
+    simulated = None if out is None else heard.sensed(out, noise)
+    rates = None if out is None else heard.rates_of(out)
     return out, rates, simulated
+
+
+@app.cell
+def results(BallraceError, CONFIG, heard, mo, out, rates, refused, simulated):
+    """Show the run as a sensor has it."""
+
+    def shown_run():
+        yield mo.md("## The run")
+        yield mo.ui.plotly(heard.waveform(simulated, rates), config=CONFIG)
+        yield mo.ui.plotly(heard.envelope(simulated, rates), config=CONFIG)
+        yield mo.md("As sound; its loudness says nothing:")
+        yield mo.audio(heard.sound(simulated))
+        try:
+            yield mo.ui.plotly(heard.orders(simulated, out), config=CONFIG)
+        except BallraceError as error:
+            yield refused(error)
+
+    mo.vstack(list(shown_run())) if out is not None else None
+    return
 
 
 @app.cell
@@ -264,51 +271,53 @@ def dropping(file, mo, opened):
 @app.cell
 def received(BallraceError, beside, begun_with, dropped_file, mo, record_fs, refused):
     """Read it."""
-    holding = [(one.name, one.contents) for one in dropped_file.value] or [begun_with]
-    mo.stop(holding[0] is None)
-    unread = None
-    try:
-        dropped = beside.received(*holding[0], record_fs.value or None)
-    except (BallraceError, ImportError, OSError) as error:
-        unread = refused(error)
-    mo.stop(unread is not None, unread)
-    columns = list(dropped.record)
-    column = mo.ui.dropdown(columns, value=dropped.record.channel().name, label="column")
-    column
+    holding = next(((one.name, one.contents) for one in dropped_file.value), begun_with)
+    dropped, column, unread = None, None, None
+    if holding is not None:
+        try:
+            dropped = beside.received(*holding, record_fs.value or None)
+            column = mo.ui.dropdown(
+                list(dropped.record), value=dropped.record.channel().name, label="column"
+            )
+        except (BallraceError, ImportError, OSError) as error:
+            unread = refused(error)
+    column if unread is None else unread
     return column, dropped
 
 
 @app.cell
 def verdict(
-    BallraceError, CONFIG, beside, column, dropped, get_out, heard, mo, rates, record_rpm, record_unit, refused,
-    settings, simulated,
+    BallraceError, CONFIG, beside, column, dropped, mo, rates, record_rpm, record_unit, refused, scene, simulated,
+    speed_rpm,
 ):  # fmt: skip
     """Say what the record is of, and lay its envelope over that of the run."""
-    unjudged = None
-    try:
-        measured, found = beside.judged(
-            dropped, column.value, settings.scene(), speed_rpm=record_rpm.value or None,
-            begun_rpm=settings.speed_rpm, unit=record_unit.value,
-        )  # fmt: skip
-    except BallraceError as error:
-        unjudged = refused(error)
-    mo.stop(unjudged is not None, unjudged)
-    mo.vstack([
-        mo.Html(f'<div class="told verdict">{found._repr_html_()}</div>'),
-        mo.ui.plotly(beside.overlaid(simulated, measured, rates, found), config=CONFIG),
-    ])  # fmt: skip
+
+    def judged():
+        try:
+            measured, found = beside.judged(
+                dropped, column.value, scene, speed_rpm=record_rpm.value or None, begun_rpm=speed_rpm,
+                unit=record_unit.value,
+            )  # fmt: skip
+        except BallraceError as error:
+            return [refused(error)]
+        fig = beside.overlaid(simulated, measured, rates, found)
+        return [
+            mo.Html(f'<div class="told verdict">{found._repr_html_()}</div>'),
+            mo.ui.plotly(fig, config=CONFIG),
+        ]
+
+    mo.vstack(judged()) if dropped is not None and scene is not None else None
     return
 
 
 @app.cell
-def saving(duration, get_out, mo, saved, scene, settings):
+def saving(duration, get_out, mo, noise, saved, scene):
     """Save scene, report and notebook."""
-    mo.stop(scene is None)
     finished = get_out()
-    files = [
+    files = [] if scene is None else [
         mo.download(saved.scene_file(scene), filename="scene.toml", label="Scene"),
         mo.download(
-            saved.notebook(scene, duration.value, settings.noise), filename="bearing.ipynb", label="Notebook"
+            saved.notebook(scene, duration.value, noise), filename="bearing.ipynb", label="Notebook"
         ),
     ]  # fmt: skip
     if finished is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from ..bearings.entry import Kind
     from ..scene import Scene
 
-__all__ = ["described", "named", "read_file"]
+__all__ = ["described", "named", "read_file", "summary"]
 
 Housing = Literal["pedestal", "bare ring"]
 
@@ -69,7 +70,7 @@ def described(
     SceneError
         A number is not usable.
     """
-    angle = None if contact_angle_deg is None else contact_angle_deg * _RADIAN
+    angle = None if contact_angle_deg is None else math.radians(contact_angle_deg)
     made = Bearing.from_dimensions(
         1e-3 * bore_mm, 1e-3 * outside_mm, 1e-3 * width_mm, kind=kind, contact_angle=angle
     )
@@ -95,7 +96,17 @@ def read_file(path: Path) -> Scene | None:
     return Scene.load(path) if path.suffix.lower() in (".toml", ".json") else None
 
 
-_RADIAN = 0.017453292519943295
+def summary(scene: Scene, made: Bearing | None = None) -> str:
+    """Return what a scene's balls are, and how far an estimate of them may be off."""
+    rows = (
+        f"{row.ball_count} balls of {1e3 * row.ball_diameter:.2f} mm on {1e3 * row.pitch_diameter:.2f} mm"
+        for row in scene.rows
+    )
+    told = f"{scene.name or 'bearing'}: {'; '.join(dict.fromkeys(rows))}"
+    if made is None or made.uncertainty is None:
+        return told
+    off = made.uncertainty
+    return f"{told}. An estimate: nine of ten are within {off.ball_count} balls and {off.orders.bpfo:.2f} of BPFO."
 
 
 def _housing(name: Housing) -> Literal["pedestal"] | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -67,12 +67,11 @@ def taken(begun: Settings, made: tuple[Control, ...], shown: Mapping[str, float]
 def _forces(begun: Settings) -> tuple[Control | None, ...]:
     known = [abs(f) for f in (begun.radial_load, begun.axial_load) if f is not None]
     stop = _round_up(5.0 * max([*known, 20.0]))
-    lever = 0.1 * begun.base.rows[0].pitch_diameter
-    moment = _round_up(stop * lever)
+    moment = _round_up(0.1 * stop * begun.base.rows[0].pitch_diameter)
     return (
-        _given("radial_load", "radial load / N", 0.0, stop, stop / 200.0, begun.radial_load),
-        _given("axial_load", "thrust / N", -stop, stop, stop / 200.0, begun.axial_load),
-        _plain("moment", "moment / N m", -moment, moment, moment / 100.0, begun.moment),
+        _given("radial_load", "radial load / N", 0.0, stop, 1e-3 * stop, begun.radial_load),
+        _given("axial_load", "thrust / N", -stop, stop, 1e-3 * stop, begun.axial_load),
+        _plain("moment", "moment / N m", -moment, moment, 0.01 * moment, begun.moment),
     )
 
 
@@ -86,22 +85,18 @@ def _clearance(begun: Settings) -> Control | None:
         return None
     micro = 1e6 * begun.clearance
     stop = _round_up(max(5.0 * micro, 50.0))
-    return Control(
-        field="clearance", label="clearance / µm", start=-20.0, stop=stop, step=0.5,
-        value=_shown(micro), scale=1e-6,
-    )  # fmt: skip
+    made = _given("clearance", "clearance / µm", -20.0, stop, 0.5, micro)
+    return None if made is None else replace(made, scale=1e-6)
 
 
 def _mount(begun: Settings) -> tuple[Control | None, ...]:
-    mass = begun.housing_mass
-    if mass is None or begun.housing_frequency is None:
+    mass, frequency = begun.housing_mass, begun.housing_frequency
+    if mass is None or frequency is None:
         return ()
-    least, most = 0.2 * mass, _round_up(10.0 * mass)
+    most = _round_up(10.0 * mass)
     return (
-        _given("housing_mass", "housing: mass / kg", _shown(least, 2), most, 0.01, mass),
-        _given(
-            "housing_frequency", "housing: mount / Hz", 50.0, 8000.0, 10.0, begun.housing_frequency
-        ),
+        _given("housing_mass", "housing: mass / kg", 2e-3 * most, most, 1e-3 * most, mass),
+        _given("housing_frequency", "housing: mount / Hz", 50.0, 8000.0, 10.0, frequency),
     )
 
 
@@ -111,23 +106,19 @@ def _given(
     """Return a control of what may be no number; a value outside of the range widens it."""
     if value is None:
         return None
-    start, stop = min(start, _floor(value)), max(stop, value)
-    return _plain(field, label, start, stop, step, value)
+    low, high = step * math.floor(value / step), step * math.ceil(value / step)
+    return _plain(field, label, min(start, low), max(stop, high), step, value)
 
 
 def _plain(field: str, label: str, start: float, stop: float, step: float, value: float) -> Control:
     return Control(
-        field=field, label=label, start=start, stop=stop, step=step, value=_shown(value)
+        field=field, label=label, start=start, stop=stop, step=step, value=_shown(value, start, step)
     )  # fmt: skip
 
 
-def _floor(value: float) -> float:
-    return float(math.floor(value))
-
-
-def _shown(value: float, digits: int = 4) -> float:
-    """Return a number as it is shown, rounded to some digits."""
-    return float(f"{value:.{digits}g}")
+def _shown(value: float, start: float, step: float) -> float:
+    """Return the step that is nearest to a number, which is what a slider shows of it."""
+    return float(f"{start + step * round((value - start) / step):.10g}")
 
 
 def _round_up(value: float) -> float:

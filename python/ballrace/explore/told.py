@@ -33,10 +33,11 @@ _FAULTS = ("shaft", "FTF", "BPFO", "BPFI", "2·BSF")
 def numbers(live: Live) -> dict[str, str]:
     """Return what is solved by its names, with units."""
     eq, tangent = live.equilibrium, live.stiffness
-    loaded = int(np.count_nonzero(np.maximum(eq.outer_load, eq.inner_load) > 0.0))
+    # At speed every ball is thrown against the outer race.
+    loaded = int(np.count_nonzero(np.minimum(eq.outer_load, eq.inner_load) > 0.0))
     angles = np.degrees(np.abs(eq.outer_angle[eq.outer_load > 0.0]))
     soft, stiff = 1e-6 * tangent.radial
-    moved = ", ".join(f"{1e6 * each:.1f}" for each in eq.inner - eq.outer)
+    moved = ", ".join(f"{1e6 * each:z.1f}" for each in eq.inner - eq.outer)
     told = {
         "balls under load": f"{loaded} of {eq.ball.size}",
         "largest load": f"{max(eq.outer_load.max(), eq.inner_load.max()):.0f} N",
@@ -55,7 +56,7 @@ def numbers(live: Live) -> dict[str, str]:
 def _tilt(live: Live) -> dict[str, str]:
     eq = live.equilibrium
     if live.scene.moments or np.any(eq.inner_tilt != 0.0):
-        return {"tilt about x, y": ", ".join(f"{1e3 * t:.2f}" for t in eq.inner_tilt) + " mrad"}
+        return {"tilt about x, y": ", ".join(f"{1e3 * t:z.2f}" for t in eq.inner_tilt) + " mrad"}
     held = math.hypot(*eq.inner_moment)
     return {"moment that holds the rings parallel": f"{held:.2f} N m"}
 
