@@ -2,7 +2,12 @@
 
 import marimo
 
-app = marimo.App(width="full", app_title="ballrace explore", css_file="explore.css")
+app = marimo.App(
+    width="full",
+    app_title="ballrace explore",
+    css_file="explore.css",
+    html_head_file="head.html",
+)
 
 
 @app.cell
@@ -58,7 +63,8 @@ def bearing(mo, opened):
         ),
     })  # fmt: skip
     housing = mo.ui.dropdown(["pedestal", "bare ring"], value="pedestal", label="housing")
-    return housing, how, name, size
+    name_elements, size_elements = [name, housing], [*size.elements.values(), housing]
+    return housing, how, name, name_elements, size, size_elements
 
 
 @app.cell
@@ -107,7 +113,9 @@ def turned_knobs(DAMAGE, SURFACES, begun, br, knobs, mo):
             {where.replace("_", " "): where for where in SURFACES}, value="outer race", label="damage on"
         ),
     })  # fmt: skip
-    return picks, sliders
+    # Cells that name the dictionaries run again at every move; one that shows their elements need not.
+    knob_elements = {**sliders.elements, **picks.elements}
+    return knob_elements, picks, sliders
 
 
 @app.cell
@@ -122,35 +130,44 @@ def running(Runner, mo):
     start = mo.ui.run_button(label="Run")
     stop = mo.ui.run_button(label="Stop", kind="warn")
     tick = mo.ui.refresh(default_interval="500ms")
-    return duration, get_out, idle, runner, set_out, start, stop, tick
+    run_elements = [
+        duration, mo.hstack([start, stop, idle], justify="start", wrap=True), mo.Html(f"<div hidden>{tick.text}</div>"),
+    ]  # fmt: skip
+    return duration, get_out, idle, run_elements, runner, set_out, start, stop, tick
 
 
 @app.cell
-def panel(
-    duration, housing, how, idle, mo, name, picks, size, sliders, start, stop, tick, trouble, what,
-):  # fmt: skip
+def panel(how, knob_elements, mo, name_elements, run_elements, size_elements, trouble, what):
     """Show all controls."""
 
     def of(*names):
-        return [sliders.elements[each] for each in names if each in sliders.elements]
+        return [knob_elements[each] for each in names if each in knob_elements]
 
-    by = {"name": [name, housing], "size": [*size.elements.values(), housing], "file": []}
+    by = {"name": name_elements, "size": size_elements, "file": []}
     mo.vstack([
         mo.md("# ballrace explore"), how, *by[how.value], mo.md(what) if trouble is None else trouble,
-        *of("radial_load", "axial_load", "moment", "speed_rpm", "clearance"),
-        picks.elements["oil"], *of("temperature_c"),
-        mo.hstack([picks.elements["damage"], picks.elements["on"]], justify="start", wrap=True),
+        *of("radial_load", "axial_load", "moment", "speed_rpm", "clearance", "oil", "temperature_c"),
+        mo.hstack(of("damage", "on"), justify="start", wrap=True),
         *of("width_mm", "angle_deg", "housing_mass", "housing_frequency", "noise"),
-        duration, mo.hstack([start, stop, idle], justify="start", wrap=True),
-        mo.Html(f"<div hidden>{tick.text}</div>"),
+        *run_elements,
     ])  # fmt: skip
     return
 
 
 @app.cell
-def solving(BallraceError, begun, knobs, live, picks, refused, sliders, taken):
+def holding(mo):
+    """Hold what cells read that need not run again at every move."""
+    latest = {"scene": None}
+    get_noise, set_noise = mo.state(0.0)
+    return get_noise, latest, set_noise
+
+
+@app.cell
+def solving(
+    BallraceError, begun, get_noise, knobs, latest, live, picks, refused, set_noise, sliders, taken,
+):  # fmt: skip
     """Solve what the controls say."""
-    settings, scene, solution, unsolved = None, None, None, None
+    scene, solution, unsolved = None, None, None
     if begun is not None:
         settings = taken(begun, knobs, sliders.value).moved(**picks.value)
         try:
@@ -158,7 +175,10 @@ def solving(BallraceError, begun, knobs, live, picks, refused, sliders, taken):
             solution = live.solved(scene, steady=settings.speed_rpm is not None)
         except BallraceError as error:
             unsolved = refused(error)
-    return scene, settings, solution, unsolved
+        if settings.noise != get_noise():
+            set_noise(settings.noise)
+    latest["scene"] = scene
+    return scene, solution, unsolved
 
 
 @app.cell
@@ -173,14 +193,6 @@ def answer(mo, solution, told):
     """Tell it in numbers."""
     mo.Html(told.page(solution)) if solution is not None else None
     return
-
-
-@app.cell
-def apart(settings):
-    """Name what only some cells depend on, so that the others do not run again."""
-    noise = 0.0 if settings is None else settings.noise
-    speed_rpm = None if settings is None else settings.speed_rpm
-    return noise, speed_rpm
 
 
 @app.cell
@@ -202,7 +214,7 @@ def stopped(runner, stop):
 
 
 @app.cell
-def progress(get_out, mo, refused, runner, scene, set_out, tick):
+def progress(get_out, latest, mo, refused, runner, set_out, tick):
     """Look after the run twice a second: a tick makes this cell run again."""
     _ = tick.value
     run = runner.newest
@@ -213,7 +225,11 @@ def progress(get_out, mo, refused, runner, scene, set_out, tick):
     else:
         if run.state == "done" and get_out() is not run.out:
             set_out(run.out)
-        fits = "" if run.scene == scene else " The run is of other settings than those above."
+        fits = (
+            ""
+            if run.scene == latest["scene"]
+            else " The run is of other settings than those above."
+        )
         state = mo.Html(
             f'<p class="progress" role="status"><progress value="{run.share:.3f}" max="1"></progress> '
             f"{run.state}, {run.share:.0%}.{fits}</p>"
@@ -223,10 +239,10 @@ def progress(get_out, mo, refused, runner, scene, set_out, tick):
 
 
 @app.cell
-def sensing(get_out, heard, noise):
+def sensing(get_noise, get_out, heard):
     """Take the run through the sensor."""
     out = get_out()
-    simulated = None if out is None else heard.sensed(out, noise)
+    simulated = None if out is None else heard.sensed(out, get_noise())
     rates = None if out is None else heard.rates_of(out)
     return out, rates, simulated
 
@@ -287,16 +303,16 @@ def received(BallraceError, beside, begun_with, dropped_file, mo, record_fs, ref
 
 @app.cell
 def verdict(
-    BallraceError, CONFIG, beside, column, dropped, mo, rates, record_rpm, record_unit, refused, scene, simulated,
-    speed_rpm,
+    BallraceError, CONFIG, begun, beside, column, dropped, mo, out, rates, record_rpm, record_unit, refused,
+    simulated,
 ):  # fmt: skip
     """Say what the record is of, and lay its envelope over that of the run."""
 
     def judged():
+        scene = begun.base if out is None else out.scene
         try:
             measured, found = beside.judged(
-                dropped, column.value, scene, speed_rpm=record_rpm.value or None, begun_rpm=speed_rpm,
-                unit=record_unit.value,
+                dropped, column.value, scene, speed_rpm=record_rpm.value or None, unit=record_unit.value
             )  # fmt: skip
         except BallraceError as error:
             return [refused(error)]
@@ -306,18 +322,18 @@ def verdict(
             mo.ui.plotly(fig, config=CONFIG),
         ]
 
-    mo.vstack(judged()) if dropped is not None and scene is not None else None
+    mo.vstack(judged()) if dropped is not None and begun is not None else None
     return
 
 
 @app.cell
-def saving(duration, get_out, mo, noise, saved, scene):
-    """Save scene, report and notebook."""
-    finished = get_out()
-    files = [] if scene is None else [
-        mo.download(saved.scene_file(scene), filename="scene.toml", label="Scene"),
+def saving(duration, get_noise, get_out, latest, mo, saved):
+    """Save scene, report and notebook, which are written when they are asked for."""
+    finished, lasting, noisy = get_out(), duration.value, get_noise()
+    files = [
+        mo.download(lambda: saved.scene_file(latest["scene"]), filename="scene.toml", label="Scene"),
         mo.download(
-            saved.notebook(scene, duration.value, noise), filename="bearing.ipynb", label="Notebook"
+            lambda: saved.notebook(latest["scene"], lasting, noisy), filename="bearing.ipynb", label="Notebook"
         ),
     ]  # fmt: skip
     if finished is not None:

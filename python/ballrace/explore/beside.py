@@ -12,6 +12,7 @@ from ..diagnosis import diagnose
 from ..errors import FileError, SceneError
 from ..recordings import Recording, read
 from .heard import envelope
+from .settings import speed_of
 
 if TYPE_CHECKING:
     from ..channel import Channel
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
     from ..scene import Scene
 
 __all__ = ["Dropped", "judged", "overlaid", "received"]
+
+
+_SHOWN = 600.0
+"""Highest frequency that is shown of a record without a run [Hz]."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -76,7 +81,6 @@ def judged(
     scene: Scene,
     *,
     speed_rpm: float | None,
-    begun_rpm: float | None,
     unit: str | None,
 ) -> tuple[Channel, Diagnosis]:
     """Return the record's channel, and the verdict on it for the bearing of a scene.
@@ -90,9 +94,7 @@ def judged(
     scene : Scene
         Whose bearing it is.
     speed_rpm : float, optional
-        Speed during the record [rev/min]; by default what the file knows.
-    begun_rpm : float, optional
-        Speed where neither tells it, that of the controls [rev/min].
+        Speed during the record [rev/min]; by default what the file knows, or that of the scene.
     unit : {"m/s^2", "g"}, optional
         Unit, where the file does not tell it.
 
@@ -107,24 +109,30 @@ def judged(
     if channel.unit == "g":
         channel = channel.to("m/s^2")
     healthy = scene.replace({"defects": {}})
-    speed = speed_rpm if speed_rpm is not None or channel.shaft is not None else begun_rpm
+    speed = speed_rpm if speed_rpm is not None or channel.shaft is not None else speed_of(scene)
     return channel, diagnose(channel, healthy, speed)
 
 
 def overlaid(
-    simulated: Channel, measured: Channel, rates: FaultFrequencies | None, found: Diagnosis
+    simulated: Channel | None,
+    measured: Channel,
+    rates: FaultFrequencies | None,
+    found: Diagnosis,
 ) -> go.Figure:
     """Return both envelopes in the band that decided the verdict, each over its own largest line.
 
-    A machine lies between a simulated ring and a sensor: places of lines are compared, not heights.
+    A machine lies between a simulated ring and a sensor: places of lines are compared, not heights. Without a run
+    the measured one stands alone.
     """
-    band = _band(found, min(simulated.fs, measured.fs))
-    fig = envelope(_levelled(simulated, band), rates)
-    end = fig.layout.xaxis.range[1]
     from ..plot import envelope_spectrum
 
+    rate = measured.fs if simulated is None else min(simulated.fs, measured.fs)
+    band = _band(found, rate)
+    first = None if simulated is None else envelope(_levelled(simulated, band), rates)
+    end = None if first is None else first.layout.xaxis.range[1]
+    beside = _levelled(measured, band)
     return envelope_spectrum(
-        _levelled(measured, band), faults=(), name="measured", fig=fig, limit=end, band=band
+        beside, faults=(), name="measured", fig=first, limit=end or _SHOWN, band=band
     )
 
 

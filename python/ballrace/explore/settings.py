@@ -14,7 +14,7 @@ from ..scene.lubricant import chosen
 if TYPE_CHECKING:
     from ..scene import Defect, Ring, Support
 
-__all__ = ["DAMAGE", "SURFACES", "Settings"]
+__all__ = ["DAMAGE", "SURFACES", "Settings", "speed_of"]
 
 Damage = Literal["none", "spall", "dent", "line", "pit"]
 DAMAGE = get_args(Damage)
@@ -92,7 +92,7 @@ class Settings:
             base=scene,
             radial_load=_force(scene, along=False),
             axial_load=_force(scene, along=True),
-            speed_rpm=_speed(scene),
+            speed_rpm=speed_of(scene),
             clearance=scene.rows[0].clearance if _has_clearance(scene) else None,
             oil=None if oil is None else oil.oil,
             housing_mass=mass,
@@ -233,7 +233,8 @@ def _force(scene: Scene, *, along: bool) -> float | None:
     return float(force) if isinstance(force, int | float) else None
 
 
-def _speed(scene: Scene) -> float | None:
+def speed_of(scene: Scene) -> float | None:
+    """Return the speed of the inner ring [rev/min]; None where it is not given, or changes."""
     drive = scene.drive
     constant = isinstance(drive, SpeedDrive) and isinstance(drive.speed, int | float)
     return drive.speed * 30.0 / math.pi if constant else None  # type: ignore[operator,union-attr]
