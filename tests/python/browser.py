@@ -30,22 +30,34 @@ class Browser:
         self._chromium = chromium
 
     @contextmanager
-    def page(self, path: Path, width: int) -> Iterator[tuple[Any, Seen]]:
-        """Give a loaded page, and what it did so far."""
-        context = self._chromium.new_context(viewport={"width": width, "height": 900}, offline=True)
+    def blank(
+        self, width: int, *, height: int = 900, offline: bool = True
+    ) -> Iterator[tuple[Any, Seen]]:
+        """Give an empty page, and what it will have done."""
+        size = {"width": width, "height": height}
+        context = self._chromium.new_context(viewport=size, offline=offline)
         page, seen = context.new_page(), Seen()
         page.on("console", lambda message: seen.console.append(f"{message.type}: {message.text}"))
         page.on("pageerror", lambda error: seen.console.append(f"error: {error}"))
         page.on("request", lambda request: seen.requests.append(request.url[:100]))
+        try:
+            yield page, seen
+        finally:
+            context.close()
+
+    @contextmanager
+    def page(self, path: Path, width: int) -> Iterator[tuple[Any, Seen]]:
+        """Give a loaded page, and what it did so far."""
+        with self.blank(width) as (page, seen):
+            self._load(page, path)
+            yield page, seen
+
+    def _load(self, page: Any, path: Path) -> None:
         page.goto(path.as_uri())
         page.wait_for_function(
             "[...document.querySelectorAll('.plotly-graph-div')].every(d => d.querySelector('.main-svg'))"
         )
         page.wait_for_timeout(200)
-        try:
-            yield page, seen
-        finally:
-            context.close()
 
 
 @contextmanager

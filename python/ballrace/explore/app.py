@@ -131,7 +131,8 @@ def running(Runner, mo):
     stop = mo.ui.run_button(label="Stop", kind="warn")
     tick = mo.ui.refresh(default_interval="500ms")
     run_elements = [
-        duration, mo.hstack([start, stop, idle], justify="start", wrap=True), mo.Html(f"<div hidden>{tick.text}</div>"),
+        duration, mo.hstack([start, stop, idle], justify="start", wrap=True),
+        mo.Html(f"<div hidden>{tick.text}</div>"),
     ]  # fmt: skip
     return duration, get_out, idle, run_elements, runner, set_out, start, stop, tick
 
@@ -151,7 +152,6 @@ def panel(how, knob_elements, mo, name_elements, run_elements, size_elements, tr
         *of("width_mm", "angle_deg", "housing_mass", "housing_frequency", "noise"),
         *run_elements,
     ])  # fmt: skip
-    return
 
 
 @app.cell
@@ -185,14 +185,12 @@ def solving(
 def drawn(mo, picture, solution, unsolved):
     """Draw it."""
     mo.Html(picture.pictures(solution)) if solution is not None else unsolved
-    return
 
 
 @app.cell
 def answer(mo, solution, told):
     """Tell it in numbers."""
     mo.Html(told.page(solution)) if solution is not None else None
-    return
 
 
 @app.cell
@@ -202,7 +200,6 @@ def started(duration, idle, runner, scene, start):
         newest = runner.newest
         if start.value or newest is None or newest.scene != scene:
             runner.start(scene, duration=duration.value, delay=0.0 if start.value else 0.5)
-    return
 
 
 @app.cell
@@ -210,7 +207,6 @@ def stopped(runner, stop):
     """Stop it by the button."""
     if stop.value:
         runner.stop()
-    return
 
 
 @app.cell
@@ -235,7 +231,6 @@ def progress(get_out, latest, mo, refused, runner, set_out, tick):
             f"{run.state}, {run.share:.0%}.{fits}</p>"
         )
     state
-    return
 
 
 @app.cell
@@ -263,7 +258,6 @@ def results(BallraceError, CONFIG, heard, mo, out, rates, refused, simulated):
             yield refused(error)
 
     mo.vstack(list(shown_run())) if out is not None else None
-    return
 
 
 @app.cell
@@ -323,7 +317,6 @@ def verdict(
         ]
 
     mo.vstack(judged()) if dropped is not None and begun is not None else None
-    return
 
 
 @app.cell
@@ -342,7 +335,6 @@ def saving(duration, get_noise, get_out, latest, mo, saved):
         )
         files.append(report)
     mo.vstack([mo.md("## Save"), mo.hstack(files, justify="start", wrap=True)])
-    return
 
 
 if __name__ == "__main__":

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 
 from .. import spectra
 from ..diagnosis import diagnose
-from ..errors import FileError, SceneError
+from ..errors import FileError
 from ..recordings import Recording, read
 from .heard import envelope
 from .settings import speed_of
 
 if TYPE_CHECKING:
-    from ..channel import Channel
     import plotly.graph_objects as go
 
+    from ..channel import Channel
     from ..diagnosis import Diagnosis
     from ..frequencies.operating import FaultFrequencies
     from ..scene import Scene

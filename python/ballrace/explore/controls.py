@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Control", "controls", "taken"]
 
+_Steps = tuple[float, float, float]
+"""Least and largest value, and step."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Control:
@@ -45,11 +48,11 @@ def controls(begun: Settings) -> tuple[Control, ...]:
         *_forces(begun),
         _speed(begun),
         _clearance(begun),
-        _plain("temperature_c", "oil temperature / °C", 0.0, 120.0, 1.0, begun.temperature_c),
-        _plain("width_mm", "damage: size / mm", 0.1, 8.0, 0.1, begun.width_mm),
-        _plain("angle_deg", "damage: place / °", -180.0, 180.0, 5.0, begun.angle_deg),
+        _plain("temperature_c", "oil temperature / °C", (0.0, 120.0, 1.0), begun.temperature_c),
+        _plain("width_mm", "damage: size / mm", (0.1, 8.0, 0.1), begun.width_mm),
+        _plain("angle_deg", "damage: place / °", (-180.0, 180.0, 5.0), begun.angle_deg),
         *_mount(begun),
-        _plain("noise", "noise of the sensor / m/s²", 0.0, 20.0, 0.1, begun.noise),
+        _plain("noise", "noise of the sensor / m/s²", (0.0, 20.0, 0.1), begun.noise),
     )
     return tuple(each for each in made if each is not None)
 
@@ -69,15 +72,15 @@ def _forces(begun: Settings) -> tuple[Control | None, ...]:
     stop = _round_up(5.0 * max([*known, 20.0]))
     moment = _round_up(0.1 * stop * begun.base.rows[0].pitch_diameter)
     return (
-        _given("radial_load", "radial load / N", 0.0, stop, 1e-3 * stop, begun.radial_load),
-        _given("axial_load", "thrust / N", -stop, stop, 1e-3 * stop, begun.axial_load),
-        _plain("moment", "moment / N m", -moment, moment, 0.01 * moment, begun.moment),
+        _given("radial_load", "radial load / N", (0.0, stop, 1e-3 * stop), begun.radial_load),
+        _given("axial_load", "thrust / N", (-stop, stop, 1e-3 * stop), begun.axial_load),
+        _plain("moment", "moment / N m", (-moment, moment, 0.01 * moment), begun.moment),
     )
 
 
 def _speed(begun: Settings) -> Control | None:
     stop = _round_up(max(6000.0, 2.0 * abs(begun.speed_rpm or 0.0)))
-    return _given("speed_rpm", "speed / rev/min", 60.0, stop, 10.0, begun.speed_rpm)
+    return _given("speed_rpm", "speed / rev/min", (60.0, stop, 10.0), begun.speed_rpm)
 
 
 def _clearance(begun: Settings) -> Control | None:
@@ -85,7 +88,7 @@ def _clearance(begun: Settings) -> Control | None:
         return None
     micro = 1e6 * begun.clearance
     stop = _round_up(max(5.0 * micro, 50.0))
-    made = _given("clearance", "clearance / µm", -20.0, stop, 0.5, micro)
+    made = _given("clearance", "clearance / µm", (-20.0, stop, 0.5), micro)
     return None if made is None else replace(made, scale=1e-6)
 
 
@@ -95,22 +98,22 @@ def _mount(begun: Settings) -> tuple[Control | None, ...]:
         return ()
     most = _round_up(10.0 * mass)
     return (
-        _given("housing_mass", "housing: mass / kg", 2e-3 * most, most, 1e-3 * most, mass),
-        _given("housing_frequency", "housing: mount / Hz", 50.0, 8000.0, 10.0, frequency),
+        _given("housing_mass", "housing: mass / kg", (2e-3 * most, most, 1e-3 * most), mass),
+        _given("housing_frequency", "housing: mount / Hz", (50.0, 8000.0, 10.0), frequency),
     )
 
 
-def _given(
-    field: str, label: str, start: float, stop: float, step: float, value: float | None
-) -> Control | None:
+def _given(field: str, label: str, steps: _Steps, value: float | None) -> Control | None:
     """Return a control of what may be no number; a value outside of the range widens it."""
     if value is None:
         return None
+    start, stop, step = steps
     low, high = step * math.floor(value / step), step * math.ceil(value / step)
-    return _plain(field, label, min(start, low), max(stop, high), step, value)
+    return _plain(field, label, (min(start, low), max(stop, high), step), value)
 
 
-def _plain(field: str, label: str, start: float, stop: float, step: float, value: float) -> Control:
+def _plain(field: str, label: str, steps: _Steps, value: float) -> Control:
+    start, stop, step = steps
     return Control(
         field=field, label=label, start=start, stop=stop, step=step, value=_shown(value, start, step)
     )  # fmt: skip

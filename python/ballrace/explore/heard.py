@@ -11,9 +11,9 @@ import numpy as np
 from ..measuring import Chain, Logger, measure
 
 if TYPE_CHECKING:
-    from ..channel import Channel
     import plotly.graph_objects as go
 
+    from ..channel import Channel
     from ..frequencies.operating import FaultFrequencies
     from ..signals import Signals
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -9,9 +10,11 @@ from typing import TYPE_CHECKING
 from ..errors import BallraceError, SceneWarning
 from ..frequencies.operating import FaultFrequencies, fault_frequencies, spin_of
 from ..ratings.life import RatingLife, rating_life
-from ..statics import Equilibrium, LoadDistribution, Stiffness, load_distribution, stiffness
 from ..scene import Scene
+from ..statics import Equilibrium, LoadDistribution, Stiffness, load_distribution, stiffness
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 __all__ = ["Live", "solved"]
 
@@ -86,7 +89,8 @@ def solved(scene: Scene, *, steady: bool = True) -> Live:
         speed = None if steady else _ONE_HERTZ
         rates = tuple(fault_frequencies(healthy, speed, row=k) for k in range(len(scene.rows)))
         life, why = _life(healthy)
-        doubts = dict.fromkeys([*scene.doubts(), *(str(each.message) for each in told)])
+        warned = (str(each.message) for each in told)
+        doubts = dict.fromkeys([*_apart(healthy, rates), *scene.doubts(), *warned])
     return Live(
         scene=scene,
         around=around,
@@ -98,6 +102,16 @@ def solved(scene: Scene, *, steady: bool = True) -> Live:
         steady=steady,
         doubts=tuple(doubts),
     )
+
+
+def _apart(scene: Scene, rates: tuple[FaultFrequencies, ...]) -> Iterator[str]:
+    """Yield rows of angular contact that thrust does not hold together."""
+    for number, (row, found) in enumerate(zip(scene.rows, rates, strict=True)):
+        if found.contact_angle < 0.5 * row.contact_angle:
+            yield (
+                f"row {number}: under load its contact angle is {math.degrees(found.contact_angle):.1f}° in "
+                f"place of {math.degrees(row.contact_angle):.0f}°: with so little thrust the rings come apart"
+            )
 
 
 def _life(scene: Scene) -> tuple[RatingLife | None, str]:

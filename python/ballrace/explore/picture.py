@@ -1,4 +1,4 @@
-"""A bearing at rest as drawings in SVG, which a page shows at once: along the axis, cut, and its largest contacts."""
+"""A bearing at rest as drawings in SVG: along the axis, cut through it, and its largest contacts."""
 
 from __future__ import annotations
 
@@ -89,10 +89,11 @@ def section(live: Live) -> str:
     shapes = outlines(live.scene)
     parts = []
     for half in (1.0, -1.0):
-        for ring in (shapes.outer, shapes.inner):
-            parts.append(_polygon(ring * (1.0, half), fill=_STEEL))
-        for number, row in enumerate(live.scene.rows):
-            parts.append(_ball(live, number, row, half, shapes.outside))
+        parts += [_polygon(r * (1.0, half), fill=_STEEL) for r in (shapes.outer, shapes.inner)]
+        parts += [
+            _ball(live, number, row, half, shapes.outside)
+            for number, row in enumerate(live.scene.rows)
+        ]
     parts.append(
         f'<line x1="{shapes.left:.4g}" y1="0" x2="{shapes.right:.4g}" y2="0" stroke-dasharray="3 2"/>'
     )

@@ -5,13 +5,12 @@ from __future__ import annotations
 import threading
 import warnings
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from ..errors import BallraceError
 from ..run import simulate
 from ..scene import Scene
 from ..signals import Signals
-
 
 __all__ = ["FS", "Runner", "Running"]
 

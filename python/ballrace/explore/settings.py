@@ -87,7 +87,7 @@ class Settings:
         """Return the settings of a scene as it is."""
         mass, frequency = _mount(scene.outer_ring)
         oil = scene.lubricant
-        temperature = {} if oil is None else {"temperature_c": oil.temperature + _ABSOLUTE_ZERO}
+        temperature = cls.temperature_c if oil is None else oil.temperature + _ABSOLUTE_ZERO
         return cls(
             base=scene,
             radial_load=_force(scene, along=False),
@@ -97,7 +97,7 @@ class Settings:
             oil=None if oil is None else oil.oil,
             housing_mass=mass,
             housing_frequency=frequency,
-            **temperature,
+            temperature_c=temperature,
         )
 
     def moved(self, **values: Any) -> Settings:

@@ -1,0 +1,275 @@
+"""The page of `ballrace explore` in a real browser: every control moves what it should, and no other host is asked."""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+from urllib.error import HTTPError
+from urllib.request import urlopen
+
+import numpy as np
+import pytest
+
+import ballrace as br
+from ballrace.explore.served import Page, served
+from browser import Browser, Seen, opened
+
+pytestmark = [pytest.mark.long, pytest.mark.serial]
+
+PATIENCE = 60_000
+"""Time that an answer may take on a busy machine [ms]."""
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    pytest.importorskip("marimo", reason="marimo is not installed")
+    with opened() as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def explored(browser: Browser) -> Iterator[Page]:
+    del browser  # so that none is served for nothing
+    with served() as page:
+        yield page
+
+
+@contextmanager
+def shown(browser: Browser, at: Page, width: int = 1400) -> Iterator[tuple[Any, Seen]]:
+    with browser.blank(width, height=1000, offline=False) as (page, seen):
+        page.set_default_timeout(PATIENCE)
+        page.goto(at.url)
+        page.wait_for_selector(".pictures svg")
+        page.wait_for_selector(".told table")
+        yield page, seen
+        hosts = {url.split("/")[2] for url in seen.requests if "://" in url}
+        assert {host.split(":")[0] for host in hosts} == {"127.0.0.1"}
+        assert [said for said in seen.console if said.startswith("error")] == []
+
+
+def cell(page: Any, name: str) -> str:
+    """What stands beside a name in the page's table."""
+    row = page.locator(".told tr", has_text=name).first
+    text: str = row.inner_text()
+    return text.removeprefix(name).strip()
+
+
+def everything(page: Any) -> str:
+    html: str = page.eval_on_selector_all(
+        ".pictures, .told", "all => all.map(e => e.innerHTML).join('')"
+    )
+    return html
+
+
+def changed(page: Any, before: str) -> None:
+    page.wait_for_function(
+        "before => [...document.querySelectorAll('.pictures, .told')].map(e => e.innerHTML).join('') !== before",
+        arg=before,
+    )
+
+
+def slider(page: Any, label: str) -> Any:
+    return page.locator("marimo-slider", has_text=label)
+
+
+def typed(page: Any, label: str, value: str) -> None:
+    """Type a number into the field beside a slider."""
+    field = slider(page, label).locator("input")
+    field.fill(value)
+    field.press("Enter")
+
+
+def picked(page: Any, label: str, option: str) -> None:
+    page.locator("marimo-dropdown", has_text=label).first.locator("select").select_option(
+        label=option
+    )
+
+
+def test_without_the_token_nothing_is_shown(explored: Page) -> None:
+    bare, _, token = explored.url.partition("?access_token=")
+    assert len(token) >= 32
+    assert bare.startswith("http://127.0.0.1:")
+    try:
+        with urlopen(bare) as answer:
+            assert "/auth/login" in answer.url
+    except HTTPError as refused:
+        assert refused.code == 401
+
+
+STATIC = [
+    ("radial load", "1500", "largest load"),
+    ("thrust", "500", "contact angles"),
+    ("moment", "4", "tilt about x, y"),
+    ("speed", "3000", "s (Hz)"),
+    ("clearance", "60", "radial stiffness"),
+]
+
+
+@pytest.mark.parametrize(("label", "value", "told"), STATIC)
+def test_a_number_moves_what_follows_from_it(
+    browser: Browser, explored: Page, label: str, value: str, told: str
+) -> None:
+    with shown(browser, explored) as (page, _):
+        before, was = everything(page), page.inner_text(".told")
+        typed(page, label, value)
+        changed(page, before)
+        assert cell(page, told) not in was
+
+
+def test_oil_damage_and_noise_move_what_they_should(browser: Browser, explored: Page) -> None:
+    with shown(browser, explored) as (page, _):
+        for label, option, told in (("oil", "vg68", "oil film, "), ("damage", "spall", "")):
+            before = everything(page)
+            picked(page, label, option)
+            changed(page, before)
+            assert told in page.inner_text(".told")
+        film = cell(page, "oil film, ")
+        before = everything(page)
+        typed(page, "oil temperature", "100")
+        changed(page, before)
+        assert cell(page, "oil film, ") != film
+        assert page.locator("rect.damage").count() == 1
+        for label, value in (("damage: size", "2.5"), ("damage: place", "45")):
+            before = everything(page)
+            typed(page, label, value)
+            changed(page, before)
+        assert float(page.locator("rect.damage").get_attribute("width")) == pytest.approx(2.5)
+        before = everything(page)
+        picked(page, "damage on", "inner race")
+        changed(page, before)
+
+
+def test_bearings_by_name_and_by_size(browser: Browser, explored: Page) -> None:
+    with shown(browser, explored) as (page, _):
+        for name, told in (("6316/C3", "8 balls"), ("NU205", "roller"), ("7208 BECBP", "14 balls")):
+            field = page.locator("marimo-text input")
+            field.fill(name)
+            field.press("Enter")
+            page.wait_for_selector(f"text=/{told}/")
+        picked(page, "bearing", "by its size")
+        page.wait_for_selector("text=/An estimate/")
+
+
+def test_a_load_is_turned_by_the_keyboard_alone(browser: Browser, explored: Page) -> None:
+    with shown(browser, explored) as (page, _):
+        was = cell(page, "largest load")
+        for _ in range(40):
+            page.keyboard.press("Tab")
+            focused = (
+                "(() => { let a = document.activeElement; while (a?.shadowRoot?.activeElement)"
+            )
+            focused += " a = a.shadowRoot.activeElement; return a?.getAttribute('role') })()"
+            if page.evaluate(focused) == "slider":
+                break
+        else:
+            pytest.fail("Tab comes to no slider")
+        for _ in range(20):
+            page.keyboard.press("ArrowRight")
+        page.wait_for_function(
+            "was => ![...document.querySelectorAll('.told tr')].some(r => r.innerText.includes(was))",
+            arg=was,
+        )
+        before, now = (
+            float(re.sub(r"[^\d.]", "", each)) for each in (was, cell(page, "largest load"))
+        )
+        assert now > before
+
+
+def ran(page: Any) -> None:
+    page.get_by_role("button", name="Run", exact=True).click()
+    page.wait_for_selector("audio", state="attached")
+    page.wait_for_function("document.querySelectorAll('.main-svg').length >= 3")
+
+
+def saved(page: Any, label: str) -> bytes:
+    with page.expect_download() as coming:
+        page.get_by_text(label, exact=True).click()
+    return Path(coming.value.path()).read_bytes()
+
+
+def test_a_run_its_sound_and_its_files(browser: Browser, explored: Page) -> None:
+    from scipy.io import wavfile
+
+    with shown(browser, explored) as (page, _):
+        before = everything(page)
+        picked(page, "damage", "spall")
+        changed(page, before)
+        ran(page)
+        assert page.locator("text=BPFO").count() > 2
+        source = page.locator("audio").first.get_attribute("src")
+        sound = page.request.get(page.evaluate("s => new URL(s, location).href", source)).body()
+        rate, x = wavfile.read(io.BytesIO(sound))
+        assert (rate, x.size) == (25_600, 10_240)
+        scene = br.Scene.from_toml(saved(page, "Scene").decode())
+        assert scene.defects["damage"].on == "outer_race"
+        assert json.loads(saved(page, "Notebook"))["nbformat"] == 4
+        assert b"Loads, pressures and life" in saved(page, "Report of the run")
+        # A louder sensor changes the run's figures and needs no new run.
+        typed(page, "noise", "15")
+        page.wait_for_function(
+            "was => document.querySelector('audio')?.getAttribute('src') !== was", arg=source
+        )
+
+
+def test_a_run_is_stopped(browser: Browser, explored: Page) -> None:
+    with shown(browser, explored) as (page, _):
+        typed(page, "simulated time", "2")
+        page.get_by_role("button", name="Run", exact=True).click()
+        page.wait_for_selector("text=/running, [0-9]+%/")
+        page.get_by_role("button", name="Stop", exact=True).click()
+        page.wait_for_selector("text=/stopped, /")
+        assert page.locator("audio").count() == 0
+
+
+def test_it_runs_when_idle(browser: Browser, explored: Page) -> None:
+    with shown(browser, explored) as (page, _):
+        typed(page, "simulated time", "0.1")
+        page.get_by_role("switch").click()
+        page.wait_for_selector("audio", state="attached")
+
+
+def measured(folder: Path) -> Path:
+    spall = br.defects.spall(on="outer_race", width_mm=2.0)
+    out = br.simulate(br.bearing("6205", radial_load=1500.0, defects=spall), duration=1.0, fs=20e3)
+    noise = np.random.default_rng(1).normal(scale=2.0, size=out.n_samples)
+    path = folder / "pump.csv"
+    br.Recording(
+        columns={"sensor": out["outer.ay"] + noise}, fs=out.fs, units={"sensor": "m/s^2"}
+    ).write(path)
+    return path
+
+
+def test_a_dropped_record_is_judged(browser: Browser, explored: Page, tmp_path: Path) -> None:
+    with shown(browser, explored) as (page, _):
+        page.locator("input[type=file]").first.set_input_files(measured(tmp_path))
+        page.wait_for_selector("text=/6205: damaged, outer race/")
+        ran(page)
+        page.wait_for_selector("text=/^measured$/")
+        page.locator("input[type=file]").first.set_input_files(
+            {"name": "x.mat", "mimeType": "", "buffer": b"no record"}
+        )
+        page.wait_for_selector(".refused >> text=/x.mat/")
+
+
+def test_it_begins_with_a_scene_or_a_record(browser: Browser, tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text(br.bearing("6309").to_toml(), encoding="utf-8")
+    with served(tmp_path / "mine.toml") as at, shown(browser, at) as (page, _):
+        page.wait_for_selector("text=/6309: 8 balls/")
+    with served(measured(tmp_path)) as at, shown(browser, at) as (page, _):
+        page.wait_for_selector("text=/6205: damaged, outer race/")
+
+
+@pytest.mark.parametrize("width", [390, 1400])
+def test_it_fits_a_phone_and_a_screen(browser: Browser, explored: Page, width: int) -> None:
+    with shown(browser, explored, width) as (page, _):
+        ran(page)
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        page.mouse.wheel(0, 600)
+        box = page.locator(".pictures").bounding_box()
+        # The drawings stay in sight of the controls.
+        assert 0.0 <= box["y"] < 500.0
