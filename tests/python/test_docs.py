@@ -30,7 +30,7 @@ RECORDS = Path(os.environ.get("BALLRACE_CWRU") or ROOT.parent / "shared" / "data
 MODULES = [
     m.name
     for m in pkgutil.walk_packages(ballrace.__path__, "ballrace.")
-    if m.name not in ("ballrace.__main__", "ballrace._core")
+    if m.name not in ("ballrace.__main__", "ballrace._core", "ballrace.explore.app")
 ]
 BLOCK = re.compile(r"^```(\w+)(?: +([\w-]+))? *\n(.*?)^```", flags=re.DOTALL | re.MULTILINE)
 SHELL = f'ballrace() {{ "{sys.executable}" -m ballrace "$@"; }}\n'
