@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import ballrace as br
-from ballrace.diagnosis.null import largest_z, probability
+from ballrace.diagnosis.null import largest_z, null_orders, probability
 from ballrace.diagnosis.severity import zone_of
 
 if TYPE_CHECKING:
@@ -126,6 +126,27 @@ def test_a_ball_is_found_by_either_of_its_families(sides: tuple[int, ...]) -> No
     assert max(evidence[race].z for race in ("outer_race", "inner_race")) < 4.0
     assert any("FTF" in line.label for line in found.lines)
     assert any("2·FTF" in line.label for line in found.lines) == (2 in sides)
+
+
+def test_a_ball_that_meets_the_load_zone_now_and_then_is_found() -> None:
+    """Blows at 2·BSF, 1.7 % above nominal, while the ball is in the load zone, a third of a turn of the cage.
+
+    Truth: they fill four sidebands of the cage on each side, which are no chance.
+    """
+    base = 1.017 * RATES["ball"]
+    x = blows(base)
+    cage = np.cos(2 * np.pi * ORDERS.ftf * SHAFT * np.arange(x.size) / FS)
+    found = judged(noise(x * np.maximum(cage - 0.5, 0.0), 0.01))
+    assert found.parts == ("ball",)
+    assert found.evidence["ball"].factor == pytest.approx(1.017, abs=0.0025)
+
+
+def test_the_null_of_a_ball_holds_none_of_its_sidebands() -> None:
+    """Truth: a comb at an order of the cage beside 2·BSF has its lines in common with the ball's."""
+    drawn = null_orders(ORDERS, "ball", np.random.default_rng(0))
+    sides = RATES["ball"] + np.arange(-4, 5) * ORDERS.ftf
+    assert drawn.size == 1000
+    assert np.abs(drawn[:, np.newaxis] / sides - 1.0).min() >= 0.025
 
 
 def test_what_names_the_bearing_does_not_matter() -> None:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .combs import FACTORS, PARTS, WIDTH, comb_of
+from .combs import PARTS, WIDTH, comb_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -43,6 +43,17 @@ _COUNT = 1000
 
 _APART = 0.02
 """Nearest that an order of the null comes to one at which a comb shares lines with a fault's, as a part of it."""
+
+_APART_OF_BALLS = 0.025
+"""The same of a ball, whose order is looked for in a wider range."""
+
+_SIDEBANDS = 4
+"""Sidebands of a ball's order on each side that its damage fills, since it meets the load zone now and then.
+
+A comb at the order of one of them has its lines in common with the ball's: of a null that held such combs a
+quarter would speak of the damage, so that it stood out less. Of 18 balls of ``benches/verdict_set.py``, seed 45,
+the lines of 9, 8 and 11 stood out so at 20, 10 and 0 dB, and those of 13, 14 and 14 do without.
+"""
 
 _OF_SHAFT = 0.03
 """Nearest that it comes to a whole order."""
@@ -84,9 +95,12 @@ def null_orders(orders: Orders, part: str, rng: np.random.Generator) -> NDArray[
     faults = [comb_of(each, orders).order for each in ACCUSED]
     near = [orders.ftf] if part == "cage" else faults
     ratios = [p / q for p in range(1, 5) for q in range(1, 5)]
-    shared = np.array([fault * ratio for fault in (*faults, orders.ftf) for ratio in ratios])
+    shared = [fault * ratio for fault in (*faults, orders.ftf) for ratio in ratios]
+    if part == "ball":
+        shared += [2.0 * orders.bsf + k * orders.ftf for k in range(-_SIDEBANDS, _SIDEBANDS + 1)]
+    apart = _APART_OF_BALLS if part == "ball" else _APART
     drawn = rng.uniform(0.6 * min(near), 1.55 * max(near), 6 * _COUNT)
-    own = np.abs(drawn[:, np.newaxis] / shared - 1.0).min(axis=1) < _APART
+    own = np.abs(drawn[:, np.newaxis] / np.array(shared) - 1.0).min(axis=1) < apart
     whole = np.abs(drawn - np.rint(drawn)) < _OF_SHAFT
     free = drawn[~(own | whole)]
     # Of a bearing whose faults lie so densely that next to nothing is left, nearer ones have to do.
@@ -107,7 +121,7 @@ def found_of(comb: Comb, levels: Levels, shaft: float, null: NDArray[np.float64]
     return Found(
         z=(float(own.max()) - centre) / max(deviation, 1e-9),
         row=int(row) % levels.db.shape[0],
-        factor=float(FACTORS[factor]),
+        factor=float(comb.factors[factor]),
         height=float(tried[row, factor]),
     )
 

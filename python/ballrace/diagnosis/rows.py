@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from .combs import FACTORS
+from .combs import REACH
 from .kinematics import kinematics_of
 from .null import ACCUSED
 
@@ -52,7 +52,7 @@ def _alike(scene: Scene) -> list[list[int]]:
         orders = kinematics_of(scene, row).orders
         for bpfo, bpfi, rows in groups:
             ratios = (orders.bpfo / bpfo, orders.bpfi / bpfi)
-            if all(FACTORS[0] <= ratio <= FACTORS[-1] for ratio in ratios):
+            if all(abs(ratio - 1.0) <= REACH for ratio in ratios):
                 rows.append(row)
                 break
         else:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..diagnosis.combs import FACTORS, PARTS, comb_of
+from ..diagnosis.combs import PARTS, comb_of
 from ..diagnosis.envelopes import bands_of, envelope_spectra, levels_of
 from ..diagnosis.lacking import HELD
 from ..diagnosis.strength import Envelopes
@@ -63,7 +63,7 @@ def features_of(
     for part in PARTS:
         comb = comb_of(part, kinematic)
         found = comb.heights(levels, np.array([comb.order * shaft]), shaft)[0, :, 0]
-        factor = FACTORS[int(np.argmax(found.max(axis=0)))]
+        factor = comb.factors[int(np.argmax(found.max(axis=0)))]
         rate = comb.order * factor * shaft
         heights.append(float(found.max()))
         depths.append(max(envelopes.depth(band, rate) for band in range(len(bands))))
