@@ -1,10 +1,11 @@
 """Writes tests/README.md: what was published beside what ballrace gives. Run from anywhere:
 
-    python tests/validation.py [--verdicts]
+    python tests/validation.py [--verdicts | --set]
 
 It runs the tests that hold each number (`cargo test`, `pytest`), reads the lines they print, runs
 `ballrace.paper`, and draws the pictures. The page is never edited by hand. `--verdicts` makes the section on
-verdicts alone anew, which takes half an hour, most of it for simulated records.
+verdicts alone anew, which takes half an hour, most of it for simulated records; `--set` only what is told there of
+the set of simulated records, from what `python benches/verdict_set.py` has judged.
 """
 
 from __future__ import annotations
@@ -155,11 +156,17 @@ def verdicts() -> str:
     return f"{VERDICTS}\n| records | found | bound |\n|---|---|---|\n{''.join(lines)}\n{SET}"
 
 
-def draw_verdicts() -> None:
-    """Draw what was found in the set of simulated records: over the spall's width, and over false alarms."""
+def judged_set() -> ModuleType:
+    """Return the program that judges the set of simulated records."""
     sys.path.insert(0, str(ROOT / "benches"))
     import verdict_set
 
+    return verdict_set
+
+
+def draw_verdicts() -> None:
+    """Draw what was found in the set of simulated records: over the spall's width, and over false alarms."""
+    verdict_set = judged_set()
     rows = verdict_set.read(verdict_set.TABLE)
     figure, (left, right) = drawing().subplots(1, 2, figsize=(9, 3.8))
     for part, colour in zip(verdict_set.ACCUSED, ("C0", "C1", "C2"), strict=True):
@@ -190,12 +197,28 @@ def with_verdicts(page: str) -> str:
     return f"{page[:begin]}## Verdicts\n\n{verdicts()}\n{page[end:]}"
 
 
+def with_set(page: str) -> str:
+    """Return a page with what is told of the set of simulated records made anew, from what was judged."""
+    program = judged_set()
+    draw_verdicts()
+    begin, end = page.index("## Verdicts\n"), page.index("## Deviations, explained\n")
+    lines = page[begin:end].partition("The *set* is ")[0].splitlines()
+    rest = [line for line in lines if not line.startswith("| set, ")]
+    told = program.summary(program.read(program.TABLE))
+    rows = [f"| {' | '.join(found)} |" for found in told]
+    section = "\n".join(rest).rstrip() + "\n" + "\n".join(rows)
+    return f"{page[:begin]}{section}\n\n{SET}\n{page[end:]}"
+
+
 def main() -> None:
     """Write the page."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--verdicts", action="store_true", help="the section on verdicts alone")
-    if parser.parse_args().verdicts:
-        PAGE.write_text(with_verdicts(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
+    parser.add_argument("--set", action="store_true", help="the set of simulated records alone")
+    options = parser.parse_args()
+    if options.verdicts or options.set:
+        changed = with_verdicts if options.verdicts else with_set
+        PAGE.write_text(changed(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
         return
     PAGE.write_text(
         "# Validation\n\n"
