@@ -44,6 +44,7 @@ JUDGED = [
     "test_diagnosis.py",
 ]
 VERDICT = re.compile(r"\[verdict\] ([^|\n]+) \| ([^|\n]+) \| ([^|\n]+)$", re.MULTILINE)
+VERDICT_ROW = re.compile(r"^\| (?!records|-)([^|\n]+) \| ([^|\n]+) \| ([^|\n]+) \|$", re.MULTILINE)
 HEADER = "| case | published | ours | deviation | tolerance |\n|---|---|---|---|---|\n"
 # case, published, ours, deviation, tolerance, behind whatever the test runner has printed on the line.
 ROW = re.compile(
@@ -153,6 +154,11 @@ def verdicts() -> str:
     )
     lines = [f"| {' | '.join(found)} |\n" for found in VERDICT.findall(text)]
     draw_verdicts()
+    return section(lines)
+
+
+def section(lines: list[str]) -> str:
+    """Return what the page says of verdicts, with these rows."""
     return f"{VERDICTS}\n| records | found | bound |\n|---|---|---|\n{''.join(lines)}\n{SET}"
 
 
@@ -202,12 +208,10 @@ def with_set(page: str) -> str:
     program = judged_set()
     draw_verdicts()
     begin, end = page.index("## Verdicts\n"), page.index("## Deviations, explained\n")
-    lines = page[begin:end].partition("The *set* is ")[0].splitlines()
-    rest = [line for line in lines if not line.startswith("| set, ")]
-    told = program.summary(program.read(program.TABLE))
-    rows = [f"| {' | '.join(found)} |" for found in told]
-    section = "\n".join(rest).rstrip() + "\n" + "\n".join(rows)
-    return f"{page[:begin]}{section}\n\n{SET}\n{page[end:]}"
+    lines = [f"| {' | '.join(row)} |\n" for row in VERDICT_ROW.findall(page[begin:end])]
+    kept = [line for line in lines if not line.startswith("| set, ")]
+    told = [f"| {' | '.join(row)} |\n" for row in program.summary(program.read(program.TABLE))]
+    return f"{page[:begin]}## Verdicts\n\n{section([*kept, *told])}\n{page[end:]}"
 
 
 def main() -> None:
