@@ -223,7 +223,7 @@ def by_width(
 
 
 def scores(rows: Sequence[Row], by: str) -> NDArray[np.float64]:
-    """Return how much speaks for damage, of the part that most speaks for: z, or the odds of its ratio."""
+    """Return the evidence for damage of the most suspicious part: z, or the odds of its ratio."""
     values = np.array([[float(row[f"{by}_{part}"]) for part in ACCUSED] for row in rows])
     return values.max(axis=1) if by == "z" else -np.log(values.min(axis=1))
 

@@ -223,7 +223,7 @@ impl Model {
             let name = |(body, dof): (BodyId, Dof)| {
                 let body = &self.bodies[body].name;
                 if Dof::ATTITUDE.contains(&dof) {
-                    // Nobody probes it.
+                    // No probe reads it.
                     return format!("{body}.{}{}", ["", "v"][derivative], dof.name());
                 }
                 let (label, _) = Component::of(dof.index(), derivative).label();

@@ -74,9 +74,9 @@ class Evidence:
     height : float
         Mean level of its lines in that band [dB].
     lines : tuple of Line
-        Lines that speak: those above the null's 99 %.
+        Significant lines: those above the null's 99 %.
     hidden : float
-        Share of its lines that nominally lie on the shaft's or on what was excluded, and so cannot speak.
+        Share of its lines that nominally lie on the shaft's or on what was excluded, and so are not counted.
     strength : Strength
         How strong it is.
     ratio : float or None

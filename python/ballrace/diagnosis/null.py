@@ -36,7 +36,7 @@ __all__ = [
 ]
 
 ACCUSED = PARTS[:3]
-"""Parts that a verdict may name: the cage's line alone accuses nobody."""
+"""Parts that a verdict may name: the cage's line alone is no sign of damage."""
 
 _COUNT = 1000
 """Combs of the null."""
@@ -51,8 +51,8 @@ _SIDEBANDS = 4
 """Sidebands of a ball's order on each side that its damage fills, since it meets the load zone now and then.
 
 A comb at the order of one of them has its lines in common with the ball's: of a null that held such combs a
-quarter would speak of the damage, so that it stood out less. Of 18 balls of ``benches/verdict_set.py``, seed 45,
-the lines of 9, 8 and 11 stood out so at 20, 10 and 0 dB, and those of 13, 14 and 14 do without.
+quarter would hold lines of the damage, which would stand out less. Of 18 balls of ``benches/verdict_set.py``,
+seed 45, the lines of 9, 8 and 11 stood out so at 20, 10 and 0 dB, and those of 13, 14 and 14 do without.
 """
 
 _OF_SHAFT = 0.03

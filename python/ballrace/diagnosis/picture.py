@@ -68,7 +68,7 @@ def _chosen(of: Diagnosis, levels: Levels | None, part: Part | None) -> Evidence
 
 
 def _add_expected(fig: go.Figure, one: Evidence) -> None:
-    """Mark where lines were expected below the axis, and those that speak at their tops."""
+    """Mark where lines were expected below the axis, and the significant ones at their tops."""
     from .._plotly import Scatter
 
     name, colour, _, marker = SYMBOLS[one.part]

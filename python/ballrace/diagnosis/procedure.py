@@ -61,8 +61,8 @@ def diagnose(
     at orders of the same record that no part has, so that chance has a known rate, without training and without
     a threshold in decibels. Lines that stand out accuse a part only where they are deep or blows stand out,
     and, where the unit of the record is known, where they carry more than those of a healthy bearing do, or where
-    among simulated bearings such lines speak ten to one for damage. A record with blows at no rate of the bearing,
-    or too few turns to tell a race from the shaft, is not called healthy.
+    among simulated bearings such lines mean damage at odds of ten to one. A record with blows at no rate of the
+    bearing, or too few turns to tell a race from the shaft, is not called healthy.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def diagnose(
     Raises
     ------
     SceneError
-        An argument is not usable; samples that are not finite; a speed or a bearing that nobody tells.
+        An argument is not usable; samples that are not finite; a speed or a bearing that is not given.
     KeyError
         There is no such column.
 

@@ -41,7 +41,7 @@ class Diagnosis:
         What it rests on; where it is undecided, what would decide.
     evidence : mapping of str to Evidence
         Of ``outer_race``, ``inner_race``, ``ball`` and ``cage``; empty where the record allows none. The cage's
-        line alone accuses nobody.
+        line alone is no sign of damage.
     shaft : ShaftRate
         Rate of the shaft, and whether it comes from the record.
     severity : Severity or None

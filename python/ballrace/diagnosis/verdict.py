@@ -77,7 +77,7 @@ def decided(
     false_alarm : float
         Share of healthy records that may be called damaged.
     limits : Limits or None
-        Accelerations by which lines are judged; None where nobody knows how strong they are.
+        Accelerations by which lines are judged; None where their strength is not known.
     silent : bool
         Whether the record has no background, as simulated ones have none.
     blows : float or None

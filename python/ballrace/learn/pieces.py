@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["FEWEST_TURNS", "pieces_of"]
 
 FEWEST_TURNS = 5.0
-"""A shorter record has no lines to speak of."""
+"""A shorter record has no usable lines."""
 
 _RATIOS = 100
 """Rates over each other are fractions of whole numbers up to this, half a percent off at most."""
@@ -41,7 +41,7 @@ def pieces_of(
     Raises
     ------
     SceneError
-        It has fewer than five turns, samples that are no numbers, or a speed that nobody tells.
+        It has fewer than five turns, samples that are no numbers, or a speed that is not given.
     KeyError
         There is no such column.
     """

@@ -115,7 +115,7 @@ def order_map(
     per_turn : int, optional
         Samples a turn, as of :func:`ballrace.spectra.by_order`; by default enough for ``highest``.
     envelope : bool
-        Whether the orders are those of the squared envelope, where defects speak, or of the signal.
+        Whether the orders are those of the squared envelope, where defects are seen, or of the signal.
     band : tuple of two floats, optional
         Band of the envelope [Hz].
     faults, row

@@ -1,6 +1,6 @@
 """Envelopes of a band of a signal, and their spectra.
 
-A defect speaks in bursts: each blow rings at the frequencies of the structure, and the blows come at the
+A defect is heard in bursts: each impact rings at the frequencies of the structure, and the blows come at the
 rate of the defect. The squared envelope of the ringing keeps the blows and drops the ringing, and its
 spectrum has a line at the rate of the blows and at its multiples (J. Antoni, R. B. Randall, *The spectral
 kurtosis*, Mech. Syst. Signal Process. 20 (2006) 308, on the squared envelope in particular).
