@@ -41,7 +41,27 @@ def parts():
 
 
 @app.cell
-def bearing(mo, opened):
+def moving(mo):
+    """Count moves of controls; each writes its value where it belongs.
+
+    Cells that show the controls do not run again at a move, as those that name a dictionary of marimo do, which
+    besides keeps but the last of several moves that come together.
+    """
+    get_moves, set_moves = mo.state(0)
+    get_sizes, set_sizes = mo.state(0)
+
+    def writing(values, name, count):
+        def moved(value):
+            values[name] = value
+            count(lambda moves: moves + 1)
+
+        return moved
+
+    return get_moves, get_sizes, set_moves, set_sizes, writing
+
+
+@app.cell
+def bearing(mo, opened, set_sizes, writing):
     """Choose or describe the bearing."""
     ways = {"by the name on its box": "name", "by its size": "size"}
     if opened is not None:
@@ -51,24 +71,38 @@ def bearing(mo, opened):
     kinds = {
         "deep groove": "deep_groove", "angular contact": "angular_contact", "double row": "double_row",
     }  # fmt: skip
-    size = mo.ui.dictionary({
-        "bore_mm": mo.ui.number(1, 500, value=25, label="bore d / mm"),
-        "outside_mm": mo.ui.number(2, 1000, value=52, label="outside diameter D / mm"),
-        "width_mm": mo.ui.number(1, 300, value=15, label="width B / mm"),
-        "kind": mo.ui.dropdown(kinds, value="deep groove", label="kind"),
-        "contact_angle_deg": mo.ui.number(0, 60, value=40, label="contact angle / °"),
-        "ball_count": mo.ui.number(0, 60, step=1, value=0, label="balls counted (0: estimate)"),
-        "ball_diameter_mm": mo.ui.number(
-            0, 100, step=0.001, value=0, label="ball diameter measured / mm (0: estimate)"
-        ),
-    })  # fmt: skip
+    size = {
+        "bore_mm": 25.0, "outside_mm": 52.0, "width_mm": 15.0, "kind": "deep_groove", "contact_angle_deg": 40.0,
+        "ball_count": 0, "ball_diameter_mm": 0.0,
+    }  # fmt: skip
+
+    def number(field, stop, label, step=0.1):
+        least = 0.0 if "ball" in field or "angle" in field else 0.5
+        return mo.ui.number(
+            least, stop, step, size[field], label=label, on_change=writing(size, field, set_sizes)
+        )
+
     housing = mo.ui.dropdown(["pedestal", "bare ring"], value="pedestal", label="housing")
-    name_elements, size_elements = [name, housing], [*size.elements.values(), housing]
+    name_elements = [name, housing]
+    size_elements = [
+        number("bore_mm", 500.0, "bore d / mm"),
+        number("outside_mm", 1000.0, "outside diameter D / mm"),
+        number("width_mm", 300.0, "width B / mm"),
+        mo.ui.dropdown(
+            kinds, value="deep groove", label="kind", on_change=writing(size, "kind", set_sizes)
+        ),
+        number("contact_angle_deg", 60.0, "contact angle / °, of angular contact", 1.0),
+        number("ball_count", 60, "balls counted (0: estimate)", 1),
+        number("ball_diameter_mm", 100.0, "ball diameter / mm (0: estimate)", 0.001),
+        housing,
+    ]
     return housing, how, name, name_elements, size, size_elements
 
 
 @app.cell
-def base(BallraceError, Settings, chosen, controls, housing, how, name, opened, refused, size):
+def base(
+    BallraceError, Settings, chosen, controls, get_sizes, housing, how, name, opened, refused, size,
+):  # fmt: skip
     """Make the scene that the controls begin with."""
 
     def begin():
@@ -76,13 +110,14 @@ def base(BallraceError, Settings, chosen, controls, housing, how, name, opened, 
             return opened, None
         if how.value == "name":
             return chosen.named(name.value, housing.value), None
-        given = {**size.value, "housing": housing.value}
+        given = {**size, "housing": housing.value}
         for optional in ("ball_count", "ball_diameter_mm"):
             given[optional] = given[optional] or None
         if given["kind"] == "deep_groove":
             given["contact_angle_deg"] = None
         return chosen.described(**given)
 
+    _ = get_sizes()
     try:
         scene_begun, made = begin()
         begun, what, knobs = Settings.of(scene_begun), chosen.summary(scene_begun, made), ()
@@ -95,27 +130,31 @@ def base(BallraceError, Settings, chosen, controls, housing, how, name, opened, 
 
 
 @app.cell
-def turned_knobs(DAMAGE, SURFACES, begun, br, knobs, mo):
+def turned_knobs(DAMAGE, SURFACES, begun, br, knobs, mo, set_moves, writing):
     """Make the controls anew for another bearing."""
-    sliders = mo.ui.dictionary({
+    shown = {each.field: each.value for each in knobs}
+    picked = {} if begun is None else {"oil": begun.oil, "damage": "none", "on": "outer_race"}
+    knob_elements = {
         each.field: mo.ui.slider(
-            each.start, each.stop, each.step, each.value, label=each.label, include_input=True, full_width=True
+            each.start, each.stop, each.step, each.value, label=each.label, include_input=True, full_width=True,
+            on_change=writing(shown, each.field, set_moves),
         )
         for each in knobs
-    })  # fmt: skip
-    oils = {"dry": None, **{oil.name: oil.name for oil in br.lubricants()}}
-    own = None if begun is None else begun.oil
-    began = next((told for told, oil in oils.items() if oil == own), "dry")
-    picks = mo.ui.dictionary({
-        "oil": mo.ui.dropdown(oils, value=began, label="oil"),
-        "damage": mo.ui.dropdown(list(DAMAGE), value="none", label="damage"),
-        "on": mo.ui.dropdown(
-            {where.replace("_", " "): where for where in SURFACES}, value="outer race", label="damage on"
-        ),
-    })  # fmt: skip
-    # Cells that name the dictionaries run again at every move; one that shows their elements need not.
-    knob_elements = {**sliders.elements, **picks.elements}
-    return knob_elements, picks, sliders
+    }  # fmt: skip
+
+    def pick(name, options, label):
+        began = next(each for each, value in options.items() if value == picked[name])
+        knob_elements[name] = mo.ui.dropdown(
+            options, value=began, label=label, on_change=writing(picked, name, set_moves)
+        )
+
+    if begun is not None:
+        dry = begun.oil is not None or begun.base.lubricant is None
+        oils = {oil.name: oil.name for oil in br.lubricants()}
+        pick("oil", {"dry" if dry else "as in the file": None, **oils}, "oil")
+        pick("damage", {kind: kind for kind in DAMAGE}, "damage")
+        pick("on", {where.replace("_", " "): where for where in SURFACES}, "damage on")
+    return knob_elements, picked, shown
 
 
 @app.cell
@@ -164,12 +203,13 @@ def holding(mo):
 
 @app.cell
 def solving(
-    BallraceError, begun, get_noise, knobs, latest, live, picks, refused, set_noise, sliders, taken,
+    BallraceError, begun, get_moves, get_noise, knobs, latest, live, picked, refused, set_noise, shown, taken,
 ):  # fmt: skip
     """Solve what the controls say."""
+    _ = get_moves()
     scene, solution, unsolved = None, None, None
     if begun is not None:
-        settings = taken(begun, knobs, sliders.value).moved(**picks.value)
+        settings = taken(begun, knobs, shown).moved(**picked)
         try:
             scene = settings.scene()
             solution = live.solved(scene, steady=settings.speed_rpm is not None)
