@@ -14,7 +14,6 @@ import os
 import shutil
 import statistics
 import time
-from pathlib import Path
 
 import ballrace as br
 from ballrace.explore.live import solved
@@ -43,14 +42,13 @@ def main() -> None:
     """Print what it measured."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--page", action="store_true", help="in a browser, too")
-    parser.add_argument("--picture", type=Path, help="take a picture of the page, .png")
     options = parser.parse_args()
     print(f"load of the machine: {os.getloadavg()[0]:.1f}")
     scenes = [br.bearing(name) for name in ("6205", "6316", "7208B", "3206")]
     for scene in [*scenes, br.presets.wheel_bearing(), br.presets.motor()]:
         print(f"{scene.name:20}", told(*computed(scene)))
-    if options.page or options.picture:
-        print(f"{'page, 6205':20}", told(shown(options.picture)))
+    if options.page:
+        print(f"{'page, 6205':20}", told(shown()))
 
 
 def told(took: list[float], cpu: float | None = None) -> str:
@@ -74,7 +72,7 @@ def computed(scene: br.Scene) -> tuple[list[float], float]:
     return took[1:], (time.process_time() - before) / CHANGES
 
 
-def shown(picture: Path | None) -> list[float]:
+def shown() -> list[float]:
     """Return what changes took on the page [s]."""
     from playwright.sync_api import sync_playwright
 
@@ -89,8 +87,6 @@ def shown(picture: Path | None) -> list[float]:
         )
         page.wait_for_selector("rect.damage", timeout=60_000)
         page.wait_for_timeout(1000)
-        if picture is not None:
-            page.screenshot(path=picture)
         page.evaluate(WATCH)
         page.get_by_role("slider").first.focus()
         for _ in range(CHANGES):

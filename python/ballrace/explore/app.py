@@ -23,7 +23,10 @@ def parts():
     from ballrace.explore.controls import controls, taken
     from ballrace.explore.running import Runner
     from ballrace.explore.settings import DAMAGE, SURFACES, Settings
-    from ballrace.plot.style import CONFIG
+    from ballrace.plot.style import CONFIG as ALONE
+
+    # marimo has figures follow the width of the page; where plotly does, too, they lose their height.
+    CONFIG = {**ALONE, "responsive": False}
 
     def refused(error):
         """Return an error as the page shows it, in words alone."""
