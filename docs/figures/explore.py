@@ -1,4 +1,4 @@
-"""Takes the picture of the page of ``ballrace explore``: ``python docs/figures/explore.py`` (extras ``app``, ``test``)."""
+"""Takes the picture of ``ballrace explore``: ``python docs/figures/explore.py`` (extras ``app`` and ``test``)."""
 
 from __future__ import annotations
 
