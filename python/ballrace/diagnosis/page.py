@@ -19,8 +19,8 @@ __all__ = ["diagnosis_page"]
 _METHOD = (
     "Prewhitening by the cepstrum, and over a running mean as wide as the shaft's rate; spectra of the squared "
     "envelope in overlapping bands, over their medians. For each part the mean level of its lines, the largest "
-    "over a common factor of 0.985 to 1.015 and over the bands; z against the same of a thousand combs of this "
-    "record at orders that no part has; a Gumbel distribution makes it a probability."
+    "over a common factor of 0.985 to 1.015 (of balls 0.98 to 1.02) and over the bands; z against the same of a "
+    "thousand combs of this record at orders that no part has; a Gumbel distribution makes it a probability."
 )
 
 
