@@ -119,6 +119,9 @@ pub fn check(options: &FeatureOptions, run: &Run) -> Result<()> {
 
 /// Checks the options against a record of a duration \[s\] and a sampling rate \[Hz\].
 fn check_record(options: &FeatureOptions, duration: f64, fs: f64) -> Result<()> {
+    if !(fs > 0.0 && fs.is_finite()) {
+        return Err(Error::scene("fs", fs, "a finite number above 0 Hz"));
+    }
     if !(options.skip >= 0.0 && options.skip < duration) {
         let allowed = format!("from 0 to below the duration, {duration} s");
         return Err(Error::scene("skip", options.skip, allowed));
@@ -147,7 +150,7 @@ fn check_record(options: &FeatureOptions, duration: f64, fs: f64) -> Result<()> 
 ///
 /// # Errors
 /// [`Error::Scene`] names an option that the signals do not give: a column that was not recorded, or contact loads that
-/// no probe has recorded all of.
+/// no probe has recorded all of; or a column that is not as long as the others.
 pub fn features(signals: &Signals, options: &FeatureOptions) -> Result<Vec<Feature>> {
     let columns = feature_columns(&signals.scene, options)?;
     let recorded = Recorded::from(signals);

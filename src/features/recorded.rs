@@ -4,7 +4,7 @@ use super::batches::Batches;
 use super::record::Recorded;
 use super::shaft::Shaft;
 use super::{Feature, FeatureOptions, check_record, lines, loads, lubrication, moments, named};
-use crate::base::error::Result;
+use crate::base::error::{Error, Result};
 use crate::scene::Scene;
 use crate::signals::kinematics::RowKinematics;
 
@@ -16,7 +16,16 @@ pub fn check_recorded(recorded: &Recorded<'_>, options: &FeatureOptions) -> Resu
     if options.contact_loads {
         loads::columns(recorded.scene)?;
     }
-    let duration = recorded.count() as f64 / recorded.fs;
+    let count = recorded.count();
+    if let Some((name, values)) = recorded.columns.iter().find(|(_, x)| x.len() != count) {
+        let allowed = format!("{count} samples, as {} has", recorded.columns[0].0);
+        return Err(Error::scene(
+            *name,
+            format!("{} samples", values.len()),
+            allowed,
+        ));
+    }
+    let duration = count as f64 / recorded.fs;
     check_record(options, duration, recorded.fs)
 }
 
@@ -67,7 +76,8 @@ pub fn features_of(
 /// ```
 ///
 /// # Errors
-/// [`crate::Error::Scene`] names an option that the signal does not give.
+/// [`crate::Error::Scene`] names an option that the signal does not give, a sampling rate that is none, or a field of the scene that
+/// is not usable.
 pub fn signal_features(
     x: &[f64],
     fs: f64,
@@ -75,6 +85,7 @@ pub fn signal_features(
     scene: Option<&Scene>,
     options: &FeatureOptions,
 ) -> Result<Vec<Feature>> {
+    scene.map_or(Ok(()), Scene::validate)?;
     check_record(options, x.len() as f64 / fs, fs)?;
     let x = &x[first_sample(options.skip, fs, x.len())..];
     let of = Analysis::new(scene.map(|scene| (scene, &[][..])), fs, x.len(), options);

@@ -78,6 +78,9 @@ impl Sink for List {
 }
 
 /// A contact in a few numbers: ball `j` among all balls on a race.
+///
+/// # Panics
+/// If the length of `y` is not [`Model::dim`], or there is no such ball.
 pub fn contact(model: &Model, y: &[f64], j: usize, race: Race) -> ContactSummary {
     let mut sum = Summary::default();
     let side = visit(model, y, j, race, &mut sum);
@@ -162,6 +165,9 @@ impl Sink for Flanks<'_> {
 }
 
 /// The forces of the slices of one contact, in order of ζ; on a fault a slice may appear more than once.
+///
+/// # Panics
+/// If the length of `y` is not [`Model::dim`], or there is no such ball.
 pub fn slice_forces(model: &Model, y: &[f64], j: usize, race: Race) -> Vec<SliceForce> {
     let mut list = List(Vec::new());
     visit(model, y, j, race, &mut list);

@@ -74,6 +74,9 @@ impl Sink for Contacts {
 }
 
 /// Energies and dissipated powers of a state.
+///
+/// # Panics
+/// If the length of `y` is not [`Model::dim`].
 pub fn energy(model: &Model, y: &[f64]) -> Energy {
     let mut energy = Energy::default();
     let layout = model.layout();
@@ -126,6 +129,9 @@ fn leaning(model: &Model, y: &[f64]) -> f64 {
 }
 
 /// Forces of the cage links of a row, positive in tension \[N\]; empty without a cage.
+///
+/// # Panics
+/// If the length of `y` is not [`Model::dim`], or there is no such row.
 pub fn cage_forces(model: &Model, y: &[f64], row: usize) -> Vec<f64> {
     let links = forces::cage::of_row(model, y, &model.rows[row]);
     links.iter().map(|link| link.force).collect()

@@ -85,6 +85,9 @@ impl Sink for Resistance {
 }
 
 /// Films and losses of a row in a state.
+///
+/// # Panics
+/// If the length of `y` is not [`Model::dim`], or there is no such row.
 pub fn lubrication(model: &Model, y: &[f64], row: usize) -> Lubrication {
     let layout = model.layout();
     let speed = |race: Race| y[layout.speed_at(race.ring(), Dof::Theta)];

@@ -31,6 +31,9 @@ pub(crate) const MOMENTS: [&str; 4] = ["outer.x", "outer.y", "inner.x", "inner.y
 /// Moments about x and y that balls and loads put on outer and inner ring at a time \[s\], each about its centre of mass and across
 /// its axis \[N m\]: of the balls a sum over contacts of −(c_b − c_r) × f, less what turns them. What keeps the ring from tilting
 /// carries them.
+///
+/// # Panics
+/// If the length of `y` is not [`Model::dim`].
 pub fn moments(model: &Model, t: f64, y: &[f64]) -> [[f64; 2]; 2] {
     Race::BOTH.map(|race| {
         let mut sum = MomentOnRing::new(model, y, race);

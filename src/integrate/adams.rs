@@ -22,7 +22,8 @@ use super::LinearlyImplicit;
 use super::blended;
 use super::combine::{Each, halves, pass};
 use super::control::Controller;
-use super::method::StepMethod;
+use super::failure::Invalid;
+use super::method::{Sealed, StepMethod};
 use super::multistep::{Formulae, History, KnownWeights, NEW, NODES};
 use super::step::Stepper;
 use super::tableau::Tableau;
@@ -48,9 +49,18 @@ const TABLEAU: Tableau = Tableau {
     stability_limit: f64::INFINITY,
 };
 
+impl Sealed for Adams {}
+
 impl<S: LinearlyImplicit> StepMethod<S> for Adams {
     fn tableau(&self) -> &Tableau {
         &TABLEAU
+    }
+
+    fn check(&self, dim: usize, _fixed: bool) -> Result<(), Invalid> {
+        if dim.is_multiple_of(2) {
+            return Ok(());
+        }
+        Err(Invalid("states [q, v] are even in number"))
     }
 
     /// A step that grows more than twofold would lean on accelerations too close to each other.

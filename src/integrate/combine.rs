@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::simd::{InstructionSet, Simd, Vector, Wide};
 
 /// Most nonzero weights a row may have; one arm of the match below for each.
-const MAX_TERMS: usize = 8;
+pub(super) const MAX_TERMS: usize = 8;
 
 /// Writes `out[i] = base[i] + h Σⱼ weights[j] · k[j][i]` in a single pass.
 ///

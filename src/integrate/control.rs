@@ -58,6 +58,24 @@ impl Controller {
             ..default
         }
     }
+
+    /// Whether factors can follow from it.
+    pub(super) fn is_usable(&self) -> bool {
+        let positive = [
+            self.safety,
+            self.min_factor,
+            self.max_factor,
+            self.least_growth,
+            self.memory_floor,
+        ];
+        let exponents = [
+            self.error_exponent,
+            self.memory_exponent,
+            self.rejection_exponent,
+        ];
+        let is_finite = |x: &f64| x.is_finite();
+        positive.iter().all(|x| *x > 0.0 && x.is_finite()) && exponents.iter().all(is_finite)
+    }
 }
 
 /// The controller at work: settings and what it remembers.

@@ -6,7 +6,7 @@ use super::combine::combine;
 use super::multistep;
 
 /// Stages a step can have at most; bounds the weights kept on the stack.
-const MAX_STAGES: usize = 16;
+pub(super) const MAX_STAGES: usize = 16;
 
 /// What a step's derivatives weigh within it.
 #[derive(Clone, Copy)]

@@ -42,8 +42,10 @@ pub struct Solution {
 /// # Errors
 /// A [`Failure`], with the last accepted time:
 /// * [`FailureKind::Invalid`] — the lengths of `y0` or `tolerance` are not
-///   [`System::dim`], the span is not finite or runs backwards, or `options`
-///   hold a step or a breakpoint that is no such thing;
+///   [`System::dim`], the span is not finite or runs backwards, `options`
+///   hold a step or a breakpoint that is no such thing, or the method cannot do it:
+///   a [`Tableau`](super::Tableau) without an error estimate takes fixed steps only, one whose
+///   coefficients are incomplete none, and [`Adams`](super::Adams) has states \[q, v\], an even number;
 /// * [`FailureKind::NonFinite`] — the derivative at the start or after a
 ///   breakpoint is not finite, or [`Options::max_rejections`] ever smaller steps
 ///   in a row met a non-finite number or an implicit stage without a solution;
@@ -61,6 +63,7 @@ pub fn integrate<S: System, M: StepMethod<S>, O: Observer<S>>(
     let (t0, end) = t_span;
     check(system.dim(), t_span, y0, tolerance)
         .and_then(|()| options.check())
+        .and_then(|()| method.check(system.dim(), options.fixed_step.is_some()))
         .map_err(|reason| Failure::invalid(t0, reason))?;
 
     let mut clock = Clock::at(t0);

@@ -5,6 +5,7 @@ use std::fmt;
 
 /// Input that cannot be integrated, and what is wrong with it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Invalid(pub &'static str);
 
 impl fmt::Display for Invalid {
@@ -17,6 +18,7 @@ impl Error for Invalid {}
 
 /// Why and where an integration stopped before its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Failure {
     /// The last accepted time, at which the failing step began.
     pub time: f64,

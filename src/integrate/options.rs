@@ -51,6 +51,11 @@ impl Options {
         if self.max_step.is_nan() || self.max_step <= 0.0 {
             return Err(Invalid("the largest step must be positive"));
         }
+        if !self.controller.is_usable() {
+            return Err(Invalid(
+                "the controller's numbers must be finite, its factors and safety positive",
+            ));
+        }
         if !self.breakpoints.iter().all(|t| t.is_finite()) {
             return Err(Invalid("breakpoints must be finite"));
         }

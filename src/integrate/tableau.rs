@@ -1,5 +1,8 @@
 //! Runge–Kutta methods as data.
 
+use super::combine::MAX_TERMS;
+use super::dense::MAX_STAGES;
+
 /// The coefficients of an explicit embedded Runge–Kutta pair.
 ///
 /// A method is nothing but this: adding one is adding a constant. A row of `a`,
@@ -34,6 +37,25 @@ pub struct Tableau {
     /// not accuracy, holds the step. The quotient compares the last two states
     /// evaluated and is meaningful where both stand at the end of the step.
     pub stability_limit: f64,
+}
+
+impl Tableau {
+    /// Whether all coefficients are there, and no sum has more of them than there is room for.
+    pub(super) fn is_whole(&self) -> bool {
+        let stages = self.stages;
+        let derivatives = stages + usize::from(!self.fsal);
+        let lengths = [self.c, self.b, self.b_err].map(<[f64]>::len);
+        let rows = self.a.iter().enumerate();
+        (1..=MAX_STAGES).contains(&derivatives)
+            && lengths == [stages; 3]
+            && self.a.len() == stages
+            && self.dense.len() == derivatives
+            && rows.clone().all(|(i, row)| row.len() == i)
+            && rows
+                .map(|(_, row)| *row)
+                .chain([self.b, self.b_err])
+                .all(|sum| sum.iter().filter(|weight| **weight != 0.0).count() <= MAX_TERMS)
+    }
 }
 
 /// Dense output by the cubic through both ends and their slopes, of order three: `N` weights of the

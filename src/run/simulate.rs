@@ -102,6 +102,7 @@ fn limited(
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Signals> {
     run.validate()?;
+    scene.validate()?;
     budget::within(run.time_limit, progress, |progress| {
         unlimited(scene, run, sink, progress)
     })

@@ -290,7 +290,8 @@ impl From<f64> for Width {
 }
 
 impl Width {
-    /// Width \[m\] and its slope along z at an axial place from the defect's middle \[m\].
+    /// Width \[m\] and its slope along z at an axial place from the defect's middle \[m\]; not a number where a profile that
+    /// [`crate::Scene::validate`] refuses has none.
     ///
     /// ```
     /// use ballrace::scene::{Width, WidthProfile};
@@ -302,18 +303,16 @@ impl Width {
         match self {
             Self::Constant(width) => (*width, 0.0),
             Self::Profile(WidthProfile { positions, widths }) => {
+                let width = |i: usize| widths.get(i).copied().unwrap_or(f64::NAN);
                 let after = positions.partition_point(|&x| x <= z);
                 if after == 0 {
-                    (widths[0], 0.0)
+                    (width(0), 0.0)
                 } else if after == positions.len() {
-                    (widths[after - 1], 0.0)
+                    (width(after - 1), 0.0)
                 } else {
-                    let slope = (widths[after] - widths[after - 1])
+                    let slope = (width(after) - width(after - 1))
                         / (positions[after] - positions[after - 1]);
-                    (
-                        widths[after - 1] + slope * (z - positions[after - 1]),
-                        slope,
-                    )
+                    (width(after - 1) + slope * (z - positions[after - 1]), slope)
                 }
             }
         }

@@ -12,6 +12,10 @@ use super::{RingForce, RingMotion, RingName};
 ///
 /// e is the direction with a length of 1, r the ring's place, 0 where the scene puts it; f is straight between the points of the table,
 /// and goes on straight beyond its ends.
+///
+/// # Panics
+/// Methods of [`RingForce`] where the table has fewer than two points, or not as many forces as places, which
+/// [`crate::Scene::validate`] refuses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]

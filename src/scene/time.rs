@@ -59,7 +59,7 @@ impl From<f64> for TimeFunction {
 }
 
 impl TimeFunction {
-    /// Value at time `t` \[s\].
+    /// Value at time `t` \[s\]; not a number where a table that [`crate::Scene::validate`] refuses has none.
     ///
     /// ```
     /// use ballrace::scene::{Profile, TimeFunction};
@@ -92,15 +92,16 @@ impl TimeFunction {
                 phase,
             }) => mean + amplitude * (std::f64::consts::TAU * frequency * t + phase).sin(),
             Self::Profile(Profile::Table { times, values }) => {
+                let value = |i: usize| values.get(i).copied().unwrap_or(f64::NAN);
                 let after = reached(times, t);
                 if after == 0 {
-                    values[0]
+                    value(0)
                 } else if after == times.len() {
-                    values[after - 1]
+                    value(after - 1)
                 } else {
                     let (t0, t1) = (times[after - 1], times[after]);
                     let share = (t - t0) / (t1 - t0);
-                    values[after - 1] + (values[after] - values[after - 1]) * share
+                    value(after - 1) + (value(after) - value(after - 1)) * share
                 }
             }
         }
@@ -132,11 +133,12 @@ impl TimeFunction {
                 amplitude * w * (w * t + phase).cos()
             }
             Self::Profile(Profile::Table { times, values }) => {
+                let value = |i: usize| values.get(i).copied().unwrap_or(f64::NAN);
                 let after = reached(times, t);
                 if after == 0 || after == times.len() {
                     0.0
                 } else {
-                    (values[after] - values[after - 1]) / (times[after] - times[after - 1])
+                    (value(after) - value(after - 1)) / (times[after] - times[after - 1])
                 }
             }
         }
@@ -201,7 +203,9 @@ impl TimeFunction {
 /// How many of these times, which do not decrease, lie at or before `t`. Of evenly spaced ones, as most tables have, the
 /// place follows from the time itself; of others by bisection.
 pub(super) fn reached(times: &[f64], t: f64) -> usize {
-    let (first, last) = (times[0], times[times.len() - 1]);
+    let (Some(first), Some(last)) = (times.first(), times.last()) else {
+        return 0;
+    };
     let share = (t - first) / (last - first) * (times.len() - 1) as f64;
     // Saturates; not a number where all times are one becomes 0.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]

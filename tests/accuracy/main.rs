@@ -8,3 +8,4 @@ mod defaults;
 mod knob;
 mod method_defaults;
 mod methods;
+mod methods_refused;

@@ -11,3 +11,4 @@ mod doubts;
 mod levels;
 mod pits;
 mod public;
+mod refusals;

@@ -73,7 +73,7 @@ impl Doubt {
 impl Scene {
     /// Improbable numbers of the scene, fields without effect, and probes of what cannot change; of an ordinary
     /// bearing nothing.
-    /// For a scene that [`Scene::validate`] accepts.
+    /// None of a scene that [`Scene::validate`] refuses, which says what comes first.
     ///
     /// ```
     /// use ballrace::scene::presets;
@@ -85,6 +85,9 @@ impl Scene {
     /// ```
     pub fn doubts(&self) -> Vec<Doubt> {
         let mut found = Vec::new();
+        if self.validate().is_err() {
+            return found;
+        }
         geometry::look(self, &mut found);
         lubricant::look(self, &mut found);
         motion::look(self, &mut found);
