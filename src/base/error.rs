@@ -1,11 +1,13 @@
 //! All errors, each with the place, the value and what to try next.
 
+use serde::Serialize;
+
 use thiserror::Error;
 
 use crate::base::quantities;
 
 /// What `ballrace` refuses or fails at.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, Clone, PartialEq, Error, Serialize)]
 #[non_exhaustive]
 pub enum Error {
     /// A field of the scene, or an argument of a run, is not usable. Nothing was computed or written.

@@ -1,5 +1,7 @@
 //! One case: a run and its features; all errors become its outcome.
 
+use serde::Serialize;
+
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
@@ -16,7 +18,7 @@ use crate::scene::Scene;
 use crate::signals::Signals;
 
 /// What to run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Case {
     /// The scene.
     pub scene: Scene,
@@ -25,7 +27,7 @@ pub struct Case {
 }
 
 /// What became of a case.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Outcome {
     /// Place of the case among all, from 0.
@@ -37,7 +39,7 @@ pub struct Outcome {
 }
 
 /// What a case gives.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Finished {
     /// Its features.

@@ -158,6 +158,7 @@ impl<'m> Dynamics<'m> {
 
     /// Shares the balls of an evaluation among the threads of a pool.
     #[must_use]
+    #[doc(hidden)] // for the benchmarks alone: a pool of rayon is no part of the interface
     pub fn shared(self, pool: Arc<ThreadPool>) -> Self {
         Self {
             pool: Some(pool),

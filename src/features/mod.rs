@@ -35,7 +35,7 @@ mod shaft;
 mod spectrum;
 pub(crate) mod transform;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::base::error::{Error, Result};
 use crate::run::Run;
@@ -47,7 +47,7 @@ pub use record::Recorded;
 pub use recorded::{check_recorded, features_of, signal_features};
 
 /// What to compute the features of.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FeatureOptions {
     /// Columns such as `outer.ay`; absent: every acceleration \[m/s²\] that the probes record.
@@ -62,7 +62,7 @@ pub struct FeatureOptions {
 }
 
 /// A number with a name.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Feature {
     /// Name, as in the table above.

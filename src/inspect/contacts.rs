@@ -1,10 +1,12 @@
 //! A contact in a state: load, angle, zone, slip, and the forces of its slices.
 
+use serde::Serialize;
+
 use crate::contact::{Pair, Sink, Touch, V2};
 use crate::model::{Model, Race};
 
 /// A contact in a few numbers.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ContactSummary {
     /// Magnitude of the normal force, elastic and damping \[N\].
@@ -20,7 +22,7 @@ pub struct ContactSummary {
 }
 
 /// The force of one slice.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SliceForce {
     /// Place along the ball, from its centre \[m\].

@@ -1,12 +1,14 @@
 //! Energies and dissipated powers of a state.
 
+use serde::Serialize;
+
 use super::powers::ContactPowers;
 use crate::contact::{OilTouch, Sink, Touch};
 use crate::forces::{self, Account};
 use crate::model::{Dof, Model, Race};
 
 /// Energies \[J\] and dissipated powers \[W\]. Loads and drive do work on top of these.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Energy {
     /// Of all bodies that move.

@@ -1,5 +1,7 @@
 //! Films and losses of a row's oil in a state.
 
+use serde::Serialize;
+
 use super::powers::ContactPowers;
 use crate::contact::film::FilmNow;
 use crate::contact::{Aside, OilTouch, Sink, Touch};
@@ -7,7 +9,7 @@ use crate::forces;
 use crate::model::{Dof, Model, Race};
 
 /// Films and losses of a row: `[outer, inner]` race.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Lubrication {
     /// Central films h \[m\]; not a number without an oil that does something.

@@ -1,5 +1,7 @@
 //! The loop that joins the parts.
 
+use serde::Serialize;
+
 use std::ops::ControlFlow;
 
 use super::clock::{Clock, ulp};
@@ -18,7 +20,7 @@ use super::{Observer, System};
 const SMALLEST_ULPS: f64 = 16.0;
 
 /// Where an integration ended.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Solution {
     /// The time reached: the end of the span unless interrupted.

@@ -1,5 +1,7 @@
 //! Counts of what happened.
 
+use serde::Serialize;
+
 use super::stops::Plan;
 use super::tableau::Tableau;
 
@@ -8,7 +10,7 @@ use super::tableau::Tableau;
 const STIFF_SHARE: f64 = 3.25 / 3.3066;
 
 /// What an integration has cost and met so far.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct StepStatistics {
     /// Steps accepted.

@@ -1,5 +1,7 @@
 //! The samples of a record that are in memory: all of a run, or those that no block has handed over yet.
 
+use serde::Serialize;
+
 use std::collections::TryReserveError;
 use std::mem;
 use std::ops::ControlFlow;
@@ -15,7 +17,7 @@ const LEAST: usize = 256;
 const SIZE: usize = 16 << 20;
 
 /// Consecutive samples of a record, which are what they are in a record that is kept whole.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Block {
     /// Times k / fs, going on where the block before has ended \[s\].

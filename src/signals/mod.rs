@@ -42,7 +42,7 @@ pub(crate) use sampling::Sampling;
 pub use warning::Warning;
 
 /// What a run gives.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Signals {
     /// Sampling rate \[Hz\].
@@ -173,7 +173,7 @@ pub struct Provenance {
 }
 
 /// One signal.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Column {
     /// `<probe>.<quantity>`.

@@ -8,6 +8,7 @@ mod architecture;
 mod campaign;
 mod determinism;
 mod doubts;
+mod examples;
 mod levels;
 mod pits;
 mod public;

@@ -120,3 +120,31 @@ fn a_campaign_keeps_its_failures() {
         other => panic!("{other:?}"),
     }
 }
+
+/// What calls return is data for any format of serde; numbers that are none are null in JSON.
+#[test]
+fn results_are_serialised() {
+    let out = simulate(&bearing(), &short()).unwrap();
+    let document = serde_json::to_value(&out).unwrap();
+    let column = |name: &str| {
+        let columns = document["columns"].as_array().unwrap();
+        columns.iter().find(|c| c["name"] == name).unwrap().clone()
+    };
+    let ay = column("outer.ay")["values"].clone();
+    let ay: Vec<f64> = serde_json::from_value(ay).unwrap();
+    assert_eq!(ay, out.get("outer.ay").unwrap());
+
+    let model = compile(&bearing()).unwrap();
+    let y = start(&model, &Start::Equilibrium).unwrap();
+    let energy = inspect::energy(&model, &y);
+    let said = serde_json::to_value(energy).unwrap();
+    assert_eq!(said["contact"], energy.contact);
+    // The ball on top bears nothing.
+    let free = inspect::contact(&model, &y, 2, Race::Inner);
+    assert_eq!(free.load, 0.0);
+    assert!(serde_json::to_value(free).unwrap()["angle"].is_null());
+
+    let error = simulate(&Scene::new(Vec::new(), Drive::Speed(1.0.into())), &short());
+    let error = serde_json::to_value(error.unwrap_err()).unwrap();
+    assert_eq!(error["Scene"]["path"], "rows");
+}
