@@ -96,12 +96,6 @@ impl Motion {
         [x + -self.centre.x, y + -self.centre.y, z + -self.z]
     }
 
-    /// A velocity as seen by who moves with this ring's centre.
-    #[inline(always)]
-    pub(crate) fn velocity_from<T: Number>(&self, [x, y, z]: [T; 3]) -> [T; 3] {
-        [x + -self.velocity.x, y + -self.velocity.y, z + -self.vz]
-    }
-
     /// The angle at this body, from its mark, of a direction \[rad\].
     #[inline]
     pub(crate) fn angle_of(&self, direction: f64) -> f64 {

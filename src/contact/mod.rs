@@ -33,7 +33,9 @@ mod stiffness;
 
 use nalgebra::{Vector2, Vector3};
 
-pub(crate) use batch::{Across, BatchForces, Constants, EightContacts, Places, Rubbing, Summing};
+pub(crate) use batch::{
+    Across, BatchForces, Constants, EightContacts, Places, RingLanes, Rubbing, Summing,
+};
 pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz_stiffness};
 pub use defect::Fault;
 pub(crate) use defect::{MOST_PITS, PittedContact, Sight, Toward, pits_at_once};

@@ -22,7 +22,7 @@ pub(crate) struct RollingResistance<T> {
 impl<T: Number> RollingResistance<T> {
     /// Of a ball at a distance d \[m\] from its ring's centre, with a lever R cos α' \[m\].
     #[inline(always)]
-    pub fn new(rolling: T, moves: &Moves<T>, sigma: f64, d: T, lever: T) -> Self {
+    pub fn new(rolling: T, moves: &Moves<T>, sigma: T, d: T, lever: T) -> Self {
         // (12.13) with r_p = d + σ R cos α', ω_n − θ̇_r = σ slide/d and θ̇_b − θ̇_r = σ spin.
         let orbit = moves.slide / d;
         let ball = (moves.spin - orbit) * lever;
@@ -30,7 +30,7 @@ impl<T: Number> RollingResistance<T> {
         let entrainment = (ball + ring) * 0.5;
         let resistance = rolling * entrainment;
         Self {
-            force: resistance * (lever * (2.0 * sigma) + d) / d,
+            force: resistance * (lever * (sigma * 2.0) + d) / d,
             moment: -(resistance * lever * sigma),
             entrainment,
         }

@@ -168,7 +168,7 @@ impl<T: Number> Slip<T> {
     #[inline(always)]
     pub fn along<const FMA: bool>(
         law: &Law,
-        sigma: f64,
+        sigma: T,
         section: &Section<T>,
         moves: &Moves<T>,
     ) -> Option<Self> {

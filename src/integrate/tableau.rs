@@ -29,7 +29,7 @@ pub struct Tableau {
     /// "First same as last": the last stage is the derivative at the new state.
     /// Without it one more evaluation per step supplies that derivative.
     pub fsal: bool,
-    /// Dense output, one row a derivative (`stages`, one more without FSAL): `y(t0 + θh) = y0 + h Σ bᵢ(θ) kᵢ` with
+    /// Dense output, one row a derivative (`stages`; without FSAL one more, or none for the last): `y(t0 + θh) = y0 + h Σ bᵢ(θ) kᵢ` with
     /// `bᵢ(θ) = d₀θ + d₁θ² + d₂θ³ + d₃θ⁴`.
     pub dense: &'static [[f64; 4]],
     /// Where the region of absolute stability ends on the negative real axis,
@@ -45,14 +45,15 @@ impl Tableau {
         let stages = self.stages;
         let derivatives = stages + usize::from(!self.fsal);
         let lengths = [self.c, self.b, self.b_err].map(<[f64]>::len);
-        let rows = self.a.iter().enumerate();
         (1..=MAX_STAGES).contains(&derivatives)
             && lengths == [stages; 3]
             && self.a.len() == stages
-            && self.dense.len() == derivatives
-            && rows.clone().all(|(i, row)| row.len() == i)
-            && rows
-                .map(|(_, row)| *row)
+            && (stages..=derivatives).contains(&self.dense.len())
+            && self.a.iter().enumerate().all(|(i, row)| row.len() == i)
+            && self
+                .a
+                .iter()
+                .copied()
                 .chain([self.b, self.b_err])
                 .all(|sum| sum.iter().filter(|weight| **weight != 0.0).count() <= MAX_TERMS)
     }

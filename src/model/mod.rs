@@ -16,7 +16,6 @@ mod rolling;
 mod scales;
 mod texture;
 
-use std::mem::discriminant;
 use std::ops::Range;
 
 use nalgebra::Vector3;
@@ -102,13 +101,8 @@ impl RowModel {
     /// Whether its contacts follow the same equations as another row's, cut at as many places: kind of law, slices, damping
     /// and friction are the same. Of tori the geometry may differ, and waves and strength of the law, and of films their numbers.
     pub fn is_like(&self, other: &Self) -> bool {
-        let alike = |(a, b): (&Pair, &Pair)| {
-            discriminant(&a.law.elastic) == discriminant(&b.law.elastic)
-                && (a.shape.is_torus() && b.shape.is_torus() || a.shape == b.shape)
-                && (&a.slices, a.law.damping) == (&b.slices, b.law.damping)
-                && a.law.rubs_like(&b.law)
-        };
-        self.pairs.iter().zip(&other.pairs).all(alike)
+        let mut pairs = self.pairs.iter().zip(&other.pairs);
+        pairs.all(|(one, other)| one.is_like(other))
     }
 
     /// Whether its balls rub on either race, or are resisted as they roll.

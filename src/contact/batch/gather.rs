@@ -30,7 +30,7 @@ pub(crate) struct Near {
     pub lost: Mask,
 }
 
-/// Eight touching contacts, not necessarily of one row, all with the outer or all with the inner ring.
+/// Eight touching contacts, not necessarily of one row.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct EightContacts {
     pub constants: Constants<Lanes>,
@@ -46,6 +46,58 @@ pub(crate) struct EightContacts {
     pub v: [Lanes; 4],
     /// Of their films, if they have any.
     pub film: Option<FilmNumbers<Lanes>>,
+}
+
+impl EightContacts {
+    /// The balls' places as their rings see them.
+    #[inline(always)]
+    pub fn q_from(&self, ring: &RingLanes) -> [Lanes; 3] {
+        let [x, y, z] = ring.centre;
+        [self.q[0] + -x, self.q[1] + -y, self.q[2] + -z]
+    }
+
+    /// Their velocities as seen by who moves with their rings' centres.
+    #[inline(always)]
+    pub fn v_from(&self, ring: &RingLanes) -> [Lanes; 3] {
+        let [x, y, z] = ring.velocity;
+        [self.v[0] + -x, self.v[1] + -y, self.v[2] + -z]
+    }
+}
+
+/// How the rings of eight contacts stand and move, and on which side of the balls they are.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RingLanes {
+    pub centre: [Lanes; 3],
+    pub velocity: [Lanes; 3],
+    pub omega: Lanes,
+    /// σ of the races.
+    pub sigma: Lanes,
+}
+
+impl RingLanes {
+    /// One ring for all.
+    #[inline(always)]
+    pub fn of(ring: &Motion, sigma: f64) -> Self {
+        Self {
+            centre: [ring.centre.x, ring.centre.y, ring.z].map(Lanes::all),
+            velocity: [ring.velocity.x, ring.velocity.y, ring.vz].map(Lanes::all),
+            omega: Lanes::all(ring.omega),
+            sigma: Lanes::all(sigma),
+        }
+    }
+
+    /// This one in some lanes, another in the others.
+    #[inline(always)]
+    pub fn or(&self, here: Mask, other: &Self) -> Self {
+        let mut both = *self;
+        for i in 0..3 {
+            both.centre[i] = here.choose(self.centre[i], other.centre[i]);
+            both.velocity[i] = here.choose(self.velocity[i], other.velocity[i]);
+        }
+        both.omega = here.choose(self.omega, other.omega);
+        both.sigma = here.choose(self.sigma, other.sigma);
+        both
+    }
 }
 
 /// Numbers of eight contacts along x and y, across the ring's axis; or along n_e and t_e.
@@ -69,6 +121,22 @@ pub(crate) struct Constants<T> {
 }
 
 impl Constants<Lanes> {
+    /// These in some lanes, others in the others.
+    #[inline(always)]
+    pub fn or(&self, here: Mask, other: &Self) -> Self {
+        Self {
+            radius: here.choose(self.radius, other.radius),
+            inverse: here.choose(self.inverse, other.inverse),
+            a: here.choose(self.a, other.a),
+            centre: here.choose(self.centre, other.centre),
+            r: here.choose(self.r, other.r),
+            lowest: here.choose(self.lowest, other.lowest),
+            highest: here.choose(self.highest, other.highest),
+            strength: here.choose(self.strength, other.strength),
+            half_curvature: here.choose(self.half_curvature, other.half_curvature),
+        }
+    }
+
     /// Takes the constants of one contact into a lane.
     #[inline(always)]
     pub fn set(&mut self, lane: usize, of: &Constants<f64>) {

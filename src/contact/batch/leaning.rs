@@ -6,7 +6,7 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::{Across, BatchForces, EightContacts, Place, Rubbing, Sums};
+use super::{Across, BatchForces, EightContacts, Place, RingLanes, Rubbing, Sums};
 use crate::contact::kernel::{self, Element, Receiver};
 use crate::contact::{Motion, Pair};
 use crate::simd::{InstructionSet, Lanes, Mask};
@@ -30,16 +30,22 @@ impl Pair {
         ring: &Motion,
         (instructions, rubbing): (InstructionSet, &mut Rubbing),
     ) -> (BatchForces, [Across; 2]) {
+        let ring = &RingLanes::of(ring, self.race.sigma);
         let (whole, moves, place) = self.place::<FMA, false>(eight, ring, Mask::default());
         let turning = place.along_contact(turning, self.race.sigma);
         let mut sums = SpatialSums {
-            sums: Sums::new(self, &whole, &moves),
+            sums: Sums::new(self, ring.sigma, &whole, &moves),
             turning,
             moments: [Lanes::ZERO; 2],
         };
         let turns = (&moves, turning);
-        let rubbing =
-            rubbing.at_nodes_turning::<FMA, true>(instructions, self, &whole, turns, None);
+        let rubbing = rubbing.at_nodes_turning::<FMA, true>(
+            instructions,
+            (self, ring.sigma),
+            &whole,
+            turns,
+            None,
+        );
         let slices = &self.slices;
         kernel::elements::<_, FMA, false>(&self.law, slices, rubbing, &whole, &mut sums);
         sums.on_bodies(eight, &place)

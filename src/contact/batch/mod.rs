@@ -12,7 +12,7 @@ mod leaning;
 mod points;
 mod rubbing;
 
-pub(crate) use gather::{Across, Constants, EightContacts, Places};
+pub(crate) use gather::{Across, Constants, EightContacts, Places, RingLanes};
 pub(crate) use rubbing::Rubbing;
 
 use super::kernel::{self, Element, ElementForce, ElementState, Receiver, Whole};
@@ -20,7 +20,7 @@ use super::laws::traction::Rolling;
 use super::oil::RollingResistance;
 use super::profile::{SHALLOW, Section, Zone};
 use super::slip::Moves;
-use super::{FilmEffect, Law, Motion, Pair};
+use super::{FilmEffect, Law, Pair};
 use crate::simd::{Counters, InstructionSet, Lanes, Mask};
 
 /// What eight contacts put on balls and ring: force \[N\] and moment about z \[N m\].
@@ -59,7 +59,7 @@ pub(super) struct Place {
 /// Sums over the elements: forces on the balls along n_e, t_e and z, and the moment of those along t_e about the balls.
 struct Sums<'a> {
     law: &'a Law,
-    sigma: f64,
+    sigma: Lanes,
     moves: &'a Moves<Lanes>,
     radii: [Lanes; 2],
     normal: Lanes,
@@ -81,13 +81,13 @@ impl Pair {
     pub(crate) fn forces<const FMA: bool, const SYMMETRIC: bool>(
         &self,
         eight: &EightContacts,
-        ring: &Motion,
+        ring: &RingLanes,
         skip: Mask,
         summing: Summing<'_>,
     ) -> BatchForces {
         let (whole, moves, place) = self.place::<FMA, SYMMETRIC>(eight, ring, skip);
-        let mut sums = Sums::new(self, &whole, &moves);
-        self.elements::<FMA, SYMMETRIC>(&whole, &moves, summing, &mut sums);
+        let mut sums = Sums::new(self, ring.sigma, &whole, &moves);
+        self.elements::<FMA, SYMMETRIC>(ring.sigma, &whole, &moves, summing, &mut sums);
         sums.on_bodies(&place)
     }
 
@@ -96,13 +96,13 @@ impl Pair {
     pub(super) fn place<const FMA: bool, const SYMMETRIC: bool>(
         &self,
         eight: &EightContacts,
-        ring: &Motion,
+        ring: &RingLanes,
         skip: Mask,
     ) -> (Whole<Lanes>, Moves<Lanes>, Place) {
         let of = &eight.constants;
-        let sigma = self.race.sigma;
+        let sigma = ring.sigma;
         let (zero, one) = (Lanes::ZERO, Lanes::all(1.0));
-        let [dx, dy, dz] = ring.place_from([eight.q[0], eight.q[1], eight.q[2]]);
+        let [dx, dy, dz] = eight.q_from(ring);
         let d = dx.mul_add::<FMA>(dx, dy * dy).sqrt();
         let over = one / d;
         let n = (dx * over, dy * over);
@@ -140,7 +140,7 @@ impl Pair {
             strength: of.strength,
             half_curvature: of.half_curvature,
         };
-        let v = ring.velocity_from([eight.v[0], eight.v[1], eight.v[2]]);
+        let v = eight.v_from(ring);
         let v_z = if SYMMETRIC { zero } else { v[2] };
         let across = v[1] * n.0 - v[0] * n.1;
         let moves = Moves {
@@ -148,7 +148,7 @@ impl Pair {
             v_z,
             slide: (across - d * ring.omega) * sigma,
             spin: (eight.v[3] - ring.omega) * sigma,
-            rolling: self.rolling(eight, ring, d, across),
+            rolling: self.rolling(eight, ring.omega, d, across),
             arm: raised - d,
             oil: FilmEffect::of(eight.film.as_ref(), whole.half),
         };
@@ -176,12 +176,12 @@ impl Pair {
     fn rolling(
         &self,
         eight: &EightContacts,
-        ring: &Motion,
+        omega: Lanes,
         d: Lanes,
         across: Lanes,
     ) -> Rolling<Lanes> {
         if self.reads_rolling() {
-            Rolling::new(d, across, [eight.v[3], Lanes::all(ring.omega)])
+            Rolling::new(d, across, [eight.v[3], omega])
         } else {
             Rolling::resting(d)
         }
@@ -191,6 +191,7 @@ impl Pair {
     #[inline(always)]
     fn elements<const FMA: bool, const SYMMETRIC: bool>(
         &self,
+        sigma: Lanes,
         whole: &Whole<Lanes>,
         moves: &Moves<Lanes>,
         summing: Summing<'_>,
@@ -202,7 +203,8 @@ impl Pair {
                 to.element::<FMA, false>(&element, self.slices.count());
             }
             Summing::Elements(instructions, rubbing) => {
-                let rubbing = rubbing.at_nodes::<FMA>(instructions, self, whole, moves, None);
+                let rubbing =
+                    rubbing.at_nodes::<FMA>(instructions, (self, sigma), whole, moves, None);
                 kernel::elements::<_, FMA, SYMMETRIC>(&self.law, &self.slices, rubbing, whole, to);
             }
         }
@@ -211,11 +213,11 @@ impl Pair {
 
 impl<'a> Sums<'a> {
     #[inline(always)]
-    fn new(pair: &'a Pair, whole: &Whole<Lanes>, moves: &'a Moves<Lanes>) -> Self {
+    fn new(pair: &'a Pair, sigma: Lanes, whole: &Whole<Lanes>, moves: &'a Moves<Lanes>) -> Self {
         let zero = Lanes::ZERO;
         Self {
             law: &pair.law,
-            sigma: pair.race.sigma,
+            sigma,
             moves,
             radii: [whole.section.radius, whole.section.r],
             normal: zero,
@@ -271,8 +273,7 @@ impl Sums<'_> {
     #[inline(always)]
     fn state<const FMA: bool>(&mut self, element: &Element<Lanes>) -> ElementState<Lanes> {
         let moves = self.moves;
-        let sigma = Lanes::all(self.sigma);
-        let arm = element.groove.mul_add::<FMA>(sigma, moves.arm);
+        let arm = element.groove.mul_add::<FMA>(self.sigma, moves.arm);
         let elastic = element.load * element.length;
         self.elastic += elastic * element.share.0;
         ElementState {

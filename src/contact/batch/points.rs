@@ -51,8 +51,14 @@ impl Pair {
     ) -> BatchForces {
         let (curve, found, whole, moves, place) = self.place_on_curve::<FMA>(eight, ring, contour);
         let middle = (found.ends.0 + found.ends.1) * 0.5;
-        let rubbing = rubbing.at_nodes::<FMA>(instructions, self, &whole, &moves, Some(middle));
-        let mut sums = Sums::new(self, &whole, &moves);
+        let rubbing = rubbing.at_nodes::<FMA>(
+            instructions,
+            (self, Lanes::all(self.race.sigma)),
+            &whole,
+            &moves,
+            Some(middle),
+        );
+        let mut sums = Sums::new(self, Lanes::all(self.race.sigma), &whole, &moves);
         self.elements_on_curve::<FMA>(&curve, &found, (&whole, middle), rubbing, &mut sums);
         sums.on_bodies(&place)
     }
@@ -70,10 +76,15 @@ impl Pair {
         let middle = (found.ends.0 + found.ends.1) * 0.5;
         let turning = place.along_contact(turning, self.race.sigma);
         let turns = (&moves, turning);
-        let rubbing =
-            rubbing.at_nodes_turning::<FMA, true>(instructions, self, &whole, turns, Some(middle));
+        let rubbing = rubbing.at_nodes_turning::<FMA, true>(
+            instructions,
+            (self, Lanes::all(self.race.sigma)),
+            &whole,
+            turns,
+            Some(middle),
+        );
         let mut sums = SpatialSums {
-            sums: Sums::new(self, &whole, &moves),
+            sums: Sums::new(self, Lanes::all(self.race.sigma), &whole, &moves),
             turning,
             moments: [Lanes::ZERO; 2],
         };
@@ -109,7 +120,7 @@ impl Pair {
             v_z: eight.v[2] - ring.vz,
             slide: (across - d * ring.omega) * sigma,
             spin: (eight.v[3] - ring.omega) * sigma,
-            rolling: self.rolling(eight, ring, d, across),
+            rolling: self.rolling(eight, Lanes::all(ring.omega), d, across),
             // Heights of the race are those over the ring's axis.
             arm: eight.raise.height - d,
             oil: FilmEffect::of(eight.film.as_ref(), whole.half),

@@ -21,13 +21,19 @@ impl Rubbing {
     pub(in crate::contact) fn at_nodes<const FMA: bool>(
         &mut self,
         instructions: InstructionSet,
-        pair: &Pair,
+        (pair, sigma): (&Pair, Lanes),
         whole: &Whole<Lanes>,
         moves: &Moves<Lanes>,
         middle: Option<Lanes>,
     ) -> Option<&[Lanes]> {
         let turning = [Lanes::ZERO; 2];
-        self.at_nodes_turning::<FMA, false>(instructions, pair, whole, (moves, turning), middle)
+        self.at_nodes_turning::<FMA, false>(
+            instructions,
+            (pair, sigma),
+            whole,
+            (moves, turning),
+            middle,
+        )
     }
 
     /// The same, with angular velocities along n_e and t_e where balls before a ring that may tilt have some \[rad/s\].
@@ -35,7 +41,7 @@ impl Rubbing {
     pub(in crate::contact) fn at_nodes_turning<const FMA: bool, const LEAN: bool>(
         &mut self,
         instructions: InstructionSet,
-        pair: &Pair,
+        (pair, sigma): (&Pair, Lanes),
         whole: &Whole<Lanes>,
         (moves, turning): (&Moves<Lanes>, Across),
         middle: Option<Lanes>,
@@ -44,7 +50,6 @@ impl Rubbing {
             return None;
         };
         let halves = rules.halves()?;
-        let sigma = pair.race.sigma;
         let mut slip = Slip::along::<FMA>(&pair.law, sigma, &whole.section, moves)?;
         if LEAN {
             slip = slip.turning_across::<FMA>(&pair.law, &whole.section, turning);

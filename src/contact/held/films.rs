@@ -79,12 +79,12 @@ impl Pair {
         let HeldElements {
             elements, rubbing, ..
         } = nodes;
-        let whole = &held.whole;
+        let (whole, sigma) = (&held.whole, Lanes::all(self.race.sigma));
         let weights = if N > AXIAL {
             let turns = (&moves, [twist[AXIAL], twist[AXIAL + 1]]);
-            rubbing.at_nodes_turning::<FMA, true>(instructions, self, whole, turns, None)
+            rubbing.at_nodes_turning::<FMA, true>(instructions, (self, sigma), whole, turns, None)
         } else {
-            rubbing.at_nodes::<FMA>(instructions, self, whole, &moves, None)
+            rubbing.at_nodes::<FMA>(instructions, (self, sigma), whole, &moves, None)
         };
         for (element, weight) in elements.iter_mut().zip(weights.into_iter().flatten()) {
             element.rubbing = *weight;

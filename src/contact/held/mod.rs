@@ -17,7 +17,7 @@ mod slope;
 pub(crate) use packs::{SlicePack, SlicePacking};
 pub(crate) use slope::{AXIAL, FREE, HeldSlope, PlaneVector, in_contact};
 
-use super::batch::{Across, EightContacts, Rubbing};
+use super::batch::{Across, EightContacts, RingLanes, Rubbing};
 use super::kernel::{self, Element, ElementForce, ElementState, Receiver, Whole};
 use super::laws::traction::Rolling;
 use super::slip::Moves;
@@ -146,6 +146,7 @@ impl Pair {
         instructions: InstructionSet,
         nodes: &mut HeldElements,
     ) -> HeldContacts {
+        let ring = &RingLanes::of(ring, self.race.sigma);
         let (contact, moves, place) = self.place::<FMA, false>(eight, ring, whole.not());
         let (regular, sigma) = (place.regular.and(whole), self.race.sigma);
         let HeldElements {
@@ -154,10 +155,18 @@ impl Pair {
             rubbing,
         } = nodes;
         let rubbing = match turning {
-            None => rubbing.at_nodes::<FMA>(instructions, self, &contact, &moves, None),
+            None => {
+                rubbing.at_nodes::<FMA>(instructions, (self, ring.sigma), &contact, &moves, None)
+            }
             Some(turning) => {
                 let turns = (&moves, place.along_contact(turning, sigma));
-                rubbing.at_nodes_turning::<FMA, true>(instructions, self, &contact, turns, None)
+                rubbing.at_nodes_turning::<FMA, true>(
+                    instructions,
+                    (self, ring.sigma),
+                    &contact,
+                    turns,
+                    None,
+                )
             }
         };
         let mut holding = Holding {

@@ -12,6 +12,8 @@ pub(super) use shape::Kind;
 pub use shape::Shape;
 pub(super) use slices::{Line, Node};
 
+use std::mem::discriminant;
+
 use super::defect::Yield;
 use super::laws::traction::Rolling;
 use super::profile::{Before, Meeting, RaceSurface, Raise, Section};
@@ -66,6 +68,14 @@ impl BallSide {
 }
 
 impl Pair {
+    /// Whether contacts with it follow the same equations as with another race, but for numbers that every contact has of its own.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        discriminant(&self.law.elastic) == discriminant(&other.law.elastic)
+            && (self.shape.is_torus() && other.shape.is_torus() || self.shape == other.shape)
+            && (&self.slices, self.law.damping) == (&other.slices, other.law.damping)
+            && self.law.rubs_like(&other.law)
+    }
+
     /// Whether friction asks how the surfaces roll: only then it is found out.
     pub(super) fn reads_rolling(&self) -> bool {
         self.law.traction.is_some_and(|law| law.reads_rolling())

@@ -2,8 +2,8 @@
 
 use super::{RingView, Single, View};
 use crate::contact::{
-    Across, BatchForces, Constants, Contour, EightContacts, FilmNumbers, Pair, Raise, Rubbing,
-    Summing,
+    Across, BatchForces, Constants, Contour, EightContacts, FilmNumbers, Pair, Raise, RingLanes,
+    Rubbing, Summing,
 };
 use crate::model::{Ball, BodyId, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
@@ -48,20 +48,57 @@ pub(crate) struct Touching {
     pub swell: Raise<f64>,
 }
 
-/// Up to eight contacts with one ring; the last one fills the lanes that are left.
+/// Up to eight contacts, first those with the outer ring and then those with the inner; the last one fills the lanes that are left.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Group {
     /// The class of their rows.
-    pub class: usize,
-    pub race: Race,
+    class: usize,
     pub contacts: [Touching; LANES],
     pub count: usize,
+    /// Lanes with the outer ring.
+    outer: usize,
     pub forces: BatchForces,
     /// Angular velocities of the balls across the axis of a ring that may tilt \[rad/s\].
     pub turning: Across,
     /// Moments across the axis of a ring that may tilt, on balls in its frame, and on the ring about the frame's origin.
     pub across: [Across; 2],
     rubbing: Rubbing,
+}
+
+impl Group {
+    /// Takes over contacts with either ring, not more than eight and not none.
+    pub fn take(&mut self, class: usize, [outer, inner]: [&[Touching]; 2]) {
+        (self.class, self.count) = (class, outer.len() + inner.len());
+        self.outer = if inner.is_empty() { LANES } else { outer.len() };
+        self.contacts[..outer.len()].copy_from_slice(outer);
+        self.contacts[outer.len()..self.count].copy_from_slice(inner);
+        let last = self.contacts[self.count - 1];
+        self.contacts[self.count..].fill(last);
+    }
+
+    /// The race of the contact in a lane.
+    #[inline]
+    pub fn race(&self, lane: usize) -> Race {
+        if lane < self.outer {
+            Race::Outer
+        } else {
+            Race::Inner
+        }
+    }
+
+    /// Lanes with the outer ring, where others are with the inner.
+    #[inline]
+    fn both(&self) -> Option<Mask> {
+        let outer = self.outer;
+        (0 < outer && outer < LANES).then(|| Mask::from_fn(|lane| lane < outer))
+    }
+}
+
+/// Whether contacts of the rows of a class with both races follow the same equations, so that they may be evaluated side by side.
+pub(super) fn mixes(model: &Model, class: usize) -> bool {
+    let [outer, inner] = &model.rows[class].pairs;
+    let film = outer.law.film.is_some() || inner.law.film.is_some();
+    model.rows[class].class == class && !film && outer.shape.is_torus() && outer.is_like(inner)
 }
 
 impl SideConstants {
@@ -155,6 +192,31 @@ impl SideConstants {
             }
         }
     }
+
+    /// Gives lanes that are not `others` the constants and waves of contacts with this ring; places and speeds of balls are gathered.
+    // As above.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn beside(
+        &self,
+        class: usize,
+        contacts: &[Touching; LANES],
+        others: Mask,
+        eight: &mut EightContacts,
+    ) {
+        let of = &self.classes[class];
+        eight.constants = eight.constants.or(others, &of.first);
+        for lane in others.not().lanes() {
+            let contact = &contacts[lane];
+            if of.alike {
+                eight.constants.centre[lane] = self.balls[contact.ball].centre;
+            } else {
+                eight.constants.set(lane, &self.balls[contact.ball]);
+            }
+            eight.raise.set(lane, contact.raise);
+        }
+        eight.wavy |= of.wavy;
+    }
 }
 
 impl ClassConstants {
@@ -205,7 +267,7 @@ pub(super) fn leave(groups: &[Group], singles: &mut Vec<Single>) {
             .left_out
             .lanes()
             .filter(|lane| *lane < group.count);
-        singles.extend(lanes.map(|lane| Single::new(group.race, group.contacts[lane].ball)));
+        singles.extend(lanes.map(|lane| Single::new(group.race(lane), group.contacts[lane].ball)));
     }
 }
 
@@ -224,10 +286,8 @@ impl<const LEAN: bool> Task for EightOnCurve<'_, LEAN> {
         evaluated.gather(&mut eight);
         let Eight { group, of } = evaluated;
         let model = of.model;
-        let (pair, view) = (
-            &model.rows[group.class].pairs[group.race],
-            &of.views[group.race],
-        );
+        let race = group.race(0);
+        let (pair, view) = (&model.rows[group.class].pairs[race], &of.views[race]);
         let rubbing = (model.instructions, &mut group.rubbing);
         if LEAN {
             let held = (&eight, group.turning);
@@ -251,7 +311,7 @@ pub(super) struct EvaluateEight<'a> {
 impl EvaluateEight<'_> {
     /// One of them, as `LEAN` says before a ring that may tilt.
     pub fn run<const LEAN: bool>(&self, group: &mut Group) {
-        let curve = self.model.rows[group.class].pairs[group.race].hollow_curve();
+        let curve = self.model.rows[group.class].pairs[group.race(0)].hollow_curve();
         let eight = Eight::<LEAN> { group, of: self };
         match curve {
             None => self.model.instructions.run(eight),
@@ -300,10 +360,13 @@ impl<const LEAN: bool> Eight<'_, LEAN> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn gather(&self, eight: &mut EightContacts) {
-        let group = &self.group;
-        let constants = &self.of.constants[group.race];
-        let view = &self.of.views[group.race];
-        constants.eight(group.class, &group.contacts, view, eight);
+        let (group, race) = (&self.group, self.group.race(0));
+        // Parallel rings see the same balls.
+        let view = &self.of.views[race];
+        self.of.constants[race].eight(group.class, &group.contacts, view, eight);
+        if let Some(outer) = group.both() {
+            self.of.constants[Race::Inner].beside(group.class, &group.contacts, outer, eight);
+        }
         // Lanes left over must not count as pulling.
         for lane in group.count..LANES {
             eight.constants.radius[lane] *= 0.5;
@@ -321,7 +384,7 @@ impl<const LEAN: bool> Task for Eight<'_, LEAN> {
         let mut eight = EightContacts::default();
         self.gather(&mut eight);
         let Self { group, of } = self;
-        let race = group.race;
+        let race = group.race(0);
         let pair = &of.model.rows[group.class].pairs[race];
         let (view, skip) = (&of.views[race], Mask::default());
         if LEAN {
@@ -330,11 +393,16 @@ impl<const LEAN: bool> Task for Eight<'_, LEAN> {
                 pair.forces_leaning::<FMA>((&eight, group.turning), &view.ring, rubbing);
             return;
         }
+        let mut ring = RingLanes::of(&view.ring, pair.race.sigma);
+        if let Some(outer) = group.both() {
+            let inner = RingLanes::of(&of.views[Race::Inner].ring, Race::Inner.sigma());
+            ring = ring.or(outer, &inner);
+        }
         let summing = Summing::Elements(of.model.instructions, &mut group.rubbing);
         group.forces = if of.symmetric {
-            pair.forces::<FMA, true>(&eight, &view.ring, skip, summing)
+            pair.forces::<FMA, true>(&eight, &ring, skip, summing)
         } else {
-            pair.forces::<FMA, false>(&eight, &view.ring, skip, summing)
+            pair.forces::<FMA, false>(&eight, &ring, skip, summing)
         };
     }
 }

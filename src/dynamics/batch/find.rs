@@ -1,7 +1,7 @@
 //! Finds which balls touch which race, eight at a time.
 
 use super::{Batch, SideConstants, Single, Touching, View};
-use crate::contact::{Constants, EightContacts, HeightTable, Places, Raise, Summing};
+use crate::contact::{Constants, EightContacts, HeightTable, Places, Raise, RingLanes, Summing};
 use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
@@ -71,6 +71,17 @@ impl Neighbours {
     fn lanes(&self, of: &Table, dof: Dof) -> Lanes {
         of.eight(BodyId::ball(self.first), dof)
     }
+
+    /// The same along x, y and z.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn along(&self, of: &Table) -> [Lanes; 3] {
+        [
+            self.lanes(of, Dof::X),
+            self.lanes(of, Dof::Y),
+            self.lanes(of, Dof::Z),
+        ]
+    }
 }
 
 /// Finds what touches, and evaluates what has a closed form.
@@ -103,11 +114,7 @@ impl Task for Find<'_> {
                 let View {
                     q: q_of, v, ring, ..
                 } = &views[race];
-                let q = [
-                    stretch.lanes(q_of, Dof::X),
-                    stretch.lanes(q_of, Dof::Y),
-                    stretch.lanes(q_of, Dof::Z),
-                ];
+                let q = stretch.along(q_of);
                 let mut texture = None;
                 if stretch.textured {
                     let turned = stretch.lanes(q_of, Dof::Theta);
@@ -128,22 +135,19 @@ impl Task for Find<'_> {
                 let stiffness = batch.stiffness[stretch.row][race];
                 if let Some((stiffness, forces)) = stiffness.zip(forces.as_deref_mut()) {
                     let skip = faulted.or(touching.not());
+                    let [v_x, v_y, v_z] = stretch.along(v);
                     let eight = EightContacts {
                         constants: stretch.constants[race],
                         raise: near.raise,
                         wavy: !pair.waves.is_round(),
                         swell: near.swell,
                         q,
-                        v: [
-                            stretch.lanes(v, Dof::X),
-                            stretch.lanes(v, Dof::Y),
-                            stretch.lanes(v, Dof::Z),
-                            Lanes::ZERO,
-                        ],
+                        v: [v_x, v_y, v_z, Lanes::ZERO],
                         // Closed forms have none.
                         film: None,
                     };
                     let summing = Summing::AsOne(stiffness);
+                    let ring = &RingLanes::of(ring, race.sigma());
                     let found = pair.forces::<FMA, false>(&eight, ring, skip, summing);
                     for (i, force) in found.ball.into_iter().take(3).enumerate() {
                         let dof = Dof::TRANSLATIONS[i];

@@ -29,7 +29,7 @@ use crate::reduction::AxialPlaces;
 use crate::simd::{LANES, Lanes};
 
 use axially_fixed::{AxiallyFixedRow, AxiallyFixedSums, EvaluateAxiallyFixed};
-use eight::{EvaluateEight, Group, ToScene, leave};
+use eight::{EvaluateEight, Group, ToScene, leave, mixes};
 pub(crate) use eight::{SideConstants, Touching};
 use find::{Find, Neighbours};
 use single::Single;
@@ -95,6 +95,8 @@ pub(crate) struct Batch {
     /// The same by eights: the first `active` of these.
     groups: Vec<Group>,
     active: usize,
+    /// Whether contacts of a class with both rings may be side by side in one of these.
+    mixed: Vec<bool>,
     /// Contacts that are evaluated one by one.
     singles: Vec<Single>,
     /// The first ball that has left its groove.
@@ -144,6 +146,9 @@ impl Batch {
                 .map(|_| from_fn(|_| Vec::with_capacity(balls)))
                 .collect(),
             active: 0,
+            mixed: (0..model.rows.len())
+                .map(|class| mixes(model, class))
+                .collect(),
             singles: Vec::with_capacity(2 * balls),
             lost: None,
             rings: [[0.0; DOFS]; 2],
@@ -209,7 +214,7 @@ impl Batch {
     ) {
         self.find(Some(forces), model, views);
         self.axially_fixed(forces, model, views);
-        self.gather();
+        self.gather(views);
         if self.active > 0 || !self.singles.is_empty() {
             self.evaluate(model, views, pool);
         }
@@ -224,13 +229,14 @@ impl Batch {
             views,
         };
         let eight = |group: &mut Group| {
-            let Some(ring) = views[group.race].leaning else {
+            let view = &views[group.race(0)];
+            let Some(ring) = view.leaning else {
                 all.run::<false>(group);
                 return;
             };
             // Not in the kernel: where lanes are filled one by one the compiler splits whole registers.
             let balls = group.contacts.iter().map(|contact| contact.ball);
-            group.turning = views[group.race].turning(balls);
+            group.turning = view.turning(balls);
             all.run::<true>(group);
             model.instructions.run(ToScene { group, ring });
         };
@@ -299,19 +305,28 @@ impl Batch {
         self.singles.iter().map(|single| (single.race, single.ball))
     }
 
-    /// What touches, by eights.
-    fn gather(&mut self) {
+    /// What touches, by eights: contacts with both rings side by side where the equations allow it.
+    fn gather(&mut self, views: &[View<'_>; 2]) {
         self.active = 0;
-        for (class, touching) in self.touching.iter().enumerate() {
-            for race in Race::BOTH {
-                for contacts in touching[race].chunks(LANES) {
-                    let group = &mut self.groups[self.active];
-                    self.active += 1;
-                    (group.class, group.race, group.count) = (class, race, contacts.len());
-                    group.contacts[..contacts.len()].copy_from_slice(contacts);
-                    group.contacts[contacts.len()..].fill(contacts[contacts.len() - 1]);
-                }
+        let parallel = views.iter().all(|view| view.leaning.is_none());
+        for (class, [outer, inner]) in self.touching.iter().enumerate() {
+            let mut next = |contacts: [&[Touching]; 2]| {
+                self.groups[self.active].take(class, contacts);
+                self.active += 1;
+            };
+            let beside = if parallel && self.mixed[class] {
+                outer.len() % LANES
+            } else {
+                0
+            };
+            let (whole, rest) = outer.split_at(outer.len() - beside);
+            whole.chunks(LANES).for_each(|outer| next([outer, &[]]));
+            let fill = inner.len().min(LANES - rest.len());
+            let (first, others) = inner.split_at(if beside > 0 { fill } else { 0 });
+            if beside > 0 {
+                next([rest, first]);
             }
+            others.chunks(LANES).for_each(|inner| next([&[], inner]));
         }
     }
 
@@ -324,7 +339,7 @@ impl Batch {
                 let of =
                     |[x, y, z, theta]: &[Lanes; DOFS]| [x[lane], y[lane], z[lane], theta[lane]];
                 forces.add(BodyId::ball(contact.ball), &of(ball));
-                super::add(&mut rings[group.race], &of(ring));
+                super::add(&mut rings[group.race(lane)], &of(ring));
             }
         }
         for single in &self.singles {
@@ -355,8 +370,8 @@ impl Batch {
     fn moments_across(&self, views: &[View<'_>; 2]) -> [[f64; 2]; 2] {
         let mut rings = [[0.0; 2]; 2];
         let groups = self.groups[..self.active].iter();
-        for group in groups.filter(|group| views[group.race].leaning.is_some()) {
-            let (sum, [_, [x, y]]) = (&mut rings[group.race], &group.across);
+        for group in groups.filter(|group| views[group.race(0)].leaning.is_some()) {
+            let (sum, [_, [x, y]]) = (&mut rings[group.race(0)], &group.across);
             for lane in 0..group.count {
                 super::add(sum, &[x[lane], y[lane]]);
             }
