@@ -93,3 +93,14 @@ def test_what_does_not_fit_is_refused_by_name() -> None:
     with pytest.raises(KeyError, match="no column 'c'"):
         RECORD.channel("a").channel("c")
     assert RECORD.channel("b").channel("b").channel() is not None
+
+
+def test_a_name_of_a_column_is_text() -> None:
+    names: Any = ["a"], ("a",), 3, {"a": 1}
+    for name in names:
+        with pytest.raises(br.SceneError, match=r"column = .*: the name of one, of a, b"):
+            RECORD.channel(name)
+        with pytest.raises(br.SceneError, match="column = "):
+            br.diagnose(RECORD, "6205", 1800.0, column=name)
+    with pytest.raises(KeyError, match="no column ''"):
+        RECORD.channel("")

@@ -61,6 +61,8 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         ------
         KeyError
             There is no such column.
+        SceneError
+            The name is no text, such as a list of names.
 
         Examples
         --------
@@ -69,7 +71,10 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         >>> out.channel().to("g").unit
         'g'
         """
-        name = name or ("outer.ay" if "outer.ay" in self else next(iter(self)))
+        if name is None:
+            name = "outer.ay" if "outer.ay" in self else next(iter(self))
+        if not isinstance(name, str):
+            raise SceneError("column", repr(name), f"the name of one, of {', '.join(self)}")
         start = float(self.t[0]) if self.t.size else 0.0
         return Channel(
             x=self[name],
