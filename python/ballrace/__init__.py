@@ -37,6 +37,7 @@ from .scene.lubricant import lubricants
 if TYPE_CHECKING:
     from . import diagnosis, learn, machines, measuring, plot, spectra
     from ._features import features
+    from ._told import Record, Touched
     from .bearings import Bearing, Catalogue, Pedestal, bearing, catalogue
     from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
     from .channel import Channel
@@ -54,7 +55,7 @@ if TYPE_CHECKING:
     from .ratings.life_factor import LifeFactor
     from .recordings import Recording, read
     from .run import simulate
-    from .signals import Record, Signals, Touched
+    from .signals import Signals
     from .statics import (
         Equilibrium,
         LoadDistribution,
@@ -71,6 +72,7 @@ else:
         __name__,
         {
             "_features": ("features",),
+            "_told": ("Record", "Touched"),
             "bearings": ("Bearing", "Catalogue", "Pedestal", "bearing", "catalogue"),
             "campaigns": ("Campaign", "campaign", "grid", "latin_hypercube", "scatter", "sobol"),
             "channel": ("Channel",),
@@ -94,7 +96,7 @@ else:
             "ratings.life_factor": ("LifeFactor",),
             "recordings": ("Recording", "read"),
             "run": ("simulate",),
-            "signals": ("Record", "Signals", "Touched"),
+            "signals": ("Signals",),
             "spectra": (),
             "statics": (
                 "Equilibrium",

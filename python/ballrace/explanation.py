@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._html import folded
+from ._told import Record
 from .errors import SceneError
 from .scene.scene import checked_scene
-from .signals import Record
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
