@@ -274,7 +274,12 @@ def test_it_begins_with_a_scene_or_a_record(browser: Browser, tmp_path: Path) ->
     with served(tmp_path / "mine.toml") as at, shown(browser, at) as (page, _):
         page.wait_for_selector("text=/6309: 8 balls/")
     with served(measured(tmp_path)) as at, shown(browser, at) as (page, _):
+        # Moves that come together, while the verdict is computed, all count.
+        picked(page, "damage", "spall")
+        picked(page, "oil", "vg68")
         page.wait_for_selector("text=/6205: damaged, outer race/")
+        page.wait_for_selector("rect.damage")
+        page.wait_for_selector(".told:has-text('oil film, ')")
 
 
 @pytest.mark.parametrize("width", [390, 1400])
