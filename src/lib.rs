@@ -20,6 +20,7 @@
 //!
 //! | question | function |
 //! |---|---|
+//! | How does a run go on, with loads and speeds that change between its pieces? | [`Simulation`] |
 //! | What does every ball carry at rest, and how stiff is the bearing? | [`equilibrium()`], [`stiffness()`], [`load_distribution()`] |
 //! | What does a run integrate and leave out, and what does it cost? | [`explain()`] |
 //! | Which features has the record, and which of many records? | [`features()`], [`campaign()`] |
@@ -65,7 +66,7 @@ pub use explain::{
 pub use features::{Feature, FeatureOptions, feature_columns, features, signal_features};
 pub use model::{Body, BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Race, Scales};
 pub use reduction::{Obstacle, Omission, Reduction};
-pub use run::{Run, simulate, simulate_into, simulate_with_progress};
+pub use run::{Run, Simulation, Snapshot, simulate, simulate_into, simulate_with_progress};
 pub use scene::Scene;
 pub use signals::kinematics::RowKinematics;
 pub use signals::touched::Touched;

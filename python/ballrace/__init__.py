@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from .recordings import Recording, read
     from .run import simulate
     from .signals import Signals
+    from .simulation import Simulation, Snapshot
     from .statics import (
         Equilibrium,
         LoadDistribution,
@@ -97,6 +98,7 @@ else:
             "recordings": ("Recording", "read"),
             "run": ("simulate",),
             "signals": ("Signals",),
+            "simulation": ("Simulation", "Snapshot"),
             "spectra": (),
             "statics": (
                 "Equilibrium",
@@ -145,6 +147,8 @@ __all__ = [
     "SceneError",
     "SceneWarning",
     "Signals",
+    "Simulation",
+    "Snapshot",
     "Stiffness",
     "Touched",
     "Trend",

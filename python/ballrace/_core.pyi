@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 
 __all__ = [
     "Model",
+    "Simulation",
     "amplitudes",
     "available_threads",
     "campaign",
@@ -53,6 +54,33 @@ class Model:
     def rhs(self, t: float, y: _Array) -> _Array: ...
     def forces(self, t: float, y: _Array) -> dict[str, _Array]: ...
 
+@final
+class Simulation:
+    def __new__(
+        cls,
+        scene: str,
+        run: str,
+        state: _Array | None = None,
+        progress: Callable[[float], object] | None = None,
+    ) -> Simulation: ...
+    @staticmethod
+    def restored(snapshot: str) -> Simulation: ...
+    def snapshot(self) -> str: ...
+    @property
+    def time(self) -> float: ...
+    @property
+    def scene(self) -> str: ...
+    @property
+    def names(self) -> list[str]: ...
+    def state(self) -> _Array: ...
+    def contacts(self) -> dict[str, _Array]: ...
+    def wrench(self, ring: str) -> _Array: ...
+    def advance_to(
+        self, t: float, progress: Callable[[float], object] | None = None
+    ) -> dict[str, _Array]: ...
+    def change(self, changes: str) -> None: ...
+    def finish(self, progress: Callable[[float], object] | None = None) -> _Signals: ...
+
 class _Signals(TypedDict):
     fs: float
     t: _Array
@@ -62,6 +90,7 @@ class _Signals(TypedDict):
     warnings: list[tuple[Literal["accuracy", "scene"], str]]
     provenance: str
     scene: str
+    end_state: _Array
 
 class _Turning(TypedDict):
     row: _Integers

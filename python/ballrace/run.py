@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import warnings
-from typing import TYPE_CHECKING, Literal, ParamSpec, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, ParamSpec, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from ._io.record import Scanned, metadata, writing
 from ._progress import Bar
 from ._text import printable
 from .errors import AccuracyWarning, SceneError, SceneWarning
-from .options import Run
+from .options import Run, Start
 from .scene.scene import checked_scene
 from .signals import Signals
 
@@ -35,6 +35,7 @@ __all__ = ["simulate"]
 _CATEGORIES = {"accuracy": AccuracyWarning, "scene": SceneWarning}
 
 P = ParamSpec("P")
+T = TypeVar("T")
 
 
 def _of_a_scene(function: Callable[P, Signals]) -> Callable[P, Signals]:
@@ -55,7 +56,7 @@ def simulate(
     *,
     duration: float,
     fs: float = 50_000.0,
-    start: Literal["equilibrium", "rolling"] | NDArray[np.float64] = "equilibrium",
+    start: Literal["equilibrium", "rolling"] | NDArray[np.float64] | Signals = "equilibrium",
     rtol: float | None = None,
     accuracy: float | None = None,
     method: Method | None = None,
@@ -81,9 +82,10 @@ def simulate(
         Simulated time [s].
     fs : float
         Sampling rate of the signals [Hz]. It does not change the steps of the integrator.
-    start : {"equilibrium", "rolling"} or ndarray of shape (n_states,)
-        The static equilibrium in the cage's frame, the nominal places of pure rolling, or a state in the
-        order of ``Model(scene).names``.
+    start : {"equilibrium", "rolling"}, ndarray of shape (n_states,) or Signals
+        The static equilibrium in the cage's frame, the nominal places of pure rolling, a state in the
+        order of ``Model(scene).names``, or the end of another run, which goes on. Time begins at 0 again, and
+        tables in time with it; :class:`ballrace.Simulation` goes on in time.
     rtol : float, optional
         Relative tolerance; by default ``scene.solver.rtol``.
     accuracy : float, optional
@@ -178,30 +180,52 @@ def simulate(
     (50,)
     """
     target = None if out is None else _target(out)
-    # A state goes beside the document, as an array: as text it would take far longer.
+    document, asked, state = request(
+        scene, reduce, start,
+        duration=duration, fs=fs, rtol=rtol, accuracy=accuracy, method=method, threads=threads,
+        bandwidth=bandwidth, settle=settle, time_limit=time_limit, max_steps=max_steps,
+    )  # fmt: skip
+
+    def run(sink: _Sink | None) -> _Signals:
+        return shown(
+            progress, scene.name, lambda told: _core.simulate(document, asked, state, told, sink)
+        )
+
+    raw, written = (run(None), None) if target is None else _written(target, run)
+    warn(raw, stacklevel=4)
+    return Signals._from_core(raw, written)
+
+
+def request(
+    scene: Scene, reduce: bool | None, start: Start | NDArray[np.float64] | Signals, **given: Any
+) -> tuple[str, str, NDArray[np.float64] | None]:
+    """Return the documents of a scene and of a run, and the state that it begins from where one is given.
+
+    A state goes beside the documents, as an array: as text it would take far longer.
+    """
     state = None if isinstance(start, str) else _state(start)
-    asked = Run(
-        duration=duration, fs=fs, start=start if isinstance(start, str) else "rolling", rtol=rtol,
-        accuracy=accuracy, method=method, threads=threads, bandwidth=bandwidth, settle=settle,
-        time_limit=time_limit, max_steps=max_steps,
-    ).to_json()  # fmt: skip
+    asked = Run(start=start if isinstance(start, str) else "rolling", **given).to_json()
     if reduce is not None:
         scene = scene.replace({"solver.reduce": reduce})
-    document = scene.to_json()
+    return scene.to_json(), asked, state
 
-    def run(callback: Callable[[float], object] | None, sink: _Sink | None) -> _Signals:
-        return _core.simulate(document, asked, state, callback, sink)
 
-    def shown(sink: _Sink | None) -> _Signals:
-        if progress is not True:
-            return run(progress or None, sink)
-        with Bar(scene.name or "simulating") as bar:
-            return run(bar.show, sink)
+def shown(
+    progress: bool | Callable[[float], object] | None,
+    label: str,
+    work: Callable[[Callable[[float], object] | None], T],
+) -> T:
+    """Work while a bar, or a callable, is told the share done."""
+    if progress is not True:
+        return work(progress or None)
+    with Bar(label or "simulating") as bar:
+        return work(bar.show)
 
-    raw, written = (shown(None), None) if target is None else _written(target, shown)
+
+def warn(raw: _Signals, *, stacklevel: int) -> None:
+    """Warn of what a run has met."""
     for category, text in raw["warnings"]:
-        warnings.warn(printable(text), _CATEGORIES[category], stacklevel=3)
-    return Signals._from_core(raw, written)
+        warnings.warn(printable(text), _CATEGORIES[category], stacklevel=stacklevel)
 
 
 def _target(out: str | os.PathLike[str]) -> Path:
@@ -218,8 +242,12 @@ def _written(path: Path, run: Callable[[_Sink], _Signals]) -> tuple[_Signals, Sc
     return raw, Scanned(path)
 
 
-def _state(start: NDArray[np.float64]) -> NDArray[np.float64]:
-    allowed = "'equilibrium', 'rolling' or an array of shape (n_states,)"
+def _state(start: NDArray[np.float64] | Signals) -> NDArray[np.float64]:
+    allowed = "'equilibrium', 'rolling', an array of shape (n_states,) or the Signals of a run"
+    if isinstance(start, Signals):
+        if start.end_state is None:
+            raise SceneError("start", "signals without an end state", "those of version 0.3 and on")
+        return start.end_state
     try:
         state = np.asarray(start, dtype=np.float64)
     except (TypeError, ValueError):

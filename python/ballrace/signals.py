@@ -66,6 +66,7 @@ class Signals(Columns):
         provenance: Mapping[str, Any],
         warnings: Iterable[str] = (),
         slices: pl.DataFrame | Mapping[str, Any] | None = None,
+        end_state: NDArray[np.float64] | None = None,
     ) -> None:
         self._fs = fs
         self._t = t
@@ -76,6 +77,7 @@ class Signals(Columns):
         self._provenance = Record(provenance)
         self._warnings = tuple(warnings)
         self._slices = slices
+        self._end_state = end_state
 
     @classmethod
     def _from_core(cls, raw: _Signals, written: Scanned | None = None) -> Signals:
@@ -90,6 +92,7 @@ class Signals(Columns):
             provenance=json.loads(raw["provenance"]),
             warnings=[printable(text) for _, text in raw["warnings"]],
             slices=raw["slices"],
+            end_state=raw["end_state"],
         )
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
@@ -158,6 +161,14 @@ class Signals(Columns):
         if isinstance(self._scene, str):
             self._scene = Scene.from_json(self._scene)
         return self._scene
+
+    @property
+    def end_state(self) -> NDArray[np.float64] | None:
+        """States of all bodies at the end, shape (n_states,): the start of a run that goes on.
+
+        None in files of version 0.2.
+        """
+        return self._end_state
 
     @property
     def stats(self) -> Record:

@@ -43,10 +43,25 @@ impl Films {
         &self.model
     }
 
+    /// The speed that they have \[rad/s\].
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Gives films and contacts a speed \[rad/s\].
+    pub fn set(&mut self, speed: f64, contacts: &mut Batch) {
+        if self.coat_at(speed) {
+            contacts.coat(&self.model);
+        }
+    }
+
     /// Gives the films the speed of a state; whether that changes them.
     fn coat(&mut self, state: &State) -> bool {
         let [outer, inner] = state.rings();
-        let speed = inner.omega - outer.omega;
+        self.coat_at(inner.omega - outer.omega)
+    }
+
+    fn coat_at(&mut self, speed: f64) -> bool {
         let changes = speed.to_bits() != self.speed.to_bits();
         if changes {
             self.speed = speed;

@@ -176,6 +176,18 @@ impl<'m> Dynamics<'m> {
         self.films.as_ref().map_or(self.model, Films::model)
     }
 
+    /// Speed of the rings that films have which follow it, as of the last evaluation \[rad/s\].
+    pub(crate) fn film_speed(&self) -> Option<f64> {
+        self.films.as_ref().map(Films::speed)
+    }
+
+    /// Gives films that follow the rings' speed the one of another evaluation \[rad/s\].
+    pub(crate) fn coat(&mut self, speed: Option<f64>) {
+        if let Some((films, speed)) = self.films.as_mut().zip(speed) {
+            films.set(speed, &mut self.contacts);
+        }
+    }
+
     /// The state that was read last.
     pub(crate) fn state(&self) -> &State {
         &self.state
@@ -364,6 +376,12 @@ impl System for Dynamics<'_> {
             }
         }
     }
+}
+
+/// Reads a state of all bodies of a model whose films are those of the state.
+pub(crate) fn at_films_of<T>(model: &Model, y: &[f64], read: impl FnOnce(&Model) -> T) -> T {
+    let coated = Films::of(model, y);
+    read(coated.as_ref().map_or(model, Films::model))
 }
 
 /// The forces that a scene has, beside contacts; apart those that depend on the sum of the others.

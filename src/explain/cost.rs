@@ -116,7 +116,7 @@ fn steps(model: &Model, start: &[f64], count: usize) -> Result<(f64, f64)> {
             options: &options,
         };
         // A run that breaks down says so itself; what it did until then still tells the cost.
-        let _ = method::run(&mut dynamics, task, &mut stop);
+        let _ = method::run(&mut dynamics, task, &mut None, &mut stop);
         interrupt::check()?;
         best = best.min(begun.elapsed().as_secs_f64());
     }

@@ -15,6 +15,6 @@ pub use energy::{Energy, cage_forces, energy};
 pub(crate) use films::doubts;
 pub use films::{RaceFilm, films};
 pub use lubrication::{Lubrication, lubrication};
-pub use moments::moments;
 pub(crate) use moments::{MOMENTS, MomentOnRing};
+pub use moments::{moments, wrench};
 pub(crate) use stiffest::{StiffElement, stiffest};

@@ -46,6 +46,21 @@ pub fn moments(model: &Model, t: f64, y: &[f64]) -> [[f64; 2]; 2] {
     })
 }
 
+/// What the balls put on a ring in a state of all bodies: force along x, y and z \[N\], moment about the ring's centre of mass \[N m\].
+pub fn wrench(model: &Model, y: &[f64], race: Race) -> [f64; 6] {
+    let mut sum = MomentOnRing::new(model, y, race);
+    let mut force = Vector3::zeros();
+    for j in 0..model.balls.len() {
+        let mut on_ball = OnBall::default();
+        visit(model, y, j, race, &mut on_ball);
+        force -= sum.ring.rotation.frame.to_scene(&on_ball.0.force);
+        sum.add(y, j, &on_ball.0);
+    }
+    let [x, y, z] = force.into();
+    let [about_x, about_y, about_z] = sum.sum.into();
+    [x, y, z, about_x, about_y, about_z]
+}
+
 /// The moment on a ring, ball by ball.
 pub(crate) struct MomentOnRing<'m> {
     model: &'m Model,

@@ -34,9 +34,14 @@ use crate::simd::{Simd, Vector};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Adams;
 
+impl Adams {
+    /// What it is called.
+    pub(crate) const NAME: &'static str = "Adams predictor-corrector";
+}
+
 /// What the driver asks for; the coefficients of a step follow from the lengths of the last ones.
 const TABLEAU: Tableau = Tableau {
-    name: "Adams predictor-corrector",
+    name: Adams::NAME,
     order: 4,
     error_order: 3,
     stages: NODES,

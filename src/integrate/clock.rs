@@ -1,10 +1,12 @@
 //! Time as a sum of very many steps.
 
+use crate::base::words::{Remembered, Words};
+
 /// A compensated sum: `high` is the time, `low` what rounding has dropped.
 ///
 /// A plain sum of 10⁸ steps wanders by thousands of ulps; this one stays within
 /// one (Neumaier 1974; Knuth's exact two-sum).
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Clock {
     high: f64,
     low: f64,
@@ -29,6 +31,13 @@ impl Clock {
         let (sum, dropped) = two_sum(self.high, h);
         let (high, low) = two_sum(sum, self.low + dropped);
         Self { high, low }
+    }
+}
+
+impl Remembered for Clock {
+    fn pass(&mut self, words: &mut Words) {
+        self.high.pass(words);
+        self.low.pass(words);
     }
 }
 

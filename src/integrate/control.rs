@@ -1,5 +1,7 @@
 //! Step-size control: an error goes in, a factor for the step comes out.
 
+use crate::base::words::{Remembered, Words};
+
 /// Settings of the step-size controller.
 ///
 /// With `e` the error norm (1 = just acceptable) and `e₋` that of the accepted
@@ -80,14 +82,14 @@ impl Controller {
 
 /// The controller at work: settings and what it remembers.
 #[derive(Debug)]
-pub(super) struct Control<'a> {
-    settings: &'a Controller,
+pub(super) struct Control {
+    settings: Controller,
     memory: f64,
     just_rejected: bool,
 }
 
-impl<'a> Control<'a> {
-    pub(super) fn new(settings: &'a Controller) -> Self {
+impl Control {
+    pub(super) fn new(settings: Controller) -> Self {
         Self {
             settings,
             memory: settings.memory_floor,
@@ -101,7 +103,7 @@ impl<'a> Control<'a> {
     /// alone. It is not remembered: after the step size is restored it would
     /// look like a sudden growth of the error.
     pub(super) fn accepted(&mut self, error: f64, shortened: bool) -> f64 {
-        let s = self.settings;
+        let s = &self.settings;
         let factor = s.safety * error.powf(-s.error_exponent) * self.memory.powf(s.memory_exponent);
         let most = if self.just_rejected {
             1.0
@@ -120,10 +122,17 @@ impl<'a> Control<'a> {
 
     /// Factor after a rejected step; an infinite error gives the smallest.
     pub(super) fn rejected(&mut self, error: f64) -> f64 {
-        let s = self.settings;
+        let s = &self.settings;
         self.just_rejected = true;
         let factor = s.safety * error.powf(-s.rejection_exponent);
         factor.max(s.min_factor).min(1.0)
+    }
+}
+
+impl Remembered for Control {
+    fn pass(&mut self, words: &mut Words) {
+        self.memory.pass(words);
+        self.just_rejected.pass(words);
     }
 }
 
@@ -135,7 +144,7 @@ mod tests {
     #[test]
     fn formula_with_memory_and_floor() {
         let settings = Controller::default();
-        let mut control = Control::new(&settings);
+        let mut control = Control::new(settings);
         let first = control.accepted(0.5, false);
         let expected = 0.9 * 0.5_f64.powf(-0.14) * 1e-4_f64.powf(0.08);
         assert!((first - expected).abs() < 1e-15);
@@ -150,7 +159,7 @@ mod tests {
     #[test]
     fn clamped_at_both_ends() {
         let settings = Controller::default();
-        let mut control = Control::new(&settings);
+        let mut control = Control::new(settings);
         assert_eq!(control.accepted(0.0, false), 10.0);
         assert_eq!(control.rejected(1e9), 0.2);
         assert_eq!(control.rejected(f64::INFINITY), 0.2);
@@ -161,7 +170,7 @@ mod tests {
     #[test]
     fn no_growth_right_after_a_rejection_only() {
         let settings = Controller::default();
-        let mut control = Control::new(&settings);
+        let mut control = Control::new(settings);
         control.rejected(3.0);
         assert_eq!(control.accepted(1e-9, false), 1.0);
         assert!(control.accepted(1e-9, false) > 1.0);
@@ -174,7 +183,7 @@ mod tests {
             memory_exponent: 0.0,
             ..Controller::default()
         };
-        let mut control = Control::new(&settings);
+        let mut control = Control::new(settings);
         let error = |factor: f64| (0.9 / factor).powf(1.0 / 0.14);
         assert_eq!(control.accepted(error(1.19), false), 1.0);
         assert!((control.accepted(error(1.21), false) - 1.21).abs() < 1e-12);
@@ -184,7 +193,7 @@ mod tests {
     #[test]
     fn a_shortened_step_leaves_the_memory_alone() {
         let settings = Controller::default();
-        let mut control = Control::new(&settings);
+        let mut control = Control::new(settings);
         control.accepted(0.5, false);
         control.accepted(1e-8, true);
         let expected = 0.9 * 0.5_f64.powf(0.08);

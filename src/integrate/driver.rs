@@ -1,8 +1,6 @@
-//! The loop that joins the parts.
+//! The loop that joins the parts, and what it remembers between two steps.
 
 use serde::Serialize;
-
-use std::ops::ControlFlow;
 
 use super::clock::{Clock, ulp};
 use super::control::Control;
@@ -13,8 +11,10 @@ use super::options::Options;
 use super::start::first_step;
 use super::stats::StepStatistics;
 use super::step::Stepper;
-use super::stops::{Plan, Stops};
+use super::stops::{Plan, Stop, Stops};
+use super::tableau::Tableau;
 use super::{Observer, System};
+use crate::base::words::{Remembered, Words};
 
 /// A step below this many ulps of the time is too small.
 const SMALLEST_ULPS: f64 = 16.0;
@@ -61,96 +61,294 @@ pub fn integrate<S: System, M: StepMethod<S>, O: Observer<S>>(
     options: &Options,
     observer: &mut O,
 ) -> Result<Solution, Failure> {
-    let tableau = method.tableau();
-    let (t0, end) = t_span;
-    check(system.dim(), t_span, y0, tolerance)
-        .and_then(|()| options.check())
-        .and_then(|()| method.check(system.dim(), options.fixed_step.is_some()))
-        .map_err(|reason| Failure::invalid(t0, reason))?;
+    let mut integrator = Integrator::begin(system, method, t_span, y0, tolerance, options)?;
+    let interrupted = integrator.run(system, method, observer)?;
+    Ok(integrator.solution(interrupted))
+}
 
-    let mut clock = Clock::at(t0);
-    let mut stops = Stops::new(&options.breakpoints, t0, end);
-    let mut norm = Norm::new(tolerance);
-    let mut control = Control::new(&options.controller);
-    let mut work = Stepper::new(tableau, method.is_multistep(), y0);
-    let mut stats = StepStatistics::default();
-    let mut interrupted = false;
+/// An integration that stands after any of its steps, and goes on from there as if it had not stood.
+#[derive(Debug)]
+pub(crate) struct Integrator<'a> {
+    tableau: &'a Tableau,
+    tolerance: &'a Tolerance,
+    stops: Stops,
+    norm: Norm<'a>,
+    control: Control,
+    work: Stepper<'a>,
+    clock: Clock,
+    end: f64,
+    fixed: bool,
+    ceiling: f64,
+    max_rejections: usize,
+    /// The step size that the error alone asks for.
+    free: f64,
+    failures: usize,
+    group: usize,
+    /// The last step, as long as the next one does not begin at its end.
+    accepted: Option<Accepted>,
+    stats: StepStatistics,
+}
 
-    let not_finite = |time, i| fail(time, 0.0, tolerance.group_of(i), FailureKind::NonFinite);
-    work.restart(system, t0).map_err(|i| not_finite(t0, i))?;
+/// A step that was accepted.
+#[derive(Debug, Clone, Copy, Default)]
+struct Accepted {
+    h: f64,
+    /// The clock at its end.
+    end: Clock,
+    /// Whether it ends on a stop.
+    lands: bool,
+}
 
-    let fixed = options.fixed_step.is_some();
-    let ceiling = options
-        .fixed_step
-        .map_or(options.max_step, |_| f64::INFINITY);
-    // The step size that the error alone asks for.
-    let given = options.fixed_step.or(options.first_step);
-    let mut free = given.unwrap_or_else(|| {
-        let ahead = (t0, stops.next());
-        let order = tableau.error_order;
-        first_step(system, &mut work, &mut norm, ahead, ceiling, order).max(SMALLEST_ULPS * ulp(t0))
-    });
-    let mut failures = 0;
-    let mut group = 0;
+impl<'a> Integrator<'a> {
+    /// Before the first step.
+    ///
+    /// # Errors
+    /// As [`integrate`], of the start.
+    pub fn begin<S: System, M: StepMethod<S>>(
+        system: &mut S,
+        method: &'a M,
+        t_span: (f64, f64),
+        y0: &[f64],
+        tolerance: &'a Tolerance,
+        options: &Options,
+    ) -> Result<Self, Failure> {
+        let mut made = Self::unbegun(system.dim(), method, t_span, y0, tolerance, options)?;
+        let (t0, _) = t_span;
+        let work = &mut made.work;
+        work.restart(system, t0)
+            .map_err(|i| not_finite(tolerance, t0, i))?;
+        let given = options.fixed_step.or(options.first_step);
+        made.free = given.unwrap_or_else(|| {
+            let ahead = (t0, made.stops.next());
+            let order = made.tableau.error_order;
+            first_step(system, work, &mut made.norm, ahead, made.ceiling, order)
+                .max(SMALLEST_ULPS * ulp(t0))
+        });
+        Ok(made)
+    }
 
-    while !interrupted && clock.now() < end {
-        let (t, stop) = (clock.now(), stops.next());
-        let plan = Plan::new(t, stop.time, free, ceiling);
-        if !plan.lands && plan.h < SMALLEST_ULPS * ulp(t) {
-            return Err(fail(t, plan.h, group, FailureKind::TooSmall));
-        }
+    /// Where another integration of the same task stands, which has remembered this.
+    ///
+    /// # Errors
+    /// [`FailureKind::Invalid`] where it was another task.
+    pub fn resumed<S: System, M: StepMethod<S>>(
+        system: &S,
+        method: &'a M,
+        t_span: (f64, f64),
+        remembered: &[u64],
+        tolerance: &'a Tolerance,
+        options: &Options,
+    ) -> Result<Self, Failure> {
+        let dim = system.dim();
+        let zeros = vec![0.0; dim];
+        let mut made = Self::unbegun(dim, method, t_span, &zeros, tolerance, options)?;
+        Words::load(remembered, &mut made)
+            .ok()
+            .filter(|()| made.work.is_whole(dim))
+            .ok_or_else(|| other_task(t_span.0))?;
+        Ok(made)
+    }
 
-        let next = if plan.lands {
-            Clock::at(stop.time)
-        } else {
-            clock.advanced(plan.h)
-        };
-        let at = (t, next.now());
-        let error = match method.attempt(&mut work, system, at, plan.h, stop.latest()) {
-            Ok(()) => norm.measure(&work.y, &work.y1, &work.error),
-            Err(i) => no_error(tolerance.group_of(i)),
-        };
-        let finite = error.value.is_finite();
-        group = error.group;
-        if !finite || !(fixed || error.value <= 1.0) {
-            stats.rejected += 1;
-            // A finite error has no such limit: at a jump of the derivative many small steps back are needed.
-            failures = if finite { 0 } else { failures + 1 };
-            if fixed || failures >= options.max_rejections {
-                return Err(fail(t, plan.h, group, FailureKind::NonFinite));
+    fn unbegun<S: System, M: StepMethod<S>>(
+        dim: usize,
+        method: &'a M,
+        t_span: (f64, f64),
+        y0: &[f64],
+        tolerance: &'a Tolerance,
+        options: &Options,
+    ) -> Result<Self, Failure> {
+        let (t0, end) = t_span;
+        check(dim, t_span, y0, tolerance)
+            .and_then(|()| options.check())
+            .and_then(|()| method.check(dim, options.fixed_step.is_some()))
+            .map_err(|reason| Failure::invalid(t0, reason))?;
+        let tableau = method.tableau();
+        Ok(Self {
+            tableau,
+            tolerance,
+            stops: Stops::new(&options.breakpoints, t0, end),
+            norm: Norm::new(tolerance),
+            control: Control::new(options.controller),
+            work: Stepper::new(tableau, method.is_multistep(), y0),
+            clock: Clock::at(t0),
+            end,
+            fixed: options.fixed_step.is_some(),
+            ceiling: options
+                .fixed_step
+                .map_or(options.max_step, |_| f64::INFINITY),
+            max_rejections: options.max_rejections,
+            free: 0.0,
+            failures: 0,
+            group: 0,
+            accepted: None,
+            stats: StepStatistics::default(),
+        })
+    }
+
+    /// Steps until the observer breaks off or the end is there; whether it was the observer. One that has broken off sees the same
+    /// step first when the integration goes on.
+    ///
+    /// # Errors
+    /// As [`integrate`].
+    pub fn run<S: System, M: StepMethod<S>, O: Observer<S>>(
+        &mut self,
+        system: &mut S,
+        method: &M,
+        observer: &mut O,
+    ) -> Result<bool, Failure> {
+        loop {
+            if let Some(accepted) = self.accepted {
+                let step = self
+                    .work
+                    .dense(self.clock.now(), accepted.end.now(), accepted.h);
+                if observer.accepted(system, &step, &self.stats).is_break() {
+                    return Ok(true);
+                }
+                self.advance(system, accepted)?;
             }
-            free = plan.h * control.rejected(error.value);
-            continue;
-        }
-
-        failures = 0;
-        if !fixed {
-            free = after(&plan, free, control.accepted(error.value, plan.shortened));
-        }
-        let stiffness = work.stiffness(plan.h, norm.weights());
-        stats.accept(tableau, t, &plan, stiffness);
-        stats.nfev = work.calls;
-
-        let step = work.dense(t, next.now(), plan.h);
-        interrupted = observer.accepted(system, &step, &stats) == ControlFlow::Break(());
-        work.advance();
-        clock = next;
-
-        if plan.lands {
-            stops.pass();
-            if stop.jumps && !interrupted && clock.now() < end {
-                work.restart(system, stop.time)
-                    .map_err(|i| not_finite(stop.time, i))?;
+            if self.clock.now() >= self.end {
+                return Ok(false);
             }
+            self.step(system, method)?;
         }
     }
-    stats.nfev = work.calls;
-    Ok(Solution {
-        t: clock.now(),
-        y: work.y,
-        stats,
-        interrupted,
-    })
+
+    /// What it has come to.
+    pub fn solution(self, interrupted: bool) -> Solution {
+        let (t, y) = match self.accepted {
+            Some(accepted) => (accepted.end.now(), self.work.y1),
+            None => (self.clock.now(), self.work.y),
+        };
+        let stats = StepStatistics {
+            nfev: self.work.calls,
+            ..self.stats
+        };
+        Solution {
+            t,
+            y,
+            stats,
+            interrupted,
+        }
+    }
+
+    /// Tries steps until one is accepted.
+    fn step<S: System, M: StepMethod<S>>(
+        &mut self,
+        system: &mut S,
+        method: &M,
+    ) -> Result<(), Failure> {
+        loop {
+            let (t, stop) = (self.clock.now(), self.stops.next());
+            let plan = Plan::new(t, stop.time, self.free, self.ceiling);
+            if !plan.lands && plan.h < SMALLEST_ULPS * ulp(t) {
+                return Err(fail(t, plan.h, self.group, FailureKind::TooSmall));
+            }
+            let end = if plan.lands {
+                Clock::at(stop.time)
+            } else {
+                self.clock.advanced(plan.h)
+            };
+            let error = self.attempt(system, method, (t, end.now()), plan.h, stop);
+            if !self.keeps(t, &plan, error)? {
+                continue;
+            }
+            let stiffness = self.work.stiffness(plan.h, self.norm.weights());
+            self.stats.accept(self.tableau, t, &plan, stiffness);
+            self.stats.nfev = self.work.calls;
+            self.accepted = Some(Accepted {
+                h: plan.h,
+                end,
+                lands: plan.lands,
+            });
+            return Ok(());
+        }
+    }
+
+    /// The error of a step that was tried.
+    fn attempt<S: System, M: StepMethod<S>>(
+        &mut self,
+        system: &mut S,
+        method: &M,
+        span: (f64, f64),
+        h: f64,
+        stop: Stop,
+    ) -> Worst {
+        let work = &mut self.work;
+        match method.attempt(work, system, span, h, stop.latest()) {
+            Ok(()) => self.norm.measure(&work.y, &work.y1, &work.error),
+            Err(i) => no_error(self.tolerance.group_of(i)),
+        }
+    }
+
+    /// Whether a step with such an error is accepted; chooses the size of the next one.
+    fn keeps(&mut self, t: f64, plan: &Plan, error: Worst) -> Result<bool, Failure> {
+        let finite = error.value.is_finite();
+        self.group = error.group;
+        if !finite || !(self.fixed || error.value <= 1.0) {
+            self.stats.rejected += 1;
+            // A finite error has no such limit: at a jump of the derivative many small steps back are needed.
+            self.failures = if finite { 0 } else { self.failures + 1 };
+            if self.fixed || self.failures >= self.max_rejections {
+                return Err(fail(t, plan.h, self.group, FailureKind::NonFinite));
+            }
+            self.free = plan.h * self.control.rejected(error.value);
+            return Ok(false);
+        }
+        self.failures = 0;
+        if !self.fixed {
+            let factor = self.control.accepted(error.value, plan.shortened);
+            self.free = after(plan, self.free, factor);
+        }
+        Ok(true)
+    }
+
+    /// Makes the end of the accepted step the beginning of the next one.
+    fn advance<S: System>(&mut self, system: &mut S, accepted: Accepted) -> Result<(), Failure> {
+        self.accepted = None;
+        self.work.advance();
+        self.clock = accepted.end;
+        if accepted.lands {
+            let stop = self.stops.next();
+            self.stops.pass();
+            if stop.jumps && self.clock.now() < self.end {
+                self.work
+                    .restart(system, stop.time)
+                    .map_err(|i| not_finite(self.tolerance, stop.time, i))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Remembered for Integrator<'_> {
+    fn pass(&mut self, words: &mut Words) {
+        self.stops.pass_on(words);
+        self.control.pass(words);
+        self.work.pass(words);
+        self.clock.pass(words);
+        self.free.pass(words);
+        self.failures.pass(words);
+        self.group.pass(words);
+        self.accepted.pass(words);
+        self.stats.pass(words);
+    }
+}
+
+impl Remembered for Accepted {
+    fn pass(&mut self, words: &mut Words) {
+        self.h.pass(words);
+        self.end.pass(words);
+        self.lands.pass(words);
+    }
+}
+
+/// What is remembered is of another task than the one that begins at a time.
+pub(crate) fn other_task(begins: f64) -> Failure {
+    Failure::invalid(begins, Invalid("what is remembered is of another task"))
+}
+
+fn not_finite(tolerance: &Tolerance, time: f64, i: usize) -> Failure {
+    fail(time, 0.0, tolerance.group_of(i), FailureKind::NonFinite)
 }
 
 fn fail(time: f64, step: f64, group: usize, kind: FailureKind) -> Failure {

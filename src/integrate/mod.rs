@@ -75,6 +75,7 @@ mod tableau_verner;
 pub use adams::Adams;
 pub use control::Controller;
 pub use dense::DenseStep;
+pub(crate) use driver::{Integrator, other_task};
 pub use driver::{Solution, integrate};
 pub use failure::{Failure, FailureKind, Invalid};
 pub use method::StepMethod;

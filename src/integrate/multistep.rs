@@ -1,6 +1,7 @@
 //! The steps behind a step, and the polynomial through their accelerations.
 
 use super::combine::combine;
+use crate::base::words::{Remembered, Words};
 
 /// Accelerations that a step knows at most: at its end, at its beginning and at the two before.
 pub(super) const NODES: usize = 4;
@@ -100,6 +101,35 @@ impl History {
     pub(super) fn advance(&mut self) {
         self.before = [self.h, self.h + self.before[0]];
         self.known = (self.known + 1).min(NODES - 1);
+    }
+}
+
+impl Remembered for History {
+    fn pass(&mut self, words: &mut Words) {
+        self.known.pass(words);
+        self.before.pass(words);
+        self.h.pass(words);
+        self.is_blended.pass(words);
+        self.since.pass(words);
+        self.pause.pass(words);
+        self.tried_at.pass(words);
+        let Formulae {
+            mut known,
+            mut times,
+            ..
+        } = self.formulae;
+        known.pass(words);
+        times.pass(words);
+        if words.loads() {
+            // All else follows from these.
+            let is_made = (1..NODES).contains(&known);
+            self.formulae = if is_made {
+                Formulae::new(times, known)
+            } else {
+                Formulae::default()
+            };
+            self.known = self.known.clamp(1, NODES - 1);
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::stops::Plan;
 use super::tableau::Tableau;
+use crate::base::words::{Remembered, Words};
 
 /// Share of the stability limit above which a step counts as stiff: 3.25 for
 /// Dormand–Prince, as in Hairer's program.
@@ -79,5 +80,18 @@ impl StepStatistics {
         }
         self.stiff += usize::from(quotient > STIFF_SHARE * tableau.stability_limit);
         self.capped += usize::from(plan.capped);
+    }
+}
+
+impl Remembered for StepStatistics {
+    fn pass(&mut self, words: &mut Words) {
+        self.accepted.pass(words);
+        self.rejected.pass(words);
+        self.nfev.pass(words);
+        self.smallest_step.pass(words);
+        self.smallest_step_time.pass(words);
+        self.largest_step.pass(words);
+        self.stiff.pass(words);
+        self.capped.pass(words);
     }
 }

@@ -6,6 +6,7 @@ use super::dense::{DenseStep, Weights};
 use super::multistep::{History, NEW};
 use super::stiffness::quotient;
 use super::tableau::Tableau;
+use crate::base::words::{Remembered, Words};
 use crate::simd::{InstructionSet, Simd, Vector, Wide};
 
 /// The workspace of a step: the state, the derivatives and what they give.
@@ -32,17 +33,23 @@ pub struct Stepper<'a> {
 impl<'a> Stepper<'a> {
     pub(super) fn new(tableau: &'a Tableau, multistep: bool, y: &[f64]) -> Self {
         let zero = vec![0.0; y.len()];
-        let derivatives = tableau.stages + usize::from(!tableau.fsal);
-        Self {
+        let mut made = Self {
             tableau,
             y: y.to_vec(),
             y1: zero.clone(),
             error: zero.clone(),
             stage: zero.clone(),
-            k: vec![zero; derivatives],
+            k: Vec::new(),
             history: multistep.then(History::new),
             calls: 0,
-        }
+        };
+        made.k = vec![zero; made.derivatives()];
+        made
+    }
+
+    /// Number of derivatives that it keeps.
+    fn derivatives(&self) -> usize {
+        self.tableau.stages + usize::from(!self.tableau.fsal)
     }
 
     /// Evaluates the derivative at `(t, y)`, where no step before supplies it.
@@ -116,6 +123,12 @@ impl<'a> Stepper<'a> {
         DenseStep::new(weights, (t0, t1), h, &self.y, &self.y1, &self.k)
     }
 
+    /// Whether all vectors are as long as a system has states.
+    pub(super) fn is_whole(&self, dim: usize) -> bool {
+        let mut all = self.k.iter().chain([&self.y, &self.y1]);
+        self.k.len() == self.derivatives() && all.all(|of| of.len() == dim)
+    }
+
     /// Makes the end of the last attempt the accepted state.
     pub(super) fn advance(&mut self) {
         let last = self.k.len() - 1;
@@ -127,6 +140,19 @@ impl<'a> Stepper<'a> {
             None => self.k.swap(0, last),
         }
         std::mem::swap(&mut self.y, &mut self.y1);
+    }
+}
+
+/// The last stage and the error are of no use after a step.
+impl Remembered for Stepper<'_> {
+    fn pass(&mut self, words: &mut Words) {
+        self.y.pass(words);
+        self.y1.pass(words);
+        self.k.pass(words);
+        if let Some(history) = &mut self.history {
+            history.pass(words);
+        }
+        self.calls.pass(words);
     }
 }
 

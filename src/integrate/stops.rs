@@ -1,6 +1,7 @@
 //! Breakpoints, and how a step is fitted in front of them.
 
 use super::clock::ulp;
+use crate::base::words::{Remembered, Words};
 
 /// Relative amount by which a step may stretch to land on a stop.
 const SLACK: f64 = 1e-9;
@@ -59,6 +60,11 @@ impl Stops {
                 jumps: false,
             },
         }
+    }
+
+    /// Passes on how many were reached.
+    pub(super) fn pass_on(&mut self, words: &mut Words) {
+        self.passed.pass(words);
     }
 
     /// Marks the next stop as reached.

@@ -10,6 +10,7 @@ mod features;
 mod oil;
 mod run;
 mod scene;
+mod simulation;
 mod statics;
 
 use pyo3::prelude::*;
@@ -34,6 +35,8 @@ mod _core {
         preset_wheel_bearing, scene_doubts, scene_from_json, scene_from_toml, scene_replace,
         scene_to_toml,
     };
+    #[pymodule_export]
+    use super::simulation::GoingRun;
     #[pymodule_export]
     use super::statics::{equilibrium, load_distribution, placed, rolling, stiffness};
 }

@@ -160,7 +160,7 @@ pub(super) fn run_from_json(py: Python<'_>, text: &str) -> PyResult<String> {
 }
 
 /// A copy of a state to begin from, if it has the length for it.
-fn state_of(scene: &Scene, y: &PyReadonlyArray1<'_, f64>) -> ballrace::Result<Vec<f64>> {
+pub(super) fn state_of(scene: &Scene, y: &PyReadonlyArray1<'_, f64>) -> ballrace::Result<Vec<f64>> {
     check_length(y.as_array().len(), layout_of(scene).dim())?;
     Ok(y.as_array().iter().copied().collect())
 }
@@ -192,6 +192,7 @@ pub(super) fn hand_over(py: Python<'_>, signals: Signals) -> PyResult<Bound<'_, 
     out.set_item("warnings", warnings)?;
     out.set_item("provenance", to_json(&signals.provenance)?)?;
     out.set_item("scene", signals.scene.to_json())?;
+    out.set_item("end_state", signals.end_state.into_pyarray(py))?;
     Ok(out)
 }
 

@@ -23,39 +23,40 @@ struct Driven {
 }
 
 impl Course {
-    /// At a constant speed from a place.
-    pub fn steady(place: f64, speed: f64) -> Self {
+    /// At a constant speed, at a place at a time.
+    pub fn steady((t, place): (f64, f64), speed: f64) -> Self {
         Self {
-            place,
+            place: place - speed * t,
             speed,
             drive: None,
         }
     }
 
-    /// At a speed that changes with a share of the drive's.
-    pub fn driven(place: f64, speed: f64, share: f64, drive: &Drive) -> Self {
+    /// At a place at a time, with a speed that changes with a share of the drive's.
+    pub fn driven((t, place): (f64, f64), speed: f64, share: f64, drive: &Drive) -> Self {
+        let Drive::Speed(of @ TimeFunction::Profile(_)) = drive else {
+            return Self::steady((t, place), speed);
+        };
+        let (turned, extra) = (Antiderivative::new(of), speed - share * of.at(t));
         Self {
-            place,
+            place: place - (extra * t + share * turned.at(of, t)),
             speed,
-            drive: match drive {
-                Drive::Speed(TimeFunction::Constant(_)) | Drive::Torque { .. } => None,
-                Drive::Speed(of) => Some(Driven {
-                    share,
-                    speed: of.clone(),
-                    turned: Antiderivative::new(of),
-                    extra: speed - share * of.at(0.0),
-                }),
-            },
+            drive: Some(Driven {
+                share,
+                speed: of.clone(),
+                turned,
+                extra,
+            }),
         }
     }
 
-    /// In proportion to the drive: as at the start, or by a given share where the drive begins at rest.
-    pub fn geared(place: f64, speed: f64, at_rest: f64, drive: &Drive) -> Self {
-        let share = match drive.initial_speed() {
+    /// In proportion to the drive: as at that time, or by a given share where the drive is then at rest.
+    pub fn geared(from: (f64, f64), speed: f64, at_rest: f64, drive: &Drive) -> Self {
+        let share = match drive.speed_from(from.0) {
             0.0 => at_rest,
             of => speed / of,
         };
-        Self::driven(place, speed, share, drive)
+        Self::driven(from, speed, share, drive)
     }
 
     /// Whether it ever leaves its place.
@@ -128,7 +129,7 @@ impl Turn {
 impl Orbit {
     /// From a start, a state of all bodies: as fast as the balls of the row are in the mean, and in proportion to the
     /// drive. `at` is the place of the first radius among the states, if they are.
-    pub fn of(model: &Model, row: usize, start: &[f64], at: Option<usize>) -> Self {
+    pub fn of(model: &Model, row: usize, (t, start): (f64, &[f64]), at: Option<usize>) -> Self {
         let layout = model.layout();
         let balls = model.rows[row].balls();
         let starts = balls
@@ -145,7 +146,7 @@ impl Orbit {
             starts,
             at,
             course: Course::geared(
-                0.0,
+                (t, 0.0),
                 model.orbit_speed(row, start),
                 at_rest,
                 &model.scene.drive,

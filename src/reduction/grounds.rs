@@ -100,7 +100,7 @@ impl Grounds {
     pub fn course(
         &self,
         model: &Model,
-        start: &[f64],
+        (t, start): (f64, &[f64]),
         (body, dof): (BodyId, Dof),
         reason: Reason,
     ) -> Option<Course> {
@@ -109,22 +109,22 @@ impl Grounds {
             start[layout.at(body, dof)],
             start[layout.speed_at(body, dof)],
         );
-        let drive = &model.scene.drive;
+        let (drive, at) = (&model.scene.drive, |place: f64| (t, place));
         match (reason, dof) {
             (Reason::Copy, _) | (Reason::Rolling, Dof::Y) | (Reason::Idle, Dof::X | Dof::Y) => None,
-            (Reason::Mirror, _) => Some(Course::steady(model.bodies[body].nominal[dof], 0.0)),
+            (Reason::Mirror, _) => Some(Course::steady(at(model.bodies[body].nominal[dof]), 0.0)),
             (Reason::AxiallyFixed, _) => {
                 let places = self.axial_places.as_ref()?;
-                Some(Course::steady(places.of(model, body), 0.0))
+                Some(Course::steady(at(places.of(model, body)), 0.0))
             }
-            (Reason::Idle, Dof::Z) => Some(Course::steady(place, 0.0)),
-            (Reason::Driven, _) => Some(Course::driven(place, speed, 1.0, drive)),
+            (Reason::Idle, Dof::Z) => Some(Course::steady(at(place), 0.0)),
+            (Reason::Driven, _) => Some(Course::driven(at(place), speed, 1.0, drive)),
             (Reason::Rolling, _) => {
                 let row = model.balls[body.as_ball()?].row;
                 let (_, at_rest) = model.rolling_shares(row);
-                Some(Course::geared(place, speed, at_rest, drive))
+                Some(Course::geared(at(place), speed, at_rest, drive))
             }
-            _ => Some(Course::steady(place, speed)),
+            _ => Some(Course::steady(at(place), speed)),
         }
     }
 }

@@ -134,20 +134,27 @@ impl Reduction {
     /// # Panics
     /// If the length of `start` is wrong.
     pub fn of(model: &Model, start: &[f64]) -> Option<Self> {
+        Self::since(model, (0.0, start))
+    }
+
+    /// As [`Self::of`], of a run that goes on from a state at a time \[s\].
+    pub(crate) fn since(model: &Model, from: (f64, &[f64])) -> Option<Self> {
+        let (_, start) = from;
         assert_eq!(start.len(), model.dim(), "length of the state");
         let solver = &model.scene.solver;
         if !model.is_spatial() {
-            return Some(Self::leaving_out(model, start, solver.reduce));
+            return Some(Self::leaving_out(model, from, solver.reduce));
         }
         if !solver.reduce {
             return None;
         }
-        Self::in_space(model, start).ok()
+        Self::in_space(model, from).ok()
     }
 
     /// Leaves out what is given up by request and, if `exact` reductions are wanted, what does not change the motion
-    /// from a start, a state of all bodies.
-    fn leaving_out(model: &Model, start: &[f64], exact: bool) -> Self {
+    /// from a state of all bodies at a time.
+    fn leaving_out(model: &Model, from: (f64, &[f64]), exact: bool) -> Self {
+        let (_, start) = from;
         let mut reduction = Self::none(model);
         let mut obstacle = |what: &str, reason: String| {
             let what = what.to_owned();
@@ -194,12 +201,12 @@ impl Reduction {
             None if grounds.mirrored => 0..1,
             None => 0..model.rows.len(),
         };
-        reduction.leave_out(model, start, &grounds);
+        reduction.leave_out(model, from, &grounds);
         reduction.axial_places = grounds.axial_places;
         reduction
     }
 
-    fn leave_out(&mut self, model: &Model, start: &[f64], grounds: &Grounds) {
+    fn leave_out(&mut self, model: &Model, from: (f64, &[f64]), grounds: &Grounds) {
         let layout = model.layout();
         let reasons: Vec<[Option<Reason>; DOFS]> = layout
             .bodies()
@@ -225,7 +232,7 @@ impl Reduction {
             let Some(reason) = reasons[body][dof] else {
                 continue;
             };
-            let Some(course) = grounds.course(model, start, (body, dof), reason) else {
+            let Some(course) = grounds.course(model, from, (body, dof), reason) else {
                 continue;
             };
             let prescribed = Prescribed { body, dof, course };
@@ -239,7 +246,7 @@ impl Reduction {
             let copy = grounds.mirrored && row == 1;
             if idle || model.scene.approximations.rolling && !copy {
                 let at = self.place(model.rows[row].first_body(), Dof::X);
-                self.orbits.push(Orbit::of(model, row, start, at));
+                self.orbits.push(Orbit::of(model, row, from, at));
             }
         }
     }

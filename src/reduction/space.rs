@@ -11,8 +11,9 @@ impl Reduction {
     ///
     /// # Errors
     /// What stands against it.
-    pub(crate) fn in_space(model: &Model, start: &[f64]) -> Result<Self, Vec<Obstacle>> {
-        let mut found = Self::leaving_out(model, start, true);
+    pub(crate) fn in_space(model: &Model, from: (f64, &[f64])) -> Result<Self, Vec<Obstacle>> {
+        let mut found = Self::leaving_out(model, from, true);
+        let (_, start) = from;
         // Balls of two rows that are images of each other may spin differently.
         let is_flat = found.plane || found.mirrored && !model.balls_turn();
         let against = against(model, start, found.mirrored);
@@ -22,7 +23,7 @@ impl Reduction {
         let before = found.prescribed.len();
         for (body, dof) in model.layout().degrees() {
             if !Dof::ALL.contains(&dof) {
-                let course = Course::steady(0.0, 0.0);
+                let course = Course::steady((0.0, 0.0), 0.0);
                 found.prescribed.push(Prescribed { body, dof, course });
             }
         }

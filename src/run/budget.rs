@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::base::error::{Error, Result};
 use crate::base::interrupt;
+use crate::base::words::{Remembered, Words};
 use crate::integrate::StepStatistics;
 
 /// Works under a limit of wall time \[s\], checked as often as `progress` is called, so about every 20 ms, and by static
@@ -49,7 +50,7 @@ pub(crate) fn within<T>(
 }
 
 /// Counts steps, accepted and rejected ones, over the parts that `auto` integrates a run in.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct StepBudget {
     limit: Option<usize>,
     /// Steps of the parts before this one, and of this one.
@@ -83,6 +84,13 @@ impl StepBudget {
             name: "max_steps",
             limit: self.limit.unwrap_or_default() as f64,
         }
+    }
+}
+
+impl Remembered for StepBudget {
+    fn pass(&mut self, words: &mut Words) {
+        self.before.pass(words);
+        self.now.pass(words);
     }
 }
 

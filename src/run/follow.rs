@@ -3,164 +3,327 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use super::beyond::go_on;
 use super::budget::StepBudget;
 use super::ending::{Halt, broken};
-use super::method::{self, Integration};
+use super::method::{self, Integration, Memory};
 use super::orbit;
 use super::runaway;
+use super::settings::tolerance;
 use super::step_collapse::StepCollapse;
-use super::step_limit;
+use super::watch::{Progress, StepWatch, TELL_EVERY};
 use crate::base::error::{Error, Result};
+use crate::base::words::{Remembered, Words};
 use crate::dynamics::Dynamics;
-use crate::forces::damping;
 use crate::inspect;
-use crate::integrate::{self, DenseStep, Options, Tolerance};
-use crate::model::{BodyId, DOFS, Model};
-use crate::scene::{Drive, Method};
-use crate::signals::{Recorder, Statistics};
+use crate::integrate::{self, DenseStep, Observer, Options, StepStatistics};
+use crate::model::{BodyId, Model};
+use crate::signals::Statistics;
 
-/// How often progress is reported, and after how many steps the clock is read: of a small model's step that would take a
-/// fiftieth. One of a large model is long enough to ask after each.
-const TELL_EVERY: Duration = Duration::from_millis(20);
+/// After how many steps the clock is read: of a small model's step that would take a fiftieth. One of a large model is long enough to ask
+/// after each.
 const ASK_EVERY: usize = 8;
-/// Largest steps between corners of a table from which a step ends on each: with fewer, that would cost many more steps.
-const ROOM: f64 = 4.0;
 
-/// A time to integrate over: it begins at 0 on the integrator's clock and, maybe before it, on that of the run \[s\].
-#[derive(Clone, Copy)]
+/// A time to integrate over, on the integrator's clock, which was 0 at some time of the run \[s\].
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Interval {
-    pub begins: f64,
-    pub length: f64,
+    pub zero: f64,
+    pub from: f64,
+    pub to: f64,
     /// Steps that it may take.
     pub max_steps: Option<usize>,
 }
 
-/// Sees the first state of a stretch and every accepted step, on the integrator's clock.
-pub(crate) trait StepWatch: Send {
-    fn first(&mut self, dynamics: &mut Dynamics<'_>, y: &[f64]);
-
-    /// Breaks off to end the stretch.
-    fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) -> ControlFlow<()>;
-
-    /// Until when it wants to see steps of a stretch with this end \[s\].
-    fn until(&self, end: f64) -> f64 {
-        end
-    }
-
-    /// There are no more steps. Breaks off where what is left is not wanted.
-    fn finish(&mut self) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
+/// A motion that is followed over an interval, in pieces whose number and length have no effect on it.
+#[derive(Debug, Clone)]
+pub(crate) struct Trajectory {
+    interval: Interval,
+    /// States of all bodies where it begins, and where it stands.
+    first: Vec<f64>,
+    last: Vec<f64>,
+    /// The run's own states where it stands, and the time \[s\].
+    own: Vec<f64>,
+    time: f64,
+    /// Of the integration; none before its first step, and at its end.
+    memory: Option<Memory>,
+    /// Whether the watch is still to see its first state.
+    is_unseen: bool,
+    collapse: StepCollapse,
+    steps: StepBudget,
+    stats: StepStatistics,
+    pulls: usize,
+    truncated: usize,
+    nfev_past_end: usize,
+    wall_time: Duration,
 }
 
-impl StepWatch for Recorder<'_> {
-    fn first(&mut self, dynamics: &mut Dynamics<'_>, y: &[f64]) {
-        Recorder::first(self, dynamics, 0.0, y);
+impl Trajectory {
+    /// From a state of all bodies. The watch sees it.
+    pub fn new(model: &Model, y0: Vec<f64>, interval: Interval, max_step: f64) -> Self {
+        Self {
+            interval,
+            last: y0.clone(),
+            first: y0,
+            own: Vec::new(),
+            time: interval.from,
+            memory: None,
+            is_unseen: true,
+            collapse: StepCollapse::new(model, max_step),
+            steps: StepBudget::new(interval.max_steps),
+            stats: StepStatistics::default(),
+            pulls: 0,
+            truncated: 0,
+            nfev_past_end: 0,
+            wall_time: Duration::ZERO,
+        }
     }
 
-    fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) -> ControlFlow<()> {
-        Recorder::step(self, dynamics, step)
+    /// Where this one stands, with another model: steps count on, the watch goes on.
+    pub fn after(&self, model: &Model, y0: Vec<f64>, max_step: f64) -> Self {
+        let from = self.time;
+        Self {
+            is_unseen: self.is_unseen,
+            steps: self.steps,
+            ..Self::new(
+                model,
+                y0,
+                Interval {
+                    from,
+                    ..self.interval
+                },
+                max_step,
+            )
+        }
     }
 
-    fn until(&self, end: f64) -> f64 {
-        Recorder::until(self, end)
+    /// Where it begins on the integrator's clock \[s\].
+    pub fn begins(&self) -> f64 {
+        self.interval.from
     }
 
-    fn finish(&mut self) -> ControlFlow<()> {
-        Recorder::finish(self)
+    /// The states of all bodies where it begins.
+    pub fn first(&self) -> &[f64] {
+        &self.first
     }
-}
 
-/// Integrates over a stretch from a state of all bodies; returns the last one.
-pub(crate) fn follow(
-    mut dynamics: Dynamics<'_>,
-    watch: &mut dyn StepWatch,
-    y0: &[f64],
-    stretch: Interval,
-    options: &Options,
-    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<(Vec<f64>, Statistics, &'static str)> {
-    let Interval {
-        begins,
-        length,
-        max_steps,
-    } = stretch;
-    let model = dynamics.model();
-    let begun = Instant::now();
-    let mut told = begun;
-    let (mut pulls, mut truncated, mut halt) = (0, 0, None);
-    let mut collapse = StepCollapse::new(model, options.max_step);
-    let (mut steps, mut spent) = (StepBudget::new(max_steps), false);
-    let ask_every = if model.is_large() { 1 } else { ASK_EVERY };
-    let bounds = runaway::Bounds::new(&dynamics, y0);
-    let tolerance = tolerance(&dynamics)?;
-    let own = dynamics.compress(y0);
-    let (mut last, mut last_time) = (own.clone(), 0.0);
-    watch.first(&mut dynamics, &own);
-    let mut observe =
-        |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, stats: &integrate::StepStatistics| {
-            // The last evaluation was at the accepted state.
-            pulls += dynamics.pulls();
-            truncated += dynamics.truncated();
-            let lost = dynamics.lost().and_then(BodyId::as_ball);
-            let watched = watch.step(dynamics, step);
-            last.copy_from_slice(step.y1());
-            last_time = step.t1();
-            let crawls = collapse.after(step.h());
-            let left = || bounds.left(step.y1());
-            let why = lost
-                .map(Halt::Escaped)
-                .or_else(|| left().map(|(body, does)| Halt::RanAway(body, does)))
-                .or_else(|| crawls.then_some(Halt::Crawls));
-            if let Some(why) = why {
-                halt = Some((step.t1(), step.h(), why));
-                return ControlFlow::Break(());
-            }
-            spent = steps.spent(stats) && step.t1() < length;
-            if spent || watched.is_break() {
-                return ControlFlow::Break(());
-            }
-            if stats.accepted.is_multiple_of(ask_every) && told.elapsed() >= TELL_EVERY {
-                told = Instant::now();
-                return progress(step.t1() / length);
-            }
-            ControlFlow::Continue(())
+    /// The states of all bodies where it stands.
+    pub fn last(&self) -> &[f64] {
+        &self.last
+    }
+
+    /// Where it stands on the integrator's clock \[s\].
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Goes on to a time within the interval \[s\].
+    pub fn advance(
+        &mut self,
+        dynamics: &mut Dynamics<'_>,
+        watch: &mut dyn StepWatch,
+        until: f64,
+        options: &Options,
+        progress: Progress<'_>,
+    ) -> Result<()> {
+        if self.time >= until {
+            return Ok(());
+        }
+        let begun = Instant::now();
+        let model = dynamics.model();
+        let tolerance = tolerance(dynamics)?;
+        let y0 = dynamics.compress(&self.first);
+        if self.own.is_empty() {
+            self.own.clone_from(&y0);
+        }
+        if std::mem::take(&mut self.is_unseen) {
+            watch.first(dynamics, &y0);
+        }
+        let Interval { zero, from, to, .. } = self.interval;
+        let mut memory = self.memory.take();
+        let mut follower = Follower {
+            bounds: runaway::Bounds::new(dynamics, &self.first),
+            ask_every: if model.is_large() { 1 } else { ASK_EVERY },
+            told: begun,
+            halt: None,
+            spent: false,
+            paused: false,
+            of: self,
+            watch,
+            until,
+            progress,
         };
-    let solved = method::run(
-        &mut dynamics,
-        Integration {
-            span: (0.0, length),
-            y0: &own,
+        let task = Integration {
+            span: (from, to),
+            y0: &y0,
             tolerance: &tolerance,
             options,
-        },
-        &mut observe,
-    );
-    let mut full = y0.to_vec();
-    dynamics.expand(last_time, &last, &mut full);
-    let (solution, method) = solved.map_err(|failure| broken(model, &full, begins, &failure))?;
-    if let Some((time, step, why)) = halt {
-        return Err(why.error(model, &full, (begins + time, step)));
+        };
+        let solved = method::run(dynamics, task, &mut memory, &mut follower);
+        let Follower {
+            halt,
+            spent,
+            paused,
+            ..
+        } = follower;
+        dynamics.expand(self.time, &self.own, &mut self.last);
+        let solution = solved.map_err(|failure| broken(model, &self.last, zero, &failure))?;
+        // Whoever was interrupted may go on.
+        self.memory = memory;
+        if let Some((step, why)) = halt {
+            return Err(why.error(model, &self.last, (zero + self.time, step)));
+        }
+        if spent {
+            return Err(self.steps.error(zero + self.time));
+        }
+        if solution.interrupted && !paused {
+            let time = zero + self.time;
+            return Err(Error::Interrupted { time });
+        }
+        self.stats = solution.stats;
+        self.wall_time += begun.elapsed();
+        Ok(())
     }
-    if spent {
-        return Err(steps.error(begins + solution.t));
+
+    /// Ends it where it stands: follows the motion beyond for what the watch takes from there.
+    pub fn finish(
+        &mut self,
+        dynamics: &mut Dynamics<'_>,
+        watch: &mut dyn StepWatch,
+        options: &Options,
+        progress: Progress<'_>,
+    ) -> Result<()> {
+        let begun = Instant::now();
+        let tolerance = tolerance(dynamics)?;
+        let (end, time) = ((self.time, &self.own[..]), self.interval.zero + self.time);
+        self.nfev_past_end = go_on(dynamics, watch, end, (&tolerance, options), progress)?;
+        if watch.finish().is_break() {
+            return Err(Error::Interrupted { time });
+        }
+        let _ = progress(1.0);
+        self.wall_time += begun.elapsed();
+        Ok(())
     }
-    if solution.interrupted {
-        let time = begins + solution.t;
-        return Err(Error::Interrupted { time });
+
+    /// What came of it.
+    pub fn statistics(&self, model: &Model) -> Statistics {
+        Statistics {
+            clamped_pulls: self.pulls,
+            truncated_contacts: self.truncated,
+            wall_time: self.wall_time.as_secs_f64(),
+            nfev_past_end: self.nfev_past_end,
+            ..statistics(model, &self.stats, (&self.first, &self.last))
+        }
     }
-    let end = (solution.t, &solution.y[..]);
-    let nfev_past_end = go_on(&mut dynamics, watch, end, (&tolerance, options), progress)?;
-    finish(watch, begins + length)?;
-    let _ = progress(1.0);
-    let statistics = Statistics {
-        clamped_pulls: pulls,
-        truncated_contacts: truncated,
-        wall_time: begun.elapsed().as_secs_f64(),
-        nfev_past_end,
-        ..statistics(model, &solution.stats, (y0, &full))
-    };
-    Ok((full, statistics, method))
+}
+
+impl Remembered for Trajectory {
+    fn pass(&mut self, words: &mut Words) {
+        self.interval.from.pass(words);
+        self.interval.to.pass(words);
+        self.first.pass(words);
+        self.last.pass(words);
+        self.own.pass(words);
+        self.time.pass(words);
+        self.memory.pass(words);
+        self.is_unseen.pass(words);
+        self.collapse.pass(words);
+        self.steps.pass(words);
+        self.stats.pass(words);
+        self.pulls.pass(words);
+        self.truncated.pass(words);
+        self.nfev_past_end.pass(words);
+    }
+}
+
+/// Sees the steps of a piece.
+struct Follower<'a, 'w, 'p> {
+    of: &'a mut Trajectory,
+    watch: &'w mut dyn StepWatch,
+    until: f64,
+    bounds: runaway::Bounds,
+    progress: Progress<'p>,
+    ask_every: usize,
+    told: Instant,
+    /// Why it cannot go on, after a step \[s\].
+    halt: Option<(f64, Halt)>,
+    /// Whether all steps are spent.
+    spent: bool,
+    /// Whether the end of the piece has been reached within a step.
+    paused: bool,
+}
+
+impl<'m> Observer<Dynamics<'m>> for Follower<'_, '_, '_> {
+    fn accepted(
+        &mut self,
+        dynamics: &mut Dynamics<'m>,
+        step: &DenseStep<'_>,
+        stats: &StepStatistics,
+    ) -> ControlFlow<()> {
+        // Of a step in which the last piece has ended the rest is left.
+        let is_new = stats.accepted > self.of.stats.accepted;
+        let lost = if is_new { self.count(dynamics) } else { None };
+        let watched = self.watch.step(dynamics, step, self.until);
+        self.of.own.copy_from_slice(step.y1());
+        self.of.time = step.t1();
+        if is_new {
+            self.of.stats = *stats;
+            self.judge(step, lost)?;
+            self.spent = self.of.steps.spent(stats) && step.t1() < self.of.interval.to;
+        }
+        if self.spent || watched.is_break() {
+            return ControlFlow::Break(());
+        }
+        self.pause(step)?;
+        self.tell(step, stats)
+    }
+}
+
+impl Follower<'_, '_, '_> {
+    /// Counts what the evaluation at the accepted state, the last one, has met; the ball that it lost.
+    fn count(&mut self, dynamics: &Dynamics<'_>) -> Option<usize> {
+        self.of.pulls += dynamics.pulls();
+        self.of.truncated += dynamics.truncated();
+        dynamics.lost().and_then(BodyId::as_ball)
+    }
+
+    /// Breaks off where the motion is no longer worth following.
+    fn judge(&mut self, step: &DenseStep<'_>, lost: Option<usize>) -> ControlFlow<()> {
+        let crawls = self.of.collapse.after(step.h());
+        let left = || self.bounds.left(step.y1());
+        let why = lost
+            .map(Halt::Escaped)
+            .or_else(|| left().map(|(body, does)| Halt::RanAway(body, does)))
+            .or_else(|| crawls.then_some(Halt::Crawls));
+        match why {
+            Some(why) => {
+                self.halt = Some((step.h(), why));
+                ControlFlow::Break(())
+            }
+            None => ControlFlow::Continue(()),
+        }
+    }
+
+    /// Breaks off where the piece ends within the step, or with it but for the whole interval.
+    fn pause(&mut self, step: &DenseStep<'_>) -> ControlFlow<()> {
+        if step.t1() < self.until || self.until >= self.of.interval.to {
+            return ControlFlow::Continue(());
+        }
+        if self.until < step.t1() {
+            step.interpolate(self.until, &mut self.of.own);
+            self.of.time = self.until;
+        }
+        self.paused = true;
+        ControlFlow::Break(())
+    }
+
+    fn tell(&mut self, step: &DenseStep<'_>, stats: &StepStatistics) -> ControlFlow<()> {
+        if !stats.accepted.is_multiple_of(self.ask_every) || self.told.elapsed() < TELL_EVERY {
+            return ControlFlow::Continue(());
+        }
+        self.told = Instant::now();
+        let Interval { from, to, .. } = self.of.interval;
+        (self.progress)((step.t1() - from) / (to - from))
+    }
 }
 
 /// Results of a stretch from the integration and from the states of all bodies at its start and end.
@@ -192,157 +355,4 @@ fn statistics(
         settling_nfev: 0,
         orbit_slowed: orbit::slowed(model, first, last),
     }
-}
-
-/// Follows the motion beyond the end of the run for what the last samples take from there; returns the evaluations.
-/// Where it cannot go on, the samples make do with what there is.
-fn go_on(
-    dynamics: &mut Dynamics<'_>,
-    watch: &mut dyn StepWatch,
-    (end, y): (f64, &[f64]),
-    (tolerance, options): (&Tolerance, &Options),
-    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<usize> {
-    let until = watch.until(end);
-    if until <= end {
-        return Ok(0);
-    }
-    let mut collapse = StepCollapse::new(dynamics.model(), options.max_step);
-    let (mut told, mut stopped) = (Instant::now(), false);
-    let mut observe =
-        |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &integrate::StepStatistics| {
-            if dynamics.lost().is_some() || collapse.after(step.h()) {
-                return ControlFlow::Break(());
-            }
-            stopped = watch.step(dynamics, step).is_break();
-            if told.elapsed() >= TELL_EVERY {
-                told = Instant::now();
-                stopped |= progress(1.0).is_break();
-            }
-            if stopped {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        };
-    let task = Integration {
-        span: (end, until),
-        y0: y,
-        tolerance,
-        options,
-    };
-    let beyond = method::run(dynamics, task, &mut observe);
-    if stopped {
-        return Err(Error::Interrupted { time: end });
-    }
-    Ok(beyond.map_or(0, |(solution, _)| solution.stats.nfev))
-}
-
-/// There are no more steps of a stretch that ends at a time \[s\].
-fn finish(watch: &mut dyn StepWatch, time: f64) -> Result<()> {
-    match watch.finish() {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(Error::Interrupted { time }),
-    }
-}
-
-/// How many threads share an evaluation.
-pub(crate) fn threads(model: &Model, asked: usize) -> Result<usize> {
-    if asked > 1024 {
-        return Err(Error::scene("threads", asked, "at most 1024; 0 chooses"));
-    }
-    if asked > 0 {
-        return Ok(asked);
-    }
-    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    Ok(if model.is_large() {
-        cores.min(model.balls.len())
-    } else {
-        1
-    })
-}
-
-/// Step cap, first step, breakpoints of loads and drive.
-pub(crate) fn options(model: &Model) -> Options {
-    let scene = &model.scene;
-    let solver = &scene.solver;
-    let cap = if solver.frequency_cap {
-        step_limit::largest(solver.method, model)
-    } else {
-        f64::INFINITY
-    };
-    let max_step = solver.max_step.unwrap_or(f64::INFINITY).min(cap);
-    let apart = if max_step.is_finite() {
-        ROOM * max_step
-    } else {
-        0.0
-    };
-    let mut breakpoints: Vec<f64> = model
-        .loads
-        .iter()
-        .map(|load| &load.force)
-        .chain(model.moments.iter().map(|moment| &moment.moment))
-        .flat_map(|size| size.breakpoints_apart(apart))
-        .collect();
-    breakpoints.extend(match &scene.drive {
-        Drive::Speed(value) | Drive::Torque { value, .. } => value.breakpoints_apart(apart),
-    });
-    Options {
-        first_step: solver.first_step,
-        max_step,
-        breakpoints,
-        ..Options::default()
-    }
-}
-
-/// Tolerance from which on the error estimate of Adams' method exceeds what a step leaves. The estimate is that of the corrector of order
-/// three, the step is of order four: one over the other falls like h, which is the fourth root of the tolerance. At the default
-/// of 1e-7 that is five: 42 random bearings take 72 700 instead of 88 500 evaluations for a whole error of 0.10 instead of 0.06 % in the
-/// median, 0.52 instead of 0.37 in nine of ten (`tests/accuracy/defaults.rs`).
-/// No more is used at tighter ones, which are asked for to be safe.
-const EXACT: f64 = 6.25e-5;
-const MOST_OVERESTIMATED: f64 = 5.0;
-/// Damping over contact frequency above which velocities decay within a step, so that orders say nothing.
-const OVERDAMPED: f64 = 10.0;
-
-/// By how much the error estimate of the scene's method exceeds the error. Not under films, whose forces follow speeds so closely that
-/// accelerations of a run-up would err by 3.7 instead of 1.2 % (`tests/analytic/oil_run.rs`), for steps that they hold short anyway. Nor where contacts vibrate
-/// undamped and errors add up: 5.6 % in 3 ms of a 6205 (`tests/accuracy/method_defaults.rs`).
-fn overestimate(model: &Model) -> f64 {
-    let solver = &model.scene.solver;
-    let is_damped = damping(model) > OVERDAMPED * model.scales.frequency;
-    let is_undamped = damping(model) == 0.0;
-    if solver.method != Method::Adams || model.has_films() || is_damped || is_undamped {
-        return 1.0;
-    }
-    (EXACT / solver.rtol)
-        .powf(0.25)
-        .clamp(1.0, MOST_OVERESTIMATED)
-}
-
-/// Every body is a group; lengths are measured by the contact's approach δ, speeds by δ ω of the highest
-/// contact frequency, angles by the arc on a ball. A position itself (36 mm) says nothing about what error
-/// of it matters.
-pub(crate) fn tolerance(dynamics: &Dynamics<'_>) -> Result<Tolerance> {
-    let model = dynamics.model();
-    let (scales, rtol) = (&model.scales, model.scene.solver.rtol);
-    let degrees = dynamics.degrees();
-    let mut kept = vec![0_u32; model.body_count()];
-    for (body, _) in &degrees {
-        kept[*body] += 1;
-    }
-    let half = |length: f64| {
-        let degrees = degrees.iter();
-        degrees.map(move |&(body, dof)| (body, length / model.lever(body, dof)))
-    };
-    let length = overestimate(model) * rtol * scales.approach;
-    let atol = half(length)
-        .chain(half(length * scales.frequency))
-        // What is left out has no error: it counts in a body's mean as if it were there.
-        .map(|(body, atol)| atol * (DOFS as f64 / f64::from(kept[body])).sqrt())
-        .collect();
-    let bodies = degrees.iter().map(|(body, _)| body.index());
-    let group = bodies.clone().chain(bodies).collect();
-    Tolerance::new(0.0, atol, &vec![false; 2 * degrees.len()], group)
-        .map_err(|invalid| Error::scene("solver.rtol", rtol, invalid.to_string()))
 }

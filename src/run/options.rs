@@ -74,6 +74,9 @@ impl Default for Run {
 }
 
 impl Run {
+    /// The longest duration, of a [`crate::Simulation`] that ends when it is told to \[s\].
+    pub const OPEN: f64 = 1e6;
+
     /// Reads a run from JSON and checks it.
     ///
     /// # Errors
@@ -111,7 +114,7 @@ impl Run {
     /// # Errors
     /// [`Error::Scene`] names the field.
     pub fn validate(&self) -> Result<()> {
-        if !(self.duration > 0.0 && self.duration <= 1e6) {
+        if !(self.duration > 0.0 && self.duration <= Self::OPEN) {
             let allowed = "above 0 and at most 1e6 s";
             return Err(Error::scene("duration", self.duration, allowed));
         }

@@ -14,6 +14,7 @@ use crate::statics::start::Start;
 use crate::statics::{Placed, place};
 
 /// A scene as it will run.
+#[derive(Debug, Clone)]
 pub(super) struct Prepared {
     pub scene: Scene,
     /// The defects by name, and where the contact runs that they were placed by.
@@ -24,7 +25,8 @@ pub(super) struct Prepared {
 }
 
 /// How pilot runs are simulated.
-type Simulate = fn(&Scene, &Run, &mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Signals>;
+pub(super) type Simulate =
+    fn(&Scene, &Run, &mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Signals>;
 
 /// Prepares a run, whose record stays or leaves in blocks.
 pub(super) fn prepare(

@@ -1,6 +1,7 @@
 //! What a run records about the origin of its signals.
 
 use super::Run;
+use super::method;
 use super::prepare::Prepared;
 use super::step_limit;
 use crate::inspect::films;
@@ -23,7 +24,6 @@ pub(super) struct Done<'a> {
     pub threads: usize,
     pub options: &'a Options,
     pub reduction: Option<Reduction>,
-    pub method: &'static str,
     pub defects: Vec<Touched>,
     pub kinematics: Vec<RowKinematics>,
 }
@@ -39,7 +39,7 @@ pub(super) fn provenance(run: &Run, done: Done<'_>) -> Provenance {
     Provenance {
         version: env!("CARGO_PKG_VERSION"),
         schema: SCHEMA,
-        method: done.method.to_owned(),
+        method: method::name(solver.method).to_owned(),
         rtol: solver.rtol,
         accuracy: done.prepared.accuracy,
         max_step: Some(done.options.max_step).filter(|h| h.is_finite()),

@@ -8,8 +8,12 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
+use serde::{Deserialize, Serialize};
+
 use super::Run;
-use super::follow::{Interval, StepWatch, follow, options, threads};
+use super::follow::{Interval, Trajectory};
+use super::settings::{options, threads};
+use super::watch::StepWatch;
 use crate::base::error::Result;
 use crate::contact::Pair;
 use crate::dynamics::Dynamics;
@@ -37,7 +41,9 @@ const LONGEST_TAKE_UP: f64 = 0.012;
 const PASSES: f64 = 2.0;
 
 /// From where a run goes on at t = 0, and what it took to get there.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Settled {
+    #[serde(skip)]
     pub from: Start,
     /// Time before t = 0 \[s\].
     pub seconds: f64,
@@ -74,19 +80,29 @@ pub(crate) fn settle(
         ..options(&model)
     };
     let dynamics = Dynamics::begin(&model, Reduction::of(&model, &before).as_ref(), &before);
-    let stretch = Interval {
-        begins: -seconds,
-        length: seconds,
+    let interval = Interval {
+        zero: -seconds,
+        from: 0.0,
+        to: seconds,
         max_steps: run.max_steps,
     };
+    let mut settling = Trajectory::new(&model, before, interval, options.max_step);
     let share = seconds / (seconds + run.duration);
     let mut progress = |done: f64| progress(share * done);
     let threads = threads(&model, run.threads)?;
-    let (end, stats, _) = on(threads, dynamics, &mut progress, |dynamics, progress| {
-        follow(dynamics, &mut Unseen, &before, stretch, &options, progress)
-    })?;
+    on(
+        threads,
+        dynamics,
+        &mut progress,
+        |mut dynamics, progress| {
+            let of = &mut dynamics;
+            settling.advance(of, &mut Unseen, seconds, &options, progress)?;
+            settling.finish(of, &mut Unseen, &options, progress)
+        },
+    )?;
+    let stats = settling.statistics(&model);
     Ok(Settled {
-        from: Start::State(end),
+        from: Start::State(settling.last().to_vec()),
         seconds,
         accepted: stats.accepted,
         nfev: stats.nfev,
@@ -98,7 +114,7 @@ struct Unseen;
 
 impl StepWatch for Unseen {
     fn first(&mut self, _: &mut Dynamics<'_>, _: &[f64]) {}
-    fn step(&mut self, _: &mut Dynamics<'_>, _: &DenseStep<'_>) -> ControlFlow<()> {
+    fn step(&mut self, _: &mut Dynamics<'_>, _: &DenseStep<'_>, _: f64) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 }

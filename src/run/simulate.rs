@@ -4,18 +4,10 @@ use std::ops::ControlFlow;
 
 use super::Run;
 use super::budget;
-use super::follow::{Interval, follow, options, threads};
-use super::prepare::{Prepared, check_memory, prepare};
-use super::provenance::{Done, provenance};
+use super::session::Session;
 use crate::base::error::Result;
-use crate::dynamics::Dynamics;
-use crate::reduction::Reduction;
-use crate::run::pool::on;
-use crate::run::selftest;
 use crate::scene::Scene;
-use crate::signals::{Block, BlockSink, Recorder, Sampling, Signals};
-use crate::statics::compile;
-use crate::statics::start::start;
+use crate::signals::{Block, BlockSink, Keep, Signals};
 
 /// Simulates a scene.
 ///
@@ -115,54 +107,10 @@ fn unlimited(
     sink: Option<BlockSink<'_>>,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Signals> {
-    let in_blocks = sink.is_some();
-    let prepared = prepare(scene, run, in_blocks, simulate_with_progress, progress)?;
-    let Prepared { scene, settled, .. } = &prepared;
-    let (model, distrust) = selftest::trusted(compile(scene)?);
-    let y0 = start(&model, &settled.from)?;
-    let reduction = Reduction::of(&model, &y0);
-    let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);
-
-    let sampling = Sampling::new(run.bandwidth, run.fs, model.scales.frequency)?;
-    let samples = (run.samples()?, sampling.oversampling);
-    check_memory(scene, run, samples, in_blocks)?;
-    let mut recorder = Recorder::new(&model, sampling, samples.0, sink);
-    recorder.prepare(&dynamics, &y0)?;
-
-    let threads = threads(&model, run.threads)?;
-    let options = options(&model);
-    let stretch = Interval {
-        begins: 0.0,
-        length: run.duration,
-        max_steps: run.max_steps,
-    };
-    let whole = settled.seconds + run.duration;
-    let mut progress = |share: f64| progress((settled.seconds + share * run.duration) / whole);
-    let (_, mut stats, method) = on(threads, dynamics, &mut progress, |dynamics, progress| {
-        follow(dynamics, &mut recorder, &y0, stretch, &options, progress)
-    })?;
-
-    stats.acceleration_residual = recorder.residual.value();
-    (stats.settling_accepted, stats.settling_nfev) = (settled.accepted, settled.nfev);
-    let done = Done {
-        prepared: &prepared,
-        model: &model,
-        distrust,
-        sampling,
-        threads,
-        options: &options,
-        reduction,
-        method,
-        defects: recorder.watch.told(&model, &prepared.placed),
-        kinematics: recorder.orbits.told(&model),
-    };
-    Ok(Signals {
-        fs: run.fs,
-        t: recorder.held.t,
-        columns: recorder.held.columns,
-        slices: recorder.slices,
-        stats,
-        provenance: provenance(run, done),
-        scene: prepared.scene,
-    })
+    let keep = sink.map_or(Keep::All, Keep::Left);
+    let session = Session::begin(scene, run, keep, simulate_with_progress, progress)?;
+    let settled = session.settled();
+    let whole = settled + run.duration;
+    let mut progress = |share: f64| progress((settled + share * run.duration) / whole);
+    session.complete(&mut progress)
 }

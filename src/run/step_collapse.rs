@@ -1,5 +1,6 @@
 //! Detects a collapse of the step size.
 
+use crate::base::words::{Remembered, Words};
 use crate::model::Model;
 
 /// Steps over which a collapse is seen.
@@ -9,6 +10,7 @@ const PATIENCE: usize = 1000;
 const HOPELESS: f64 = 1e-5;
 
 /// Sees when steps are too small for the run to end in a useful time.
+#[derive(Debug, Clone)]
 pub(crate) struct StepCollapse {
     limit: f64,
     steps: usize,
@@ -35,5 +37,12 @@ impl StepCollapse {
         let collapsed = self.progress < PATIENCE as f64 * self.limit;
         (self.steps, self.progress) = (0, 0.0);
         collapsed
+    }
+}
+
+impl Remembered for StepCollapse {
+    fn pass(&mut self, words: &mut Words) {
+        self.steps.pass(words);
+        self.progress.pass(words);
     }
 }

@@ -127,8 +127,13 @@ impl Drive {
 
     /// Speed of the inner ring at the start \[rad/s\].
     pub fn initial_speed(&self) -> f64 {
+        self.speed_from(0.0)
+    }
+
+    /// Speed of the inner ring where a run begins at a time \[s\]; of a torque, the initial one \[rad/s\].
+    pub(crate) fn speed_from(&self, t: f64) -> f64 {
         match self {
-            Self::Speed(speed) => speed.at(0.0),
+            Self::Speed(speed) => speed.at(t),
             Self::Torque { initial_speed, .. } => *initial_speed,
         }
     }

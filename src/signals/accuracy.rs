@@ -1,9 +1,9 @@
 //! What a run reports of the requested accuracy.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What a run with a requested accuracy chose, and what it expects of that; errors that are larger together are warned of.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Accuracy {
     /// Relative error of the outer ring's vertical acceleration that was asked for, root mean square over the

@@ -8,6 +8,7 @@ use std::ops::ControlFlow;
 
 use super::Column;
 use super::filter::HALF;
+use crate::base::words::{Remembered, Words};
 
 /// Samples of a block at most; its times are half a megabyte.
 const MOST: usize = 1 << 16;
@@ -29,6 +30,23 @@ pub struct Block {
 /// Takes the blocks of a record in their order, and may stop the run.
 pub(crate) type BlockSink<'a> = &'a mut (dyn FnMut(Block) -> ControlFlow<()> + Send + 'a);
 
+/// What becomes of the samples of a record.
+pub(crate) enum Keep<'a> {
+    /// All of them stay.
+    All,
+    /// They leave block by block.
+    Left(BlockSink<'a>),
+    /// They stay until they are taken.
+    Taken,
+}
+
+impl Keep<'_> {
+    /// Whether all samples stay.
+    pub fn is_all(&self) -> bool {
+        matches!(self, Self::All)
+    }
+}
+
 /// Samples of a block of so many columns.
 fn block_rows(columns: usize) -> usize {
     (SIZE / (size_of::<f64>() * (columns + 1))).clamp(LEAST, MOST)
@@ -46,7 +64,7 @@ pub(crate) struct Held<'a> {
     count: usize,
     /// The sample in row 0.
     first: usize,
-    sink: Option<BlockSink<'a>>,
+    keep: Keep<'a>,
     /// Samples of a block.
     pub(super) block: usize,
     pub t: Vec<f64>,
@@ -54,12 +72,12 @@ pub(crate) struct Held<'a> {
 }
 
 impl<'a> Held<'a> {
-    /// Of `count` samples, which go to `sink` block by block, or stay.
-    pub fn new(columns: Vec<Column>, count: usize, sink: Option<BlockSink<'a>>) -> Self {
+    /// Of `count` samples.
+    pub fn new(columns: Vec<Column>, count: usize, keep: Keep<'a>) -> Self {
         Self {
             count,
             first: 0,
-            sink,
+            keep,
             block: block_rows(columns.len()),
             t: Vec::new(),
             columns,
@@ -78,9 +96,10 @@ impl<'a> Held<'a> {
 
     /// Rows to set aside.
     pub fn rows(&self) -> usize {
-        match self.sink {
-            Some(_) => self.count.min(self.block + 2 * HALF),
-            None => self.count,
+        if self.keep.is_all() {
+            self.count
+        } else {
+            self.count.min(self.block + 2 * HALF)
         }
     }
 
@@ -97,8 +116,8 @@ impl<'a> Held<'a> {
 
     /// Has zeros stand in some columns where sums are to grow: at the samples before `end`, or at all where all are kept.
     pub fn open(&mut self, columns: &[usize], end: usize) {
-        let end = if self.sink.is_some() { end } else { self.count };
-        let rows = end.min(self.count) - self.first;
+        let end = if self.keep.is_all() { self.count } else { end };
+        let rows = end.min(self.count).saturating_sub(self.first);
         for column in columns {
             let values = &mut self.columns[*column].values;
             if values.len() < rows {
@@ -110,7 +129,7 @@ impl<'a> Held<'a> {
     /// Hands over the blocks that are full of samples before `finished`, or all of these samples at the end of the run.
     /// Returns how many samples have left, or that the run is to stop.
     pub fn leave(&mut self, finished: usize) -> ControlFlow<(), usize> {
-        let Some(sink) = &mut self.sink else {
+        let Keep::Left(sink) = &mut self.keep else {
             return ControlFlow::Continue(0);
         };
         let (most, mut left) = (self.block, 0);
@@ -134,6 +153,47 @@ impl<'a> Held<'a> {
             self.first += rows;
             left += rows;
             sink(block)?;
+        }
+    }
+}
+
+impl Held<'_> {
+    /// Samples that are finished and lie before `end`, from where the last ones were taken.
+    pub fn take(&mut self, finished: usize, end: usize) -> Block {
+        let rows = finished.min(end).saturating_sub(self.first);
+        self.first += rows;
+        let part = |values: &mut Vec<f64>| values.drain(..rows).collect();
+        Block {
+            t: part(&mut self.t),
+            columns: self
+                .columns
+                .iter_mut()
+                .map(|of| Column {
+                    name: of.name.clone(),
+                    unit: of.unit,
+                    values: part(&mut of.values),
+                })
+                .collect(),
+        }
+    }
+
+    /// Ends the record before the sample `end`.
+    pub fn end_at(&mut self, end: usize) {
+        self.count = end;
+        let rows = end.saturating_sub(self.first);
+        self.t.truncate(rows);
+        for column in &mut self.columns {
+            column.values.truncate(rows);
+        }
+    }
+}
+
+impl Remembered for Held<'_> {
+    fn pass(&mut self, words: &mut Words) {
+        self.first.pass(words);
+        self.t.pass(words);
+        for column in &mut self.columns {
+            column.values.pass(words);
         }
     }
 }

@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 
 use super::Column;
 use super::filter::{SampleKind, Taps, signed};
+use crate::base::words::{Remembered, Words};
 
 /// Columns on their way from the grid to their samples.
 ///
@@ -74,6 +75,14 @@ impl Decimator {
         for (point, values) in (self.next..).zip(points) {
             self.spread(point, &mirror(at, values), out);
         }
+    }
+
+    /// Passes on what later points depend on.
+    pub fn pass_on(&mut self, words: &mut Words) {
+        self.row0.pass(words);
+        self.first.pass(words);
+        self.latest.pass(words);
+        self.next.pass(words);
     }
 
     fn spread(&self, point: i64, values: &[f64], out: &mut [Column]) {

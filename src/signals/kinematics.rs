@@ -9,6 +9,7 @@ use std::f64::consts::{PI, TAU};
 use serde::{Deserialize, Serialize};
 
 use crate::base::error::Result;
+use crate::base::words::{Remembered, Words};
 use crate::contact::Motion;
 use crate::dynamics::Dynamics;
 use crate::inspect;
@@ -80,7 +81,7 @@ pub(crate) struct Orbits {
     balls: Vec<BallCourse>,
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct BallCourse {
     /// Where it was seen last, and how far it has come since the first look \[rad\].
     direction: f64,
@@ -176,6 +177,25 @@ impl Orbits {
             }
         })
         .collect()
+    }
+}
+
+impl Remembered for Orbits {
+    fn pass(&mut self, words: &mut Words) {
+        self.y.pass(words);
+        self.next.pass(words);
+        self.times.pass(words);
+        self.rings.pass(words);
+        self.balls.pass(words);
+    }
+}
+
+impl Remembered for BallCourse {
+    fn pass(&mut self, words: &mut Words) {
+        self.direction.pass(words);
+        self.advance.pass(words);
+        self.spin.pass(words);
+        self.turned.pass(words);
     }
 }
 

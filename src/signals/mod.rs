@@ -22,7 +22,7 @@ mod sampling;
 pub(crate) mod touched;
 mod warning;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::inspect::RaceFilm;
 use crate::reduction::Omission;
@@ -33,7 +33,7 @@ use crate::simd::Distrust;
 
 pub use accuracy::Accuracy;
 pub use blocks::Block;
-pub(crate) use blocks::BlockSink;
+pub(crate) use blocks::{BlockSink, Keep};
 pub(crate) use demand::Demand;
 pub(crate) use probes::columns;
 pub(crate) use recorder::Recorder;
@@ -53,6 +53,9 @@ pub struct Signals {
     pub columns: Vec<Column>,
     /// Forces of single slices at the times that probes asked for.
     pub slices: Vec<SliceRow>,
+    /// The states of all bodies at the end, in the order of [`crate::Model::names`]: where a run begins that goes on
+    /// ([`crate::Start::State`]).
+    pub end_state: Vec<f64>,
     /// Effort of the integrator.
     pub stats: Statistics,
     /// What produced the signals.
@@ -72,7 +75,7 @@ impl Signals {
 }
 
 /// Effort and mishaps of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Statistics {
     /// Steps accepted.
@@ -121,6 +124,40 @@ pub struct Statistics {
     /// Share of their orbit rate that the balls lost in a run in which nothing drives them, for want of friction; absent in
     /// any other. Above 0.005 is warned of.
     pub orbit_slowed: Option<f64>,
+}
+
+impl Statistics {
+    /// Of a run that went on from here with another scene.
+    #[must_use]
+    pub(crate) fn and(self, next: &Self) -> Self {
+        let accepted = self.accepted + next.accepted;
+        let share = |before: f64, after: f64| {
+            (before * self.accepted as f64 + after * next.accepted as f64) / accepted.max(1) as f64
+        };
+        let is_smaller = |of: &Self| of.smallest_step.unwrap_or(f64::INFINITY);
+        let smallest = if is_smaller(next) < is_smaller(&self) {
+            next
+        } else {
+            &self
+        };
+        Self {
+            accepted,
+            rejected: self.rejected + next.rejected,
+            nfev: self.nfev + next.nfev,
+            smallest_step: smallest.smallest_step,
+            smallest_step_time: smallest.smallest_step_time,
+            largest_step: self.largest_step.max(next.largest_step),
+            stiff_share: share(self.stiff_share, next.stiff_share),
+            capped_share: share(self.capped_share, next.capped_share),
+            clamped_pulls: self.clamped_pulls + next.clamped_pulls,
+            truncated_contacts: self.truncated_contacts + next.truncated_contacts,
+            wall_time: self.wall_time + next.wall_time,
+            largest_pressure: self.largest_pressure.max(next.largest_pressure),
+            film_slip: self.film_slip.max(next.film_slip),
+            largest_tilt: self.largest_tilt.max(next.largest_tilt),
+            ..*next
+        }
+    }
 }
 
 /// What produced the signals.

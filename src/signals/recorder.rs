@@ -2,13 +2,14 @@
 
 use std::ops::ControlFlow;
 
-use super::blocks::{BlockSink, Held};
+use super::blocks::{Held, Keep};
 use super::decimate::Decimator;
 use super::filter::{HALF, Taps, signed};
 use super::probes::{ProbeReader, Probes};
-use super::{Sampling, SliceRow};
+use super::{Block, Sampling, SliceRow};
 use crate::base::error::{Error, Result};
 use crate::base::memory;
+use crate::base::words::{Remembered, Words};
 use crate::dynamics::Dynamics;
 use crate::inspect;
 use crate::integrate::{DenseStep, System};
@@ -56,13 +57,8 @@ pub(crate) struct Recorder<'s> {
 }
 
 impl<'s> Recorder<'s> {
-    /// For `count` samples, which go to `sink` block by block, or stay.
-    pub fn new(
-        model: &Model,
-        sampling: Sampling,
-        count: usize,
-        sink: Option<BlockSink<'s>>,
-    ) -> Self {
+    /// For `count` samples, kept in some way.
+    pub fn new(model: &Model, sampling: Sampling, count: usize, keep: Keep<'s>) -> Self {
         let filtered = sampling.oversampling > 1;
         let probes = Probes::new(model);
         let (mut points, mut grid) = (Reading::default(), Reading::default());
@@ -101,7 +97,7 @@ impl<'s> Recorder<'s> {
             residual: AccelerationResidual::default(),
             watch: DefectWatch::new(model),
             orbits: Orbits::default(),
-            held: Held::new(probes.columns, count, sink),
+            held: Held::new(probes.columns, count, keep),
             slices: Vec::new(),
         }
     }
@@ -165,22 +161,30 @@ impl<'s> Recorder<'s> {
         self.list(dynamics, t, |_, _| {});
     }
 
-    /// All samples within an accepted step. Breaks off where a block was taken with the wish to.
-    pub fn step(&mut self, dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>) -> ControlFlow<()> {
+    /// All samples within an accepted step and until a time \[s\]; for the rest of it, it is called again. Breaks off where a block was
+    /// taken with the wish to.
+    pub fn step(
+        &mut self,
+        dynamics: &mut Dynamics<'_>,
+        step: &DenseStep<'_>,
+        until: f64,
+    ) -> ControlFlow<()> {
+        let is_whole = until >= step.t1();
+        let until = until.min(step.t1());
         // What the filter still sees beyond the end is no part of the run.
-        if step.t0() * self.sampling.fs < self.held.count() as f64 {
+        if is_whole && step.t0() * self.sampling.fs < self.held.count() as f64 {
             self.watch.step(dynamics, step);
             self.orbits.step(dynamics, step);
         }
-        self.open(step.t1());
-        while self.grid.is_some() && self.grid_time() <= step.t1() && self.next <= self.last() {
+        self.open(until);
+        while self.grid.is_some() && self.grid_time() <= until && self.next <= self.last() {
             let t = self.grid_time();
             step.interpolate(t, &mut self.own.0);
             self.grid_point(dynamics, t);
         }
         while self.held.sampled() < self.held.count() {
             let t = self.held.sampled() as f64 / self.sampling.fs;
-            if t > step.t1() {
+            if t > until {
                 break;
             }
             step.interpolate(t, &mut self.own.0);
@@ -190,13 +194,41 @@ impl<'s> Recorder<'s> {
                 self.residual.add(step, t, &self.own.1);
             }
         }
-        self.list(dynamics, step.t1(), |t, y| step.interpolate(t, y));
-        let filtered = self
-            .grid
-            .as_ref()
-            .map(|(_, decimator)| decimator.finished());
+        self.list(dynamics, until, |t, y| step.interpolate(t, y));
+        self.leave(self.finished())
+    }
+
+    /// Samples that nothing changes any more.
+    fn finished(&self) -> usize {
         let sampled = self.held.sampled();
-        self.leave(filtered.map_or(sampled, |filtered| filtered.min(sampled)))
+        match &self.grid {
+            Some((_, decimator)) => decimator.finished().min(sampled),
+            None => sampled,
+        }
+    }
+
+    /// Samples before a time \[s\] that nothing changes any more and that were not taken yet.
+    pub fn take(&mut self, time: f64) -> Block {
+        let finished = self.finished();
+        let block = self.held.take(finished, self.sampling.before(time));
+        if let Some((_, decimator)) = &mut self.grid {
+            decimator.drop_samples(block.t.len());
+        }
+        block
+    }
+
+    /// Ends the record at a time \[s\].
+    pub fn end_at(&mut self, time: f64) {
+        self.held.end_at(self.sampling.before(time));
+    }
+
+    /// Goes on with another model of the same probes, from a state of all bodies.
+    pub fn change(&mut self, dynamics: &Dynamics<'_>, start: &[f64]) {
+        let zeros = vec![0.0; dynamics.dim()];
+        self.own = (zeros.clone(), zeros);
+        (self.y, self.dy) = (start.to_vec(), vec![0.0; start.len()]);
+        self.residual.change(dynamics);
+        self.watch.change(dynamics, start);
     }
 
     /// Completes the last samples where the run has ended before the grid.
@@ -289,6 +321,22 @@ impl<'s> Recorder<'s> {
     }
 }
 
+impl Remembered for Recorder<'_> {
+    fn pass(&mut self, words: &mut Words) {
+        if let Some((_, decimator)) = &mut self.grid {
+            decimator.pass_on(words);
+        }
+        self.next.pass(words);
+        let mut left = self.listings.len();
+        left.pass(words);
+        self.listings.truncate(left);
+        self.residual.pass(words);
+        self.watch.pass(words);
+        self.orbits.pass(words);
+        self.held.pass(words);
+    }
+}
+
 impl Reading {
     /// Reads a value for each of its columns; see [`ProbeReader::read`].
     fn read(&mut self, dynamics: &Dynamics<'_>, t: f64, y: &[f64], accelerations: &[f64]) {
@@ -300,120 +348,4 @@ impl Reading {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::{Block, Column};
-    use super::*;
-    use crate::integrate::{self, DORMAND_PRINCE, Options, Tolerance, integrate};
-    use crate::scene::{Probe, Scene, presets};
-    use crate::signals::Bandwidth;
-    use crate::statics::compile;
-    use crate::statics::start::{Start, start};
-
-    const FS: f64 = 50e3;
-    const COUNT: usize = 40;
-
-    /// What a recorder of 40 samples gives of a run that begins at some time \[s\]: names, times and all columns.
-    fn recorded(
-        scene: &Scene,
-        from: f64,
-        bandwidth: Bandwidth,
-        sink: Option<BlockSink<'_>>,
-    ) -> Vec<(String, Vec<f64>)> {
-        let model = compile(scene).unwrap();
-        let y0 = start(&model, &Start::Rolling).unwrap();
-        let sampling = Sampling::new(bandwidth, FS, model.scales().frequency).unwrap();
-        let mut dynamics = Dynamics::new(&model);
-        let mut recorder = Recorder::new(&model, sampling, COUNT, sink);
-        recorder.held.block = 7;
-        recorder.prepare(&dynamics, &y0).unwrap();
-        recorder.first(&mut dynamics, from, &y0);
-        let options = Options {
-            max_step: 1.0 / model.scales().frequency,
-            ..Options::default()
-        };
-        let span = (from, recorder.until(COUNT as f64 / FS) + 10.0 / FS);
-        integrate(
-            &mut dynamics,
-            &DORMAND_PRINCE,
-            span,
-            &y0,
-            &Tolerance::uniform(y0.len(), 1e-9, 1e-9).unwrap(),
-            &options,
-            &mut |dynamics: &mut Dynamics<'_>,
-                  step: &DenseStep<'_>,
-                  _: &integrate::StepStatistics| { recorder.step(dynamics, step) },
-        )
-        .unwrap();
-        assert!(recorder.finish().is_continue());
-        assert_eq!(recorder.held.sampled(), COUNT);
-        named(recorder.held.t, recorder.held.columns)
-    }
-
-    fn named(t: Vec<f64>, columns: Vec<Column>) -> Vec<(String, Vec<f64>)> {
-        let columns = columns.into_iter().map(|c| (c.name, c.values));
-        std::iter::once(("t".to_owned(), t))
-            .chain(columns)
-            .collect()
-    }
-
-    /// Vertical acceleration of the outer ring.
-    fn acceleration(from: f64) -> Vec<f64> {
-        let scene = presets::wheel_bearing(0.0);
-        let columns = recorded(&scene, from, Bandwidth::Auto, None);
-        let mut ay = columns.into_iter().filter(|(name, _)| name == "outer.ay");
-        ay.next().unwrap().1
-    }
-
-    /// Truth: the record that is kept whole, of filtered columns and of points, in blocks that are shorter than the filter
-    /// reaches and do not divide it.
-    #[test]
-    fn blocks_are_the_whole_record_bit_by_bit() {
-        let mut scene = presets::wheel_bearing(0.0);
-        scene
-            .probes
-            .insert("cage".to_owned(), Probe::Cage { row: 0 });
-        scene.probes.insert("energy".to_owned(), Probe::Energy {});
-        for bandwidth in [Bandwidth::Auto, Bandwidth::Raw] {
-            let whole = recorded(&scene, 0.0, bandwidth, None);
-            let mut joined: Vec<(String, Vec<f64>)> = Vec::new();
-            let mut lengths = Vec::new();
-            let mut sink = |block: Block| {
-                lengths.push(block.t.len());
-                let columns = named(block.t, block.columns);
-                if joined.is_empty() {
-                    joined = columns;
-                } else {
-                    for (all, (name, values)) in joined.iter_mut().zip(columns) {
-                        assert_eq!((&all.0, values.len()), (&name, lengths[lengths.len() - 1]));
-                        all.1.extend(values);
-                    }
-                }
-                ControlFlow::Continue(())
-            };
-            let left = recorded(&scene, 0.0, bandwidth, Some(&mut sink));
-            assert!(left.iter().all(|(_, values)| values.is_empty()));
-            assert_eq!(lengths, [7, 7, 7, 7, 7, 5]);
-            assert_eq!(joined.len(), whole.len());
-            for ((name, values), (_, kept)) in joined.iter().zip(&whole) {
-                assert!(
-                    values
-                        .iter()
-                        .map(|x| x.to_bits())
-                        .eq(kept.iter().map(|x| x.to_bits())),
-                    "{name}"
-                );
-            }
-        }
-    }
-
-    /// Limit: nothing here depends on time itself, so a run that begins 18 samples before 0 gives what one from 0 gives
-    /// later; what it read before 0 stands in the filter in the place of a reflection.
-    #[test]
-    fn times_before_zero_feed_the_first_samples() {
-        let (from_zero, before) = (acceleration(0.0), acceleration(-18.0 / FS));
-        let size = from_zero.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
-        for (later, early) in from_zero[18..].iter().zip(&before) {
-            assert!((later - early).abs() < 1e-4 * size, "{later} {early}");
-        }
-    }
-}
+mod tests;

@@ -21,6 +21,7 @@
 //! It judges steps, not runs: an error that accumulates over undamped oscillations, or that a chaotic motion amplifies,
 //! does not show ([`crate::Warning::AccuracyMissed`]).
 
+use crate::base::words::{Remembered, Words};
 use crate::dynamics::Dynamics;
 use crate::integrate::DenseStep;
 use crate::model::{Dof, Race};
@@ -75,6 +76,17 @@ impl AccelerationResidual {
         }
     }
 
+    /// Goes on with another model.
+    pub fn change(&mut self, dynamics: &Dynamics<'_>) {
+        let other = Self::new(dynamics, self.band);
+        *self = Self {
+            apart: self.apart,
+            size: self.size,
+            band: self.band,
+            ..other
+        };
+    }
+
     /// Whether a sample is judged.
     pub fn wants(sample: usize) -> bool {
         sample < ALL || sample.is_multiple_of(EVERY)
@@ -99,5 +111,12 @@ impl AccelerationResidual {
     /// The residual; none without accelerations, or where both rings are held.
     pub fn value(&self) -> Option<f64> {
         (self.size > 0.0 && !self.velocities.is_empty()).then(|| (self.apart / self.size).sqrt())
+    }
+}
+
+impl Remembered for AccelerationResidual {
+    fn pass(&mut self, words: &mut Words) {
+        self.apart.pass(words);
+        self.size.pass(words);
     }
 }

@@ -8,6 +8,8 @@ use crate::base::error::{Error, Result};
 const FINE: f64 = 2.0;
 /// The most points a sample: more would take memory for coefficients without effect.
 const MOST: f64 = 1e5;
+/// Relative error that products of times and rates may have.
+const ROUNDING: f64 = 1e-12;
 /// Largest share of a run by which it goes on past its end.
 const PAST_END: f64 = 0.1;
 
@@ -56,17 +58,38 @@ impl Sampling {
         // From 1 to MOST.
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let oversampling = wanted as usize;
+        Ok(Self::again(bandwidth, fs, oversampling))
+    }
+
+    /// Of a run that goes on, with so many points a sample.
+    pub fn again(bandwidth: Bandwidth, fs: f64, oversampling: usize) -> Self {
+        let oversampling = oversampling.clamp(1, MOST as usize);
         let share = if oversampling > 1 { FLAT } else { 0.5 };
-        Ok(Self {
+        Self {
             fs,
             oversampling,
             bandwidth: (bandwidth == Bandwidth::Auto).then_some(share * fs),
-        })
+        }
     }
 
     /// Rate of the grid \[Hz\].
     pub fn grid(&self) -> f64 {
         self.oversampling as f64 * self.fs
+    }
+
+    /// Samples before a time \[s\]; what rounding has made of the time of a sample is that time.
+    pub fn before(&self, time: f64) -> usize {
+        let samples = time * self.fs;
+        let is_one = (samples - samples.round()).abs() < ROUNDING * samples;
+        let count = if is_one {
+            samples.round()
+        } else {
+            samples.ceil()
+        };
+        // At most 1e15 by the limits of duration and rate.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let count = count as usize;
+        count
     }
 
     /// Until when a run of a duration is followed, for what its last samples take from beyond the end \[s\].

@@ -4,6 +4,8 @@
 //! the defect, or else when the ball has left it: a run that ends earlier does not count it. Positions are checked after accepted steps,
 //! and between passes only when a ball may have covered half of its distance, so that this takes no time.
 
+mod remembered;
+
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -143,7 +145,7 @@ struct Watched {
 }
 
 /// A contact at a defect.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(crate) struct MostLoaded {
     /// \[N\]
     pub load: f64,
@@ -211,6 +213,22 @@ impl DefectWatch {
         for defect in &mut self.defects {
             let row = dynamics.model().balls[defect.eyes[0].ball].row;
             defect.felt = dynamics.evaluates(row);
+        }
+    }
+
+    /// Goes on with another model; defects of the same names keep their counts.
+    pub fn change(&mut self, dynamics: &Dynamics<'_>, start: &[f64]) {
+        let before = std::mem::replace(self, Self::new(dynamics.model()));
+        self.prepare(dynamics, start);
+        for of in before.defects {
+            let mut named = self.defects.iter_mut();
+            if let Some(same) = named.find(|other| other.name == of.name) {
+                (same.passes, same.touched) = (of.passes, of.touched);
+                (same.largest_load, same.most) = (of.largest_load, of.most);
+                if same.eyes.len() == of.eyes.len() {
+                    same.eyes = of.eyes;
+                }
+            }
         }
     }
 

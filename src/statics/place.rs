@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{loads, positions};
 use crate::base::error::{Error, Result};
@@ -17,7 +17,7 @@ use crate::model::{BodyId, Dof, Model, Race, ball_fault, compile_placed, race_fa
 use crate::scene::{AxialOffset, Defect, Row, Scene, Surface, TimeFunction, Width};
 
 /// Where the number of a defect's axial place comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Placed {

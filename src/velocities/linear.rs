@@ -1,6 +1,7 @@
 //! Velocities corrected by the matrix of the contacts' friction, damping and stiffness, once a step: what [`Adams`](crate::integrate::Adams) needs.
 
 use super::matrix::{ContactMatrix, Velocity};
+use crate::base::words::{Remembered, Unfit, Words};
 use crate::contact::{AXIAL, FREE};
 use crate::dynamics::{Dynamics, RingView, View};
 use crate::forces::{self, State};
@@ -29,7 +30,7 @@ pub(crate) struct Damped<'d, 'm> {
 }
 
 /// How much a change of an acceleration moves velocities and places within a step.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Corrector {
     /// Correction of a velocity over that of its acceleration \[s\].
     gamma_h: f64,
@@ -47,6 +48,9 @@ trait Corrects: std::fmt::Debug {
 
     /// As [`LinearlyImplicit::solve`].
     fn solve(&mut self, dynamics: &Dynamics<'_>, r: &mut [f64]);
+
+    /// Passes on what the matrix was made of, and makes it anew where that is loaded.
+    fn pass_on(&mut self, dynamics: &mut Dynamics<'_>, words: &mut Words);
 }
 
 /// A matrix of all bodies, also where the run leaves some out.
@@ -62,10 +66,33 @@ struct BodyMatrix<const N: usize> {
     state: State,
     /// Where rings may tilt, all balls as these see them.
     rings: Option<[RingView; 2]>,
+    /// What it was made of, once it was.
+    made: Option<MadeOf>,
     /// Steps that it has served.
     served: usize,
     /// Rate of the fastest velocity when it was made \[1/s\].
     relaxation: f64,
+}
+
+/// What a matrix was made of.
+#[derive(Debug, Clone, Default)]
+struct MadeOf {
+    t: f64,
+    /// State of the run.
+    y: Vec<f64>,
+    by: Corrector,
+    /// Speed of films that follow it.
+    film_speed: Option<f64>,
+}
+
+impl Remembered for MadeOf {
+    fn pass(&mut self, words: &mut Words) {
+        self.t.pass(words);
+        self.y.pass(words);
+        self.by.gamma_h.pass(words);
+        self.by.reach.pass(words);
+        self.film_speed.pass(words);
+    }
 }
 
 /// The velocity of a ball along its radius, where its distance from the shaft is a state.
@@ -92,6 +119,24 @@ impl<'d, 'm> Damped<'d, 'm> {
             dynamics,
             matrix,
             longest,
+        }
+    }
+
+    /// What its matrix remembers; nothing without one.
+    pub fn remembered(&mut self) -> Vec<u64> {
+        Words::saved(self)
+    }
+
+    /// Makes the matrix that another one remembered.
+    pub fn remember(&mut self, words: &[u64]) -> Result<(), Unfit> {
+        Words::load(words, self)
+    }
+}
+
+impl Remembered for Damped<'_, '_> {
+    fn pass(&mut self, words: &mut Words) {
+        if let Some(matrix) = &mut self.matrix {
+            matrix.pass_on(self.dynamics, words);
         }
     }
 }
@@ -145,9 +190,25 @@ impl<const N: usize> Corrects for BodyMatrix<N> {
         let is_fast = self.relaxation * by.gamma_h > FAST;
         let serves = if is_fast { SERVES_FAST } else { SERVES };
         if self.served >= serves || !self.matrix.is_like(by.gamma_h) {
+            let made = self.made.get_or_insert_default();
+            (made.t, made.by, made.film_speed) = (t, by, dynamics.film_speed());
+            made.y.clear();
+            made.y.extend_from_slice(y);
             self.renew(dynamics, t, y, by);
         }
         self.served += 1;
+    }
+
+    fn pass_on(&mut self, dynamics: &mut Dynamics<'_>, words: &mut Words) {
+        self.made.pass(words);
+        if words.loads()
+            && let Some(of) = self.made.take().filter(|of| of.y.len() == dynamics.dim())
+        {
+            dynamics.coat(of.film_speed);
+            self.renew(dynamics, of.t, &of.y, of.by);
+            self.made = Some(of);
+        }
+        self.served.pass(words);
     }
 
     fn relaxation(&self) -> f64 {
@@ -194,6 +255,7 @@ impl<const N: usize> BodyMatrix<N> {
             full,
             state,
             rings: RingView::both(model).filter(|_| dynamics.leans()),
+            made: None,
             served: 0,
             relaxation: 0.0,
         })

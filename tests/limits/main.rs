@@ -6,6 +6,7 @@ mod common;
 mod approximations;
 mod blocks;
 mod kernel;
+mod pieces;
 mod reduction;
 mod settle;
 mod touched;

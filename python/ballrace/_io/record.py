@@ -119,6 +119,8 @@ def metadata(signals: Signals) -> dict[str, str]:
         "provenance": json.dumps(signals.provenance.to_dict()),
         "warnings": json.dumps(signals.warnings),
     }
+    if signals.end_state is not None:
+        entries["end_state"] = json.dumps(signals.end_state.tolist())
     if signals.slices is not None:
         entries["slices"] = base64.b64encode(to_bytes(signals.slices)).decode()
     return entries
@@ -154,11 +156,12 @@ def described(path: Path, metadata: Mapping[str, str], columns: Sequence[str]) -
         raise FileError(str(path), f"{reason}; read it with the one that wrote it, or a newer one")
     readers: dict[str, Callable[[str], Any]] = {
         "sampling_rate": _rate, "units": _mapping, "scene": _scene, "stats": _mapping,
-        "provenance": _mapping, "warnings": _texts, "slices": _table,
+        "provenance": _mapping, "warnings": _texts, "slices": _table, "end_state": _state,
     }  # fmt: skip
+    absent = {"warnings": "[]", "slices": "", "end_state": ""}
     found = {}
     for entry, read in readers.items():
-        text = metadata.get(entry, {"warnings": "[]", "slices": ""}.get(entry))
+        text = metadata.get(entry, absent.get(entry))
         if text is None:
             raise FileError(str(path), f"damaged: its metadata has no {entry}")
         try:
@@ -197,6 +200,10 @@ def _scene(text: str) -> str:
 
 def _texts(text: str) -> list[str]:
     return [str(warning) for warning in json.loads(text)]
+
+
+def _state(text: str) -> NDArray[np.float64] | None:
+    return np.array(json.loads(text), dtype=np.float64) if text else None
 
 
 def _table(text: str) -> pl.DataFrame | None:

@@ -1,0 +1,346 @@
+"""Runs that go on in pieces, are looked at between them, and may be changed."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from . import _core
+from ._document import encode
+from ._interrupt import heard_once
+from ._io.files import as_path
+from ._io.parquet import read_sealed, seal, writing_to
+from ._io.record import samples, unless_damaged
+from ._io.whole import whole
+from ._numbers import real
+from .errors import FileError, SceneError
+from .run import request, shown, warn
+from .scene.scene import Scene, checked_path, checked_scene
+from .signals import Signals
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable, Mapping
+
+    from numpy.typing import NDArray
+
+    from .scene import Method
+
+    Piece = dict[str, NDArray[np.float64]]
+
+__all__ = ["Simulation", "Snapshot"]
+
+_OPEN = 1e6
+"""The longest duration of a run, of one that ends when it is told to [s]."""
+
+_FORMAT = "1"
+_ENTRY = "ballrace_snapshot"
+"""What the metadata of a file has of a snapshot: the number of its form, and what the core needs."""
+
+
+class Snapshot:
+    """A :class:`Simulation` at a time: what it needs to go on from there, and its record until there.
+
+    Made by :meth:`Simulation.snapshot` or :meth:`read`; :meth:`Simulation.restore` goes on from it.
+    """
+
+    def __init__(self, document: str, pieces: tuple[Piece, ...]) -> None:
+        self._document = document
+        self._pieces = pieces
+
+    @property
+    def time(self) -> float:
+        """The time [s]."""
+        return float(json.loads(self._document)["time"])
+
+    def __repr__(self) -> str:
+        return f"<Snapshot at {self.time:g} s>"
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Write a Parquet file with the record, and in its metadata what the run needs to go on.
+
+        The file appears at once when it is whole, with a hash of all of it, as those of
+        :meth:`Signals.write_parquet`.
+
+        Raises
+        ------
+        OSError
+            The folder does not exist or is not writable, or the disk is full.
+        """
+        from ._polars import pl
+
+        told = {"ballrace": f"snapshot {_FORMAT}", _ENTRY: self._document}
+        with whole(path) as temporary:
+            with writing_to(path):
+                table = pl.DataFrame(_joined(self._pieces))
+                heard_once(lambda: table.write_parquet(temporary, metadata=told))
+            with temporary.open("r+b") as file:
+                seal(file)
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Snapshot:
+        """Read a file that :meth:`write` wrote.
+
+        Raises
+        ------
+        FileError
+            The file is not such a file, or damaged.
+        OSError
+            The file cannot be read.
+        """
+        path = as_path(path)
+        table, told = unless_damaged(path, lambda: read_sealed(path))
+        if told.get("ballrace") != f"snapshot {_FORMAT}" or _ENTRY not in told:
+            raise FileError(
+                str(path), "a Parquet file, but no snapshot of this version of ballrace"
+            )
+        piece = {name: samples(path, table, name) for name in table.columns}
+        return cls(told[_ENTRY], (piece,) if piece else ())
+
+
+class Simulation:
+    """A run that goes on in pieces.
+
+    Its record is that of :func:`ballrace.simulate`, bit by bit, whatever the pieces: a step of the integrator is
+    not shortened where one ends; states there are read within the step. Between pieces its state, contacts and
+    forces can be read, and loads, speeds, clearances and defects changed.
+
+    Parameters
+    ----------
+    scene : Scene
+        What to run.
+    duration : float, optional
+        Time at which the run ends by itself [s]; by default it ends when :meth:`finish` says so, before 1e6 s.
+    keep : bool
+        Whether the record stays in memory for :meth:`finish`.
+    fs, start, rtol, accuracy, method, reduce, threads, progress, bandwidth, settle, max_steps
+        As of :func:`ballrace.simulate`. `progress` is of the beginning, until the start has settled.
+    time_limit : float, optional
+        Wall time that the beginning and each call may take [s]. A run that it stops may go on.
+
+    Raises
+    ------
+    SceneError, EquilibriumError, IntegrationError, BudgetError, MemoryLimitError
+        As of :func:`ballrace.simulate`, from before its first step.
+
+    Examples
+    --------
+    Turn up the load until a contact carries 400 N:
+
+    >>> import ballrace as br
+    >>> scene = br.presets.deep_groove_6205(radial_load=500.0)
+    >>> simulation = br.Simulation(scene)
+    >>> force = 500.0
+    >>> while simulation.contacts["load"].max() < 400.0:
+    ...     force += 100.0
+    ...     simulation.change({"loads.radial.force": force})
+    ...     piece = simulation.advance(0.002)
+    >>> out = simulation.finish()
+    >>> out.provenance.duration == simulation.time
+    True
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        *,
+        duration: float | None = None,
+        keep: bool = True,
+        fs: float = 50_000.0,
+        start: Literal["equilibrium", "rolling"] | NDArray[np.float64] | Signals = "equilibrium",
+        rtol: float | None = None,
+        accuracy: float | None = None,
+        method: Method | None = None,
+        reduce: bool | None = None,
+        threads: int = 0,
+        progress: bool | Callable[[float], object] | None = None,
+        bandwidth: Literal["auto"] | None = "auto",
+        settle: float | None = None,
+        time_limit: float | None = None,
+        max_steps: int | None = None,
+    ) -> None:
+        document, asked, state = request(
+            checked_scene(scene), reduce, start,
+            duration=_OPEN if duration is None else duration, fs=fs, rtol=rtol, accuracy=accuracy,
+            method=method, threads=threads, bandwidth=bandwidth, settle=settle,
+            time_limit=time_limit, max_steps=max_steps,
+        )  # fmt: skip
+        self._core = shown(
+            progress, scene.name, lambda told: _core.Simulation(document, asked, state, told)
+        )
+        self._keep = keep
+        self._pieces: list[Piece] = []
+        self._end: float | None = None
+
+    @classmethod
+    def restore(cls, snapshot: Snapshot | str | os.PathLike[str]) -> Simulation:
+        """Go on where a snapshot was taken, in this process or another.
+
+        It must be of the same version of ballrace; the bits are the same on processors with the same vector
+        instructions.
+
+        Parameters
+        ----------
+        snapshot : Snapshot or path
+            The snapshot, or the file that :meth:`Snapshot.write` wrote.
+
+        Raises
+        ------
+        SceneError
+            It is of another version, or no snapshot.
+        FileError
+            The file is no snapshot, or damaged.
+        """
+        if not isinstance(snapshot, Snapshot):
+            snapshot = Snapshot.read(snapshot)
+        made = cls.__new__(cls)
+        made._core = _core.Simulation.restored(snapshot._document)
+        made._keep = True
+        made._pieces = list(snapshot._pieces)
+        made._end = None
+        return made
+
+    def snapshot(self) -> Snapshot:
+        """Return what the run needs to go on from here, and its record until here."""
+        return Snapshot(self._core.snapshot(), tuple(self._pieces))
+
+    def __repr__(self) -> str:
+        state = "finished" if self._end is not None else "stands"
+        return f"<Simulation {state} at {self.time:g} s>"
+
+    @property
+    def time(self) -> float:
+        """The time that it has reached [s]."""
+        return self._core.time if self._end is None else self._end
+
+    @property
+    def scene(self) -> Scene:
+        """The scene as it is now, with a number for the axial place of every defect."""
+        return Scene._read(self._core.scene)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the states: ``outer.x``, ``row0.ball3.vz`` and so on."""
+        return tuple(self._core.names)
+
+    @property
+    def state(self) -> NDArray[np.float64]:
+        """States of all bodies, shape (n_states,), in the order of :attr:`names`."""
+        return self._core.state()
+
+    @property
+    def contacts(self) -> dict[str, NDArray[np.float64]]:
+        """Contacts of all balls with outer and inner race, each of shape (n_balls, 2).
+
+        ``load`` [N], ``angle`` [rad], ``zone_centre`` and ``zone_width`` [m], ``slip`` [m/s], as a
+        :class:`ballrace.scene.ContactsProbe` records them; angle, centre and slip are NaN without load.
+        """
+        return self._core.contacts()
+
+    def wrench(self, ring: Literal["outer", "inner"]) -> NDArray[np.float64]:
+        """Return what the balls put on a ring.
+
+        Returns
+        -------
+        ndarray, shape (6,)
+            Force along x, y, z [N], and moment about the ring's centre of mass [N m].
+
+        Raises
+        ------
+        SceneError
+            It is neither ``"outer"`` nor ``"inner"``.
+        """
+        return self._core.wrench(ring)
+
+    def advance(
+        self, dt: float, *, progress: bool | Callable[[float], object] | None = None
+    ) -> Piece:
+        """Go on by a time `dt` [s]; see :meth:`advance_to`."""
+        step = _number("dt", dt)
+        if step < 0.0:
+            raise SceneError("dt", repr(dt), "0 or more [s]")
+        return self.advance_to(self.time + step, progress=progress)
+
+    def advance_to(
+        self, t: float, *, progress: bool | Callable[[float], object] | None = None
+    ) -> Piece:
+        """Go on to a time `t` [s].
+
+        Ctrl-C stops it at a time before, from which it may go on.
+
+        Returns
+        -------
+        dict of str to ndarray
+            The times ``t`` [s] and the columns of the samples before the time reached that have become final.
+            Where signals are filtered, the last 14 become final later. All pieces together, with the samples of
+            :meth:`finish`, are the record.
+
+        Raises
+        ------
+        SceneError
+            The time is over, or beyond the end of the run.
+        IntegrationError
+            The motion cannot go on.
+        BudgetError
+            It took more than `time_limit` or `max_steps` allows.
+        """
+        target = _number("t", t)
+        piece = shown(progress, "simulating", lambda told: self._core.advance_to(target, told))
+        if self._keep and piece["t"].size:
+            self._pieces.append(piece)
+        return piece
+
+    def change(self, changes: Mapping[str, object]) -> None:
+        """Change fields of the scene by their paths, as :meth:`Scene.replace` does.
+
+        Loads, moments, the drive, gravity, clearances, defects, friction: whatever leaves bodies, the directions
+        that are held, and probes as they are. The scene is compiled anew, and the integrator starts anew as at a
+        corner of a table; the motion goes on from where it is, and tables in time go on with the time of the run.
+        A new driving speed holds at once: to change it smoothly, give a ramp or a table.
+
+        Raises
+        ------
+        SceneError
+            A path leads nowhere, a value is not usable, or the change asks for other bodies or probes. The
+            simulation is then as it was.
+        """
+        if not hasattr(changes, "items"):
+            raise SceneError("changes", repr(changes), "new values by their paths")
+        pairs = [(checked_path(path), encode(value, path)) for path, value in changes.items()]
+        self._core.change(json.dumps(pairs))
+
+    def finish(self, *, progress: bool | Callable[[float], object] | None = None) -> Signals:
+        """End the run here, and return its record.
+
+        With ``keep=False`` that is only what no piece has had.
+
+        Raises
+        ------
+        SceneError
+            It stands at the beginning, or was finished before.
+        """
+        end = self.time
+        raw = shown(progress, "simulating", self._core.finish)
+        self._end = end
+        warn(raw, stacklevel=3)
+        rest = {"t": raw["t"], **{name: values for name, _, values in raw["columns"]}}
+        record = _joined([*self._pieces, rest])
+        self._pieces = []
+        raw["t"] = record["t"]
+        raw["columns"] = [(name, unit, record[name]) for name, unit, _ in raw["columns"]]
+        return Signals._from_core(raw)
+
+
+def _joined(pieces: list[Piece] | tuple[Piece, ...]) -> Piece:
+    names = pieces[0] if pieces else ()
+    return {name: np.concatenate([piece[name] for piece in pieces]) for name in names}
+
+
+def _number(name: str, value: object) -> float:
+    number = real(value)
+    if not math.isfinite(number):
+        raise SceneError(name, repr(value), "a finite number [s]")
+    return number

@@ -1,0 +1,202 @@
+//! Runs that go on in pieces.
+
+// Arguments from Python come by value.
+#![allow(clippy::needless_pass_by_value)]
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::answer::{Progress, answering};
+use super::errors::OrRaise;
+use super::run::{hand_over, state_of};
+use ballrace::inspect::ContactSummary;
+use ballrace::scene::RingName;
+use ballrace::{Error, Result, Run, Scene, Snapshot, Start};
+
+/// A run that goes on; none after its end.
+#[pyclass(frozen, module = "ballrace._core", name = "Simulation")]
+pub(super) struct GoingRun(Arc<Mutex<Option<ballrace::Simulation>>>);
+
+/// A number of a contact.
+type Quantity = fn(&ContactSummary) -> f64;
+
+#[pymethods]
+impl GoingRun {
+    #[new]
+    #[pyo3(signature = (scene, run, state = None, progress = None))]
+    fn new(
+        py: Python<'_>,
+        scene: &str,
+        run: &str,
+        state: Option<PyReadonlyArray1<'_, f64>>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Self> {
+        let scene = Scene::from_json(scene).or_raise(py)?;
+        let mut run = Run::from_json(run).or_raise(py)?;
+        if let Some(y) = state {
+            run.start = Start::State(state_of(&scene, &y).or_raise(py)?);
+        }
+        let made = answering(py, progress.as_ref(), move |told| {
+            ballrace::Simulation::begin_with_progress(&scene, &run, told)
+        })?;
+        Ok(Self(Arc::new(Mutex::new(Some(made)))))
+    }
+
+    /// One that goes on where a snapshot was taken.
+    #[staticmethod]
+    fn restored(py: Python<'_>, snapshot: &str) -> PyResult<Self> {
+        let snapshot = Snapshot::from_json(snapshot).or_raise(py)?;
+        let made = answering(py, None, move |_| ballrace::Simulation::restore(&snapshot))?;
+        Ok(Self(Arc::new(Mutex::new(Some(made)))))
+    }
+
+    /// What it needs to go on, as JSON.
+    fn snapshot(&self, py: Python<'_>) -> PyResult<String> {
+        self.with(py, |simulation| Ok(simulation.snapshot().to_json()))
+    }
+
+    #[getter]
+    fn time(&self, py: Python<'_>) -> PyResult<f64> {
+        self.with(py, |simulation| Ok(simulation.time()))
+    }
+
+    /// The scene as it is now, as JSON.
+    #[getter]
+    fn scene(&self, py: Python<'_>) -> PyResult<String> {
+        self.with(py, |simulation| Ok(simulation.scene().to_json()))
+    }
+
+    /// Names of the states.
+    #[getter]
+    fn names(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        self.with(py, |simulation| Ok(simulation.model().names()))
+    }
+
+    /// The states of all bodies.
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let y = self.with(py, |simulation| Ok(simulation.state().to_vec()))?;
+        Ok(y.into_pyarray(py))
+    }
+
+    /// Quantities of all contacts, each as (balls, 2).
+    fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let found = self.with(py, |simulation| Ok(simulation.contacts()))?;
+        let quantities: [(&str, Quantity); 5] = [
+            ("load", |of| of.load),
+            ("angle", |of| of.angle),
+            ("zone_centre", |of| of.zone_centre),
+            ("zone_width", |of| of.zone_width),
+            ("slip", |of| of.slip),
+        ];
+        let contacts = PyDict::new(py);
+        for (name, quantity) in quantities {
+            let values: Vec<f64> = found.iter().flatten().map(quantity).collect();
+            contacts.set_item(name, values.into_pyarray(py).reshape([found.len(), 2])?)?;
+        }
+        Ok(contacts)
+    }
+
+    /// What the balls put on a ring.
+    fn wrench<'py>(&self, py: Python<'py>, ring: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let ring = match ring {
+            "outer" => RingName::Outer,
+            "inner" => RingName::Inner,
+            _ => {
+                let allowed = "\"outer\" or \"inner\"";
+                return Err(Error::scene("ring", format!("{ring:?}"), allowed)).or_raise(py);
+            }
+        };
+        let wrench = self.with(py, |simulation| Ok(simulation.wrench(ring)))?;
+        Ok(wrench.to_vec().into_pyarray(py))
+    }
+
+    /// Goes on to a time; returns the columns of the samples that are final, the times `t` among them.
+    #[pyo3(signature = (t, progress = None))]
+    fn advance_to<'py>(
+        &self,
+        py: Python<'py>,
+        t: f64,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let block = self.answering(py, progress.as_ref(), move |simulation, told| {
+            simulation.advance_with_progress(t, told)?;
+            Ok(simulation.take_block())
+        })?;
+        let columns = PyDict::new(py);
+        columns.set_item("t", block.t.into_pyarray(py))?;
+        for column in block.columns {
+            columns.set_item(column.name, column.values.into_pyarray(py))?;
+        }
+        Ok(columns)
+    }
+
+    /// Replaces fields by dotted paths; `changes` is a JSON list of pairs of path and value.
+    fn change(&self, py: Python<'_>, changes: &str) -> PyResult<()> {
+        let changes: Vec<(String, serde_json::Value)> = serde_json::from_str(changes)
+            .map_err(|e| Error::scene("changes", changes, e.to_string()))
+            .or_raise(py)?;
+        self.answering(py, None, move |simulation, _| {
+            let each = changes.iter();
+            let each: Vec<_> = each
+                .map(|(path, value)| (path.as_str(), value.clone()))
+                .collect();
+            simulation.change(&each)
+        })
+    }
+
+    /// Ends it; returns what `simulate` does, of the samples that were not taken.
+    #[pyo3(signature = (progress = None))]
+    fn finish<'py>(
+        &self,
+        py: Python<'py>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let going = Arc::clone(&self.0);
+        let signals = answering(py, progress.as_ref(), move |told| {
+            let mut going = going.lock().unwrap_or_else(PoisonError::into_inner);
+            going.take().ok_or_else(over)?.finish_with_progress(told)
+        })?;
+        hand_over(py, signals)
+    }
+}
+
+impl GoingRun {
+    /// Works with the run on a thread of its own.
+    fn answering<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        progress: Option<&Py<PyAny>>,
+        work: impl FnOnce(&mut ballrace::Simulation, Progress<'_>) -> Result<T> + Send + 'static,
+    ) -> PyResult<T> {
+        let going = Arc::clone(&self.0);
+        answering(py, progress, move |told| {
+            let mut going = going.lock().unwrap_or_else(PoisonError::into_inner);
+            work(going.as_mut().ok_or_else(over)?, told)
+        })
+    }
+
+    /// Reads the run; waits for a thread that works with it.
+    fn with<T: Send>(
+        &self,
+        py: Python<'_>,
+        read: impl FnOnce(&mut ballrace::Simulation) -> Result<T> + Send,
+    ) -> PyResult<T> {
+        py.detach(|| {
+            let mut going = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            read(going.as_mut().ok_or_else(over)?)
+        })
+        .or_raise(py)
+    }
+}
+
+/// Nothing goes on after the end.
+fn over() -> Error {
+    Error::scene(
+        "simulation",
+        "finished",
+        "one that goes on: begin another, or restore a snapshot",
+    )
+}

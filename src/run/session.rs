@@ -1,0 +1,221 @@
+//! A run that stands at a time: what it has compiled, where the motion is, what is recorded of it.
+
+use std::collections::BTreeMap;
+
+use super::Run;
+use super::follow::{Interval, Trajectory};
+use super::pool::on;
+use super::prepare::{Prepared, Simulate, check_memory, prepare};
+use super::provenance::{Done, provenance};
+use super::selftest;
+use super::settings::{options, threads};
+use super::snapshot::Remembrance;
+use super::watch::Progress;
+use crate::base::error::{Error, Result};
+use crate::base::words::{Unfit, Words};
+use crate::dynamics::Dynamics;
+use crate::integrate::Options;
+use crate::model::{BodyId, Dof, Model};
+use crate::reduction::Reduction;
+use crate::scene::{Drive, Scene};
+use crate::signals::{Keep, Recorder, Sampling, Signals, Statistics};
+use crate::simd::Distrust;
+use crate::statics::start::start;
+use crate::statics::{Placed, compile};
+
+/// A run between its pieces.
+pub(super) struct Session<'s> {
+    pub run: Run,
+    pub prepared: Prepared,
+    pub model: Model,
+    distrust: Option<Distrust>,
+    reduction: Option<Reduction>,
+    pub sampling: Sampling,
+    threads: usize,
+    options: Options,
+    pub trajectory: Trajectory,
+    pub recorder: Recorder<'s>,
+    /// What came of the run before its scene was changed.
+    earlier: Option<Statistics>,
+}
+
+impl<'s> Session<'s> {
+    /// A scene at t = 0, settled. `simulate` runs pilots.
+    pub fn begin(
+        scene: &Scene,
+        run: &Run,
+        keep: Keep<'s>,
+        simulate: Simulate,
+        progress: Progress<'_>,
+    ) -> Result<Self> {
+        let in_blocks = !keep.is_all();
+        let prepared = prepare(scene, run, in_blocks, simulate, progress)?;
+        let (model, distrust) = selftest::trusted(compile(&prepared.scene)?);
+        let y0 = start(&model, &prepared.settled.from)?;
+        let sampling = Sampling::new(run.bandwidth, run.fs, model.scales.frequency)?;
+        let samples = (run.samples()?, sampling.oversampling);
+        check_memory(&prepared.scene, run, samples, in_blocks)?;
+        let options = options(&model);
+        let trajectory = Trajectory::new(&model, y0, whole(run), options.max_step);
+        let compiled = (model, distrust);
+        Self::of(run, prepared, compiled, sampling, trajectory, keep)
+    }
+
+    /// Where a session of some run stood.
+    pub fn restored(
+        run: &Run,
+        prepared: Prepared,
+        remembered: &Remembrance,
+        keep: Keep<'s>,
+    ) -> Result<Self> {
+        let (model, distrust) = selftest::trusted(compile(&prepared.scene)?);
+        let options = options(&model);
+        let y = vec![0.0; model.dim()];
+        let mut trajectory = Trajectory::new(&model, y, whole(run), options.max_step);
+        let unfit =
+            |Unfit| Error::scene("snapshot", "words of another run", "what a run has given");
+        Words::load(&remembered.trajectory, &mut trajectory).map_err(unfit)?;
+        if trajectory.first().len() != model.dim() {
+            return Err(unfit(Unfit));
+        }
+        let sampling = Sampling::again(run.bandwidth, run.fs, remembered.oversampling);
+        let compiled = (model, distrust);
+        let mut made = Self::of(run, prepared, compiled, sampling, trajectory, keep)?;
+        Words::load(&remembered.recorder, &mut made.recorder).map_err(unfit)?;
+        made.earlier = remembered.earlier;
+        Ok(made)
+    }
+
+    fn of(
+        run: &Run,
+        prepared: Prepared,
+        (model, distrust): (Model, Option<Distrust>),
+        sampling: Sampling,
+        trajectory: Trajectory,
+        keep: Keep<'s>,
+    ) -> Result<Self> {
+        let (from, first) = (trajectory.begins(), trajectory.first());
+        let reduction = Reduction::since(&model, (from, first));
+        let mut recorder = Recorder::new(&model, sampling, run.samples()?, keep);
+        recorder.prepare(&Dynamics::begin(&model, reduction.as_ref(), first), first)?;
+        Ok(Self {
+            run: run.clone(),
+            prepared,
+            threads: threads(&model, run.threads)?,
+            options: options(&model),
+            model,
+            distrust,
+            reduction,
+            sampling,
+            trajectory,
+            recorder,
+            earlier: None,
+        })
+    }
+
+    /// What it needs to go on.
+    pub fn remembered(&mut self) -> Remembrance {
+        Remembrance {
+            trajectory: Words::saved(&mut self.trajectory),
+            recorder: Words::saved(&mut self.recorder),
+            oversampling: self.sampling.oversampling,
+            earlier: self.earlier,
+        }
+    }
+
+    /// Time before t = 0 in which the start settled \[s\].
+    pub fn settled(&self) -> f64 {
+        self.prepared.settled.seconds
+    }
+
+    /// Goes on to the duration of the run, and ends there.
+    pub fn complete(mut self, progress: Progress<'_>) -> Result<Signals> {
+        self.go(self.run.duration, true, progress)?;
+        Ok(self.told())
+    }
+
+    /// Goes on to a time \[s\], at most the duration of the run, and ends there if asked to.
+    pub fn go(&mut self, until: f64, ends: bool, progress: Progress<'_>) -> Result<()> {
+        let first = self.trajectory.first();
+        let dynamics = Dynamics::begin(&self.model, self.reduction.as_ref(), first);
+        let (trajectory, recorder) = (&mut self.trajectory, &mut self.recorder);
+        let options = &self.options;
+        on(
+            self.threads,
+            dynamics,
+            progress,
+            |mut dynamics, progress| {
+                let of = &mut dynamics;
+                trajectory.advance(of, recorder, until, options, progress)?;
+                if ends {
+                    trajectory.finish(of, recorder, options, progress)?;
+                }
+                Ok(())
+            },
+        )
+    }
+
+    /// Goes on with another model of the same bodies and probes from where it stands, and with its scene, defects placed.
+    pub fn change(&mut self, model: Model, (scene, placed): (Scene, BTreeMap<String, Placed>)) {
+        let (model, distrust) = selftest::trusted(model);
+        let (time, mut y) = (self.trajectory.time(), self.trajectory.last().to_vec());
+        if scene.drive != self.prepared.scene.drive
+            && let Drive::Speed(speed) = &scene.drive
+        {
+            y[model.layout().speed_at(BodyId::INNER, Dof::Theta)] = speed.at(time);
+        }
+        self.earlier = Some(self.statistics());
+        self.options = options(&model);
+        self.reduction = Reduction::since(&model, (time, &y));
+        let dynamics = Dynamics::begin(&model, self.reduction.as_ref(), &y);
+        self.recorder.change(&dynamics, &y);
+        self.trajectory = self.trajectory.after(&model, y, self.options.max_step);
+        (self.prepared.scene, self.prepared.placed) = (scene, placed);
+        (self.model, self.distrust) = (model, distrust);
+    }
+
+    /// Effort and mishaps until where it stands.
+    fn statistics(&self) -> Statistics {
+        let now = self.trajectory.statistics(&self.model);
+        self.earlier.map_or(now, |earlier| earlier.and(&now))
+    }
+
+    /// What the run has given.
+    pub fn told(self) -> Signals {
+        let mut stats = self.statistics();
+        stats.acceleration_residual = self.recorder.residual.value();
+        let settled = &self.prepared.settled;
+        (stats.settling_accepted, stats.settling_nfev) = (settled.accepted, settled.nfev);
+        let done = Done {
+            prepared: &self.prepared,
+            model: &self.model,
+            distrust: self.distrust,
+            sampling: self.sampling,
+            threads: self.threads,
+            options: &self.options,
+            reduction: self.reduction,
+            defects: self.recorder.watch.told(&self.model, &self.prepared.placed),
+            kinematics: self.recorder.orbits.told(&self.model),
+        };
+        Signals {
+            fs: self.run.fs,
+            t: self.recorder.held.t,
+            columns: self.recorder.held.columns,
+            slices: self.recorder.slices,
+            end_state: self.trajectory.last().to_vec(),
+            stats,
+            provenance: provenance(&self.run, done),
+            scene: self.prepared.scene,
+        }
+    }
+}
+
+/// All of a run.
+fn whole(run: &Run) -> Interval {
+    Interval {
+        zero: 0.0,
+        from: 0.0,
+        to: run.duration,
+        max_steps: run.max_steps,
+    }
+}

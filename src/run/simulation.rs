@@ -1,0 +1,297 @@
+//! A run that goes on in pieces, is looked at between them, and may be changed.
+
+use std::ops::ControlFlow;
+
+use serde_json::Value;
+
+use super::budget;
+use super::session::Session;
+use super::simulate::simulate_with_progress;
+use super::{Run, Snapshot};
+use crate::base::error::{Error, Result};
+use crate::dynamics::at_films_of;
+use crate::inspect::{self, ContactSummary};
+use crate::model::{Degree, Model, Race};
+use crate::scene::{RingName, Scene};
+use crate::signals::{Block, Keep, Signals};
+use crate::statics::{compile, place};
+
+/// A run that goes on in pieces.
+///
+/// Its motion and its record are those of [`simulate`](crate::simulate()), bit by bit, whatever the pieces: a step of the integrator
+/// is not shortened where one ends; states there are read within the step.
+///
+/// ```
+/// use ballrace::scene::{RingName, presets};
+/// use ballrace::{Run, Simulation};
+///
+/// let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+/// // A run that ends when it is told to.
+/// let run = Run { duration: Run::OPEN, ..Run::default() };
+/// let mut simulation = Simulation::begin(&scene, &run)?;
+/// while simulation.wrench(RingName::Outer)[1].abs() < 1000.0 {
+///     let load = simulation.scene().loads["radial"].force.at(0.0);
+///     simulation.change(&[("loads.radial.force", (load + 100.0).into())])?;
+///     simulation.advance(2e-3)?;
+/// }
+/// let signals = simulation.finish()?;
+/// assert!(signals.get("outer.ay").unwrap().len() >= 500);
+/// # Ok::<(), ballrace::Error>(())
+/// ```
+///
+/// [`change`](Self::change) says what may be changed between pieces, and what that costs.
+pub struct Simulation {
+    session: Session<'static>,
+    /// Why it cannot go on.
+    ended: Option<Error>,
+}
+
+impl std::fmt::Debug for Simulation {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Simulation")
+            .field("time", &self.time())
+            .field("ended", &self.ended)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Simulation {
+    /// A scene at t = 0, settled as the run says. The duration of the run is where it ends by itself; [`Run::OPEN`] leaves that open.
+    ///
+    /// # Errors
+    /// As [`simulate`](crate::simulate()), from before its first step.
+    pub fn begin(scene: &Scene, run: &Run) -> Result<Self> {
+        Self::begin_with_progress(scene, run, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// As [`Self::begin`]; `progress` may stop it.
+    ///
+    /// # Errors
+    /// As [`Self::begin`]; [`Error::Interrupted`] if `progress` broke off.
+    pub fn begin_with_progress(
+        scene: &Scene,
+        run: &Run,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Self> {
+        run.validate()?;
+        let session = budget::within(run.time_limit, progress, |progress| {
+            Session::begin(scene, run, Keep::Taken, simulate_with_progress, progress)
+        })?;
+        Ok(Self {
+            session,
+            ended: None,
+        })
+    }
+
+    /// Goes on where a snapshot was taken.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where it is not what a run has given.
+    pub fn restore(snapshot: &Snapshot) -> Result<Self> {
+        let (run, prepared) = (snapshot.run(), snapshot.prepared());
+        run.validate()?;
+        let session = Session::restored(run, prepared, snapshot.remembered(), Keep::Taken)?;
+        Ok(Self {
+            session,
+            ended: None,
+        })
+    }
+
+    /// What the run needs to go on from here.
+    pub fn snapshot(&mut self) -> Snapshot {
+        let remembered = self.session.remembered();
+        let Session { run, prepared, .. } = &self.session;
+        Snapshot::new(self.time(), run, prepared, remembered)
+    }
+
+    /// The time that it has reached \[s\].
+    pub fn time(&self) -> f64 {
+        self.session.trajectory.time()
+    }
+
+    /// The scene as it is now, every defect at its number.
+    pub fn scene(&self) -> &Scene {
+        &self.session.prepared.scene
+    }
+
+    /// The run.
+    pub fn run(&self) -> &Run {
+        &self.session.run
+    }
+
+    /// The compiled scene, for [`crate::inspect`] and [`crate::dynamics`].
+    pub fn model(&self) -> &Model {
+        &self.session.model
+    }
+
+    /// The states of all bodies, in the order of [`Model::names`].
+    pub fn state(&self) -> &[f64] {
+        self.session.trajectory.last()
+    }
+
+    /// The contacts of every ball with outer and inner race.
+    pub fn contacts(&self) -> Vec<[ContactSummary; 2]> {
+        let (balls, y) = (0..self.model().balls.len(), self.state());
+        at_films_of(self.model(), y, |model| {
+            let of = |ball| Race::BOTH.map(|race| inspect::contact(model, y, ball, race));
+            balls.map(of).collect()
+        })
+    }
+
+    /// What the balls put on a ring: force along x, y and z \[N\], moment about the ring's centre of mass \[N m\].
+    pub fn wrench(&self, ring: RingName) -> [f64; 6] {
+        let y = self.state();
+        at_films_of(self.model(), y, |model| {
+            inspect::wrench(model, y, ring.into())
+        })
+    }
+
+    /// Goes on by a time \[s\].
+    ///
+    /// # Errors
+    /// As [`Self::advance_to`].
+    pub fn advance(&mut self, dt: f64) -> Result<()> {
+        self.advance_to(self.time() + dt)
+    }
+
+    /// Goes on to a time \[s\].
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for a time that is over or beyond the duration of the run; [`Error::Integration`] where the motion
+    /// cannot go on, and [`Error::Budget`] where it may not: then for good.
+    pub fn advance_to(&mut self, time: f64) -> Result<()> {
+        self.advance_with_progress(time, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// Goes on to a time \[s\]. `progress` receives the share done, 0 to 1, about every 20 ms, and may stop it; it then stands at a
+    /// time before, and may go on.
+    ///
+    /// # Errors
+    /// As [`Self::advance_to`]; [`Error::Interrupted`] if `progress` broke off.
+    pub fn advance_with_progress(
+        &mut self,
+        time: f64,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<()> {
+        let (now, end) = (self.time(), self.run().duration);
+        if !(time >= now && time <= end) {
+            let allowed =
+                format!("from {now} s, where the simulation stands, to its end at {end} s");
+            return Err(Error::scene("t", time, allowed));
+        }
+        let begins = self.session.trajectory.begins();
+        self.go(time, false, &mut |share| {
+            let reached = begins + share * (end - begins);
+            progress(((reached - now) / (time - now)).min(1.0))
+        })
+    }
+
+    /// The samples that are final and were not taken yet, before the time reached. Where signals are filtered, the last 14 become
+    /// final later. Samples that nobody takes stay in memory until [`Self::finish`].
+    pub fn take_block(&mut self) -> Block {
+        let time = self.time();
+        self.session.recorder.take(time)
+    }
+
+    /// Changes fields of the scene by their paths, as [`Scene::with`] does: loads, moments, the drive, gravity, clearances, defects,
+    /// friction, whatever leaves bodies, their directions and probes as they are.
+    ///
+    /// The scene is compiled anew and the integrator starts anew, as at a corner of a table; the motion goes on from where it is. Tables
+    /// in time go on with the time of the run. A new driving speed holds at once: to change it smoothly, give a ramp or a table. A clearance that is
+    /// smaller may press balls into races.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] names the field; the simulation is then as it was.
+    pub fn change(&mut self, changes: &[(&str, Value)]) -> Result<()> {
+        self.check()?;
+        let scene = self.scene().with(changes)?;
+        let (scene, placed) = place(&scene)?;
+        let model = compile(&scene)?;
+        check_kept(self.model(), &model)?;
+        self.session.change(model, (scene.into_owned(), placed));
+        Ok(())
+    }
+
+    /// Ends the run here: the samples that were not taken, statistics and provenance.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] before the first sample, else as [`Self::advance_to`].
+    pub fn finish(self) -> Result<Signals> {
+        self.finish_with_progress(&mut |_| ControlFlow::Continue(()))
+    }
+
+    /// As [`Self::finish`]; `progress` may stop it.
+    ///
+    /// # Errors
+    /// As [`Self::finish`]; [`Error::Interrupted`] if `progress` broke off.
+    pub fn finish_with_progress(
+        mut self,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Signals> {
+        let time = self.time();
+        if time == 0.0 {
+            let allowed = "above 0, where there is a record: advance it first";
+            return Err(Error::scene("t", time, allowed));
+        }
+        if time < self.run().duration {
+            self.session.recorder.end_at(time);
+            self.session.run.duration = time;
+        }
+        self.go(time, true, progress)?;
+        Ok(self.session.told())
+    }
+
+    fn go(
+        &mut self,
+        until: f64,
+        ends: bool,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<()> {
+        self.check()?;
+        let (limit, session) = (self.session.run.time_limit, &mut self.session);
+        let gone = budget::within(limit, progress, |progress| {
+            session.go(until, ends, progress)
+        });
+        if let Err(error @ (Error::Integration { .. } | Error::Budget { .. })) = &gone
+            && !matches!(
+                error,
+                Error::Budget {
+                    name: "time_limit",
+                    ..
+                }
+            )
+        {
+            self.ended = Some(error.clone());
+        }
+        gone
+    }
+
+    fn check(&self) -> Result<()> {
+        self.ended.clone().map_or(Ok(()), Err)
+    }
+}
+
+/// Refuses a model that has other bodies, directions, or columns.
+fn check_kept(before: &Model, after: &Model) -> Result<()> {
+    let others = "what leaves them as they are: begin another simulation for others";
+    let refuse = |what: &str| Err(Error::scene("changes", what, others));
+    let held = |model: &Model| -> Vec<bool> {
+        let degrees = model.bodies.iter().flat_map(|body| body.degrees);
+        degrees.map(|degree| degree == Degree::Fixed).collect()
+    };
+    let rows = |model: &Model| -> Vec<usize> { model.rows.iter().map(|row| row.count).collect() };
+    if before.layout() != after.layout() || rows(before) != rows(after) {
+        return refuse("other bodies or directions");
+    }
+    if held(before) != held(after) {
+        return refuse("other directions that are held");
+    }
+    let recorded = |model: &Model| {
+        let scene = model.scene();
+        (scene.recorded().into_owned(), scene.cage.is_some())
+    };
+    if recorded(before) != recorded(after) {
+        return refuse("other probes");
+    }
+    Ok(())
+}

@@ -1,0 +1,287 @@
+//! A run in pieces is the run in one piece, bit by bit, whatever the pieces, through snapshots, and where nothing changes.
+
+use ballrace::scene::{
+    Drive, Lubricant, Method, Mount, Probe, Profile, Spin, TimeFunction, presets,
+};
+use ballrace::{
+    Bandwidth, Column, Error, Run, Scene, Signals, Simulation, Snapshot, Start, simulate,
+};
+
+const DURATION: f64 = 4e-3;
+
+fn run() -> Run {
+    Run {
+        duration: DURATION,
+        ..Run::default()
+    }
+}
+
+/// Scenes whose runs remember different things: matrices of both kinds, films that follow the speed, none at all; reduced and whole.
+fn scenes() -> Vec<(&'static str, Scene)> {
+    let deep = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    let mut wheel = presets::wheel_bearing(3000.0);
+    for (name, probe) in [
+        ("cage", Probe::Cage { row: 0 }),
+        ("energy", Probe::Energy {}),
+        ("torque", Probe::Torque {}),
+    ] {
+        wheel.probes.insert(name.to_owned(), probe);
+    }
+    let mut frictionless = deep.clone();
+    (frictionless.friction, frictionless.contact.damping) = (ballrace::scene::Friction::None, 0.0);
+    let mut ramp = presets::deep_groove_6205(500.0, 300.0, 1800.0);
+    ramp.lubricant = Some(Lubricant::named("vg68", 328.15));
+    ramp.drive = Drive::Speed(TimeFunction::Profile(Profile::Ramp {
+        from: 150.0,
+        to: 220.0,
+        start: 1e-3,
+        end: 3e-3,
+    }));
+    let mut tilting = presets::wheel_bearing(2000.0);
+    let support = &mut tilting.inner_ring.support;
+    (support.tilt_x, support.tilt_y) = (Some(Mount::Free), Some(Mount::Free));
+    tilting.spin = Some(Spin::Free);
+    let mut rolling = presets::wheel_bearing(3000.0);
+    rolling.approximations.rolling = true;
+    let with = |method| {
+        let mut scene = deep.clone();
+        scene.solver.method = method;
+        scene
+    };
+    vec![
+        ("deep groove", deep.clone()),
+        ("Dormand-Prince", with(Method::DormandPrince)),
+        ("Verner", with(Method::Verner)),
+        ("wheel", wheel),
+        ("without friction", frictionless),
+        ("oil, speed rising", ramp),
+        ("tilting, spinning", tilting),
+        ("rolling", rolling),
+    ]
+}
+
+fn bits(columns: &[Column]) -> Vec<(String, Vec<u64>)> {
+    let of = |column: &Column| {
+        let bits = column.values.iter().map(|x| x.to_bits()).collect();
+        (column.name.clone(), bits)
+    };
+    columns.iter().map(of).collect()
+}
+
+fn append(all: &mut Vec<Column>, next: Vec<Column>) {
+    if all.is_empty() {
+        *all = next;
+        return;
+    }
+    for (all, next) in all.iter_mut().zip(next) {
+        assert_eq!(all.name, next.name);
+        all.values.extend(next.values);
+    }
+}
+
+/// Ends of pieces: equal ones, shorter than a step, and of all lengths.
+fn pieces(kind: usize) -> Vec<f64> {
+    let even = |count: usize| {
+        (1..=count)
+            .map(|i| DURATION * i as f64 / count as f64)
+            .collect()
+    };
+    match kind {
+        0 => even(1),
+        1 => even(7),
+        2 => (1..400)
+            .map(|i| 1e-7 * f64::from(i))
+            .chain([2e-3, DURATION])
+            .collect(),
+        _ => (1..=12)
+            .map(|i| DURATION * (f64::from(i) / 12.0).powi(3))
+            .collect(),
+    }
+}
+
+/// A run in pieces, taken up by `between` after each of them.
+fn in_pieces(
+    name: &str,
+    scene: &Scene,
+    run: &Run,
+    kind: usize,
+    between: impl Fn(Simulation) -> Simulation,
+) -> (Vec<Column>, Signals) {
+    let mut simulation = Simulation::begin(scene, run).unwrap();
+    let mut record = Vec::new();
+    for end in pieces(kind) {
+        simulation
+            .advance_to(end)
+            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(simulation.time(), end, "{name}");
+        append(&mut record, simulation.take_block().columns);
+        simulation = between(simulation);
+    }
+    let mut signals = simulation.finish().unwrap();
+    append(&mut record, std::mem::take(&mut signals.columns));
+    (record, signals)
+}
+
+fn is_the_same(name: &str, whole: &Signals, (record, pieces): &(Vec<Column>, Signals)) {
+    for ((name_of, whole), (_, pieces)) in bits(&whole.columns).iter().zip(&bits(record)) {
+        let first = whole.iter().zip(pieces).position(|(a, b)| a != b);
+        assert_eq!(whole.len(), pieces.len(), "{name}, {name_of}");
+        assert_eq!(first, None, "{name}, {name_of}: sample");
+    }
+    let counts = |signals: &Signals| {
+        let stats = signals.stats;
+        (
+            stats.accepted,
+            stats.rejected,
+            stats.nfev,
+            stats.nfev_past_end,
+            stats.acceleration_residual,
+        )
+    };
+    assert_eq!(counts(whole), counts(pieces), "{name}");
+    assert_eq!(
+        whole.provenance.defects, pieces.provenance.defects,
+        "{name}"
+    );
+}
+
+#[test]
+fn pieces_of_all_lengths_give_the_same_bits() {
+    for (name, scene) in scenes() {
+        let whole = simulate(&scene, &run()).unwrap();
+        for kind in 0..4 {
+            let pieces = in_pieces(name, &scene, &run(), kind, |simulation| simulation);
+            is_the_same(&format!("{name}, pieces {kind}"), &whole, &pieces);
+        }
+    }
+}
+
+#[test]
+fn point_samples_are_the_same_bits_too() {
+    let run = Run {
+        bandwidth: Bandwidth::Raw,
+        ..run()
+    };
+    let scene = presets::wheel_bearing(3000.0);
+    let whole = simulate(&scene, &run).unwrap();
+    let pieces = in_pieces("points", &scene, &run, 3, |simulation| simulation);
+    is_the_same("points", &whole, &pieces);
+}
+
+/// Through a document and back after every piece, as if each ran in a process of its own.
+#[test]
+fn snapshots_go_on_with_the_same_bits() {
+    let through = |mut simulation: Simulation| {
+        let written = simulation.snapshot().to_json();
+        let read: Snapshot = Snapshot::from_json(&written).unwrap();
+        let restored = Simulation::restore(&read).unwrap();
+        assert_eq!(restored.time(), simulation.time());
+        assert_eq!(restored.state(), simulation.state());
+        restored
+    };
+    for (name, scene) in scenes() {
+        let whole = simulate(&scene, &run()).unwrap();
+        let pieces = in_pieces(name, &scene, &run(), 1, through);
+        is_the_same(&format!("{name}, restored"), &whole, &pieces);
+    }
+}
+
+/// A change of what has no effect: the integrator starts anew, and all bodies, also those that a run leaves out, are where they would be.
+#[test]
+fn a_change_without_effect_leaves_the_motion_as_it_is() {
+    for (name, mut scene) in scenes() {
+        scene.solver.rtol = 1e-8;
+        let mut whole = Simulation::begin(&scene, &run()).unwrap();
+        let mut changed = Simulation::begin(&scene, &run()).unwrap();
+        changed.advance_to(1.7e-3).unwrap();
+        changed.change(&[("name", "other".into())]).unwrap();
+        for simulation in [&mut whole, &mut changed] {
+            simulation.advance_to(0.9 * DURATION).unwrap();
+        }
+        let half = whole.state().len() / 2;
+        let names = whole.model().names();
+        for (i, (a, b)) in whole.state().iter().zip(changed.state()).enumerate() {
+            // Places to a nanometre, angles to a millionth, speeds to what moves them so within a period of the contacts.
+            let tolerance = if i < half { 1e-9 } else { 1e-3 };
+            let scale = if names[i].ends_with("theta") || names[i].contains(".e") {
+                1e3
+            } else {
+                1.0
+            };
+            assert!(
+                (a - b).abs() < scale * tolerance + 1e-6 * a.abs(),
+                "{name}, {}: {a} {b}",
+                names[i]
+            );
+        }
+    }
+}
+
+/// A load and a speed that are changed are those of a table with a step there.
+#[test]
+fn changes_are_steps_of_a_table() {
+    let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    let step = |from: f64, to: f64| {
+        let times = vec![0.0, 1e-3, 1e-3, 1.0];
+        let values = vec![from, from, to, to];
+        TimeFunction::Profile(Profile::Table { times, values })
+    };
+    let mut course = scene.clone();
+    course.loads.get_mut("radial").unwrap().force = step(500.0, 900.0);
+    let run = Run {
+        duration: 3e-3,
+        rtol: Some(1e-9),
+        start: Start::Rolling,
+        ..Run::default()
+    };
+    let truth = simulate(&course, &run).unwrap();
+    let mut simulation = Simulation::begin(&scene, &run).unwrap();
+    simulation.advance_to(1e-3).unwrap();
+    simulation
+        .change(&[("loads.radial.force", 900.0.into())])
+        .unwrap();
+    simulation.advance_to(3e-3).unwrap();
+    let found = simulation.finish().unwrap();
+    let (truth, found) = (
+        truth.get("outer.vy").unwrap(),
+        found.get("outer.vy").unwrap(),
+    );
+    let size = truth.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    for (a, b) in truth.iter().zip(found) {
+        assert!((a - b).abs() < 1e-3 * size, "{a} {b} of {size}");
+    }
+}
+
+#[test]
+fn what_cannot_be_changed_or_reached_is_refused_by_name() {
+    let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    let mut simulation = Simulation::begin(&scene, &run()).unwrap();
+    simulation.advance_to(1e-3).unwrap();
+    let before = simulation.state().to_vec();
+    let changes: [(&str, serde_json::Value, &str); 5] = [
+        ("rows[0].ball_count", 8.into(), "changes"),
+        ("outer_ring.support.y", "fixed".into(), "changes"),
+        ("spin", "free".into(), "changes"),
+        ("loads.radial.force", "heavy".into(), "loads.radial.force"),
+        ("solver.rtol", 1.0.into(), "solver.rtol"),
+    ];
+    for (path, value, field) in changes {
+        let refused = simulation.change(&[(path, value)]);
+        let Err(Error::Scene { path: named, .. }) = refused else {
+            panic!("{path}: {refused:?}")
+        };
+        assert_eq!(named, field);
+    }
+    for time in [0.5e-3, 2.0 * DURATION, f64::NAN] {
+        let refused = simulation.advance_to(time);
+        assert!(
+            matches!(&refused, Err(Error::Scene { path, .. }) if path == "t"),
+            "{refused:?}"
+        );
+    }
+    assert_eq!(simulation.state(), before);
+    let words = simulation.snapshot().to_json();
+    let wrong = words.replacen("\"trajectory\":[", "\"trajectory\":[7,", 1);
+    let refused = Snapshot::from_json(&wrong).and_then(|of| Simulation::restore(&of));
+    assert!(matches!(refused, Err(Error::Scene { path, .. }) if path == "snapshot"));
+}

@@ -1,0 +1,194 @@
+"""Runs in pieces are runs in one piece; snapshots go on; what is changed between pieces acts from there."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import polars as pl
+import pytest
+
+import ballrace as br
+
+DURATION = 0.004
+
+
+def scene(force: Any = 500.0) -> br.Scene:
+    return br.presets.deep_groove_6205(radial_load=force, speed_rpm=1800.0)
+
+
+def same(one: br.Signals, two: br.Signals) -> None:
+    assert one.names == two.names
+    np.testing.assert_array_equal(one.t, two.t)
+    for name in one.names:
+        np.testing.assert_array_equal(one[name], two[name], err_msg=name)
+    assert one.end_state is not None
+    np.testing.assert_array_equal(one.end_state, two.end_state)
+
+
+@pytest.mark.parametrize("pieces", [[DURATION], [1e-7, 3e-6, 1e-3, 1.00001e-3, DURATION]])
+def test_pieces_give_the_bits_of_one_run(pieces: list[float]) -> None:
+    """Truth: the run in one piece."""
+    whole = br.simulate(scene(), duration=DURATION)
+    simulation = br.Simulation(scene(), duration=DURATION)
+    for end in pieces:
+        simulation.advance_to(end)
+        assert simulation.time == end
+    same(simulation.finish(), whole)
+    assert simulation.time == DURATION
+
+
+def test_what_is_not_kept_is_in_the_pieces() -> None:
+    """Truth: the run in one piece."""
+    whole = br.simulate(scene(), duration=DURATION)
+    simulation = br.Simulation(scene(), duration=DURATION, keep=False)
+    pieces = [simulation.advance(0.25 * DURATION) for _ in range(4)]
+    rest = simulation.finish()
+    assert 0 < rest.n_samples < 20
+    for name in whole.names:
+        joined = np.concatenate([*(piece[name] for piece in pieces), rest[name]])
+        np.testing.assert_array_equal(joined, whole[name])
+
+
+def test_a_run_without_an_end_is_ended_where_it_stands() -> None:
+    """Truth: a run of that duration, but for what the filter takes from beyond the end."""
+    whole = br.simulate(scene(), duration=DURATION)
+    simulation = br.Simulation(scene())
+    simulation.advance_to(DURATION)
+    out = simulation.finish()
+    assert (out.n_samples, out.provenance.duration) == (whole.n_samples, DURATION)
+    np.testing.assert_array_equal(out["outer.ay"][:-28], whole["outer.ay"][:-28])
+    np.testing.assert_allclose(
+        out["outer.vy"], whole["outer.vy"], atol=1e-3 * whole["outer.vy"].std()
+    )
+
+
+def test_a_snapshot_goes_on_from_a_file(tmp_path: Path) -> None:
+    """Truth: the run in one piece."""
+    whole = br.simulate(scene(), duration=DURATION)
+    simulation = br.Simulation(scene(), duration=DURATION)
+    simulation.advance_to(0.3 * DURATION)
+    path = tmp_path / "half.parquet"
+    taken = simulation.snapshot()
+    taken.write(path)
+    assert taken.time == simulation.time
+    # What was taken does not change with what goes on.
+    simulation.change({"loads.radial.force": 2000.0})
+    simulation.advance_to(DURATION)
+    for from_where in (taken, path):
+        again = br.Simulation.restore(from_where)
+        assert again.time == 0.3 * DURATION
+        again.advance_to(DURATION)
+        same(again.finish(), whole)
+
+
+def test_a_damaged_or_foreign_snapshot_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "half.parquet"
+    simulation = br.Simulation(scene())
+    simulation.advance(1e-3)
+    simulation.snapshot().write(path)
+    data = bytearray(path.read_bytes())
+    data[len(data) // 2] ^= 1
+    (tmp_path / "damaged.parquet").write_bytes(data)
+    with pytest.raises(br.FileError, match="damaged"):
+        br.Simulation.restore(tmp_path / "damaged.parquet")
+    out = br.simulate(scene(), duration=1e-3)
+    out.write_parquet(tmp_path / "record.parquet")
+    with pytest.raises(br.FileError, match="no snapshot"):
+        br.Simulation.restore(tmp_path / "record.parquet")
+    told = pl.read_parquet_metadata(path)
+    older = told["ballrace_snapshot"].replace('"version":"', '"version":"0.1.')
+    pl.DataFrame({"t": [0.0]}).write_parquet(path, metadata={**told, "ballrace_snapshot": older})
+    with pytest.raises(br.SceneError, match=r"snapshot\.version"):
+        br.Simulation.restore(path)
+
+
+def test_a_load_that_is_changed_is_a_load_with_a_course() -> None:
+    """Truth: a table with the same steps, within what the tolerance leaves."""
+    step = br.scene.Table(times=(0.0, 2e-3, 2e-3, 1.0), values=(500.0, 500.0, 800.0, 800.0))
+    course = scene().replace({"loads.radial.force": step})
+    whole = br.simulate(course, duration=DURATION, settle=0.0, rtol=1e-9)
+    simulation = br.Simulation(scene(), duration=DURATION, settle=0.0, rtol=1e-9)
+    simulation.advance_to(2e-3)
+    simulation.change({"loads.radial.force": 800.0})
+    simulation.advance_to(DURATION)
+    out = simulation.finish()
+    unchanged = br.simulate(scene(), duration=DURATION, settle=0.0, rtol=1e-9)
+    error = np.abs(out["outer.vy"] - whole["outer.vy"]).max()
+    effect = np.abs(unchanged["outer.vy"] - whole["outer.vy"]).max()
+    assert error < 1e-3 * effect
+    assert out.scene.loads["radial"].force == 800.0
+
+
+def test_changes_act_on_what_is_read() -> None:
+    """Truth: at rest the balls put the load on the outer ring, whose support bears it."""
+    simulation = br.Simulation(scene())
+    simulation.change({"loads.radial.force": 1500.0, "drive.speed": 200.0})
+    assert simulation.state[simulation.names.index("inner.omega")] == 200.0
+    simulation.advance(0.05)
+    wrench = simulation.wrench("inner") + simulation.wrench("outer")
+    loads = simulation.contacts["load"]
+    assert loads.shape == (9, 2)
+    assert 1300.0 < abs(simulation.wrench("outer")[1]) < 1700.0
+    assert np.abs(wrench[:2]).max() < 100.0
+    assert simulation.scene.loads["radial"].force == 1500.0
+
+
+def test_a_run_begins_where_another_has_ended(tmp_path: Path) -> None:
+    """Truth: the end state itself, which stands in files too."""
+    first = br.simulate(scene(), duration=DURATION)
+    path = tmp_path / "first.parquet"
+    first.write_parquet(path)
+    from_array = br.simulate(scene(), duration=1e-3, start=first.end_state)
+    for start in (first, br.Signals.read_parquet(path), br.Signals.scan_parquet(path)):
+        same(br.simulate(scene(), duration=1e-3, start=start), from_array)
+    assert abs(from_array["outer.vy"][0] - first["outer.vy"][-1]) < first["outer.vy"].std()
+
+
+def test_bad_input_is_refused_by_name() -> None:
+    simulation = br.Simulation(scene(), duration=DURATION)
+    with pytest.raises(br.SceneError, match=r"^t = 0"):
+        simulation.finish()
+    simulation.advance(1e-3)
+    for call, match in [
+        (lambda: simulation.advance_to(0.5e-3), r"^t = "),
+        (lambda: simulation.advance_to(2 * DURATION), r"^t = "),
+        (lambda: simulation.advance(-1e-3), r"^dt = "),
+        (lambda: simulation.advance(float("nan")), r"^dt = "),
+        (lambda: simulation.wrench("cage"), r"^ring = "),  # type: ignore[arg-type]
+        (lambda: simulation.change({"rows[0].ball_count": 8}), "^changes = "),
+        (lambda: simulation.change({"loads.radial.newton": 8.0}), "newton"),
+        (lambda: simulation.change({"probes.more": br.scene.TorqueProbe()}), "^changes = "),
+        (lambda: simulation.change(3), "^changes = "),  # type: ignore[arg-type]
+    ]:
+        with pytest.raises(br.SceneError, match=match):
+            call()
+    # It is as it was.
+    simulation.advance_to(DURATION)
+    same(simulation.finish(), br.simulate(scene(), duration=DURATION))
+    with pytest.raises(br.SceneError, match=r"^simulation = finished"):
+        simulation.advance(1e-3)
+
+
+def test_what_is_stopped_goes_on_and_what_has_ended_does_not() -> None:
+    """Truth: the run in one piece."""
+
+    class StopError(Exception):
+        pass
+
+    def stop(_: float) -> None:
+        raise StopError
+
+    simulation = br.Simulation(scene(), duration=0.1)
+    with pytest.raises(StopError):
+        simulation.advance_to(0.1, progress=stop)
+    reached = simulation.time
+    assert 0.0 < reached < 0.1
+    simulation.advance_to(0.1)
+    same(simulation.finish(), br.simulate(scene(), duration=0.1))
+
+    spent = br.Simulation(scene(), duration=0.1, max_steps=100)
+    for _ in range(2):
+        with pytest.raises(br.BudgetError, match="max_steps"):
+            spent.advance_to(0.1)
