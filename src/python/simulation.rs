@@ -157,6 +157,7 @@ impl GoingRun {
         let going = Arc::clone(&self.0);
         let signals = answering(py, progress.as_ref(), move |told| {
             let mut going = going.lock().unwrap_or_else(PoisonError::into_inner);
+            going.as_ref().ok_or_else(over)?.check_end()?;
             going.take().ok_or_else(over)?.finish_with_progress(told)
         })?;
         hand_over(py, signals)

@@ -228,17 +228,27 @@ impl Simulation {
         mut self,
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Signals> {
+        self.check_end()?;
         let time = self.time();
-        if time == 0.0 {
-            let allowed = "above 0, where there is a record: advance it first";
-            return Err(Error::scene("t", time, allowed));
-        }
         if time < self.run().duration {
             self.session.recorder.end_at(time);
             self.session.run.duration = time;
         }
         self.go(time, true, progress)?;
         Ok(self.session.told())
+    }
+
+    /// Whether it can be ended here, which takes it.
+    ///
+    /// # Errors
+    /// As [`Self::finish`], from before its last steps.
+    pub fn check_end(&self) -> Result<()> {
+        self.check()?;
+        if self.time() > 0.0 {
+            return Ok(());
+        }
+        let allowed = "above 0, where there is a record: advance it first";
+        Err(Error::scene("t", self.time(), allowed))
     }
 
     fn go(
