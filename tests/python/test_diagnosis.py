@@ -195,6 +195,12 @@ def test_faint_lines_are_no_damage() -> None:
     assert 40.0 < in_g.acceleration < 50.0
 
 
+def test_faint_blows_of_a_ball_are_damage() -> None:
+    """Neither the load zone nor waves of a race have a ball's rate, so that its blows need no size."""
+    x = noise(blows(RATES["ball"], SIDEBANDS["ball"]), 0.05)
+    assert judged(0.1 * x / x.std(), unit="m/s^2").parts == ("ball",)
+
+
 def test_lines_between_both_limits_leave_it_open() -> None:
     """Blows at 590 1/min: healthy ones have up to 0.3 m/s² there, 1.8 times the limit for faint lines."""
     x = noise(blows(ORDERS.bpfo), 0.05)
