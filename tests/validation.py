@@ -243,12 +243,13 @@ record, whose inner race has significant but shallow lines.
 
 SET = """The *set* is 432 records of eight bearings that are not in the library, healthy (smooth, waved, textured
 races) and damaged (spalls of 0.02 to 0.45 ball diameters; damaged balls spin freely), of 40 turns, through
-housings by chance (`python benches/verdict_set.py`; `python tests/validation.py --set`). Balls were improved
-on other sets and the limits of the likelihood ratio were set when this one had been judged once (1.9 %
-accused; 33, 33 and 29 % of the balls named), so its figures are no forecast. More than lines is asked for, so
-fewer are accused at 5 and 10 % than may be. z alone, which loaded healthy bearings have too, tells nothing of
-a run; the likelihood ratio knows the record's unit. No damaged one is called healthy: what is not named is
-left open, by far most of it inner races whose order 40 turns do not tell from the shaft's, and balls.
+housings by chance (`python benches/verdict_set.py`; `python tests/validation.py --set`). The null of balls was
+chosen on another set; the limits of the likelihood ratio, and that faint blows of a ball count, when this one
+had been judged (1.9 % accused; 33, 33 and 29 % of the balls named), so its figures are no forecast. More than
+lines is asked for, so fewer are accused at 5 and 10 % than may be. z alone, which loaded healthy bearings have
+too, tells nothing of a run; the likelihood ratio knows the record's unit. No damaged one is called healthy:
+what is not named is left open, by far most of it inner races whose order 40 turns do not tell from the shaft's,
+and balls.
 
 ![detection over the width of the spall, and receiver operating characteristic](verdicts.svg)
 """
