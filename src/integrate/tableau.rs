@@ -29,7 +29,7 @@ pub struct Tableau {
     /// "First same as last": the last stage is the derivative at the new state.
     /// Without it one more evaluation per step supplies that derivative.
     pub fsal: bool,
-    /// Dense output, one row a derivative (`stages`; without FSAL one more, or none for the last): `y(t0 + θh) = y0 + h Σ bᵢ(θ) kᵢ` with
+    /// Dense output, one row a derivative (`stages`, one more without FSAL): `y(t0 + θh) = y0 + h Σ bᵢ(θ) kᵢ` with
     /// `bᵢ(θ) = d₀θ + d₁θ² + d₂θ³ + d₃θ⁴`.
     pub dense: &'static [[f64; 4]],
     /// Where the region of absolute stability ends on the negative real axis,
@@ -48,7 +48,7 @@ impl Tableau {
         (1..=MAX_STAGES).contains(&derivatives)
             && lengths == [stages; 3]
             && self.a.len() == stages
-            && (stages..=derivatives).contains(&self.dense.len())
+            && self.dense.len() == derivatives
             && self.a.iter().enumerate().all(|(i, row)| row.len() == i)
             && self
                 .a
