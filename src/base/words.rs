@@ -115,7 +115,9 @@ impl Remembered for bool {
 
 impl<T: Remembered, const N: usize> Remembered for [T; N] {
     fn pass(&mut self, words: &mut Words) {
-        self.iter_mut().for_each(|each| each.pass(words));
+        for each in self.iter_mut() {
+            each.pass(words);
+        }
     }
 }
 
@@ -142,7 +144,9 @@ impl<T: Remembered + Default + Clone> Remembered for Vec<T> {
     fn pass(&mut self, words: &mut Words) {
         let length = words.length(self.len());
         self.resize(length, T::default());
-        self.iter_mut().for_each(|each| each.pass(words));
+        for each in self.iter_mut() {
+            each.pass(words);
+        }
     }
 }
 
@@ -150,7 +154,9 @@ impl<T: Remembered + Default + Clone> Remembered for VecDeque<T> {
     fn pass(&mut self, words: &mut Words) {
         let length = words.length(self.len());
         self.resize(length, T::default());
-        self.iter_mut().for_each(|each| each.pass(words));
+        for each in self.iter_mut() {
+            each.pass(words);
+        }
     }
 }
 

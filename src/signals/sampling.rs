@@ -63,6 +63,8 @@ impl Sampling {
 
     /// Of a run that goes on, with so many points a sample.
     pub fn again(bandwidth: Bandwidth, fs: f64, oversampling: usize) -> Self {
+        // A small whole number.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let oversampling = oversampling.clamp(1, MOST as usize);
         let share = if oversampling > 1 { FLAT } else { 0.5 };
         Self {
