@@ -188,7 +188,7 @@ def test_what_is_stopped_goes_on_and_what_has_ended_does_not() -> None:
     simulation.advance_to(0.1)
     same(simulation.finish(), br.simulate(scene(), duration=0.1))
 
-    spent = br.Simulation(scene(), duration=0.1, max_steps=100)
+    spent = br.Simulation(scene(), duration=0.1, max_steps=100, settle=0.0)
     for _ in range(2):
         with pytest.raises(br.BudgetError, match="max_steps"):
             spent.advance_to(0.1)
