@@ -4,6 +4,7 @@
 //! files are short (`length`). A type name is declared once (`names`).
 
 mod circles;
+mod interface;
 mod length;
 mod names;
 mod public;

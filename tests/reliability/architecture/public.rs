@@ -8,7 +8,7 @@ use super::sources::{Source, all, code, test_files, word};
 const INSIDE: [&str; 2] = ["nalgebra", "pulp"];
 
 /// Top-level items of formatted code, each with its attributes in front.
-fn items(code: &str) -> Vec<String> {
+pub(super) fn items(code: &str) -> Vec<String> {
     let (mut found, mut item) = (Vec::new(), String::new());
     for line in code.lines() {
         item += line;
@@ -27,14 +27,14 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
 }
 
 /// Name of an item that a keyword declares, if it is public without reserve.
-fn public_name<'a>(item: &'a str, keyword: &str) -> Option<&'a str> {
+pub(super) fn public_name<'a>(item: &'a str, keyword: &str) -> Option<&'a str> {
     let start = format!("pub {keyword} ");
     item.lines()
         .find_map(|line| line.strip_prefix(&start).map(word))
 }
 
 /// What follows a keyword that an item begins with, after its attributes and whatever its visibility.
-fn after<'a>(item: &'a str, keyword: &str) -> Option<&'a str> {
+pub(super) fn after<'a>(item: &'a str, keyword: &str) -> Option<&'a str> {
     let start = item
         .lines()
         .find(|line| !line.is_empty() && !line.starts_with("#["))?;
@@ -73,7 +73,7 @@ fn foreign(files: &[(&str, Vec<String>)]) -> BTreeSet<String> {
 }
 
 /// What others see of an item: public fields, variants, signatures; no bodies.
-fn signatures(item: &str, types: &BTreeSet<String>) -> Vec<String> {
+pub(super) fn signatures(item: &str, types: &BTreeSet<String>) -> Vec<String> {
     let head = |text: &str| text.split(['{', ';']).next().unwrap_or("").to_owned();
     for keyword in ["struct", "enum", "trait", "type", "const", "fn", "const fn"] {
         if public_name(item, keyword).is_none() {
