@@ -85,6 +85,24 @@ impl Simulation {
 
     /// Goes on where a snapshot was taken.
     ///
+    /// ```
+    /// use ballrace::scene::{RingName, presets};
+    /// use ballrace::{Run, Simulation};
+    ///
+    /// let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    /// let mut simulation = Simulation::begin(&scene, &Run { duration: Run::OPEN, ..Run::default() })?;
+    /// simulation.advance(2e-3)?;
+    /// let before = simulation.snapshot();
+    /// simulation.change(&[("loads.radial.force", 2000.0.into())])?;
+    /// simulation.advance(2e-3)?;
+    /// let pushed = simulation.wrench(RingName::Outer); // N and N m, by the balls
+    /// let again = Simulation::restore(&before)?;
+    /// assert!(again.time() == 2e-3 && pushed[1].abs() > again.wrench(RingName::Outer)[1].abs());
+    /// let signals = simulation.finish()?;
+    /// assert_eq!(signals.get("outer.ay").unwrap().len(), 200);
+    /// # Ok::<(), ballrace::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::Scene`] where it is not what a run has given.
     pub fn restore(snapshot: &Snapshot) -> Result<Self> {

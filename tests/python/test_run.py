@@ -121,7 +121,7 @@ def test_a_start_that_is_no_state_is_refused(start: Any, shown: str) -> None:
     with pytest.raises(br.SceneError) as caught:
         br.simulate(SCENE, duration=1e-3, start=start)
     assert str(caught.value) == (
-        f"start = {shown}: 'equilibrium', 'rolling' or an array of shape (n_states,)"
+        f"start = {shown}: 'equilibrium', 'rolling', an array of shape (n_states,) or the Signals of a run"
     )
 
 

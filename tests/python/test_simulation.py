@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import polars as pl
 import pytest
 
 import ballrace as br
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 DURATION = 0.004
 
@@ -140,6 +143,7 @@ def test_a_run_begins_where_another_has_ended(tmp_path: Path) -> None:
     first = br.simulate(scene(), duration=DURATION)
     path = tmp_path / "first.parquet"
     first.write_parquet(path)
+    assert first.end_state is not None
     from_array = br.simulate(scene(), duration=1e-3, start=first.end_state)
     for start in (first, br.Signals.read_parquet(path), br.Signals.scan_parquet(path)):
         same(br.simulate(scene(), duration=1e-3, start=start), from_array)
@@ -151,7 +155,7 @@ def test_bad_input_is_refused_by_name() -> None:
     with pytest.raises(br.SceneError, match=r"^t = 0"):
         simulation.finish()
     simulation.advance(1e-3)
-    for call, match in [
+    calls: list[tuple[Callable[[], object], str]] = [
         (lambda: simulation.advance_to(0.5e-3), r"^t = "),
         (lambda: simulation.advance_to(2 * DURATION), r"^t = "),
         (lambda: simulation.advance(-1e-3), r"^dt = "),
@@ -161,7 +165,8 @@ def test_bad_input_is_refused_by_name() -> None:
         (lambda: simulation.change({"loads.radial.newton": 8.0}), "newton"),
         (lambda: simulation.change({"probes.more": br.scene.TorqueProbe()}), "^changes = "),
         (lambda: simulation.change(3), "^changes = "),  # type: ignore[arg-type]
-    ]:
+    ]
+    for call, match in calls:
         with pytest.raises(br.SceneError, match=match):
             call()
     # It is as it was.
