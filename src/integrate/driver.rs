@@ -46,7 +46,7 @@ pub struct Solution {
 /// * [`FailureKind::Invalid`] — the lengths of `y0` or `tolerance` are not
 ///   [`System::dim`], the span is not finite or runs backwards, `options`
 ///   hold a step or a breakpoint that is no such thing, or the method cannot do it:
-///   a [`Tableau`](super::Tableau) without an error estimate takes fixed steps only, one whose
+///   a [`Tableau`] without an error estimate takes fixed steps only, one whose
 ///   coefficients are incomplete none, and [`Adams`](super::Adams) has states \[q, v\], an even number;
 /// * [`FailureKind::NonFinite`] — the derivative at the start or after a
 ///   breakpoint is not finite, or [`Options::max_rejections`] ever smaller steps
