@@ -166,13 +166,13 @@ mod tests {
     use super::*;
 
     #[derive(Debug, Clone, Default, PartialEq)]
-    struct Kept {
+    struct Mixture {
         numbers: Vec<f64>,
         maybe: Option<(usize, bool)>,
         signed: i64,
     }
 
-    impl Remembered for Kept {
+    impl Remembered for Mixture {
         fn pass(&mut self, words: &mut Words) {
             self.numbers.pass(words);
             self.maybe.pass(words);
@@ -180,8 +180,8 @@ mod tests {
         }
     }
 
-    fn kept() -> Kept {
-        Kept {
+    fn kept() -> Mixture {
+        Mixture {
             numbers: vec![-0.0, 0.1 + 0.2, f64::NEG_INFINITY, f64::MIN_POSITIVE / 2.0],
             maybe: Some((7, true)),
             signed: -14,
@@ -191,9 +191,9 @@ mod tests {
     #[test]
     fn what_is_loaded_is_what_was_saved() {
         let words = Words::saved(&mut kept());
-        let mut other = Kept {
+        let mut other = Mixture {
             numbers: vec![1.0; 9],
-            ..Kept::default()
+            ..Mixture::default()
         };
         Words::load(&words, &mut other).unwrap();
         assert_eq!(other, kept());
@@ -208,7 +208,7 @@ mod tests {
         let mut longer = words.clone();
         longer[0] = u64::MAX;
         for wrong in [&words[1..], &words[..3], &more, &longer] {
-            assert_eq!(Words::load(wrong, &mut Kept::default()), Err(Unfit));
+            assert_eq!(Words::load(wrong, &mut Mixture::default()), Err(Unfit));
         }
     }
 }
