@@ -6,12 +6,16 @@ import importlib
 from typing import Any
 
 
+class MissingLibraryError(ImportError):
+    """A library that a part needs is not installed."""
+
+
 def needed(module: str, what: str, extra: str | None = "io") -> Any:
     """Import a library; where it is missing, say how to install it: by an extra, or by itself.
 
     Raises
     ------
-    ImportError
+    MissingLibraryError
         It is not installed.
     """
     try:
@@ -19,4 +23,4 @@ def needed(module: str, what: str, extra: str | None = "io") -> Any:
     except ImportError as error:
         install = f'"ballrace[{extra}]"' if extra else module
         text = f"{what} needs {module} ({error}): pip install {install}"
-        raise ImportError(text, name=module) from error
+        raise MissingLibraryError(text, name=module) from error

@@ -441,3 +441,14 @@ def test_diagnose(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert "designation = '62x'" in refused(capsys, *known[:3], "62x", "--rpm", "1800")
     assert ".html" in refused(capsys, *known, "--rpm", "1800", "-o", "page.txt")
     assert "missing.csv" in refused(capsys, "diagnose", "missing.csv", "--bearing", "6205")
+
+
+def test_a_missing_library_is_one_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "marimo", None)
+    assert main(["explore", "--no-browser"]) == 1
+    told = capsys.readouterr().err
+    assert told.startswith("ballrace: ballrace explore needs marimo"), told
+    assert told.count("\n") == 1
+    assert told.endswith('pip install "ballrace[app]"\n')

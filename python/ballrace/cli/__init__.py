@@ -8,6 +8,7 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
+from .._libraries import MissingLibraryError
 from .._text import printable
 from ..campaigns.cli import add_command as add_campaign
 from ..errors import BallraceError, SceneError
@@ -37,7 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     except SceneError as error:
         return _fail(str(error), 2)
-    except BallraceError as error:
+    except (BallraceError, MissingLibraryError) as error:
         return _fail(str(error), 1)
     except OSError as error:
         place = f"{error.filename}: " if error.filename else ""
