@@ -55,7 +55,7 @@ pub use profile::{Torus, Waves};
 pub use quadrature::{Rules, ZoneSlices};
 pub(crate) use scalar::Sighted;
 pub use scalar::{BallSide, Pair, Shape};
-pub(crate) use spatial::Wrench;
+pub(crate) use spatial::{Wrench, WrenchSum};
 pub(crate) use stiffness::Tangent;
 
 /// A vector in the x-y plane.
@@ -111,29 +111,10 @@ pub struct Touch {
     pub friction_power: f64,
     /// Contact point from the ball's centre \[m\].
     pub(crate) arm_ball: V2,
-    /// Contact point from the ring's centre \[m\].
-    pub(crate) arm_ring: V2,
     /// What rotations of the ball turn it by along its slice: ẑ but at the edges of a cap (see `defect`).
     pub(crate) swing: Vector3<f64>,
     /// Whether damping wanted to pull.
     pub pull: bool,
-}
-
-impl Touch {
-    /// Force and moment about z on the ball and on the ring, (x, y, z, θ) each, for a share of the
-    /// normal force given by its magnitude and with friction scaled by `friction` (0 or 1).
-    pub fn wrenches(&self, normal: f64, friction: f64) -> ([f64; 4], [f64; 4]) {
-        // (6), (7): the ball gets −F_r n_e − F_a ẑ and the ring the opposite; all at one point.
-        let aside = Aside {
-            plane: self.n_e * (-normal * self.share.0) + self.friction * friction,
-            axial: -normal * self.share.1 + self.friction_z * friction,
-            arm_ball: self.arm_ball,
-            arm_ring: self.arm_ring,
-            swing: self.swing,
-            across: V2::zeros(),
-        };
-        aside.wrenches()
-    }
 }
 
 /// A force between ball and ring at one point.
@@ -148,23 +129,10 @@ pub struct Aside {
     pub(crate) axial: f64,
     /// The point from the ball's centre \[m\].
     pub(crate) arm_ball: V2,
-    /// The point from the ring's centre \[m\].
-    pub(crate) arm_ring: V2,
     /// As of a [`Touch`].
     pub(crate) swing: Vector3<f64>,
     /// Moment on the ball across the ring's axis beside that \[N m\].
     pub(crate) across: V2,
-}
-
-impl Aside {
-    /// Force and moment about z on the ball and the opposite on the ring, (x, y, z, θ) each.
-    pub fn wrenches(&self) -> ([f64; 4], [f64; 4]) {
-        let (plane, axial) = (self.plane, self.axial);
-        (
-            [plane.x, plane.y, axial, cross(self.arm_ball, plane)],
-            [-plane.x, -plane.y, -axial, -cross(self.arm_ring, plane)],
-        )
-    }
 }
 
 /// Receives the single forces of a contact.

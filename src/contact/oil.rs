@@ -79,13 +79,4 @@ impl OilTouch {
             lever,
         }
     }
-
-    /// Rolling resistance: force and moment about z on the ball and on the ring, (x, y, z, θ) each.
-    pub fn wrenches(&self) -> ([f64; 4], [f64; 4]) {
-        let (f, about) = (self.force, super::cross(self.apart, self.force));
-        (
-            [f.x, f.y, 0.0, self.moment],
-            [-f.x, -f.y, 0.0, -self.moment - about],
-        )
-    }
 }

@@ -7,8 +7,8 @@
 
 use nalgebra::Vector3;
 
-use super::{Aside, LeaningRing, OilTouch, Tangent, Touch, V2, cross};
-use crate::tilt::Frame;
+use super::defect::WITH_RING_AXIS;
+use super::{Aside, LeaningRing, OilTouch, Sink, Touch, V2, cross};
 
 /// Force on a ball \[N\] and moment about its centre \[N m\], in the frame of its ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,55 +28,102 @@ impl Default for Wrench {
 
 impl Wrench {
     /// Adds another one.
-    pub fn add(&mut self, other: &Self) {
+    pub(crate) fn add(&mut self, other: &Self) {
         self.force += other.force;
         self.moment += other.moment;
     }
 
     /// The same in another frame, to which vectors are led.
-    pub fn turned(&self, out: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Self {
+    pub(crate) fn turned(&self, out: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Self {
         Self {
             force: out(&self.force),
             moment: out(&self.moment),
         }
     }
 
-    /// The same in the scene's frame, on a ball before a ring that may tilt: force, and moment about the ball's centre. Balls that do not
-    /// spin freely turn about the ring's axis; what acts on their caps across it, in the ring's frame, turns with them about z of the
-    /// scene.
-    pub fn on_ball(&self, ring: &LeaningRing, on_caps: &V2) -> [Vector3<f64>; 2] {
-        let frame = &ring.rotation.frame;
-        let moment = if ring.balls_turn() {
-            frame.to_scene(&self.moment)
-        } else {
-            let [x, y] = frame.tilt;
-            self.moment + Vector3::z() * (x * on_caps.y - y * on_caps.x)
-        };
-        [frame.to_scene(&self.force), moment]
+    /// Force, and of the moment the part about z: (x, y, z, θ).
+    pub fn about_axis(&self) -> [f64; 4] {
+        let [x, y, z] = self.force.into();
+        [x, y, z, self.moment.z]
     }
 
-    /// The moment about the ring's own point that the ball stands at a place from: what the opposite of this does there.
-    pub fn moment_on_ring(&self, place: &Vector3<f64>) -> Vector3<f64> {
-        -place.cross(&self.force) - self.moment
-    }
-}
-
-impl Tangent {
-    /// The same in the scene's frame, of a ring that tilts.
-    pub(crate) fn turned(&self, frame: &Frame) -> Self {
+    /// What it does to the ring: the opposite, (6) and (7), about the ring's own point, from which the ball stands at a place.
+    pub(crate) fn on_ring(&self, place: &Vector3<f64>) -> Self {
         Self {
-            force: frame.to_scene(&self.force),
-            stiffness: self.stiffness.as_ref().map(|of| frame.matrix_to_scene(of)),
+            force: -self.force,
+            moment: -place.cross(&self.force) - self.moment,
         }
     }
 }
 
+/// What a contact does to its ball: the sum of its single forces, in the frame of a ring that may tilt.
+#[derive(Debug, Default)]
+pub(crate) struct WrenchSum {
+    pub wrench: Wrench,
+    /// Of the moment what turns caps of the ball across the ring's axis.
+    on_caps: V2,
+    pub pulls: u32,
+    pub truncated: bool,
+}
+
+impl WrenchSum {
+    /// On the ball, in the scene's frame, and on the ring about its own point, from which the ball stands at a place: in its own frame where
+    /// it may tilt. Balls that do not spin freely turn about the ring's axis; what acts on their caps across it, in
+    /// the ring's frame, turns with them about z of the scene.
+    pub fn on_bodies(&self, place: &Vector3<f64>, ring: Option<&LeaningRing>) -> [Wrench; 2] {
+        let (on_ball, on_ring) = (&self.wrench, self.wrench.on_ring(place));
+        let Some(ring) = ring else {
+            return [*on_ball, on_ring];
+        };
+        let (frame, Wrench { force, moment }) = (&ring.rotation.frame, on_ball);
+        let moment = if ring.balls_turn() {
+            frame.to_scene(moment)
+        } else {
+            let ([x, y], on_caps) = (frame.tilt, &self.on_caps);
+            moment + Vector3::z() * (x * on_caps.y - y * on_caps.x)
+        };
+        let force = frame.to_scene(force);
+        [Wrench { force, moment }, on_ring]
+    }
+
+    /// Adds a force for a share of its normal part given by its magnitude, and with friction scaled by `friction` (0 or 1).
+    pub fn add(&mut self, touch: &Touch, normal: f64, friction: f64) {
+        self.wrench.add(&touch.on_ball(normal, friction));
+        self.on_caps += touch.on_cap(normal);
+    }
+}
+
+impl Sink for WrenchSum {
+    fn touch(&mut self, touch: &Touch) {
+        self.add(touch, touch.normal, 1.0);
+        self.pulls += u32::from(touch.pull);
+    }
+
+    fn aside(&mut self, force: &Aside) {
+        self.wrench.add(&force.on_ball());
+        self.on_caps += force.on_cap();
+    }
+
+    fn oil(&mut self, touch: &OilTouch) {
+        self.wrench.add(&touch.on_ball());
+    }
+
+    fn truncated(&mut self) {
+        self.truncated = true;
+    }
+}
+
 impl Touch {
+    /// Friction on the ball along x, y and z \[N\].
+    pub fn friction_on_ball(&self) -> [f64; 3] {
+        [self.friction.x, self.friction.y, self.friction_z]
+    }
+
     /// What it does to the ball, for a share of the normal force given by its magnitude and with friction scaled by
     /// `friction` (0 or 1).
     pub(crate) fn on_ball(&self, normal: f64, friction: f64) -> Wrench {
         let pressing = self.n_e * (-normal * self.share.0);
-        let rubbing = Vector3::new(self.friction.x, self.friction.y, self.friction_z) * friction;
+        let rubbing = Vector3::from(self.friction_on_ball()) * friction;
         let arm = Vector3::new(self.arm_ball.x, self.arm_ball.y, self.zeta);
         let mut moment = arm.cross(&rubbing);
         // Nothing where the surface of the ball is whole.
@@ -88,14 +135,25 @@ impl Touch {
     }
 
     /// The part of the moment across the ring's axis with which a share of the normal force turns a cap.
-    pub(crate) fn on_cap(&self, normal: f64) -> V2 {
+    fn on_cap(&self, normal: f64) -> V2 {
         self.swing.xy() * cross(self.arm_ball, self.n_e * (-normal * self.share.0))
     }
 }
 
 impl Aside {
+    /// A force in the plane and along z at a point, given from the ball's centre.
+    pub(crate) fn at(arm_ball: V2, plane: V2, axial: f64) -> Self {
+        Self {
+            plane,
+            axial,
+            arm_ball,
+            swing: WITH_RING_AXIS,
+            across: V2::zeros(),
+        }
+    }
+
     /// The part of the moment across the ring's axis with which it turns a cap.
-    pub(crate) fn on_cap(&self) -> V2 {
+    fn on_cap(&self) -> V2 {
         self.swing.xy() * cross(self.arm_ball, self.plane) + self.across
     }
 

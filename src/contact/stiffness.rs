@@ -15,6 +15,7 @@ use super::dual::Dual;
 use super::kernel::{self, Element, Receiver, Whole};
 use super::profile::{SHALLOW, Section, Zone};
 use super::{Aside, BallSide, Motion, Pair, Rules, Sink, Touch, Toward, V2, ZoneSlices};
+use crate::tilt::Frame;
 
 /// Elastic force on the ball along x, y, z \[N\], and the stiffness −∂force/∂place of the ball against the ring
 /// \[N/m\]; a stiffness that only differences can give is left out.
@@ -22,6 +23,16 @@ use super::{Aside, BallSide, Motion, Pair, Rules, Sink, Touch, Toward, V2, ZoneS
 pub(crate) struct Tangent {
     pub force: Vector3<f64>,
     pub stiffness: Option<Matrix3<f64>>,
+}
+
+impl Tangent {
+    /// The same in the scene's frame, of a ring that tilts.
+    pub(crate) fn turned(&self, frame: &Frame) -> Self {
+        Self {
+            force: frame.to_scene(&self.force),
+            stiffness: self.stiffness.as_ref().map(|of| frame.matrix_to_scene(of)),
+        }
+    }
 }
 
 impl Pair {

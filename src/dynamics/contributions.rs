@@ -4,9 +4,8 @@ use nalgebra::Vector3;
 
 use super::films::Films;
 use super::sums::SumsByOrigin;
-use crate::contact::LeaningRing;
 use crate::forces::{self, Force, ForceSums, Instant, State, Table};
-use crate::model::{BodyId, DOFS, Dof, Model, Race};
+use crate::model::{BodyId, Dof, Model, Race};
 
 /// Names of the contributions of [`contributions`], in their order: elastic contact forces, damping and friction, then what
 /// each other force counts to.
@@ -56,13 +55,15 @@ pub(crate) fn contributions_coated(
                 None => [state.motion(body), rings[race]],
             };
             pair.evaluate(&ball.side, &at, &ring, &mut named);
-            for (part, wrenches) in parts.iter_mut().zip(named.wrenches()) {
-                let [on_ball, on_ring] = <[_; 2]>::from(wrenches).map(|wrench| match &leaning {
-                    Some(leaning) => turned(&leaning[race], wrench),
-                    None => wrench,
-                });
-                part.add(body, &on_ball);
-                part.add(race.ring(), &on_ring);
+            let (place, leaning) = (at.seen_from(&ring).place(), leaning.as_ref());
+            let leaning = leaning.map(|leaning| &leaning[race]);
+            for (part, sum) in parts.iter_mut().zip(named.0) {
+                let [on_ball, mut on_ring] = sum.on_bodies(&place, leaning);
+                if let Some(ring) = leaning {
+                    on_ring.force = ring.rotation.frame.to_scene(&on_ring.force);
+                }
+                part.add(body, &on_ball.about_axis());
+                part.add(race.ring(), &on_ring.about_axis());
             }
         }
     }
@@ -108,12 +109,6 @@ pub(crate) fn contributions_coated(
     let listed = |part: Table| bodies.clone().flat_map(|body| part.of(body)).collect();
     let parts: Vec<Vec<f64>> = parts.into_iter().map(listed).collect();
     names.into_iter().zip(parts).collect()
-}
-
-/// A force in the frame of a ring that tilts, in the scene's; the moment is about the ring's axis in both.
-fn turned(ring: &LeaningRing, [x, y, z, about]: [f64; DOFS]) -> [f64; DOFS] {
-    let [x, y, z] = ring.rotation.frame.to_scene(&Vector3::new(x, y, z)).into();
-    [x, y, z, about]
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::powers::ContactPowers;
 use crate::contact::film::FilmNow;
-use crate::contact::{Aside, OilTouch, Sink, Touch};
+use crate::contact::{Aside, OilTouch, Sink, Touch, WrenchSum};
 use crate::forces;
 use crate::model::{Dof, Model, Race};
 
@@ -62,26 +62,24 @@ impl Lubrication {
 /// What a row's contacts do to a ring, and what they lose.
 #[derive(Default)]
 struct Resistance {
-    /// On the ring about its centre \[N m\].
+    on_ball: WrenchSum,
+    /// On the ring about its axis, of contacts before this \[N m\].
     moment: f64,
     powers: ContactPowers,
 }
 
 impl Sink for Resistance {
     fn touch(&mut self, touch: &Touch) {
-        let (_, ring) = touch.wrenches(touch.normal, 1.0);
-        self.moment += ring[Dof::Theta];
+        self.on_ball.touch(touch);
         self.powers.touch(touch);
     }
 
     fn aside(&mut self, force: &Aside) {
-        let (_, ring) = force.wrenches();
-        self.moment += ring[Dof::Theta];
+        self.on_ball.aside(force);
     }
 
     fn oil(&mut self, oil: &OilTouch) {
-        let (_, ring) = oil.wrenches();
-        self.moment += ring[Dof::Theta];
+        self.on_ball.oil(oil);
         self.powers.oil(oil);
     }
 }
@@ -121,7 +119,10 @@ fn resistance(model: &Model, y: &[f64], (row, race): (usize, Race)) -> Resistanc
     let mut sum = Resistance::default();
     for j in row.balls() {
         let [at, ring] = model.facing(y, j, race);
+        sum.on_ball = WrenchSum::default();
         row.pairs[race].evaluate(&model.balls[j].side, &at, &ring, &mut sum);
+        let place = at.seen_from(&ring).place();
+        sum.moment += sum.on_ball.wrench.on_ring(&place).moment.z;
     }
     sum
 }

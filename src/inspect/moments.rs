@@ -3,27 +3,9 @@
 use nalgebra::Vector3;
 
 use super::contacts::{ContactSummary, Summary, visit};
-use crate::contact::{Aside, LeaningRing, OilTouch, Sink, Touch, Wrench};
+use crate::contact::{Aside, LeaningRing, OilTouch, Sink, Touch, Wrench, WrenchSum};
 use crate::forces::load;
 use crate::model::{BodyId, Model, Race};
-
-/// What a contact does to its ball.
-#[derive(Default)]
-struct OnBall(Wrench);
-
-impl Sink for OnBall {
-    fn touch(&mut self, touch: &Touch) {
-        self.0.add(&touch.on_ball(touch.normal, 1.0));
-    }
-
-    fn aside(&mut self, force: &Aside) {
-        self.0.add(&force.on_ball());
-    }
-
-    fn oil(&mut self, oil: &OilTouch) {
-        self.0.add(&oil.on_ball());
-    }
-}
 
 /// Names of the columns of [`moments`].
 pub(crate) const MOMENTS: [&str; 4] = ["outer.x", "outer.y", "inner.x", "inner.y"];
@@ -38,9 +20,9 @@ pub fn moments(model: &Model, t: f64, y: &[f64]) -> [[f64; 2]; 2] {
     Race::BOTH.map(|race| {
         let mut sum = MomentOnRing::new(model, y, race);
         for j in 0..model.balls.len() {
-            let mut on_ball = OnBall::default();
+            let mut on_ball = WrenchSum::default();
             visit(model, y, j, race, &mut on_ball);
-            sum.add(y, j, &on_ball.0);
+            sum.add(y, j, &on_ball.wrench);
         }
         sum.told(t)
     })
@@ -51,10 +33,10 @@ pub fn wrench(model: &Model, y: &[f64], race: Race) -> [f64; 6] {
     let mut sum = MomentOnRing::new(model, y, race);
     let mut force = Vector3::zeros();
     for j in 0..model.balls.len() {
-        let mut on_ball = OnBall::default();
+        let mut on_ball = WrenchSum::default();
         visit(model, y, j, race, &mut on_ball);
-        force -= sum.ring.rotation.frame.to_scene(&on_ball.0.force);
-        sum.add(y, j, &on_ball.0);
+        force -= sum.ring.rotation.frame.to_scene(&on_ball.wrench.force);
+        sum.add(y, j, &on_ball.wrench);
     }
     let [x, y, z] = force.into();
     let [about_x, about_y, about_z] = sum.sum.into();
@@ -84,14 +66,14 @@ impl<'m> MomentOnRing<'m> {
         let ball = self.model.layout().motion(y, BodyId::ball(j));
         let frame = &self.ring.rotation.frame;
         let on_ball = on_ball.turned(|v| frame.to_scene(v));
-        self.sum += on_ball.moment_on_ring(&self.ring.arm(&ball));
+        self.sum += on_ball.on_ring(&self.ring.arm(&ball)).moment;
     }
 
     /// Adds a ball, given the few numbers of its contact.
     pub fn add_and_tell(&mut self, y: &[f64], j: usize) -> ContactSummary {
         let mut both = Both::default();
         let side = visit(self.model, y, j, self.race, &mut both);
-        self.add(y, j, &both.on_ball.0);
+        self.add(y, j, &both.on_ball.wrench);
         both.summary.told(self.race, side)
     }
 
@@ -109,7 +91,7 @@ impl<'m> MomentOnRing<'m> {
 #[derive(Default)]
 struct Both {
     summary: Summary,
-    on_ball: OnBall,
+    on_ball: WrenchSum,
 }
 
 impl Sink for Both {

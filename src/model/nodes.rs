@@ -1,5 +1,7 @@
 //! The number of nodes that a contact needs for a requested accuracy of its force.
 
+use nalgebra::Vector3;
+
 use super::{Between, Model, Race, Scales};
 use crate::contact::{BallSide, Motion, Pair, Rules, Sink, Touch, V2, Waves, ZoneSlices};
 
@@ -93,14 +95,8 @@ fn worst(model: &Model, row: usize, race: Race, rules: &ZoneSlices) -> f64 {
                 pair.evaluate(&ball, &b, &r, &mut force);
                 force
             });
-            let apart: f64 = few
-                .total
-                .iter()
-                .zip(&exact.total)
-                .map(|(x, y)| (x - y).powi(2))
-                .sum();
             if exact.normal > 0.0 {
-                largest = largest.max(apart.sqrt() / exact.normal);
+                largest = largest.max((few.total - exact.total).norm() / exact.normal);
             }
         }
     }
@@ -168,16 +164,13 @@ fn rolling(
 /// Force on the ball, and the sum of the normal forces.
 #[derive(Default)]
 struct NodeSum {
-    total: [f64; 3],
+    total: Vector3<f64>,
     normal: f64,
 }
 
 impl Sink for NodeSum {
     fn touch(&mut self, touch: &Touch) {
-        let (on_ball, _) = touch.wrenches(touch.normal, 1.0);
-        for (total, force) in self.total.iter_mut().zip(on_ball) {
-            *total += force;
-        }
+        self.total += touch.on_ball(touch.normal, 1.0).force;
         self.normal += touch.normal;
     }
 }

@@ -36,8 +36,7 @@ struct Sum {
 
 impl Sink for Sum {
     fn touch(&mut self, touch: &Touch) {
-        let (on_ball, _) = touch.wrenches(0.0, 1.0);
-        for (sum, part) in self.friction.iter_mut().zip(on_ball) {
+        for (sum, part) in self.friction.iter_mut().zip(touch.friction_on_ball()) {
             *sum += part;
         }
         self.normal += touch.normal;

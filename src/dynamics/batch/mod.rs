@@ -343,8 +343,8 @@ impl Batch {
             }
         }
         for single in &self.singles {
-            forces.add(BodyId::ball(single.ball), &single.sum.ball);
-            super::add(&mut rings[single.race], &single.sum.ring);
+            forces.add(BodyId::ball(single.ball), &single.on_ball.about_axis());
+            super::add(&mut rings[single.race], &single.on_ring.about_axis());
         }
         rings
     }
@@ -362,7 +362,7 @@ impl Batch {
             }
         }
         for single in &self.singles {
-            super::add(&mut to[single.ball], &single.across[0]);
+            super::add(&mut to[single.ball], &single.on_ball.moment.xy().into());
         }
     }
 
@@ -377,7 +377,7 @@ impl Batch {
             }
         }
         for single in &self.singles {
-            super::add(&mut rings[single.race], &single.across[1]);
+            super::add(&mut rings[single.race], &single.on_ring.moment.xy().into());
         }
         rings
     }
@@ -426,13 +426,13 @@ impl Batch {
             .iter()
             .map(|group| group.forces.pulls)
             .sum();
-        let single: u32 = self.singles.iter().map(|single| single.sum.pulls).sum();
+        let single: u32 = self.singles.iter().map(|single| single.pulls).sum();
         (self.pulls + grouped + single) as usize * (1 + usize::from(self.kind.mirrored))
     }
 
     /// Contacts cut off by a shoulder.
     pub fn truncated(&self) -> usize {
-        let cut = self.singles.iter().filter(|single| single.sum.truncated);
+        let cut = self.singles.iter().filter(|single| single.truncated);
         cut.count() * (1 + usize::from(self.kind.mirrored))
     }
 

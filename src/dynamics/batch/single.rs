@@ -1,7 +1,7 @@
 //! Contacts that are evaluated one by one, since a defect or an end of a race cuts their zone.
 
 use super::View;
-use crate::dynamics::sums::{Spatial, Sum};
+use crate::contact::{Wrench, WrenchSum};
 use crate::model::{Model, Race};
 
 /// A contact that is evaluated by itself.
@@ -9,10 +9,12 @@ use crate::model::{Model, Race};
 pub(super) struct Single {
     pub race: Race,
     pub ball: usize,
-    pub sum: Sum,
-    /// Moments about x and y on a ball that spins freely, in the scene's frame, and on a ring that may tilt, in its own about its
-    /// origin.
-    pub across: [[f64; 2]; 2],
+    /// In the scene's frame.
+    pub on_ball: Wrench,
+    /// About the ring's point, in its own frame where it may tilt.
+    pub on_ring: Wrench,
+    pub pulls: u32,
+    pub truncated: bool,
 }
 
 impl Single {
@@ -20,8 +22,10 @@ impl Single {
         Self {
             race,
             ball,
-            sum: Sum::default(),
-            across: [[0.0; 2]; 2],
+            on_ball: Wrench::default(),
+            on_ring: Wrench::default(),
+            pulls: 0,
+            truncated: false,
         }
     }
 
@@ -29,12 +33,10 @@ impl Single {
         let ball = &model.balls[self.ball];
         let pair = &model.rows[ball.row].pairs[self.race];
         let motion = view.ball(self.ball);
-        let Some(leaning) = view.leaning else {
-            pair.evaluate_into(&ball.side, &motion, &view.ring, &mut self.sum);
-            return;
-        };
-        let mut spatial = Spatial::default();
-        pair.evaluate_into(&ball.side, &motion, &view.ring, &mut spatial);
-        (self.sum, self.across) = spatial.on_bodies(&motion.place(), &leaning.ring);
+        let mut sum = WrenchSum::default();
+        pair.evaluate_into(&ball.side, &motion, &view.ring, &mut sum);
+        let place = motion.seen_from(&view.ring).place();
+        [self.on_ball, self.on_ring] = sum.on_bodies(&place, view.leaning.map(|of| &of.ring));
+        (self.pulls, self.truncated) = (sum.pulls, sum.truncated);
     }
 }

@@ -7,7 +7,7 @@ use crate::contact::PittedContact;
 use crate::contact::hertz::Hertz;
 use crate::contact::{
     Aside, BallSide, Damping, Fault, Motion, Pair, Sink, Torus, Touch, Traction, V2, Wrench,
-    ZoneSlices, cross,
+    ZoneSlices,
 };
 use crate::scene::{Defect, Floor, Friction, Material, Surface, WidthProfile};
 
@@ -20,17 +20,7 @@ struct ContactParts {
     friction: Wrench,
     /// Σ N v_n and friction power \[W\].
     powers: [f64; 2],
-    /// On ball and ring, (x, y, z, θ), as runs with parallel rings take it.
-    plain: [[f64; 4]; 2],
     edges: usize,
-}
-
-impl ContactParts {
-    fn add(&mut self, (ball, ring): ([f64; 4], [f64; 4])) {
-        for (sum, of) in self.plain.iter_mut().zip([ball, ring]) {
-            (0..4).for_each(|i| sum[i] += of[i]);
-        }
-    }
 }
 
 impl Sink for ContactParts {
@@ -45,13 +35,11 @@ impl Sink for ContactParts {
         self.friction.add(&touch.on_ball(0.0, 1.0));
         self.powers[0] += touch.normal * touch.approach;
         self.powers[1] += touch.friction_power;
-        self.add(touch.wrenches(touch.normal, 1.0));
         self.edges += usize::from(touch.swing != Vector3::z());
     }
 
     fn aside(&mut self, force: &Aside) {
         self.elastic.add(&force.on_ball());
-        self.add(force.wrenches());
     }
 }
 
@@ -314,41 +302,6 @@ fn powers_are_those_of_forces_and_moments() {
         }
     }
     assert!(met > 60, "{met}");
-}
-
-/// Third law: forces are opposite, moments about any one point too, about z in both codings.
-#[test]
-fn ring_and_ball_do_the_opposite_to_each_other() {
-    for (mut pair, name) in pairs() {
-        pair.law.traction = Traction::new(&Friction::Coulomb {
-            coefficient: 0.1,
-            slip_speed: 0.05,
-        });
-        let pressed = Pressed::at(&pair.race, 0.35);
-        let ball = cap(&pressed.beside([0.05, -0.06]), 1.2e-3, None);
-        let (v, w) = (
-            Vector3::new(0.1, -0.2, 0.05),
-            Vector3::new(20.0, -30.0, 40.0),
-        );
-        let found = pressed.moving(&pair, &ball, &v, &w);
-        assert!(found.edges > 0);
-        let mut full = found.elastic;
-        full.add(&found.friction);
-        let [ball, ring] = found.plain;
-        let size = full.force.norm();
-        for i in 0..3 {
-            assert!((ball[i] + ring[i]).abs() < 1e-12 * size, "{name}");
-            assert!((ball[i] - full.force[i]).abs() < 1e-12 * size, "{name}");
-        }
-        let force = V2::new(ball[0], ball[1]);
-        let sum = ball[3] + ring[3] + cross(pressed.place.xy(), force);
-        assert!(sum.abs() < 1e-13 * size, "{name} {sum}");
-        let on_ring = full.moment_on_ring(&pressed.place);
-        assert!((on_ring.z - ring[3]).abs() < 1e-13 * size, "{name}");
-        assert!((full.moment.z - ball[3]).abs() < 1e-13 * size, "{name}");
-        // About other axes too a cap turns its ball.
-        assert!(found.normal.moment.xy().norm() > 1e-6 * size, "{name}");
-    }
 }
 
 fn whole() -> BallSide {

@@ -37,7 +37,6 @@
 
 use super::depth::Sloped;
 use super::elements::ElementPair;
-use crate::contact::defect::WITH_RING_AXIS;
 use crate::contact::scalar::slices::{BESIDE, Owner};
 use crate::contact::scalar::{Line, Node, OneContact};
 use crate::contact::{Aside, Sink, V2, turned};
@@ -72,14 +71,8 @@ impl OneContact<'_> {
 
     /// What the slope of the ball's texture makes of an elastic force.
     pub(super) fn texture_force(&self, elastic: f64) -> Aside {
-        Aside {
-            plane: turned(self.n) * (-elastic * self.swell.slope / self.distance),
-            axial: 0.0,
-            arm_ball: -self.apart,
-            arm_ring: V2::zeros(),
-            swing: WITH_RING_AXIS,
-            across: V2::zeros(),
-        }
+        let plane = turned(self.n) * (-elastic * self.swell.slope / self.distance);
+        Aside::at(-self.apart, plane, 0.0)
     }
 
     /// What the axial end of a defect at a place ζ adds.
@@ -154,14 +147,8 @@ impl OneContact<'_> {
     fn central(&self, by_e: f64, by_z: f64) -> Aside {
         let sigma = self.race.sigma;
         let across = sigma * by_e * self.raise.slope / self.distance;
-        Aside {
-            plane: self.n * (-sigma * by_e) + turned(self.n) * across,
-            axial: -by_z,
-            arm_ball: V2::zeros(),
-            arm_ring: self.apart,
-            swing: WITH_RING_AXIS,
-            across: V2::zeros(),
-        }
+        let plane = self.n * (-sigma * by_e) + turned(self.n) * across;
+        Aside::at(V2::zeros(), plane, -by_z)
     }
 }
 

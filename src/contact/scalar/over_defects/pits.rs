@@ -14,7 +14,7 @@
 
 use nalgebra::Vector3;
 
-use crate::contact::defect::{MOST_PITS, Pit, PittedContact, Released, WITH_RING_AXIS, Yield};
+use crate::contact::defect::{MOST_PITS, Pit, PittedContact, Released, Yield};
 use crate::contact::scalar::{Line, OneContact};
 use crate::contact::{Aside, Fault, Sink, Touch, V2, turned, wrapped};
 
@@ -134,7 +134,7 @@ impl OneContact<'_> {
                     let by_angle = -self.race.r * u_x;
                     sink.aside(&self.turning_by(by_angle));
                     let plane = turned(self.n) * (radius * u_y / self.distance);
-                    sink.aside(&self.through_ball(plane));
+                    sink.aside(&Aside::at(V2::zeros(), plane, 0.0));
                 }
                 PitBody::Ball(e) => self.ball_pit(&e, [u_x, u_y], sink),
             }
@@ -147,26 +147,11 @@ impl OneContact<'_> {
         sink.aside(&self.turning_by(-radius * e.dot(&n_c) * u_x));
         let moment = e.cross(&(along * u_x + across * u_y)) * -radius;
         // Its part about the axis is ∂U/∂φ, of a force at the ring's centre.
+        let plane = turned(self.n) * (-moment.z / self.distance);
         sink.aside(&Aside {
-            plane: turned(self.n) * (-moment.z / self.distance),
-            axial: 0.0,
-            arm_ball: -self.apart,
-            arm_ring: V2::zeros(),
-            swing: WITH_RING_AXIS,
             across: moment.xy(),
+            ..Aside::at(-self.apart, plane, 0.0)
         });
-    }
-
-    /// A force through the ball's centre.
-    fn through_ball(&self, plane: V2) -> Aside {
-        Aside {
-            plane,
-            axial: 0.0,
-            arm_ball: V2::zeros(),
-            arm_ring: self.apart,
-            swing: WITH_RING_AXIS,
-            across: V2::zeros(),
-        }
     }
 }
 

@@ -90,7 +90,6 @@ impl OneContact<'_> {
             slip: squared.sqrt(),
             friction_power: force.factor * force.damped.max(0.0) * squared,
             arm_ball: feature.arm_ring - self.apart,
-            arm_ring: feature.arm_ring,
             swing: feature.swing,
             pull: force.damped < 0.0,
         };
@@ -101,7 +100,6 @@ impl OneContact<'_> {
                 plane: force * (elastic * state.share.0),
                 axial: 0.0,
                 arm_ball: arm,
-                arm_ring: self.apart + arm,
                 swing: feature.swing,
                 across: V2::zeros(),
             });

@@ -1,31 +1,24 @@
 use crate::contact::PittedContact;
 use std::f64::consts::PI;
 
+use nalgebra::Vector3;
+
 use super::*;
 use crate::contact::hertz::Hertz;
 use crate::contact::iso16281::Iso16281;
 use crate::contact::{
-    BallSide, Elastic, Fault, Law, Motion, Pair, Rules, Shape, Torus, Touch, Waves, ZoneSlices,
+    BallSide, Elastic, Fault, Law, Motion, Pair, Rules, Shape, Torus, Touch, Waves, WrenchSum,
+    ZoneSlices,
 };
 use crate::scene::{Defect, Floor, Material, Surface, Waviness, Width, WidthProfile};
 
 pub(in crate::contact::scalar::over_defects) const RADIUS: f64 = 6e-3;
 
-/// Energy, and what ball and ring get.
+/// Energy, and what the ball gets.
 #[derive(Default)]
 struct ElasticParts {
     energy: f64,
-    ball: [f64; 4],
-    ring: [f64; 4],
-}
-
-impl ElasticParts {
-    fn add(&mut self, (ball, ring): ([f64; 4], [f64; 4])) {
-        for i in 0..4 {
-            self.ball[i] += ball[i];
-            self.ring[i] += ring[i];
-        }
-    }
+    on_ball: WrenchSum,
 }
 
 impl Sink for ElasticParts {
@@ -35,11 +28,11 @@ impl Sink for ElasticParts {
 
     fn touch(&mut self, touch: &Touch) {
         self.energy += touch.energy;
-        self.add(touch.wrenches(touch.elastic, 0.0));
+        self.on_ball.add(touch, touch.elastic, 0.0);
     }
 
     fn aside(&mut self, force: &Aside) {
-        self.add(force.wrenches());
+        self.on_ball.aside(force);
     }
 }
 
@@ -94,15 +87,12 @@ fn at(pair: &Pair, ball: &BallSide, [x, y, z, theta, ring]: [f64; 5]) -> Elastic
 
 fn off(pair: &Pair, ball: &BallSide, place: [f64; 5]) -> f64 {
     let found = at(pair, ball, place);
-    let [x, y, z, turn] = found.ball;
-    let size = (x * x + y * y + z * z).sqrt();
+    let on_ball = found.on_ball.wrench;
+    let size = on_ball.force.norm();
     assert!(size > 10.0, "nothing presses: {size}");
-    // Equal and opposite, at one point.
-    let moment = found.ring[3] + turn + place[0] * y - place[1] * x;
-    let sums = [x + found.ring[0], y + found.ring[1], z + found.ring[2]];
-    assert!(sums.iter().all(|sum| sum.abs() < 1e-12 * size));
-    assert!(moment.abs() < 1e-12 * size);
-    let forces = [x, y, z, turn, found.ring[3]];
+    let centre = Vector3::new(place[0], place[1], place[2]);
+    let [x, y, z, turn] = on_ball.about_axis();
+    let forces = [x, y, z, turn, on_ball.on_ring(&centre).moment.z];
     let mut worst: f64 = 0.0;
     for (i, force) in forces.into_iter().enumerate() {
         let lever = if i < 3 { 1.0 } else { RADIUS };
