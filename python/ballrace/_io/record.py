@@ -12,7 +12,7 @@ import base64
 import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,8 @@ if TYPE_CHECKING:
 
     import polars as pl
 
-    from ..signals import Signals
+    from .._told import Record
+
 
 _FORMAT = "1"
 
@@ -108,7 +109,28 @@ class Scanned(Mapping[str, NDArray[np.float64]]):
         return found.st_size, found.st_mtime_ns
 
 
-def metadata(signals: Signals) -> dict[str, str]:
+class Run(Protocol):
+    """What a file keeps of a run beside its samples; see :class:`ballrace.Signals`."""
+
+    @property
+    def fs(self) -> float: ...
+    @property
+    def units(self) -> Mapping[str, str]: ...
+    @property
+    def scene(self) -> Scene: ...
+    @property
+    def stats(self) -> Record: ...
+    @property
+    def provenance(self) -> Record: ...
+    @property
+    def warnings(self) -> tuple[str, ...]: ...
+    @property
+    def end_state(self) -> NDArray[np.float64] | None: ...
+    @property
+    def slices(self) -> pl.DataFrame | None: ...
+
+
+def metadata(signals: Run) -> dict[str, str]:
     """Return what stands in a file beside the samples."""
     entries = {
         "ballrace": _FORMAT,
