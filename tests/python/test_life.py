@@ -31,6 +31,18 @@ def test_reference_life_is_the_basic_one_where_that_was_made_for() -> None:
     assert loose < 0.85 * half < half < tight
 
 
+def test_loads_that_are_known_are_taken() -> None:
+    """Truth: the same life without them; those of twice the load shorten it, unless the load changes in time."""
+    scene = deep(1400.0)
+    once, twice = (br.load_distribution(deep(load)) for load in (1400.0, 2800.0))
+    assert br.rating_life(scene, around=once) == br.rating_life(scene)
+    assert br.rating_life(scene, around=twice).reference < 0.2 * br.rating_life(scene).reference
+    swells = scene.replace(
+        {"loads.radial.force": Sine(mean=1400.0, amplitude=100.0, frequency=2.0, phase=0.0)}
+    )
+    assert br.rating_life(swells, around=twice) == br.rating_life(swells)
+
+
 def test_equivalent_load_of_iso_281() -> None:
     """Truth: its table, at a line of it and where thrust does not count."""
     relative = 0.689 * 9 * 7.94**2

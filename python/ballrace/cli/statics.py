@@ -12,7 +12,7 @@ from .._text import printable
 from ..explanation import explain
 from ..ratings.life import RatingLife, rating_life
 from ..report.writing import check_page
-from ..statics import Equilibrium, equilibrium, load_distribution, stiffness
+from ..statics import Equilibrium, equilibrium, stiffness
 from .arguments import Commands, add_scene, added, read_scene
 from .text import numbers, print_table
 
@@ -67,13 +67,12 @@ def _equilibrium(options: argparse.Namespace) -> None:
         print_table(["stiffness N/µm", "x", "y", "z"], lines)
     if options.life:
         print()
-        loads = load_distribution(scene)
-        races = zip(loads.outer_equivalent, loads.inner_equivalent, strict=True)
+        life = rating_life(scene)
+        races = zip(life.outer_equivalent, life.inner_equivalent, strict=True)
         lines = [
             [f"row{i}", f"{outer:.1f}", f"{inner:.1f}"] for i, (outer, inner) in enumerate(races)
         ]
         print_table(["equivalent load", "outer N", "inner N"], lines)
-        life = rating_life(scene)
         print()
         lives = {"ISO 281, L10": life.basic, "ISO/TS 16281, L10r": life.reference}
         if life.modified is not None:
@@ -123,10 +122,9 @@ def _equilibrium_json(options: argparse.Namespace, scene: Scene, eq: Equilibrium
     if options.stiffness:
         told["stiffness"] = stiffness(scene).inner.tolist()
     if options.life:
-        loads = load_distribution(scene)
-        told["outer_equivalent"] = loads.outer_equivalent.tolist()
-        told["inner_equivalent"] = loads.inner_equivalent.tolist()
         life = rating_life(scene)
+        told["outer_equivalent"] = list(life.outer_equivalent)
+        told["inner_equivalent"] = list(life.inner_equivalent)
         told["rating_life"] = {
             "basic": life.basic,
             "reference": life.reference,

@@ -88,7 +88,7 @@ def solved(scene: Scene, *, steady: bool = True) -> Live:
         around = load_distribution(healthy)
         speed = None if steady else _ONE_HERTZ
         rates = tuple(fault_frequencies(healthy, speed, row=k) for k in range(len(scene.rows)))
-        life, why = _life(healthy)
+        life, why = _life(healthy, around)
         warned = (str(each.message) for each in told)
         doubts = dict.fromkeys([*_apart(healthy, rates), *scene.doubts(), *warned])
     return Live(
@@ -114,8 +114,8 @@ def _apart(scene: Scene, rates: tuple[FaultFrequencies, ...]) -> Iterator[str]:
             )
 
 
-def _life(scene: Scene) -> tuple[RatingLife | None, str]:
+def _life(scene: Scene, around: LoadDistribution) -> tuple[RatingLife | None, str]:
     try:
-        return rating_life(scene), ""
+        return rating_life(scene, around=around), ""
     except BallraceError as error:
         return None, str(error)

@@ -97,6 +97,7 @@ def rating_life(
     rating: float | None = None,
     *,
     contamination: Contamination | float = "normal",
+    around: LoadDistribution | None = None,
 ) -> RatingLife:
     """Return the rating life of a bearing under the loads of a scene, its defects left out.
 
@@ -115,6 +116,9 @@ def rating_life(
         How clean the oil is, one of the classes of ISO 281 from ``"extreme"`` cleanliness over ``"high"``,
         ``"normal"``, ``"slight"`` and ``"typical"`` contamination to ``"severe"`` and ``"very severe"``, or e_C
         itself, 0 to 1. It counts where the scene has an oil.
+    around : LoadDistribution, optional
+        What :func:`load_distribution` says of the scene, where it is there: all but a tenth of the time is its. It
+        counts where loads and speed are constant.
 
     Returns
     -------
@@ -159,13 +163,20 @@ def rating_life(
         race_ratings(row, scale * own) for row, own in zip(healthy.rows, formulas, strict=True)
     ]
     cycle = _by_turns(duty_cycle(healthy))
+    known = around if [scene for _, scene in cycle] == [healthy] else None
     with warnings.catch_warnings():
         # What belongs to the hardest state is reported below, once.
         warnings.simplefilter("ignore", SceneWarning)
         peak = max(_force(each) for _, each in cycle)
         states = [
             _state(
-                share, each, rating=value, ratings=ratings, contamination=contamination, peak=peak
+                share,
+                each,
+                around=known,
+                rating=value,
+                ratings=ratings,
+                contamination=contamination,
+                peak=peak,
             )
             for share, each in cycle
         ]
@@ -210,6 +221,7 @@ def _state(
     share: float,
     scene: Scene,
     *,
+    around: LoadDistribution | None,
     rating: float,
     ratings: list[tuple[float, float]],
     contamination: Contamination | float,
@@ -217,7 +229,7 @@ def _state(
 ) -> _State:
     equivalent = equivalent_load(scene)
     try:
-        loads = load_distribution(scene)
+        loads = around or load_distribution(scene)
     except EquilibriumError:
         # Where a load crosses zero, nothing may hold a ring with clearance; the balls then carry next to nothing.
         if _force(scene) > _LIGHT * peak or scene.moments:

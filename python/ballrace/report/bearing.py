@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import BallraceError
 from ..ratings.life import RatingLife, rating_life
-from ..statics import Equilibrium, equilibrium, load_distribution
+from ..statics import Equilibrium, LoadDistribution, equilibrium, load_distribution
 from . import words
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def add_loads(page: Page, scene: Scene) -> None:
         name = f" Row {row}." if len(scene.rows) > 1 else ""
         page.figure(plot.unrolled(scene, eq, row=row), told + name)
     _add_pressures(page, eq, len(scene.rows))
-    _add_life(page, scene)
+    _add_life(page, scene, around)
 
 
 def _add_pressures(page: Page, eq: Equilibrium, rows: int) -> None:
@@ -87,9 +87,9 @@ def _add_pressures(page: Page, eq: Equilibrium, rows: int) -> None:
     page.text("The static load rating of ball bearings (ISO 76) stands for a pressure of 4200 MPa.")
 
 
-def _add_life(page: Page, scene: Scene) -> None:
+def _add_life(page: Page, scene: Scene, around: LoadDistribution) -> None:
     try:
-        life = rating_life(scene)
+        life = rating_life(scene, around=around)
     except BallraceError as error:
         page.text(f"No rating life: {error}.")
         return
