@@ -1,11 +1,15 @@
 //! Columns decimated during a run: every point of the grid is added at once to the samples that it contributes to, so
 //! that only the points for the ends of the record are kept.
 
+// Into loops that are compiled for the instructions at hand.
+#![allow(clippy::inline_always)]
+
 use std::collections::VecDeque;
 
 use super::Column;
 use super::filter::{SampleKind, Taps, signed};
 use crate::base::words::{Remembered, Words};
+use crate::simd::{InstructionSet, Task};
 
 /// Columns on their way from the grid to their samples.
 ///
@@ -14,6 +18,7 @@ use crate::base::words::{Remembered, Words};
 #[derive(Debug)]
 pub(super) struct Decimator {
     taps: Taps,
+    instructions: InstructionSet,
     /// The columns that are filtered, and how.
     columns: Vec<(usize, SampleKind)>,
     /// The point of the grid where row 0 of the columns stands.
@@ -29,6 +34,7 @@ impl Decimator {
     pub fn new(taps: Taps, columns: Vec<(usize, SampleKind)>) -> Self {
         Self {
             taps,
+            instructions: InstructionSet::current(),
             columns,
             row0: 0,
             first: None,
@@ -86,10 +92,12 @@ impl Decimator {
     }
 
     fn spread(&self, point: i64, values: &[f64], out: &mut [Column]) {
-        for ((column, how), value) in self.columns.iter().zip(values) {
-            self.taps
-                .spread(*how, point - self.row0, *value, &mut out[*column].values);
-        }
+        self.instructions.run(Spread {
+            decimator: self,
+            point,
+            values,
+            out,
+        });
     }
 
     /// Keeps the values in the place of those that the end does not need any more.
@@ -98,6 +106,27 @@ impl Decimator {
             self.latest.drain(..values.len());
         }
         self.latest.extend(values);
+    }
+}
+
+/// A point of the grid for the samples around it. No sum is fused with a product: all instruction sets give the same bits.
+struct Spread<'a> {
+    decimator: &'a Decimator,
+    point: i64,
+    values: &'a [f64],
+    out: &'a mut [Column],
+}
+
+impl Task for Spread<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        let Decimator { taps, columns, .. } = self.decimator;
+        let point = self.point - self.decimator.row0;
+        for ((column, how), value) in columns.iter().zip(self.values) {
+            taps.spread(*how, point, *value, &mut self.out[*column].values);
+        }
     }
 }
 

@@ -17,6 +17,9 @@
 //! Source: J. F. Kaiser, *Nonrecursive digital filter design using the I₀-sinh window function*, IEEE ISCAS 1974;
 //! A. V. Oppenheim, R. W. Schafer, *Discrete-Time Signal Processing*, 3rd ed., section 7.5.3.
 
+// Into loops that are compiled for the instructions at hand.
+#![allow(clippy::inline_always)]
+
 use std::f64::consts::PI;
 
 /// Samples of the output from the middle of the filter to either end.
@@ -94,6 +97,7 @@ impl Taps {
     }
 
     /// Adds what a value at a point of the grid gives to the samples around it, or to those there are.
+    #[inline(always)]
     pub fn spread(&self, how: SampleKind, point: i64, value: f64, samples: &mut [f64]) {
         let (first, at) = self.place(point);
         let taps = match how {
@@ -103,7 +107,14 @@ impl Taps {
         // Before sample 0 there is none.
         let skipped = index((-first).clamp(0, signed(taps.len())));
         let from = index(first.max(0)).min(samples.len());
-        for (sample, tap) in samples[from..].iter_mut().zip(&taps[skipped..]) {
+        let (samples, taps) = (&mut samples[from..], &taps[skipped..]);
+        let count = samples.len().min(taps.len());
+        let (samples, last) = samples[..count].as_chunks_mut::<4>();
+        let (taps, last_taps) = taps[..count].as_chunks::<4>();
+        for (samples, taps) in samples.iter_mut().zip(taps) {
+            *samples = std::array::from_fn(|i| samples[i] + taps[i] * value);
+        }
+        for (sample, tap) in last.iter_mut().zip(last_taps) {
             *sample += tap * value;
         }
     }
