@@ -1,16 +1,15 @@
 //! Where defects are placed that are to lie where contacts run.
 //!
-//! This stands between a scene and its model: a model knows numbers only, and every model of a user's scene is made
-//! here, so that a run, an equilibrium and an explanation place a defect alike.
+//! A run, an equilibrium and an explanation place a defect alike: they ask here.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{loads, positions};
+use super::positions;
 use crate::base::error::{Error, Result};
-use crate::base::quantities::{self, number};
+use crate::base::quantities;
 use crate::contact::Fault;
 use crate::inspect;
 use crate::model::{BodyId, Dof, Model, Race, ball_fault, compile_placed, race_fault};
@@ -36,40 +35,6 @@ const FINEST: f64 = 1e9;
 const NARROWEST: f64 = 2.5;
 /// Share of the contacts' scale from which a load counts: what lies below is left over from the solution.
 const LOADED: f64 = 1e-9;
-
-/// Checks a scene, places the defects that are to lie where contacts run, and compiles it.
-///
-/// # Errors
-/// [`crate::Error::Scene`] names the first field that is not usable, or the environment variable `BALLRACE_SIMD` where it
-/// names no level of this processor.
-pub fn compile(scene: &Scene) -> Result<Model> {
-    let (placed, _) = place(scene)?;
-    let model = compile_placed(&placed)?;
-    check_pits(&placed)?;
-    loads::finished(model)
-}
-
-/// Refuses pits that are too large for the heaviest static contact that meets them; where there is none they are taken as they are.
-fn check_pits(scene: &Scene) -> Result<()> {
-    for (name, defect) in scene.defects.iter().filter(|(_, defect)| defect.is_pit()) {
-        let Some(meeting) = DefectPasses::of(scene, defect)? else {
-            continue;
-        };
-        if let Some((pit, load, race)) = meeting.pit(defect)
-            && pit.outgrows(&meeting.model.rows[defect.row].hertz[race], load)
-        {
-            return Err(Error::scene(
-                format!("defects.{name}.width"),
-                defect.width.largest(),
-                format!(
-                    "smaller than its contact, which bears {} N: what is larger is a spall, with an edge radius",
-                    number(load)
-                ),
-            ));
-        }
-    }
-    Ok(())
-}
 
 /// The scene with numbers for the axial place of every defect and for what its walls say, and where the places come from, by the
 /// defects' names.
