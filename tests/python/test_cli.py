@@ -434,9 +434,11 @@ def test_diagnose(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert told.startswith("6205: damaged, outer race\n")
     assert "give unit=" in told
     assert (tmp_path / "page.html").is_file()
-    assert main([*known, "--rpm", "1800", "--exclude", "1.7", "--mains", "50"]) == 0
+    exact = ["--speed-within", "0.001"]
+    assert main([*known, "--rpm", "1800", *exact, "--exclude", "1.7", "--mains", "50"]) == 0
     assert capsys.readouterr().out.startswith("6205: healthy\n")
     assert "speed_rpm = None" in refused(capsys, *known)
+    assert "speed_within = 0.5" in refused(capsys, *known, "--rpm", "1800", "--speed-within", "0.5")
     assert "channel = 'FE'" in refused(capsys, *known, "--rpm", "1800", "--channel", "FE")
     assert "designation = '62x'" in refused(capsys, *known[:3], "62x", "--rpm", "1800")
     assert ".html" in refused(capsys, *known, "--rpm", "1800", "-o", "page.txt")

@@ -269,6 +269,30 @@ def test_an_order_next_to_a_whole_one_needs_turns() -> None:
     assert long.verdict == "healthy"
 
 
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("name", ["6204", "6308"])
+def test_an_exact_speed_tells_an_inner_race_from_the_shaft(name: str, seed: int) -> None:
+    """Truth: 4.95 times a rate, and its sidebands, are 5 times one that is 1 % lower, and its neighbours.
+
+    In 40 turns nothing else tells them apart; blows once a turn of a shaft whose speed is known are no damage.
+    """
+    order, long = br.catalogue[name].orders.bpfi, 40.0 / SHAFT
+    assert 4.9 < order < 4.95
+    x = noise(blows(order, 1.0, seed=seed, duration=long), 0.1, seed)
+    open_, found = judged(x, name), judged(x, name, speed_within=1e-3)
+    assert open_.shaft.rate == pytest.approx(0.99 * SHAFT, rel=1e-3)
+    assert (open_.verdict, "exact speed" in open_.why) == ("undecided", True)
+    assert (found.verdict, found.parts) == ("damaged", ("inner_race",))
+    assert found.shaft.rate == pytest.approx(SHAFT, rel=1.001e-3)
+    # The speed of a scene is exact.
+    scene = br.bearing(name, speed_rpm=RPM)
+    run = br.Channel(x=x, fs=FS, shaft=SHAFT, scene=scene)
+    assert br.diagnose(run).parts == ("inner_race",)
+    assert br.diagnose(run, speed_within=0.01).verdict == "undecided"
+    shaft = noise(blows(1.0, seed=seed, duration=long), 0.1, seed)
+    assert judged(shaft, name, speed_within=1e-3).verdict == "undecided"
+
+
 def test_a_velocity_clears_nothing() -> None:
     x = noise(np.zeros(24_000), 1.0)
     found = br.diagnose(br.Channel(x=x, fs=FS, unit="m/s^2").to("mm/s"), "6205", RPM)
@@ -413,6 +437,8 @@ REFUSED: dict[str, Callable[[], object]] = {
     "bearing.bpfo = 0.0": lambda: judged(X, vars(ORDERS) | {"bpfo": 0.0}),
     "speed_rpm = None": lambda: br.diagnose(X, "6205", fs=FS),
     "speed_rpm = 0.0": lambda: judged(X, rpm=0.0),
+    "speed_within = 0.02": lambda: judged(X, speed_within=0.02),
+    "speed_within = nan": lambda: judged(X, speed_within=math.nan),
     "fs = None": lambda: br.diagnose(X, "6205", RPM),
     "false_alarm = 0.5": lambda: judged(X, false_alarm=0.5),
     "exclude = [0.0]": lambda: judged(X, exclude=[0.0]),

@@ -39,6 +39,10 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     )  # fmt: skip
     found.add_argument("--rpm", type=float, help="speed, rev/min (default: what the file knows)")
     found.add_argument(
+        "--speed-within", type=float, metavar="SHARE",
+        help="how far the speed may be off, 0 to 0.01 (default: 0.01, of a run 0)",
+    )  # fmt: skip
+    found.add_argument(
         "--fs", type=float, metavar="HZ", help="sampling rate that the file does not tell"
     )
     found.add_argument(
@@ -73,7 +77,8 @@ def _diagnose(options: argparse.Namespace) -> None:
             raise SceneError("channel", repr(options.channel), f"one of {', '.join(record)}")
         found = diagnose(
             record, _bearing(options.bearing), options.rpm, column=options.channel, unit=options.unit,
-            false_alarm=options.false_alarm, exclude=options.exclude, mains=options.mains, machine=options.machine,
+            speed_within=options.speed_within, false_alarm=options.false_alarm, exclude=options.exclude,
+            mains=options.mains, machine=options.machine,
         )  # fmt: skip
     parts = "".join(f", {part.replace('_', ' ')}" for part in found.parts)
     print(printable(f"{found.bearing}: {found.verdict}{parts}\n{reason(found)}"))

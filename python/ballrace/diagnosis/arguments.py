@@ -14,12 +14,20 @@ from .._units import ACCELERATIONS, VELOCITIES
 from ..errors import SceneError
 from ..spectra.checks import checked_signal
 from .kinematics import kinematics_of
+from .shaft import WITHIN
 
 if TYPE_CHECKING:
     from ..channel import Channel
     from .kinematics import AnyBearing, Kinematics
 
-__all__ = ["check_chances", "checked_channel", "known_bearing", "nominal_rate", "other_rates"]
+__all__ = [
+    "check_chances",
+    "checked_channel",
+    "known_bearing",
+    "known_within",
+    "nominal_rate",
+    "other_rates",
+]
 
 
 def checked_channel(channel: Channel, unit: str | None, name: str = "record") -> Channel:
@@ -62,6 +70,16 @@ def nominal_rate(channel: Channel, speed_rpm: float | None) -> float:
     if not 0.0 < abs(real(speed_rpm)) < math.inf:
         raise SceneError("speed_rpm", repr(speed_rpm), "a speed of the inner ring [rev/min], not 0")
     return abs(real(speed_rpm)) / 60.0
+
+
+def known_within(channel: Channel, speed_rpm: float | None, speed_within: float | None) -> float:
+    """Return how far the speed may be off, as a part of it; by default not at all where a run's own is taken."""
+    if speed_within is None:
+        return 0.0 if speed_rpm is None and channel.scene is not None else WITHIN
+    if not 0.0 <= real(speed_within) <= WITHIN:
+        allowed = f"a part of the speed, 0 to {WITHIN:g}, or None"
+        raise SceneError("speed_within", repr(speed_within), allowed)
+    return real(speed_within)
 
 
 def other_rates(exclude: Iterable[float], mains: float | None) -> tuple[list[float], list[float]]:

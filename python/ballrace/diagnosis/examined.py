@@ -10,7 +10,7 @@ from .envelopes import Levels, bands_of, envelope_spectra, levels_of
 from .evidence import Evidence, evidence_of
 from .lacking import HELD
 from .null import ACCUSED
-from .shaft import ShaftRate, shaft_rate
+from .shaft import WITHIN, ShaftRate, shaft_rate
 from .strength import Envelopes
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def bands_for(
 
 def examined(
     channel: Channel, kinematics: Kinematics, nominal: float, *,
-    orders: Sequence[float] = (), rates: Sequence[float] = (), seed: int = 0,
+    within: float = WITHIN, orders: Sequence[float] = (), rates: Sequence[float] = (), seed: int = 0,
 ) -> Examined:  # fmt: skip
     """Return the evidence of a record.
 
@@ -56,6 +56,8 @@ def examined(
         Bearing.
     nominal : float
         Nominal rate of the shaft [Hz].
+    within : float
+        How far the shaft's rate may be from it, as a part of it.
     orders, rates : sequence of float
         Orders, and rates [Hz], that are not the bearing's.
     seed : int
@@ -63,7 +65,7 @@ def examined(
     """
     bands = bands_for(channel, kinematics, nominal)
     spectra = _spectra(channel, bands, kinematics, nominal)
-    shaft = shaft_rate(channel.x, channel.fs, nominal, spectra)
+    shaft = shaft_rate(channel.x, channel.fs, nominal, spectra, within)
     levels = levels_of(spectra, channel.n_samples / channel.fs, shaft.rate)
     levels = levels.without([shaft.rate, *(order * shaft.rate for order in orders), *rates])
     envelopes = Envelopes(channel.x, channel.fs, bands)

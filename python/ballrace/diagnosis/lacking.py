@@ -29,6 +29,9 @@ Spalls of 0.8 mm on the inner race of a simulated 6309 (order 4.94) and 7208B (8
 7 to 10.6 on, silent and in noise at 10 dB; below, they were called healthy.
 """
 
+_EXACT = 2e-3
+"""How far a speed may be off, as a part of it, that is called exact."""
+
 _CLIPPED = 1e-3
 """Share of samples at the largest or the smallest value from which on a record counts as clipped."""
 
@@ -48,9 +51,9 @@ def lack_of(channel: Channel, shaft: float, kinematics: Kinematics, bands: int) 
     return None
 
 
-def wanting_of(channel: Channel, shaft: float, kinematics: Kinematics) -> list[str]:
-    """Return what a record lacks for a statement that nothing is damaged."""
-    found = [*_unclipped(channel.x), *_long_enough(channel, shaft, kinematics)]
+def wanting_of(channel: Channel, shaft: float, kinematics: Kinematics, within: float) -> list[str]:
+    """Return what a record lacks for a statement that nothing is damaged, its speed known within a part of it."""
+    found = [*_unclipped(channel.x), *_long_enough(channel, shaft, kinematics, within)]
     if channel.unit in VELOCITIES:
         found.append(
             f"an acceleration: this is a velocity in {channel.unit}, which has little of what rings"
@@ -65,7 +68,9 @@ def _unclipped(x: NDArray[np.float64]) -> list[str]:
     return []
 
 
-def _long_enough(channel: Channel, shaft: float, kinematics: Kinematics) -> list[str]:
+def _long_enough(
+    channel: Channel, shaft: float, kinematics: Kinematics, within: float
+) -> list[str]:
     """Ask for more turns where an order of a race lies so near a whole one that the shaft's lines hide its own."""
     orders = kinematics.orders
     part, order = min(
@@ -76,8 +81,10 @@ def _long_enough(channel: Channel, shaft: float, kinematics: Kinematics) -> list
     if channel.n_samples / channel.fs * shaft * apart >= _APART:
         return []
     longer = f", at least {_APART / apart / shaft:.3g} s" if apart > 1e-3 else ""
+    exact = ", or for damage to show the exact speed (speed_within)" if within > _EXACT else ""
     return [
-        f"a longer record{longer}: the {part} race's order {order:.3f} is too near the shaft's {round(order)}"
+        f"a longer record{longer}{exact}: the {part} race's order {order:.3f} is too near "
+        f"the shaft's {round(order)}"
     ]
 
 

@@ -13,6 +13,7 @@ from .arguments import (
     check_chances,
     checked_channel,
     known_bearing,
+    known_within,
     nominal_rate,
     other_rates,
 )
@@ -48,6 +49,7 @@ def diagnose(
     column: str | None = None,
     unit: str | None = None,
     row: int | None = None,
+    speed_within: float | None = None,
     false_alarm: float = 0.01,
     exclude: Iterable[float] = (),
     mains: float | None = None,
@@ -74,7 +76,7 @@ def diagnose(
         A designation such as ``"6205-2RS/C3"``, a bearing of the catalogue, a scene, a row of one, or orders, as a
         mapping of ``ftf``, ``bpfo``, ``bpfi`` and ``bsf``. By default the scene of the record.
     speed_rpm : float, optional
-        Nominal speed of the inner ring, within 1 % [rev/min]; by default what the record knows.
+        Nominal speed of the inner ring, within ``speed_within`` [rev/min]; by default what the record knows.
     fs : float, optional
         Sampling rate of an array [Hz].
     column : str, optional
@@ -85,6 +87,10 @@ def diagnose(
     row : int, optional
         Row of balls of a scene, from 0; by default all rows whose orders differ, and the verdict on the one that
         is worst off (``bearing`` tells which; a note the others).
+    speed_within : float, optional
+        How far the speed may be off, as a part of it, 0 to 0.01; a tachometer's within 0.001, say. By default 0
+        where it is a run's own, else 0.01. Lines of a race whose order is nearly whole, such as 4.95, are those of
+        a slightly slower shaft in a short record: only a speed that is known better tells them apart.
     false_alarm : float
         Share of healthy records that may be called damaged, from 1e-6 to 0.2.
     exclude : iterable of float
@@ -132,6 +138,7 @@ def diagnose(
             channel,
             scene,
             speed_rpm,
+            speed_within=speed_within,
             exclude=exclude,
             mains=mains,
             machine=machine,
@@ -140,6 +147,7 @@ def diagnose(
         return judged_by_rows(scene, false_alarm, lambda k, share: again(row=k, false_alarm=share))
     kinematics = known_bearing(channel, bearing, row or 0)
     nominal = nominal_rate(channel, speed_rpm)
+    within = known_within(channel, speed_rpm, speed_within)
     orders, rates = other_rates(exclude, mains)
     machine = checked_machine(machine)
     shaft = ShaftRate(rate=nominal, nominal=nominal, by="nominal", z=0.0)
@@ -147,7 +155,9 @@ def diagnose(
     lack = lack_of(channel, nominal, kinematics, len(bands_for(channel, kinematics, nominal)))
     if lack is not None:
         return replace(told, why=lack)
-    found = examined(channel, kinematics, nominal, orders=orders, rates=rates, seed=seed)
+    found = examined(
+        channel, kinematics, nominal, within=within, orders=orders, rates=rates, seed=seed
+    )
     shaft, bands = found.shaft, found.envelopes.bands
     circle = _circle(channel, kinematics, shaft.rate)
     evidence = with_ratios(found.evidence, circle)
@@ -158,7 +168,7 @@ def diagnose(
     verdict = decided(
         evidence, own, false_alarm, limits=limits, silent=not has_background(channel.x),
         blows=found.envelopes.blows(limits.faint if limits else 0.0),
-        wanting=wanting_of(channel, shaft.rate, kinematics),
+        wanting=wanting_of(channel, shaft.rate, kinematics, within),
     )  # fmt: skip
     deciding = bands.index(max((evidence[part] for part in ACCUSED), key=lambda one: one.z).band)
     severity = severity_of(channel, shaft.rate, found.envelopes, deciding, machine)

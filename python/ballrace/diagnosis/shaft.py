@@ -15,10 +15,10 @@ if TYPE_CHECKING:
 
     from .envelopes import Levels
 
-__all__ = ["ShaftRate", "shaft_rate"]
+__all__ = ["WITHIN", "ShaftRate", "shaft_rate"]
 
-_WITHIN = 0.01
-"""How far the rate may be from the nominal one, as a part of it."""
+WITHIN = 0.01
+"""How far the rate may be from a nominal one, as a part of it."""
 
 _HARMONICS = np.arange(1, 11)
 _CLEAR = 0.01
@@ -50,14 +50,25 @@ class ShaftRate:
 
 
 def shaft_rate(
-    x: NDArray[np.float64], fs: float, nominal: float, envelopes: NDArray[np.float64]
+    x: NDArray[np.float64],
+    fs: float,
+    nominal: float,
+    envelopes: NDArray[np.float64],
+    within: float = WITHIN,
 ) -> ShaftRate:
-    """Find the rate whose multiples stand highest in the spectrum and in the envelopes' spectra."""
+    """Find the rate whose multiples stand highest in the spectrum and in the envelopes' spectra.
+
+    Within ``within`` of the nominal one, as a part of it. In a record of some 40 turns lines of an inner race at
+    4.95 times the shaft's rate, with the shaft's sidebands, are those of a shaft 1 % slower: only who knows the
+    speed better can tell them apart.
+    """
     plain = line_spectrum(x, envelopes.shape[1])
     value = np.vstack([plain, envelopes])
     levels = levels_of(value, x.size / fs, nominal)
-    tried, heights = _family(levels, nominal)
-    by_chance = np.array([_family(levels, other)[1].max(axis=1) for other in _others(nominal)])
+    tried, heights = _family(levels, nominal, within)
+    by_chance = np.array(
+        [_family(levels, other, within)[1].max(axis=1) for other in _others(nominal)]
+    )
     middle = np.median(by_chance, axis=0)
     spread = 1.4826 * np.median(np.abs(by_chance - middle), axis=0) + 0.3
     scores = ((by_chance - middle) / spread).max(axis=1)
@@ -72,11 +83,13 @@ def shaft_rate(
     )
 
 
-def _family(levels: Levels, base: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _family(
+    levels: Levels, base: float, within: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return rates near a base and the mean levels of their multiples, shape (spectra, rates)."""
     step = 0.25 / (_HARMONICS[-1] * levels.duration)
-    count = int(min(max(_WITHIN * base / step, 4), 400))
-    tried = base * (1.0 + _WITHIN * np.linspace(-1.0, 1.0, 2 * count + 1))
+    count = int(min(max(within * base / step, 1), 400))
+    tried = base * (1.0 + within * np.linspace(-1.0, 1.0, 2 * count + 1))
     lines = levels.highest(_HARMONICS[:, np.newaxis] * tried, 0.0)
     return tried, lines.mean(axis=1)
 
@@ -85,6 +98,6 @@ def _others(nominal: float) -> NDArray[np.float64]:
     """Return rates whose multiples are not the shaft's."""
     drawn = np.random.default_rng(0).uniform(0.6, 1.35, 20 * _COUNT)
     shared = np.array([p / q for p in range(1, 7) for q in range(1, 7)])
-    free = np.abs(drawn[:, np.newaxis] / shared - 1.0).min(axis=1) > 2.5 * _WITHIN
+    free = np.abs(drawn[:, np.newaxis] / shared - 1.0).min(axis=1) > 2.5 * WITHIN
     found: NDArray[np.float64] = nominal * drawn[free][:_COUNT]
     return found

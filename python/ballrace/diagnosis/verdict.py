@@ -212,7 +212,7 @@ def _of_no_size(one: Evidence) -> str:
 
 def _blows(kurtosis: float) -> str:
     return (
-        f"the right speed and bearing, or a longer record: blows stand out (kurtosis {kurtosis:.0f}), "
+        f"the exact speed, the right bearing, or a longer record: blows stand out (kurtosis {kurtosis:.0f}), "
         "but at no rate of this bearing"
     )
 

@@ -41,6 +41,7 @@ def trend(
     column: str | None = None,
     unit: str | None = None,
     row: int | None = None,
+    speed_within: float | None = None,
     false_alarm: float = 0.01,
     machine: Machine | None = None,
     seed: int = 0,
@@ -58,7 +59,7 @@ def trend(
     ----------
     records : iterable of Signals, Measurement, Recording, Channel or array_like
         In the order of time, one after the other, all at one sampling rate; a generator that reads files will do.
-    bearing, speed_rpm, fs, column, unit, row, false_alarm, machine, seed
+    bearing, speed_rpm, fs, column, unit, row, speed_within, false_alarm, machine, seed
         As of :func:`ballrace.diagnose`.
     times : array_like, shape (n,), optional
         When they were taken, rising, in any unit; by default 0, 1, 2, …
@@ -95,7 +96,9 @@ def trend(
         raise SceneError("records", type(records).__name__, "several records, in the order of time")
     if isinstance(baseline, bool) or not isinstance(baseline, int | np.integer) or baseline < 3:
         raise SceneError("baseline", repr(baseline), "a whole number of records, 3 and more")
-    options: Any = {"row": row, "false_alarm": false_alarm, "machine": machine, "seed": seed}
+    options: Any = {
+        "row": row, "speed_within": speed_within, "false_alarm": false_alarm, "machine": machine, "seed": seed,
+    }  # fmt: skip
     taken: list[_Taken] = []
     for number, record in enumerate(records):
         at = f"records[{number}]"
