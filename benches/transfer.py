@@ -299,9 +299,10 @@ def domain(data: br.learn.Simulated, records: list[Record]) -> str:
 
 PAGE = """# Transfer: trained on simulated records, tested on measured ones
 
-Made by `python benches/transfer.py`. Nothing measured is trained on; results of measured records were looked at
-{looks} while settings could still be changed: once of a model of three runs a class, once before false alarms were
-bounded. The classifier is chosen on simulated records: bearings not seen, and another bearing on other machines.
+Made by `python benches/transfer.py` on {day}, with what the changelog has after {version}.
+Nothing measured is trained on; results of measured records were looked at {looks} while settings could
+still be changed: once of a model of three runs a class, once before false alarms were bounded. The classifier is
+chosen on simulated records: bearings not seen, and another bearing on other machines.
 
 {sizes}
 
@@ -360,7 +361,8 @@ def report(folder: Path, per_class: int, records: list[Record]) -> str:
     )
     looks = "once" if LOOKS == 1 else f"{LOOKS} times"
     return PAGE.format(
-        looks=looks, sizes=sizes, count=len(records), table="\n".join([HEAD, *rows]),
+        looks=looks, sizes=sizes, day=time.strftime("%Y-%m-%d"), version=br.__version__,
+        count=len(records), table="\n".join([HEAD, *rows]),
         others="\n".join([HEAD, *others]), domain=betrayed,
         choice=f"| classifier | {' | '.join(WAYS)} |\n|{'---|' * 5}\n{chosen}",
     )  # fmt: skip
