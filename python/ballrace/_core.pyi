@@ -1,4 +1,4 @@
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Literal, TypeAlias, TypedDict, final
 
 import numpy as np
@@ -79,6 +79,7 @@ class Simulation:
         self, t: float, progress: Callable[[float], object] | None = None
     ) -> dict[str, _Array]: ...
     def change(self, changes: str) -> None: ...
+    def set_loads(self, loads: Sequence[tuple[str, float]]) -> None: ...
     def finish(self, progress: Callable[[float], object] | None = None) -> _Signals: ...
 
 class _Signals(TypedDict):

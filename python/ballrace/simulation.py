@@ -312,6 +312,45 @@ class Simulation:
         pairs = [(checked_path(path), encode(value, path)) for path, value in changes.items()]
         self._core.change(json.dumps(pairs))
 
+    def set_loads(self, loads: Mapping[str, float]) -> None:
+        """Set the sizes of constant loads, moments and of a constant torque of the drive by their paths.
+
+        For forces from another simulation, which exchanges them every few microseconds: the integrator starts anew
+        as in :meth:`change`, but nothing is compiled. Tolerances, step limits, films, textures and places of
+        defects stay those of the loads that the scene was compiled with. Sizes that are those before leave the
+        motion as it is, bit by bit.
+
+        Parameters
+        ----------
+        loads : mapping of str to float
+            Sizes [N], [N m] by paths: ``loads.radial.force``, ``moments.tilt.moment``, ``drive.torque.value``.
+
+        Raises
+        ------
+        SceneError
+            A path is none of these, its size changes in time, or the new size is not usable. The simulation is
+            then as it was.
+
+        Examples
+        --------
+        A spring from the outer ring to a housing, held for 10 µs each:
+
+        >>> import ballrace as br
+        >>> scene = br.presets.deep_groove_6205(radial_load=500.0)
+        >>> simulation = br.Simulation(scene.replace({"outer_ring.support.y": "free"}))
+        >>> y = simulation.names.index("outer.y")
+        >>> rest = simulation.state[y]
+        >>> for step in range(1, 101):
+        ...     force = 500.0 + 5e7 * (simulation.state[y] - rest)
+        ...     simulation.set_loads({"loads.radial.force": force})
+        ...     piece = simulation.advance_to(1e-5 * step)
+        >>> bool(abs(simulation.state[y] - rest) < 1e-6)
+        True
+        """
+        if not hasattr(loads, "items"):
+            raise SceneError("loads", repr(loads), "sizes by their paths")
+        self._core.set_loads([(checked_path(path), real(size)) for path, size in loads.items()])
+
     def finish(self, *, progress: bool | Callable[[float], object] | None = None) -> Signals:
         """End the run here, and return its record.
 

@@ -99,6 +99,21 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     Ok(model)
 }
 
+impl Model {
+    /// The same bearing with the sizes that loads, moments and drive have in a scene that differs in nothing else. Scales, films and what
+    /// follows from loads at rest stay those of the loads that it was compiled with.
+    #[must_use]
+    pub(crate) fn loaded(&self, scene: &Scene) -> Self {
+        let mut model = self.clone();
+        model.scene.loads.clone_from(&scene.loads);
+        model.scene.moments.clone_from(&scene.moments);
+        model.scene.drive.clone_from(&scene.drive);
+        model.loads = loads(scene, &model.rings);
+        model.moments = moments(scene);
+        model
+    }
+}
+
 /// Refuses more pits than a contact has room for.
 fn check_pits_at_once(model: &Model) -> Result<()> {
     for (i, row) in model.rows.iter().enumerate() {

@@ -147,6 +147,13 @@ impl GoingRun {
         })
     }
 
+    /// Sets sizes of constant loads by dotted paths.
+    fn set_loads(&self, py: Python<'_>, loads: Vec<(String, f64)>) -> PyResult<()> {
+        let loads = loads.iter().map(|(path, size)| (path.as_str(), *size));
+        let loads: Vec<_> = loads.collect();
+        self.with(py, |simulation| simulation.set_loads(&loads))
+    }
+
     /// Ends it; returns what `simulate` does, of the samples that were not taken.
     #[pyo3(signature = (progress = None))]
     fn finish<'py>(

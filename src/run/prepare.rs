@@ -8,20 +8,37 @@ use super::accuracy;
 use super::settle::{self, Settled};
 use crate::base::error::Result;
 use crate::base::memory;
+use crate::model::Model;
 use crate::scene::Scene;
 use crate::signals::{Accuracy, Bandwidth, Demand, Signals};
 use crate::statics::start::Start;
-use crate::statics::{Placed, place};
+use crate::statics::{Placed, compile, place};
 
 /// A scene as it will run.
 #[derive(Debug, Clone)]
 pub(super) struct Prepared {
     pub scene: Scene,
+    /// What loads were when the scene was compiled, by their paths, of those that were set since.
+    pub compiled_loads: BTreeMap<String, f64>,
     /// The defects by name, and where the contact runs that they were placed by.
     pub placed: BTreeMap<String, Placed>,
     pub settled: Settled,
     /// What a requested accuracy chose.
     pub accuracy: Option<Accuracy>,
+}
+
+impl Prepared {
+    /// Compiles it, with the loads that it was compiled with before those that are set now.
+    pub fn compile(&self) -> Result<Model> {
+        if self.compiled_loads.is_empty() {
+            return compile(&self.scene);
+        }
+        let mut scene = self.scene.clone();
+        for (path, size) in &self.compiled_loads {
+            *scene.constant_load(path)? = *size;
+        }
+        Ok(compile(&scene)?.loaded(&self.scene))
+    }
 }
 
 /// How pilot runs are simulated.
@@ -54,6 +71,7 @@ pub(super) fn prepare(
     Ok(Prepared {
         accuracy: accuracy.transpose()?,
         scene,
+        compiled_loads: BTreeMap::new(),
         placed,
         settled,
     })

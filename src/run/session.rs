@@ -20,8 +20,8 @@ use crate::reduction::Reduction;
 use crate::scene::{Drive, Scene};
 use crate::signals::{Keep, Recorder, Sampling, Signals, Statistics};
 use crate::simd::Distrust;
+use crate::statics::Placed;
 use crate::statics::start::start;
-use crate::statics::{Placed, compile};
 
 /// A run between its pieces.
 pub(super) struct Session<'s> {
@@ -50,7 +50,7 @@ impl<'s> Session<'s> {
     ) -> Result<Self> {
         let in_blocks = !keep.is_all();
         let prepared = prepare(scene, run, in_blocks, simulate, progress)?;
-        let (model, distrust) = selftest::trusted(compile(&prepared.scene)?);
+        let (model, distrust) = selftest::trusted(prepared.compile()?);
         let y0 = start(&model, &prepared.settled.from)?;
         let sampling = Sampling::new(run.bandwidth, run.fs, model.scales.frequency)?;
         let samples = (run.samples()?, sampling.oversampling);
@@ -68,7 +68,7 @@ impl<'s> Session<'s> {
         remembered: &Remembrance,
         keep: Keep<'s>,
     ) -> Result<Self> {
-        let (model, distrust) = selftest::trusted(compile(&prepared.scene)?);
+        let (model, distrust) = selftest::trusted(prepared.compile()?);
         let options = options(&model);
         let y = vec![0.0; model.dim()];
         let mut trajectory = Trajectory::new(&model, y, whole(run), options.max_step);
@@ -155,8 +155,31 @@ impl<'s> Session<'s> {
         )
     }
 
-    /// Goes on with another model of the same bodies and probes from where it stands, and with its scene, defects placed.
-    pub fn change(&mut self, model: Model, (scene, placed): (Scene, BTreeMap<String, Placed>)) {
+    /// Goes on with another scene of the same bodies and probes from where it stands, defects placed, and with its model.
+    pub fn change(&mut self, model: Model, scene: Scene, placed: BTreeMap<String, Placed>) {
+        self.prepared.compiled_loads.clear();
+        self.prepared.placed = placed;
+        self.go_on_with(model, scene);
+    }
+
+    /// Goes on with other sizes of constant loads, by their paths, and otherwise with the model as it is.
+    pub fn set_loads(&mut self, loads: &[(&str, f64)]) -> Result<()> {
+        let mut scene = self.prepared.scene.clone();
+        let mut compiled = self.prepared.compiled_loads.clone();
+        for (path, size) in loads {
+            let before = std::mem::replace(scene.constant_load(path)?, *size);
+            compiled.entry((*path).to_owned()).or_insert(before);
+        }
+        if scene == self.prepared.scene {
+            return Ok(());
+        }
+        scene.validate()?;
+        self.prepared.compiled_loads = compiled;
+        self.go_on_with(self.model.loaded(&scene), scene);
+        Ok(())
+    }
+
+    fn go_on_with(&mut self, model: Model, scene: Scene) {
         let (model, distrust) = selftest::trusted(model);
         let (time, mut y) = (self.trajectory.time(), self.trajectory.last().to_vec());
         if scene.drive != self.prepared.scene.drive
@@ -170,7 +193,7 @@ impl<'s> Session<'s> {
         let dynamics = Dynamics::begin(&model, self.reduction.as_ref(), &y);
         self.recorder.change(&dynamics, &y);
         self.trajectory = self.trajectory.after(&model, y, self.options.max_step);
-        (self.prepared.scene, self.prepared.placed) = (scene, placed);
+        self.prepared.scene = scene;
         (self.model, self.distrust) = (model, distrust);
     }
 

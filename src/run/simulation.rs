@@ -226,8 +226,41 @@ impl Simulation {
         let (scene, placed) = place(&scene)?;
         let model = compile(&scene)?;
         check_kept(self.model(), &model)?;
-        self.session.change(model, (scene.into_owned(), placed));
+        self.session.change(model, scene.into_owned(), placed);
         Ok(())
+    }
+
+    /// Sets the sizes of constant loads and moments, and of a constant torque of the drive, by their paths: `loads.radial.force`,
+    /// `moments.tilt.moment`, `drive.torque.value`. They hold until they are set again.
+    ///
+    /// For forces from another simulation, which exchanges them every few microseconds: the integrator starts anew, as in
+    /// [`Self::change`], but nothing is compiled. Tolerances, step limits, films, textures and places of defects stay those of the loads that
+    /// the scene was compiled with; give it loads of the size that is to come, or [`Self::change`] it. Sizes that are those before leave
+    /// the motion as it is, bit by bit.
+    ///
+    /// ```
+    /// use ballrace::scene::{Mount, presets};
+    /// use ballrace::{Run, Simulation};
+    ///
+    /// let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    /// scene.outer_ring.support.y = Some(Mount::Free);
+    /// let mut simulation = Simulation::begin(&scene, &Run { duration: Run::OPEN, ..Run::default() })?;
+    /// // A spring from the outer ring to a housing: 50 N/µm, held for 10 µs each.
+    /// let rest = simulation.state()[1];
+    /// for step in 1..=100 {
+    ///     let stretch = simulation.state()[1] - rest;
+    ///     simulation.set_loads(&[("loads.radial.force", 500.0 + 5e7 * stretch)])?;
+    ///     simulation.advance_to(1e-5 * f64::from(step))?;
+    /// }
+    /// assert!((simulation.state()[1] - rest).abs() < 1e-6);
+    /// # Ok::<(), ballrace::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Scene`] names the path that is none of these, or whose size changes in time; the simulation is then as it was.
+    pub fn set_loads(&mut self, loads: &[(&str, f64)]) -> Result<()> {
+        self.check()?;
+        self.session.set_loads(loads)
     }
 
     /// Ends the run here: the samples that were not taken, statistics and provenance.

@@ -23,6 +23,8 @@ pub struct Snapshot {
     version: String,
     time: f64,
     scene: Scene,
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    compiled_loads: BTreeMap<String, f64>,
     run: Run,
     placed: BTreeMap<String, Placed>,
     settled: Settled,
@@ -49,6 +51,7 @@ impl Snapshot {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             time,
             scene: prepared.scene.clone(),
+            compiled_loads: prepared.compiled_loads.clone(),
             run: run.clone(),
             placed: prepared.placed.clone(),
             settled: prepared.settled.clone(),
@@ -94,6 +97,7 @@ impl Snapshot {
     pub(super) fn prepared(&self) -> Prepared {
         Prepared {
             scene: self.scene.clone(),
+            compiled_loads: self.compiled_loads.clone(),
             placed: self.placed.clone(),
             settled: self.settled.clone(),
             accuracy: self.accuracy,

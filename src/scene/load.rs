@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Scene;
 use super::bearing::RingName;
 use super::time::TimeFunction;
+use crate::base::error::{Error, Result};
 
 /// A force on a ring's centre or on another point of it, in a fixed direction of the inertial frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -135,6 +137,35 @@ impl Drive {
         match self {
             Self::Speed(speed) => speed.at(t),
             Self::Torque { initial_speed, .. } => *initial_speed,
+        }
+    }
+}
+
+impl Scene {
+    /// The size of a load, of a moment or of the drive's torque by its path, of one that is the same at all times.
+    pub(crate) fn constant_load(&mut self, path: &str) -> Result<&mut f64> {
+        let steps: Vec<&str> = path.split('.').collect();
+        let size = match steps[..] {
+            ["loads", name, "force"] => self.loads.get_mut(name).map(|load| &mut load.force),
+            ["moments", name, "moment"] => self.moments.get_mut(name).map(|of| &mut of.moment),
+            ["drive", "torque", "value"] => match &mut self.drive {
+                Drive::Torque { value, .. } => Some(value),
+                Drive::Speed(_) => None,
+            },
+            _ => None,
+        };
+        match size {
+            Some(TimeFunction::Constant(size)) => Ok(size),
+            Some(TimeFunction::Profile(_)) => {
+                let allowed =
+                    "a size that is the same at all times, not one of a ramp, sine or table";
+                Err(Error::scene(path, "changing in time", allowed))
+            }
+            None => {
+                let allowed =
+                    "loads.NAME.force, moments.NAME.moment or drive.torque.value of the scene";
+                Err(Error::scene(path, path, allowed))
+            }
         }
     }
 }

@@ -1,7 +1,8 @@
 //! A run in pieces is the run in one piece, bit by bit, whatever the pieces, through snapshots, and where nothing changes.
 
 use ballrace::scene::{
-    Drive, Lubricant, Method, Mount, Probe, Profile, Spin, TimeFunction, presets,
+    Drive, Load, Lubricant, Method, Moment, Mount, Probe, Profile, RingName, Spin, TimeFunction,
+    presets,
 };
 use ballrace::{
     Bandwidth, Column, Error, Run, Scene, Signals, Simulation, Snapshot, Start, simulate,
@@ -235,20 +236,151 @@ fn changes_are_steps_of_a_table() {
         ..Run::default()
     };
     let truth = simulate(&course, &run).unwrap();
-    let mut simulation = Simulation::begin(&scene, &run).unwrap();
-    simulation.advance_to(1e-3).unwrap();
-    simulation
-        .change(&[("loads.radial.force", 900.0.into())])
-        .unwrap();
-    simulation.advance_to(3e-3).unwrap();
-    let found = simulation.finish().unwrap();
-    let (truth, found) = (
-        truth.get("outer.vy").unwrap(),
-        found.get("outer.vy").unwrap(),
-    );
+    let truth = truth.get("outer.vy").unwrap();
     let size = truth.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    for (a, b) in truth.iter().zip(found) {
-        assert!((a - b).abs() < 1e-3 * size, "{a} {b} of {size}");
+    for is_compiled in [true, false] {
+        let mut simulation = Simulation::begin(&scene, &run).unwrap();
+        simulation.advance_to(1e-3).unwrap();
+        let path = "loads.radial.force";
+        if is_compiled {
+            simulation.change(&[(path, 900.0.into())]).unwrap();
+        } else {
+            simulation.set_loads(&[(path, 900.0)]).unwrap();
+        }
+        assert_eq!(simulation.scene().loads["radial"].force.at(0.0), 900.0);
+        simulation.advance_to(3e-3).unwrap();
+        let found = simulation.finish().unwrap();
+        for (a, b) in truth.iter().zip(found.get("outer.vy").unwrap()) {
+            assert!((a - b).abs() < 1e-3 * size, "{a} {b} of {size}");
+        }
+    }
+}
+
+/// A scene with loads of both kinds in and off the plane, none of them at work yet, and a torque for the inner ring.
+fn unloaded() -> Scene {
+    let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    let thrust = Load::new(RingName::Outer, [0.0, 0.0, 1.0], 0.0);
+    scene.loads.insert("thrust".to_owned(), thrust);
+    let about_z = Moment::new(RingName::Inner, [0.0, 0.0, 1.0], 0.0);
+    scene.moments.insert("brake".to_owned(), about_z);
+    scene.drive = Drive::Torque {
+        value: 0.5.into(),
+        initial_speed: 188.5,
+    };
+    scene.outer_ring.support.z = Some(Mount::Spring {
+        stiffness: 1e7,
+        damping: 100.0,
+    });
+    scene
+}
+
+/// Loads that are set push where loads of a compiled scene do: also along z, where the run had left that out, and about it.
+#[test]
+fn loads_that_are_set_are_loads_of_the_scene() {
+    let sizes = [
+        ("loads.radial.force", 550.0),
+        ("loads.thrust.force", 20.0),
+        ("moments.brake.moment", -1.5),
+        ("drive.torque.value", 2.0),
+    ];
+    let run = Run {
+        rtol: Some(1e-9),
+        ..run()
+    };
+    let mut simulations = [0, 1].map(|_| Simulation::begin(&unloaded(), &run).unwrap());
+    let [set, compiled] = &mut simulations;
+    set.advance_to(1e-3).unwrap();
+    compiled.advance_to(1e-3).unwrap();
+    let rest = set.state().to_vec();
+    set.set_loads(&sizes).unwrap();
+    let changes = sizes.map(|(path, size)| (path, size.into()));
+    compiled.change(&changes).unwrap();
+    assert_eq!(set.scene(), compiled.scene());
+    for simulation in [&mut *set, &mut *compiled] {
+        simulation.advance_to(3e-3).unwrap();
+    }
+    let names = set.model().names();
+    for name in ["outer.y", "outer.z", "inner.omega"] {
+        let at = names.iter().position(|of| of == name).unwrap();
+        let [moved, truth] = [&*set, &*compiled].map(|of| of.state()[at] - rest[at]);
+        assert!(
+            truth != 0.0 && (moved - truth).abs() < 1e-3 * truth.abs(),
+            "{name}: {moved} {truth}"
+        );
+    }
+}
+
+/// A snapshot has the loads that were set, and the tolerances of those that were compiled.
+#[test]
+fn loads_that_are_set_go_on_bit_by_bit() {
+    let scene = unloaded();
+    let run = run();
+    let go = |takes_up: bool| {
+        let mut simulation = Simulation::begin(&scene, &run).unwrap();
+        for piece in 1..=20 {
+            let phase = 0.3 * f64::from(piece);
+            let sizes = [
+                ("loads.radial.force", 500.0 + 200.0 * phase.sin()),
+                ("loads.thrust.force", 50.0 * phase.cos()),
+            ];
+            simulation.set_loads(&sizes).unwrap();
+            simulation.advance_to(2e-5 * f64::from(piece)).unwrap();
+            if piece == 10 {
+                // Compiled anew with the loads of now.
+                simulation.change(&[("friction", "none".into())]).unwrap();
+            }
+            if takes_up {
+                let words = simulation.snapshot().to_json();
+                simulation = Simulation::restore(&Snapshot::from_json(&words).unwrap()).unwrap();
+            }
+        }
+        simulation.finish().unwrap()
+    };
+    let (whole, taken_up) = (go(false), go(true));
+    assert_eq!(bits(&whole.columns), bits(&taken_up.columns));
+    assert_eq!(whole.end_state, taken_up.end_state);
+}
+
+/// Sizes that are those before leave the motion of a run in one piece, bit by bit.
+#[test]
+fn the_same_loads_again_leave_the_bits() {
+    let scene = presets::deep_groove_6205(500.0, 300.0, 1800.0);
+    let whole = simulate(&scene, &run()).unwrap();
+    let (_, pieces) = in_pieces("set again", &scene, &run(), 1, |mut simulation| {
+        let same = simulation.scene().loads["radial"].force.at(0.0);
+        simulation
+            .set_loads(&[("loads.radial.force", same)])
+            .unwrap();
+        simulation
+    });
+    assert_eq!(whole.end_state, pieces.end_state);
+}
+
+#[test]
+fn loads_that_cannot_be_set_are_refused_by_name() {
+    let mut scene = unloaded();
+    scene.loads.get_mut("thrust").unwrap().force = TimeFunction::Profile(Profile::Ramp {
+        from: 0.0,
+        to: 1.0,
+        start: 0.0,
+        end: 1.0,
+    });
+    let mut simulation = Simulation::begin(&scene, &run()).unwrap();
+    let before = simulation.scene().clone();
+    for (path, size) in [
+        ("loads.other.force", 1.0),
+        ("loads.thrust.force", 1.0),
+        ("rows[0].clearance", 1e-6),
+        ("drive.speed", 100.0),
+        ("loads.radial.force", f64::NAN),
+        ("loads.radial.force", 1e13),
+    ] {
+        let refused = simulation.set_loads(&[("moments.brake.moment", 1.0), (path, size)]);
+        let Err(Error::Scene { path: named, .. }) = refused else {
+            panic!("{path}: {refused:?}")
+        };
+        assert_eq!(named, path);
+        assert_eq!(simulation.scene(), &before);
     }
 }
 

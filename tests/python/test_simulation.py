@@ -107,14 +107,15 @@ def test_a_damaged_or_foreign_snapshot_is_refused(tmp_path: Path) -> None:
         br.Simulation.restore(path)
 
 
-def test_a_load_that_is_changed_is_a_load_with_a_course() -> None:
+@pytest.mark.parametrize("call", ["change", "set_loads"])
+def test_a_load_that_is_changed_is_a_load_with_a_course(call: str) -> None:
     """Truth: a table with the same steps, within what the tolerance leaves."""
     step = br.scene.Table(times=(0.0, 2e-3, 2e-3, 1.0), values=(500.0, 500.0, 800.0, 800.0))
     course = scene().replace({"loads.radial.force": step})
     whole = br.simulate(course, duration=DURATION, settle=0.0, rtol=1e-9)
     simulation = br.Simulation(scene(), duration=DURATION, settle=0.0, rtol=1e-9)
     simulation.advance_to(2e-3)
-    simulation.change({"loads.radial.force": 800.0})
+    getattr(simulation, call)({"loads.radial.force": 800.0})
     simulation.advance_to(DURATION)
     out = simulation.finish()
     unchanged = br.simulate(scene(), duration=DURATION, settle=0.0, rtol=1e-9)
@@ -165,6 +166,9 @@ def test_bad_input_is_refused_by_name() -> None:
         (lambda: simulation.change({"loads.radial.newton": 8.0}), "newton"),
         (lambda: simulation.change({"probes.more": br.scene.TorqueProbe()}), "^changes = "),
         (lambda: simulation.change(3), "^changes = "),  # type: ignore[arg-type]
+        (lambda: simulation.set_loads(3), "^loads = "),  # type: ignore[arg-type]
+        (lambda: simulation.set_loads({"loads.other.force": 1.0}), r"^loads\.other\.force = "),
+        (lambda: simulation.set_loads({"loads.radial.force": "big"}), r"^loads\.radial\.force = "),  # type: ignore[dict-item]
     ]
     for call, match in calls:
         with pytest.raises(br.SceneError, match=match):
