@@ -1,16 +1,17 @@
-"""The right-hand side of the model in numba: fixed slices, written as a careful user would write it.
+"""The right-hand side of the model in numba: slices or Gauss nodes, as a careful user would write it.
 
 Compiled loops over scalars, nothing allocated inside, balls that touch nothing cost a comparison, and of the
-slices only those are visited that can touch: ball and groove are two circles in the meridional plane, whose
-cuts end the zone. In a contact the local frame (n, t, z) keeps a slice short. It covers what the preset
-``wheel_bearing`` needs: the ISO law, Hunt-Crossley damping, Coulomb friction, cage, supports of the rings,
-constant loads, a given speed, and one defect of constant width and two edge circles a row on the outer race.
+slices only those are visited that can touch: ball and groove are two circles in the meridional plane, whose cuts
+end the zone; Gauss nodes lie between these. In a contact the local frame (n, t, z) keeps a slice short. It
+covers what the preset ``wheel_bearing`` needs: the ISO law, Hunt-Crossley damping, Coulomb friction, cage,
+supports of the rings, constant loads, a given speed, and one defect of constant width and two edge circles a row
+on the outer race.
 
 Symbols are those of the package's own documentation: d distance of ball and ring axis, s penetration,
 zeta and rho place and radius of a slice, n_e the in-plane unit vector out of the ball.
 """
 
-# ruff: noqa: PLR0915, PLR0917  compiled functions are flat and take what they need one by one
+# ruff: noqa: PLR0912, PLR0915, PLR0917  compiled functions are flat and take what they need one by one
 
 from __future__ import annotations
 
@@ -39,9 +40,10 @@ COMMON = np.dtype(
         *((name, "f8") for name in ("cage_stiffness", "cage_damping", "cage_distance")),
     ]
 )
-"""What is the same for all rows. `stiffness` is that of one slice, c_s [N/m^(10/9)]."""
+"""What is the same for all rows. `stiffness` is that of a slice, c_s [N/m^(10/9)], for Gauss nodes of a metre."""
 
-compiled = numba.njit(cache=True, fastmath=False, error_model="numpy")
+# Not cached: numba does not notice that a function changed which a cached one has taken in.
+compiled = numba.njit(fastmath=True, error_model="numpy")
 
 
 @compiled
@@ -102,6 +104,7 @@ def open_slice(
     rho: float,
     angles: tuple[float, float, float],
     beta: float,
+    stiffness: float,
     defect: Any,
     common: Any,
 ) -> None:
@@ -117,12 +120,12 @@ def open_slice(
             s_1, x_1, y_1 = s, x, y
         else:
             s_2, x_2, y_2 = s, x, y
-    shared = common.stiffness * max(s_1 + s_2 - s_race, 0.0) ** (10.0 / 9.0)
+    shared = stiffness * max(s_1 + s_2 - s_race, 0.0) ** (10.0 / 9.0)
     if shared > 0.0:
         p = (q[0, 0] + radius * n[0], q[0, 1] + radius * n[1])
         press(force, q, v, ball, 0, shared, n, p, angles, common)
     for s, x, y in ((s_1, x_1, y_1), (s_2, x_2, y_2)):
-        elastic = common.stiffness * max(s, 0.0) ** (10.0 / 9.0) - shared
+        elastic = stiffness * max(s, 0.0) ** (10.0 / 9.0) - shared
         if elastic > 0.0:
             far = math.sqrt(x * x + y * y)
             reach = (far - defect.edge_radius) / far
@@ -142,7 +145,7 @@ def contact(
     slices: Any,
     common: Any,
 ) -> None:
-    """All slices of one ball on one race."""
+    """All slices of one ball on one race, or Gauss nodes: `slices` holds these on [-1, 1], and weights."""
     dx, dy = q[ball, 0] - q[ring, 0], q[ball, 1] - q[ring, 1]
     d = math.sqrt(dx * dx + dy * dy)
     # The two circles of the meridional plane.
@@ -156,9 +159,12 @@ def contact(
     across = math.sqrt(max(common.radius**2 - along * along, 0.0)) * abs(away) / line
     middle = along * offset / line
     count = slices.shape[1]
-    width = 2.0 * common.radius / count
-    first = max(math.ceil((middle - across) / width + (count - 1) / 2.0), 0)
-    last = min(math.floor((middle + across) / width + (count - 1) / 2.0), count - 1)
+    by_gauss = slices.shape[0] == 2
+    first, last = 0, count - 1
+    if not by_gauss:
+        width = 2.0 * common.radius / count
+        first = max(math.ceil((middle - across) / width + (count - 1) / 2.0), 0)
+        last = min(math.floor((middle + across) / width + (count - 1) / 2.0), count - 1)
 
     nx, ny = dx / d, dy / d
     wx, wy = v[ball, 0] - v[ring, 0], v[ball, 1] - v[ring, 1]
@@ -174,37 +180,70 @@ def contact(
         angle = abs(math.atan2(ny * cos - nx * sin, nx * cos + ny * sin))
     sigma, groove_a, groove_z, groove_rr = groove.sigma, groove.a, groove.z, groove.r**2
     stiffness, damping = common.stiffness, 1.5 * common.damping
+    ball_rr, per_radius = common.radius**2, 1.0 / common.radius
     friction, slip = common.friction, common.slip_speed**2
     radial = tangential = axial = ball_torque = ring_torque = 0.0
-    for k in range(first, last + 1):
-        zeta, rho = slices[0, k], slices[1, k]
-        tan, sin, cos = slices[2, k], slices[3, k], slices[4, k]
-        z = dz + zeta
-        x = z - groove_z
-        radius = groove_a + sigma * math.sqrt(groove_rr - x * x)
-        s = sigma * (d - radius) + rho
-        if s <= 0.0:
+    # Gauss's nodes see no jump: over a defect the zone is divided where the defect ends.
+    low, high = middle - across, middle + across
+    cut_low, cut_high = low, high
+    if by_gauss and hurt and angle <= defect.width / (2.0 * groove_a):
+        cut_low = min(max(defect.z - defect.half_length - dz, low), high)
+        cut_high = min(max(defect.z + defect.half_length - dz, low), high)
+    for part in range(3 if by_gauss else 1):
+        begin = low if part == 0 else cut_low if part == 1 else cut_high
+        end = cut_low if part == 0 else cut_high if part == 1 else high
+        if by_gauss and end <= begin:
             continue
-        if hurt and abs(z - defect.z) <= defect.half_length:
-            beta = defect.width / (2.0 * radius)
-            if angle <= beta:
-                angles = (tan, sin, cos)
-                n = (nx, ny)
-                open_slice(force, q, v, ball, n, radius, s, rho, angles, beta, defect, common)
+        part_middle, part_across = 0.5 * (begin + end), 0.5 * (end - begin)
+        for k in range(first, last + 1):
+            if by_gauss:
+                zeta = part_middle + part_across * slices[0, k]
+                rho = math.sqrt(ball_rr - zeta * zeta)
+                tan, sin, cos = zeta / rho, zeta * per_radius, rho * per_radius
+                stiffness = common.stiffness * part_across * slices[1, k]
+            else:
+                zeta, rho = slices[0, k], slices[1, k]
+                tan, sin, cos = slices[2, k], slices[3, k], slices[4, k]
+            z = dz + zeta
+            x = z - groove_z
+            radius = groove_a + sigma * math.sqrt(groove_rr - x * x)
+            s = sigma * (d - radius) + rho
+            if s <= 0.0:
                 continue
-        # A tenth faster than a power.
-        F = stiffness * math.exp(math.log(s) * (10.0 / 9.0))
-        F *= 1.0 + damping * (approach + vz * tan)
-        if F <= 0.0:
-            continue
-        u_t = drift + (spin - turn) * radius
-        u_m = vz * cos - approach * sin
-        rub = friction * F / math.sqrt(u_t * u_t + u_m * u_m + slip)
-        radial += F - rub * u_m * sin
-        tangential += rub * u_t
-        axial += F * tan + rub * u_m * cos
-        ball_torque += rub * u_t * (radius - d)
-        ring_torque += rub * u_t * radius
+            if hurt and abs(z - defect.z) <= defect.half_length:
+                beta = defect.width / (2.0 * radius)
+                if angle <= beta:
+                    angles = (tan, sin, cos)
+                    n = (nx, ny)
+                    open_slice(
+                        force,
+                        q,
+                        v,
+                        ball,
+                        n,
+                        radius,
+                        s,
+                        rho,
+                        angles,
+                        beta,
+                        stiffness,
+                        defect,
+                        common,
+                    )
+                    continue
+            # A tenth faster than a power.
+            F = stiffness * math.exp(math.log(s) * (10.0 / 9.0))
+            F *= 1.0 + damping * (approach + vz * tan)
+            if F <= 0.0:
+                continue
+            u_t = drift + (spin - turn) * radius
+            u_m = vz * cos - approach * sin
+            rub = friction * F / math.sqrt(u_t * u_t + u_m * u_m + slip)
+            radial += F - rub * u_m * sin
+            tangential += rub * u_t
+            axial += F * tan + rub * u_m * cos
+            ball_torque += rub * u_t * (radius - d)
+            ring_torque += rub * u_t * radius
     radial *= sigma
     fx, fy = -radial * nx + tangential * ny, -radial * ny - tangential * nx
     add(force, ball, ring, fx, fy, -axial)
@@ -295,6 +334,8 @@ class Bearing:
     ----------
     scene : ballrace.Scene
         A scene on fixed slices.
+    nodes : int, optional
+        Gauss's nodes along a contact's zone instead of the slices.
 
     Raises
     ------
@@ -302,10 +343,15 @@ class Bearing:
         The scene asks for something that this module does not have.
     """
 
-    def __init__(self, scene: br.Scene) -> None:
+    def __init__(self, scene: br.Scene, nodes: int | None = None) -> None:
         document: dict[str, Any] = json.loads(scene.to_json())
         refuse(document)
         self.tables = tables(document)
+        if nodes is not None:
+            grooves, defects, slices, bodies, common = self.tables
+            common["stiffness"] *= slices.shape[1] / (2.0 * common["radius"])
+            gauss = np.stack(np.polynomial.legendre.leggauss(nodes))
+            self.tables = grooves, defects, gauss, bodies, common
 
     def __call__(self, t: float, y: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the time derivative of a state; nothing depends on time but through it."""

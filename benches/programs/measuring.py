@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-TARGET = 1e-2
-
 
 @dataclass
 class Case:
@@ -83,8 +81,8 @@ def relative(signal: Array, truth: Array) -> float:
 def machine() -> str:
     """Processor, cores, versions."""
     bearing = br.presets.deep_groove_6205()
-    simd = br.simulate(bearing, duration=1e-5, fs=1e6).provenance["simd"]
-    names = ["ballrace", "numpy", "numba", "scipy", "exudyn"]
+    ours = br.simulate(bearing, duration=1e-5, fs=1e6).provenance
+    names = ["numpy", "numba", "scipy", "exudyn"]
     found = [f"{n} {importlib.metadata.version(n)}" for n in names if importlib.util.find_spec(n)]
     if shutil.which("octave-cli"):
         text = subprocess.run(
@@ -97,8 +95,10 @@ def machine() -> str:
     except (OSError, StopIteration):
         cpu = platform.processor()
     load = f", load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
-    versions = ", ".join([f"Python {platform.python_version()}", *found])
-    return f"{cpu}, {os.cpu_count()} cores{load}; SIMD {simd}; {versions}"
+    versions = ", ".join(
+        [f"Python {platform.python_version()}", f"ballrace {ours['version']}", *found]
+    )
+    return f"{cpu}, {os.cpu_count()} cores{load}; SIMD {ours['simd']}; {versions}"
 
 
 def alternate(cases: list[Case], rounds: int) -> None:
@@ -113,38 +113,48 @@ def alternate(cases: list[Case], rounds: int) -> None:
         print(f"  round {turn + 1} of {rounds}", file=sys.stderr)
 
 
-def cost(cases: list[Case], turn: int) -> float:
-    """Seconds at the target error in one round, log-log between the neighbours on the front."""
+def cost(cases: list[Case], turn: int, target: float) -> float:
+    """Seconds at an error in one round, log-log between neighbours on the front; NaN where none comes so near."""
     points = sorted((c.seconds[turn], c.error) for c in cases)
     front: list[tuple[float, float]] = []
     for seconds, error in points:
         if not front or error < front[-1][1]:
             front.append((seconds, error))
-    met = next((i for i, (_, error) in enumerate(front) if error <= TARGET), None)
+    met = next((i for i, (_, error) in enumerate(front) if error <= target), None)
     if met is None:
         return math.nan
     (high, fine) = front[met]
-    if met == 0 or fine == TARGET or not math.isfinite(front[met - 1][1]):
+    if met == 0 or fine == target or not math.isfinite(front[met - 1][1]):
         return high
     low, coarse = front[met - 1]
-    share = math.log(coarse / TARGET) / math.log(coarse / fine)
+    share = math.log(coarse / target) / math.log(coarse / fine)
     return low * (high / low) ** share
 
 
-def compare(cases: list[Case], pairs: list[tuple[str, str]]) -> list[Row]:
-    """All settings, then the cost at the target error, then its ratios."""
-    rows = [row(c.peer, c.setting, "ms", [1e3 * s for s in c.seconds], c.error) for c in cases]
+def settings_of(cases: list[Case]) -> list[Row]:
+    """All settings."""
+    return [row(c.peer, c.setting, "ms", [1e3 * s for s in c.seconds], c.error) for c in cases]
+
+
+def compare(cases: list[Case], ours: str, targets: Iterable[float]) -> list[Row]:
+    """Cost of each program at each error it reaches, and its ratio to ours at the same error."""
     by_peer: dict[str, list[Case]] = {}
     for case in cases:
         by_peer.setdefault(case.peer, []).append(case)
-    at: dict[str, list[float]] = {}
-    for peer, own in by_peer.items():
-        at[peer] = [cost(own, turn) for turn in range(len(own[0].seconds))]
-        rows.append(row(peer, "at 1 %", "ms", [1e3 * s for s in at[peer]], TARGET))
-    for theirs, ours in pairs:
-        if theirs in at:
-            ratios = [a / b for a, b in zip(at[theirs], at[ours], strict=False)]
-            rows.append(row(f"{theirs} ÷ {ours}", "at 1 %", "×", ratios, TARGET))
+    rows = []
+    for target in targets:
+        at = {
+            peer: [cost(own, turn, target) for turn in range(len(own[0].seconds))]
+            for peer, own in by_peer.items()
+        }
+        for peer, seconds in at.items():
+            if not all(map(math.isfinite, seconds)):
+                continue
+            setting = f"at {100 * target:.2g} %"
+            rows.append(row(peer, setting, "ms", [1e3 * s for s in seconds], target))
+            if peer != ours and all(map(math.isfinite, at[ours])):
+                ratios = [a / b for a, b in zip(seconds, at[ours], strict=False)]
+                rows.append(row(f"{peer} ÷ {ours}", setting, "×", ratios, target))
     return rows
 
 

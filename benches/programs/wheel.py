@@ -1,41 +1,43 @@
-"""The wheel bearing on one kind of slices: our runs, their references, and what others are held to."""
+"""The wheel bearing: our runs, the reference of all, and what others are held to."""
 
 from __future__ import annotations
 
 import json
 import math
 import sys
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numba_bearing import Bearing
 
 import ballrace as br
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from numba_bearing import Bearing
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
 
-from .measuring import Case, Row, relative, row, timed
+from .measuring import Case, relative, timed
 
 DURATION, FS = 6e-3, 50_000.0
 COUNTS = [{"fitted": n} for n in (4, 6, 8, 12, 16, 24, 32)] + [
     {"fixed": n} for n in (50, 100, 200, 400)
 ]
 CONVERGED = {"fitted": 64}
+SHIPPED = "ballrace as shipped"
+TIMES = np.arange(round(DURATION * FS)) / FS
 
 
 class Wheel:
-    """The scene on one kind of slices, its start and its reference."""
+    """The scene on one kind of slices, its start and its signal."""
 
     def __init__(self, slices: dict[str, int]) -> None:
         (kind, count), *_ = slices.items()
-        self.name = f"ballrace, {count} {'nodes' if kind == 'fitted' else 'slices'}"
+        self.kind = f"{count} {'nodes' if kind == 'fitted' else 'slices'}"
         self.scene = br.presets.wheel_bearing(3000.0).replace({"contact.slices": slices})
         self.model = br.Model(self.scene)
         self.start = self.model.start("equilibrium")
@@ -43,7 +45,7 @@ class Wheel:
 
     @cached_property
     def truth(self) -> Array:
-        """The acceleration, integrated tightly."""
+        """The acceleration, integrated tightly: on 64 nodes the reference of all."""
         return acceleration(self.signals(1e-10, self.cap / 10))
 
     @property
@@ -98,19 +100,44 @@ def acceleration(out: br.Signals) -> Array:
     return np.stack([out[f"outer.{a}"] for a in ("ax", "ay", "az")])
 
 
+@dataclass(frozen=True)
+class Problem:
+    """What another program integrates, with a right-hand side of its own, judged by the converged wheel."""
+
+    kind: str
+    bearing: Bearing
+    start: Array
+    converged: Wheel
+
+    def acceleration(self, states: Array) -> Array:
+        """Return the outer ring's acceleration in states, shape (states, dim)."""
+        half = states.shape[1] // 2
+        found = [self.bearing(0.0, np.ascontiguousarray(y))[half : half + 3] for y in states]
+        return np.stack(found, axis=1)
+
+
+def problems(slices: Wheel, converged: Wheel, nodes: Iterable[int]) -> list[Problem]:
+    """On fixed slices and on numbers of Gauss nodes."""
+    by_gauss = [
+        Problem(f"{n} Gauss nodes", Bearing(slices.scene, n), converged.start, converged)
+        for n in nodes
+    ]
+    return [Problem(slices.kind, Bearing(slices.scene), slices.start, converged), *by_gauss]
+
+
 def settings(
-    wheel: Wheel, tolerances: list[float], *factors: float
+    cap: float, tolerances: list[float], factors: Iterable[float]
 ) -> list[tuple[str, float, float]]:
     """Names, tolerances and largest steps, the step free and capped."""
     names = {1.0: "cap", math.inf: "free"}
     return [
-        (f"{r:.0e}, {names.get(factor, f'{factor:g} × cap')}", r, factor * wheel.cap)
+        (f"{r:.0e}, {names.get(factor, f'{factor:g} × cap')}", r, factor * cap)
         for factor in factors
         for r in tolerances
     ]
 
 
-def our_cases(wheel: Wheel, tolerances: list[float]) -> list[Case]:
+def our_cases(wheel: Wheel, truth: Array, tolerances: list[float]) -> list[Case]:
     """Ours at all settings."""
 
     def run(rtol: float, step: float) -> tuple[float, Array]:
@@ -118,9 +145,25 @@ def our_cases(wheel: Wheel, tolerances: list[float]) -> list[Case]:
         return seconds, acceleration(out)
 
     return [
-        Case(wheel.name, name, lambda r=rtol, h=step: run(r, h), wheel.truth)
-        for name, rtol, step in settings(wheel, tolerances, 1.0, 2.0, math.inf)
+        Case("ballrace", f"{wheel.kind}, {name}", lambda r=rtol, h=step: run(r, h), truth)
+        for name, rtol, step in settings(wheel.cap, tolerances, (0.5, 1.0, 2.0, math.inf))
     ]
+
+
+def shipped(truth: Array) -> Case:
+    """Ours with every setting left alone, but for the start and one thread."""
+    scene = br.presets.wheel_bearing(3000.0)
+    start = br.Model(scene).start("equilibrium")
+
+    def run() -> tuple[float, Array]:
+        seconds, out = timed(
+            lambda: br.simulate(
+                scene, duration=DURATION, fs=FS, start=start, threads=1, bandwidth=None
+            )
+        )
+        return seconds, acceleration(out)
+
+    return Case(SHIPPED, "6 nodes, rtol 1e-7, cap", run, truth)
 
 
 class Judge:
@@ -161,35 +204,3 @@ def hold(what: str, judge: Judge, derivatives: Iterable[Array]) -> None:
     )
     if not (worst <= 1e-9 and judge.in_defect > 0):
         sys.exit(f"{what} is another model")
-
-
-def slice_errors(rounds: int) -> tuple[list[Row], dict[str, int]]:
-    """Cost and error of each number of slices; the fewest nodes that err no more than 200 slices."""
-    truth = Wheel(CONVERGED).truth
-    rows, matched = [], CONVERGED
-    wheels = [Wheel(slices) for slices in COUNTS]
-    seconds = [[wheel.evaluation() for wheel in wheels] for _ in range(rounds)]
-    errors = [relative(acceleration(wheel.signals(1e-8)), truth) for wheel in wheels]
-    for wheel, error, costs in zip(wheels, errors, zip(*seconds, strict=True), strict=True):
-        rows.append(row(wheel.name, "an evaluation", "µs", [1e6 * x for x in costs], error))
-    bound = errors[COUNTS.index({"fixed": 200})]
-    for slices, error in zip(COUNTS, errors, strict=True):
-        if "fitted" in slices and error <= bound:
-            matched = slices
-            break
-    return rows, matched
-
-
-def right_hand_sides(wheels: list[Wheel], bearing: Bearing, rounds: int) -> list[Row]:
-    """Time an evaluation of numba and of ours, in rounds."""
-    numba, states = "numba, 200 slices", np.concatenate([wheels[0].states(10)] * 10)
-    seconds: dict[str, list[float]] = {name: [] for name in (numba, *(w.name for w in wheels))}
-    for _ in range(rounds):
-        seconds[numba].append(timed(lambda: bearing.repeat(states))[0] / len(states))
-        for wheel in wheels:
-            seconds[wheel.name].append(wheel.evaluation())
-    rows = [row(name, "an evaluation", "µs", [1e6 * x for x in s]) for name, s in seconds.items()]
-    for wheel in wheels:
-        ratios = [a / b for a, b in zip(seconds[numba], seconds[wheel.name], strict=True)]
-        rows.append(row(f"{numba} ÷ {wheel.name}", "an evaluation", "×", ratios))
-    return rows

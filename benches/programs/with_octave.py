@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 from .measuring import Case
-from .wheel import settings
-from .with_scipy import ABSOLUTE, Scipy
+from .wheel import TIMES, Problem, settings
+from .with_scipy import ABSOLUTE
 
 HERE = Path(__file__).parents[1]
 
@@ -28,12 +28,12 @@ HERE = Path(__file__).parents[1]
 class Octave:
     """ode45 with the vectorised right-hand side; one process a setting."""
 
-    def __init__(self, scipy_peer: Scipy) -> None:
-        self.peer = scipy_peer
-        self.tables = octave_tables(scipy_peer.bearing) | {
-            "scale": scipy_peer.scale,
-            "start": scipy_peer.wheel.start,
-            "times": scipy_peer.times,
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.tables = octave_tables(problem.bearing) | {
+            "scale": problem.converged.scale(),
+            "start": problem.start,
+            "times": TIMES,
             "rtol": ABSOLUTE,
         }
 
@@ -57,21 +57,21 @@ class Octave:
 
     def run(self, tolerance: float, step: float) -> tuple[float, Array]:
         """Seconds and the outer ring's acceleration."""
-        found = self.call(self.peer.wheel.start[None], [tolerance], [min(step, 1.0)])
+        found = self.call(self.problem.start[None], [tolerance], [min(step, 1.0)])
         return float(found["seconds"][0, 0]), found["accelerations"].reshape(3, -1)
 
     def cases(self, tolerances: list[float]) -> list[Case]:
         """All settings."""
-        wheel = self.peer.wheel
+        converged = self.problem.converged
         return [
             Case(
-                "octave ode45, vectorised, 200 slices",
-                name,
+                "Octave ode45, vectorised",
+                f"{self.problem.kind}, {name}",
                 lambda r=tolerance, h=step: self.run(r, h),
-                wheel.truth,
+                converged.truth,
                 once=True,
             )
-            for name, tolerance, step in settings(wheel, tolerances, math.inf)
+            for name, tolerance, step in settings(converged.cap, tolerances, [math.inf])
         ]
 
 
