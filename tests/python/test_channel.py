@@ -28,6 +28,10 @@ SPECTRA: dict[str, Any] = {
     "line": lambda x, fs=None: spectra.line(x, fs, near=100.0, width=5.0),
     "comb": lambda x, fs=None: spectra.comb(x, fs, near=100.0, width=5.0)[1],
     "kurtogram": lambda x, fs=None: spectra.kurtogram(x, fs).kurtosis,
+    "cyclic_coherence": lambda x, fs=None: spectra.cyclic_coherence(x, [50.0], fs),
+    "improved_envelope_spectrum": lambda x, fs=None: spectra.improved_envelope_spectrum(x, [50.0], fs),
+    "log_envelope_spectrum": spectra.log_envelope_spectrum, "separated": spectra.separated,
+    "spectral_kurtosis": lambda x, fs=None: spectra.spectral_kurtosis(x, fs)[1],
     "features": lambda x, fs=None: list(br.features(x, fs).values()),
 }  # fmt: skip
 

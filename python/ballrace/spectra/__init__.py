@@ -22,10 +22,17 @@ from __future__ import annotations
 
 from .angular import by_order, order_spectrum, turning
 from .bands import FaultBand, FaultMetrics, fault_band_metrics, fault_bands
+from .cyclic import cyclic_coherence, improved_envelope_spectrum
 from .densities import psd, spectrogram
-from .envelopes import envelope_spectrum, squared_envelope, squared_envelope_spectrum
-from .kurtograms import Kurtogram, kurtogram
+from .envelopes import (
+    envelope_spectrum,
+    log_envelope_spectrum,
+    squared_envelope,
+    squared_envelope_spectrum,
+)
+from .kurtograms import Kurtogram, kurtogram, spectral_kurtosis
 from .lines import comb, floor, line, spectrum
+from .separation import separated
 from .standard_bands import VelocityBand, bands_iso15242
 from .whitening import prewhitened
 
@@ -37,15 +44,20 @@ __all__ = [
     "bands_iso15242",
     "by_order",
     "comb",
+    "cyclic_coherence",
     "envelope_spectrum",
     "fault_band_metrics",
     "fault_bands",
     "floor",
+    "improved_envelope_spectrum",
     "kurtogram",
     "line",
+    "log_envelope_spectrum",
     "order_spectrum",
     "prewhitened",
     "psd",
+    "separated",
+    "spectral_kurtosis",
     "spectrogram",
     "spectrum",
     "squared_envelope",
