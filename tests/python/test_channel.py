@@ -47,10 +47,15 @@ def test_spectra_take_whatever_holds_a_signal(name: str, given: str) -> None:
 @pytest.mark.parametrize("given", GIVEN)
 def test_pictures_take_whatever_holds_a_signal(given: str) -> None:
     draw: Any
-    for draw in (br.plot.psd, br.plot.envelope_spectrum, br.plot.spectrogram):
+    for draw in (br.plot.psd, br.plot.envelope_spectrum, br.plot.spectrogram, br.plot.kurtogram):
         ours, plain = draw(GIVEN[given]), draw(X, fs=FS)
         assert np.array_equal(ours.data[0].x, plain.data[0].x)
     assert br.plot.impacts(GIVEN[given]).data
+    angle = 2.0 * np.pi * 25.0 * np.arange(X.size) / FS
+    assert br.plot.order_map(GIVEN[given], angle, highest=10.0).data
+    if given != "recording":
+        with pytest.raises(br.SceneError, match=r"^angle = 'inner.theta'"):
+            br.plot.order_map(GIVEN[given])
 
 
 def test_a_run_and_its_measurement_know_scene_speed_and_warnings() -> None:

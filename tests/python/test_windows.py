@@ -36,6 +36,23 @@ def test_windows_are_the_samples(run: br.Signals) -> None:
     assert run.to_windows(64).height == 3
 
 
+def test_a_measurement_tells_of_its_run() -> None:
+    """A load that rises by 100 N/s, of which half a second is over when the measurement begins."""
+    load = Ramp(from_=100.0, to=200.0, start=0.0, end=1.0)
+    scene = br.bearing("6205", defects=br.defects.spall(on="ball", width_mm=1.0))
+    scene = scene.replace({"loads.radial.force": load})
+    x = np.arange(100.0)
+    sensed = br.measuring.Measurement(x=x, fs=1000.0, start=0.5, scene=scene)
+    table = sensed.to_windows(40, bearing_id="A")
+    assert table["sensor"].to_list() == [x[:40].tolist(), x[40:80].tolist()]
+    assert (table["label"][0], table["bearing_id"][0], table["start"][1]) == ("ball", "A", 0.04)
+    forces = {each["name"]: each["force"] for each in table["load"][1]}
+    assert forces["radial"] == pytest.approx(156.0)
+    assert table["units"][0] == {"sensor": "m/s^2"}
+    alone = br.measuring.Measurement(x=x, fs=1000.0, shaft=25.0).to_windows(40, label="worn")
+    assert (alone["label"][0], alone["speed"][0]) == ("worn", pytest.approx(50.0 * math.pi))
+
+
 def test_a_row_tells_what_it_is_of(run: br.Signals) -> None:
     row = run.to_windows(100, bearing_id=7, columns="outer.ay").row(0, named=True)
     assert (row["label"], row["bearing_id"], row["sampling_rate"]) == ("outer_race", 7, 20_000.0)

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from ..channel import Channel
 from ..errors import AccuracyWarning, SceneError
 from ..recordings.recording import Recording
+from ..recordings.scenes import origin_of
+from ..recordings.windows import windows
 from ..scene import Scene
 from ..signals import Signals
 from .housing import AnyHousing, Housing, ImpulseResponse, MeasuredResponse
@@ -26,6 +28,7 @@ from .tacho import Tacho
 if TYPE_CHECKING:
     import os
 
+    import polars as pl
     from numpy.typing import ArrayLike
 
 
@@ -195,8 +198,53 @@ class Measurement:
         >>> again.channel()
         <Channel sensor [m/s^2]: 1000 samples at 12000 Hz, shaft 30 Hz>
         """
+        self._recording().write(path)
+
+    def to_windows(
+        self,
+        length: int,
+        hop: int | None = None,
+        *,
+        label: str | None = None,
+        bearing_id: str | int | None = None,
+    ) -> pl.DataFrame:
+        """Return pieces of equal length as a table for learning, a row a window.
+
+        Parameters
+        ----------
+        length, hop, label, bearing_id
+            As of a run, :meth:`ballrace.Signals.to_windows`; by default the label is what is damaged in the run
+            that was measured.
+
+        Returns
+        -------
+        polars.DataFrame
+            As of a run; its column is ``sensor``, and ``start`` counts from the first sample [s].
+
+        Raises
+        ------
+        SceneError
+            An argument is not usable.
+
+        Examples
+        --------
+        >>> import ballrace as br
+        >>> out = br.simulate(br.presets.deep_groove_6205(), duration=0.02, fs=10_000.0)
+        >>> table = br.measure(out, sensor=br.measuring.Sensor()).to_windows(64)
+        >>> table.height, table["sensor"][0].len(), table["label"][0]
+        (3, 64, 'healthy')
+        """
+        record = self._recording()
+        if self.scene is None:
+            return record.to_windows(length, hop, label=label, bearing_id=bearing_id)
+        origin = origin_of(self.scene, None).later(self.start)
+        return windows(
+            record._samples(("sensor",)), origin, length, hop, label=label, bearing_id=bearing_id
+        )
+
+    def _recording(self) -> Recording:
         columns, units = {"sensor": self.x}, {"sensor": self.unit}
-        Recording(columns=columns, fs=self.fs, units=units, shaft=self.shaft).write(path)
+        return Recording(columns=columns, fs=self.fs, units=units, shaft=self.shaft)
 
     def mix_into(
         self, background: ArrayLike, snr_db: float, *, seed: int | None = None

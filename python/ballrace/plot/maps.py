@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -150,8 +151,7 @@ def order_map(
         raise SceneError("band", str(band), "None with an array, whose sampling rate is not known")
     signal = source(of, column, rate)
     x = spectra.squared_envelope(signal.x, signal.fs, band) if envelope else signal.x
-    given = of[angle] if isinstance(angle, str) else angle  # type: ignore[index,call-overload]
-    turns = real_row("angle", given)
+    turns = real_row("angle", _angle(of, angle) if isinstance(angle, str) else angle)
     turning = spectra.turning(turns) if x.shape == turns.shape else slice(0, None)
     x, turns = x[turning], turns[turning]
     turn, value = spectra.by_order(x, turns, per_turn or math.ceil(2.5 * highest))
@@ -213,17 +213,41 @@ def _fault_orders(
             )  # fmt: skip
 
 
-def kurtogram(found: Kurtogram, fig: go.Figure | None = None, **layout: Any) -> go.Figure:
+def _angle(of: object, column: str) -> ArrayLike:
+    """Return a column of a run or a recording."""
+    if not isinstance(of, Mapping):
+        raise SceneError(
+            "angle", repr(column), "the shaft's angle [rad]: the signal has no columns"
+        )
+    found: ArrayLike = of[column]
+    return found
+
+
+def kurtogram(
+    found: Kurtogram | Given,
+    fig: go.Figure | None = None,
+    *,
+    fs: float | None = None,
+    narrowest: float | None = None,
+    **layout: Any,
+) -> go.Figure:
     """Draw a kurtogram: the kurtosis of bands from all frequencies to the narrowest, and the best of them.
 
     Parameters
     ----------
-    found : Kurtogram
-        From :func:`ballrace.spectra.kurtogram`.
+    found : Kurtogram, Signals, Measurement, Recording, Channel or array_like
+        From :func:`ballrace.spectra.kurtogram`; or a run, a record, or an array.
     fig : plotly.graph_objects.Figure, optional
         Figure to draw into.
+    fs, narrowest : float, optional
+        Sampling rate of an array, and width that no band is below [Hz]; as of that function.
     **layout
         For ``fig.update_layout``.
+
+    Raises
+    ------
+    SceneError
+        An argument is not usable.
 
     Examples
     --------
@@ -237,6 +261,8 @@ def kurtogram(found: Kurtogram, fig: go.Figure | None = None, **layout: Any) -> 
     from .._plotly import Figure, Heatmap
 
     fig = fig if fig is not None else Figure()
+    if not isinstance(found, spectra.Kurtogram):
+        found = spectra.kurtogram(found, fs, narrowest)
     levels = np.unique(found.level)
     edges = np.unique(np.concatenate([found.low, found.high]).round(6))
     middles = 0.5 * (edges[:-1] + edges[1:])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -54,6 +54,11 @@ class Origin:
         if self.defect is None:
             return None
         return "+".join(sorted({str(defect["on"]) for defect in self.defect})) or "healthy"
+
+    def later(self, start: float) -> Origin:
+        """Return what is known of samples whose first one is at a time [s]."""
+        speed, load = self.speed, self.load
+        return replace(self, speed=lambda t: speed(t + start), load=lambda t: load(t + start))
 
 
 def windows(

@@ -194,7 +194,7 @@ def spectral_kurtosis(
     value = _by_pieces(signal - signal.mean(), samples)
     limit = float(np.quantile(_by_chance(signal.size, samples), 1.0 - real(false_alarm)))
     # At 0 and fs/2 transforms are real and their kurtosis another.
-    f: NDArray[np.float64] = np.arange(1, value.size + 1) * (fs / samples)
+    f: NDArray[np.float64] = np.arange(1, value.size + 1, dtype=np.float64) * (fs / samples)
     return f, value, limit
 
 
