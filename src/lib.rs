@@ -79,7 +79,7 @@ pub use statics::{
     RaceControl, Stiffness, compile, equilibrium, equilibrium_under, load_distribution, stiffness,
 };
 
-/// What the bindings for Python (`src/python`) use beside the interface. No other program should: it changes without notice.
+/// What the bindings for Python (`src/python`) and the FMU (`fmu`) use beside the interface. No other program should: it changes without notice.
 #[doc(hidden)]
 pub mod bindings {
     pub use crate::base::memory::{available, within};

@@ -12,7 +12,7 @@ from .._libraries import MissingLibraryError
 from .._text import printable
 from ..campaigns.cli import add_command as add_campaign
 from ..errors import BallraceError, SceneError
-from . import about, diagnosing, exploring, running, signals, statics, studies
+from . import about, diagnosing, exploring, fmu, running, signals, statics, studies
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -57,7 +57,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"ballrace {about.version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for room in (studies, exploring, running, statics, signals, diagnosing, about):
+    for room in (studies, exploring, running, statics, signals, diagnosing, fmu, about):
         room.add_commands(commands)
     add_campaign(commands)
     return parser

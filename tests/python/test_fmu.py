@@ -1,0 +1,330 @@
+"""Functional mock-up units: the description validates, coupling converges, states come back bit by bit.
+
+The long tests build the library with cargo and drive it by FMPy, an importer of others, which
+``tests/run --all`` installs.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import struct
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import ballrace as br
+from ballrace.cli import main
+from release import ROOT
+from tools import run
+
+STEP = 1e-5
+
+
+def scene() -> br.Scene:
+    """A 6205 whose outer ring stands on springs."""
+    spring = br.scene.Spring(stiffness=2e7, damping=100.0)
+    held = br.bearing("6205", radial_load=500.0)
+    return held.replace({"outer_ring.support.x": spring, "outer_ring.support.y": spring})
+
+
+def damaged() -> br.Scene:
+    """Two rows, rings that tilt, oil and a spall."""
+    shaft = br.presets.motor()
+    return shaft.replace({"defects.crack": br.defects.spall(on="outer_race", width_mm=1.0)})
+
+
+def test_without_the_library_it_says_how_to_build_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "scene.toml"
+    file.write_text(scene().to_toml(), encoding="utf-8")
+    packed = tmp_path / "bearing.fmu"
+    command = ["fmu", str(file), "-o", str(packed), "--library"]
+    assert main([*command, str(tmp_path / "none.so")]) == 1
+    assert "cargo build --release -p ballrace-fmu" in capsys.readouterr().err
+    other = tmp_path / "other.so"
+    other.write_text("no library", encoding="utf-8")
+    assert main([*command, str(other)]) == 1
+    assert f"{other}: no library of ballrace's FMUs" in capsys.readouterr().err
+    assert not packed.exists()
+
+
+@pytest.fixture(scope="module")
+def library() -> Path:
+    pytest.importorskip("fmpy", reason="fmpy is not installed")
+    # With the bindings, beside which the crate has been compiled.
+    packages = ("-p", "ballrace-python", "-p", "ballrace-fmu", "--target-dir", "target")
+    built = run("cargo", "build", "-q", "--locked", *packages)
+    assert built.returncode == 0, built.stderr
+    found = (ROOT / "target" / "debug").glob("*ballrace_fmu.*")
+    (only,) = [path for path in found if path.suffix in {".so", ".dylib", ".dll"}]
+    return only
+
+
+Pack = Callable[[br.Scene], Path]
+
+
+@pytest.fixture(scope="module")
+def pack(library: Path, tmp_path_factory: pytest.TempPathFactory) -> Pack:
+    def packed(of: br.Scene) -> Path:
+        folder = tmp_path_factory.mktemp("fmu")
+        (folder / "scene.toml").write_text(of.to_toml(), encoding="utf-8")
+        out = folder / "bearing.fmu"
+        told = main(["fmu", str(folder / "scene.toml"), "-o", str(out), "--library", str(library)])
+        assert told == 0
+        return out
+
+    return packed
+
+
+class Driven:
+    """An instance, driven as an importer does."""
+
+    def __init__(self, packed: Path, folder: Path) -> None:
+        import fmpy
+        import fmpy.fmi3
+
+        self.described = fmpy.read_model_description(str(packed))
+        self.by_name = {v.name: v for v in self.described.modelVariables}
+        self.log: list[tuple[int, str]] = []
+        self.fmu = fmpy.fmi3.FMU3Slave(
+            guid=self.described.guid,
+            unzipDirectory=str(folder),
+            modelIdentifier=self.described.coSimulation.modelIdentifier,
+            instanceName="bearing",
+        )
+        self.fmu.instantiate(logMessage=self._told)
+        self.time = 0.0
+
+    def _told(self, _: Any, status: int, category: bytes, message: bytes) -> None:
+        assert category in {b"logStatusError", b"logStatusWarning"}
+        self.log.append((status, message.decode()))
+
+    def begin(self) -> Driven:
+        self.fmu.enterInitializationMode()
+        self.fmu.exitInitializationMode()
+        return self
+
+    def set(self, values: dict[str, float]) -> None:
+        references = [self.by_name[name].valueReference for name in values]
+        self.fmu.setFloat64(references, list(values.values()))
+
+    def get(self, *names: str) -> list[float]:
+        references = [self.by_name[name].valueReference for name in names]
+        found: list[float] = self.fmu.getFloat64(references)
+        return found
+
+    def step(self, step: float = STEP) -> None:
+        reached = self.fmu.doStep(self.time, step)
+        self.time = reached[3]
+
+    def everything(self) -> bytes:
+        """All outputs, as bits."""
+        found: list[float] = []
+        for of in self.described.modelVariables:
+            if of.causality == "output":
+                count = int(np.prod([int(d.start) for d in of.dimensions]))
+                found += self.fmu.getFloat64([of.valueReference], nValues=count)
+        assert len(found) > 40
+        return struct.pack(f"{len(found)}d", *found)
+
+
+@contextmanager
+def driven(packed: Path, count: int = 1) -> Iterator[list[Driven]]:
+    """Instances of an FMU, in a folder where it is unpacked."""
+    import fmpy
+
+    folder = Path(fmpy.extract(str(packed)))
+    made = [Driven(packed, folder) for _ in range(count)]
+    yield made
+    for one in made:
+        one.fmu.freeInstance()
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "of", [br.bearing("6205"), scene(), damaged()], ids=["plain", "sprung", "motor"]
+)
+def test_the_description_validates_and_an_importer_runs_it(of: br.Scene, pack: Pack) -> None:
+    """Literature: the schema of FMI 3.0 and the rules that FMPy checks."""
+    import fmpy
+    from fmpy.validation import validate_fmu
+
+    packed = pack(of)
+    assert validate_fmu(str(packed)) == []
+    out = fmpy.simulate_fmu(
+        str(packed), stop_time=1e-3, output_interval=1e-4, output=["outer.wrench.fy", "row0.inner.load"],
+    )  # fmt: skip
+    assert len(out) == 11
+    assert np.isfinite(out["outer.wrench.fy"]).all()
+    assert (out["row0.inner.load"].sum(axis=1) > 0.0).all()
+    assert pack(of).read_bytes() == packed.read_bytes()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("of", [scene(), damaged()], ids=["sprung", "motor"])
+def test_under_the_same_loads_it_is_the_run(of: br.Scene, pack: Pack) -> None:
+    """Limits: with the same loads it has the bits of a :class:`ballrace.Simulation`, in states and wrenches."""
+    simulation = br.Simulation(of, duration=1.0)
+    with driven(pack(of)) as (bearing,):
+        bearing.begin()
+        for k in range(20):
+            if k > 10 and "radial" in of.loads:
+                force = {"loads.radial.force": 500.0 + k}
+                bearing.set(force)
+                simulation.set_loads(force)
+            bearing.step()
+            simulation.advance_to(bearing.time)
+            names = [name for name in simulation.names if name.startswith(("outer.", "inner."))]
+            state = dict(zip(simulation.names, simulation.state, strict=True))
+            assert bearing.get(*names) == [state[name] for name in names]
+            for ring in ("outer", "inner"):
+                parts = [f"{ring}.wrench.{part}" for part in ("fx", "fy", "fz", "mx", "my", "mz")]
+                assert bearing.get(*parts) == list(simulation.wrench(ring))
+
+
+RING_MASS = 0.06
+"""Of the outer ring [kg]."""
+
+GRAVITY = 9.81
+"""The scene's along −y [m/s²]; what is outside has its weight, too."""
+
+OUTSIDE = {"stiffness": 1e7, "damping": 200.0}
+"""What is added outside to the outer ring's spring [N/m] and damper [N s/m]."""
+
+
+def coupled(packed: Path, mass: float, step: float, duration: float) -> np.ndarray:
+    """The outer ring's y every 50 µs; outside a mass, a spring and a damper, whose force is held for a step."""
+    every = round(50e-6 / step)
+    found = []
+    with driven(packed) as (bearing,):
+        bearing.begin()
+        for k in range(round(duration / step)):
+            y, vy, ax, ay = bearing.get("outer.y", "outer.vy", "outer.ax", "outer.ay")
+            if k % every == 0:
+                found.append(y)
+            force = mass * (ay + GRAVITY) + OUTSIDE["damping"] * vy + OUTSIDE["stiffness"] * y
+            bearing.set({"outer.load.fx": -mass * ax, "outer.load.fy": -force})
+            bearing.step(step)
+    return np.array(found)
+
+
+@pytest.mark.long
+def test_a_ring_mass_outside_converges_to_the_run_with_it(pack: Pack) -> None:
+    """Limits: of first order in the communication step, as a force that is held for a step must be."""
+    of, duration = scene().replace({"solver.rtol": 1e-9}), 1e-3
+    of, added = of.replace({"outer_ring.mass": RING_MASS}), 0.4 * RING_MASS
+    whole = br.Simulation(of, duration=1.0)
+    whole.change({
+        "outer_ring.mass": RING_MASS + added,
+        "outer_ring.support.y": br.scene.Spring(
+            stiffness=2e7 + OUTSIDE["stiffness"], damping=100.0 + OUTSIDE["damping"]
+        ),
+    })  # fmt: skip
+    at, truth = whole.names.index("outer.y"), []
+    for k in range(round(duration / 50e-6)):
+        whole.advance_to(k * 50e-6)
+        truth.append(whole.state[at])
+    packed = pack(of)
+    size = np.ptp(truth)
+    errors = [
+        float(np.max(np.abs(coupled(packed, added, step, duration) - truth))) / size
+        for step in (2e-6, 1e-6, 0.5e-6)
+    ]
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert errors[-1] < 1e-3
+    assert (np.abs(orders - 1.0) < 0.05).all(), (errors, orders)
+
+
+def shaken(bearing: Driven, steps: range) -> list[bytes]:
+    """Steps under inputs of every kind, a parameter among them; all outputs after each."""
+    found = []
+    for k in steps:
+        bearing.set({"outer.load.fy": 100.0 * np.sin(k), "loads.radial.force": 500.0 + 5.0 * k})
+        if k % 7 == 6:
+            bearing.set({"drive.speed": 188.0 + k, "rows[0].clearance": 1e-6 * k})
+        bearing.step()
+        found.append(bearing.everything())
+    return found
+
+
+@pytest.mark.long
+def test_the_guides_program_runs(pack: Pack, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The mass outside, which has its weight, shakes the ring and does not run away."""
+    page = (ROOT / "docs" / "fmu.md").read_text(encoding="utf-8")
+    ((program),) = re.findall(r"^```python no-run\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+    monkeypatch.chdir(pack(br.bearing("6205", radial_load=500.0)).parent)
+    names: dict[str, Any] = {}
+    exec(program, names)
+    assert 1e-7 < abs(names["y"]) < 1e-4
+    assert abs(names["vy"]) < 0.1
+    names["bearing"].freeInstance()
+
+
+@pytest.mark.long
+def test_states_come_back_bit_by_bit(pack: Pack) -> None:
+    """Limits: in the same instance, and through bytes in another one."""
+    with driven(pack(scene()), 2) as (bearing, other):
+        fmu = bearing.begin().fmu
+        shaken(bearing, range(10))
+        # With an input that no step has seen yet.
+        bearing.set({"outer.load.fx": 30.0})
+        time, state = bearing.time, fmu.getFMUState()
+        first = shaken(bearing, range(10, 30))
+        assert len(set(first)) == 20
+        fmu.setFMUState(state)
+        bearing.time = time
+        assert shaken(bearing, range(10, 30)) == first
+        words = fmu.serializeFMUState(state)
+        other.fmu.setFMUState(other.fmu.deserializeFMUState(words))
+        other.time = time
+        assert shaken(other, range(10, 30)) == first
+        with pytest.raises(Exception, match="fmi3DeserializeFMUState"):
+            fmu.deserializeFMUState(words[: len(words) // 2])
+        assert bearing.log[-1][1].startswith("no state of this FMU")
+        fmu.freeFMUState(state)
+
+
+@pytest.mark.long
+def test_what_is_refused_is_told_by_name_and_goes_on(pack: Pack) -> None:
+    error = 3
+    with driven(pack(scene())) as (bearing,):
+        with pytest.raises(Exception, match="fmi3GetFloat64"):
+            bearing.get("outer.y")
+        with pytest.raises(Exception, match="fmi3DoStep"):
+            bearing.step()
+        bearing.fmu.enterInitializationMode()
+        bearing.set({"rows[0].ball_diameter": -1.0})
+        with pytest.raises(Exception, match="fmi3ExitInitializationMode"):
+            bearing.fmu.exitInitializationMode()
+        assert bearing.log[-1][0] == error
+        assert bearing.log[-1][1].startswith("rows[0].ball_diameter = -1")
+        bearing.fmu.reset()
+        bearing.begin().step()
+        good = bearing.everything()
+        for name, value, told in [
+            ("outer.load.fy", float("nan"), "outer.load.fy = NaN"),
+            ("outer.y", 0.0, "outer.y is neither input nor parameter"),
+        ]:
+            with pytest.raises(Exception, match="fmi3SetFloat64"):
+                bearing.set({name: value})
+            assert bearing.log[-1][1].startswith(told)
+        for name, value in [("outer.load.fy", 1e13), ("contact.damping", -1.0)]:
+            before = bearing.get(name)[0]
+            bearing.set({name: value})
+            with pytest.raises(Exception, match="fmi3DoStep"):
+                bearing.step()
+            assert re.match(r"(loads.fmu_outer_fy.force|contact.damping) = -?1", bearing.log[-1][1])
+            bearing.set({name: before})
+            assert bearing.everything() == good
+        with pytest.raises(Exception, match="fmi3DoStep"):
+            bearing.fmu.doStep(0.5, STEP)
+        assert "the simulation stands at 0.00001 s" in bearing.log[-1][1]
+        bearing.step()
+        bearing.fmu.terminate()
