@@ -12,7 +12,7 @@
 //! evaluation gave it ([`LinearlyImplicit::solve`]). Approximate derivatives do: x is as small as the error of the
 //! prediction, so what is wrong in the matrix lowers no order. With them the method is as stable as its corrector: to −3 on
 //! the real axis (without, to −0.3); oscillations with half a percent of damping to ωh = 0.89, with five percent to 1.53
-//! (without, to 0.68 and 1.02; `tests/accuracy/methods.rs`). Velocities that decay faster than that are left to backward
+//! (without, to 0.68 and 1.02; `tests/accuracy/stability_region.rs`). Velocities that decay faster than that are left to backward
 //! differences (`blended.rs`).
 //!
 //! Source: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., sections III.5 (steps of any

@@ -13,7 +13,7 @@
 //!
 //! Adams' prediction would amplify fast velocities by 2.4 hJ, and with them what is wrong in J. So it is taken for slow ones only, and for
 //! fast ones the polynomial through the last velocities: predicted are v_e + M⁻² (v_A − v_e). Stable on the whole negative real axis with a
-//! J that is 10 % too small to one that is twice too large (`tests/accuracy/methods.rs`); oscillations as Adams' formula.
+//! J that is 10 % too small to one that is twice too large (`tests/accuracy/stability_region.rs`); oscillations as Adams' formula.
 //!
 //! Source: Skeel, Kong (1977), Blended linear multistep methods, ACM Trans. Math. Softw. 3, 326–345.
 

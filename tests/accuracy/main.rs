@@ -9,3 +9,4 @@ mod knob;
 mod method_defaults;
 mod methods;
 mod methods_refused;
+mod stability_region;
