@@ -150,7 +150,8 @@ def test_a_cold_start_is_repeatable_to_the_bit(wheel: br.Scene) -> None:
 def test_a_peer_reports_success_with_wrong_accelerations() -> None:
     """Failure: SciPy's RK45 on our right-hand side with strong damping, at rtol = atol = 1e-4, reports success.
 
-    Truth: rtol 1e-10. Instead: the default tolerance is right at the same cost, and a loose one warned of (above).
+    Truth: rtol 1e-10. Instead: the default tolerance is right in a thirtieth of the evaluations, and a loose one
+    warned of (above).
     """
     model = br.Model(soon_over_the_spall(damping=5.0))
     t = np.arange(0.0, 2e-3, 5e-6)
@@ -164,7 +165,7 @@ def test_a_peer_reports_success_with_wrong_accelerations() -> None:
     print(f"RK45 {peer.nfev}, error {errors[0]:.1e}; ours {ours.stats.nfev}, {errors[1]:.1e}")
     assert errors[0] > 0.3
     assert errors[1] < 0.01
-    assert ours.stats.nfev < 1.2 * peer.nfev
+    assert 20 * ours.stats.nfev < peer.nfev
 
 
 def stability_map() -> ModuleType:
@@ -180,14 +181,21 @@ def stability_map() -> ModuleType:
 
 @pytest.mark.parametrize(
     ("slip_speed", "damping", "rtol", "mark"),
-    [(0.1, 0.2, 1e-2, "works"), (1e-4, 0.2, 1e-7, "works"), (0.1, 5.0, 1e-2, "warns")],
+    [
+        (0.1, 0.2, 1e-2, "works"),
+        (1e-4, 0.2, 1e-7, "works"),
+        (0.1, 5.0, 1e-2, "warns"),
+        # A doubt of so much damping is no doubt of the run.
+        (0.1, 20.0, 1e-7, "works"),
+    ],
 )
 def test_marks_of_the_map(slip_speed: float, damping: float, rtol: float, mark: str) -> None:
     module = stability_map()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", br.AccuracyWarning)
+        warnings.simplefilter("ignore", br.SceneWarning)
         truth = module.simulate(module.bearing(slip_speed, damping), 1e-10, "default")
-        point = module.judge("default", slip_speed, damping, rtol, truth["outer.ay"])
+        point = module.judge("default", slip_speed, damping, rtol, truth)
     assert point.mark == mark
 
 
