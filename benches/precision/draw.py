@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import matplotlib as mpl
+from matplotlib.patheffects import withStroke
 from matplotlib.text import Annotation
 from matplotlib.ticker import LogLocator, NullLocator
 
@@ -46,6 +47,10 @@ BLUE, ORANGE, GREEN, RED, PURPLE, GREY, BROWN, BLACK = (
 )
 
 
+HALO = [withStroke(linewidth=2.5, foreground="white")]
+"""A label stays readable across a line."""
+
+
 def panels(titles: list[str], rows: int = 1) -> tuple[Figure, list[Axes]]:
     """Return a figure of panels with logarithmic axes."""
     columns = len(titles) // rows
@@ -85,6 +90,7 @@ def line(
             fontsize=8,
             va="center",
             annotation_clip=False,
+            path_effects=HALO,
         )
 
 
@@ -147,4 +153,5 @@ def point(ax: Axes, x: float, y: float, label: str, colour: str) -> None:
         color=colour,
         fontsize=7,
         annotation_clip=False,
+        path_effects=HALO,
     )

@@ -161,7 +161,7 @@ def label(row: dict[str, Any]) -> str:
     if kind == "fixed":
         return f"{count} slices"
     if row["method"] == "adams":
-        return f"adams, {row['rtol']:.0e}".replace("e-0", "e-")
+        return "default" if row["rtol"] == 1e-7 else f"{row['rtol']:.0e}".replace("e-0", "e-")
     if row["rtol"] == 1e-4:
         return {"4": "4 nodes", "8": "8", "16": "16 nodes"}.get(count, "")
     if math.isinf(row["cap"]):
