@@ -22,6 +22,7 @@
 //! |---|---|
 //! | How does a run go on, with loads and speeds that change between its pieces? | [`Simulation`] |
 //! | What does every ball carry at rest, and how stiff is the bearing? | [`equilibrium()`], [`stiffness()`], [`load_distribution()`] |
+//! | What stiffness and damping does it have in a rotor? | [`dynamic_coefficients()`] |
 //! | What does a run integrate and leave out, and what does it cost? | [`explain()`] |
 //! | Which features has the record, and which of many records? | [`features()`], [`campaign()`] |
 //! | What are the equations, for an integrator of one's own? | [`compile()`], [`dynamics`], [`integrate`] |
@@ -75,8 +76,9 @@ pub use signals::{
 };
 pub use statics::start::{Start, start};
 pub use statics::{
-    BallEquilibrium, ContactEquilibrium, Equilibrium, EquivalentLoads, LoadDistribution, Placed,
-    RaceControl, Stiffness, compile, equilibrium, equilibrium_under, load_distribution, stiffness,
+    BallEquilibrium, ContactEquilibrium, DynamicCoefficients, Equilibrium, EquivalentLoads,
+    LoadDistribution, Placed, RaceControl, Stiffness, compile, dynamic_coefficients, equilibrium,
+    equilibrium_under, load_distribution, stiffness,
 };
 
 /// What the bindings for Python (`src/python`) and the FMU (`fmu`) use beside the interface. No other program should: it changes without notice.

@@ -11,6 +11,7 @@ __all__ = [
     "available_threads",
     "campaign",
     "check_run",
+    "dynamic_coefficients",
     "equilibrium",
     "explain",
     "feature_columns",
@@ -128,6 +129,11 @@ class _Stiffness(TypedDict):
     rings_spatial: _Array
     equilibrium: _Equilibrium
 
+class _DynamicCoefficients(TypedDict):
+    stiffness: _Array
+    damping: _Array
+    equilibrium: _Equilibrium
+
 class _LoadDistribution(_Turning):
     turn: _Array
     outer_tilt: _Array
@@ -176,6 +182,7 @@ def available_threads() -> int: ...
 def equilibrium(scene: str, race_control: str) -> _Equilibrium: ...
 def explain(scene: str) -> tuple[str, str]: ...
 def stiffness(scene: str) -> _Stiffness: ...
+def dynamic_coefficients(scene: str, positions: int) -> _DynamicCoefficients: ...
 def load_distribution(scene: str, positions: int) -> _LoadDistribution: ...
 def placed(scene: str) -> str: ...
 def rolling(scene: str, race_control: str) -> list[tuple[float, float, float] | None]: ...

@@ -15,6 +15,6 @@ pub use energy::{Energy, cage_forces, energy};
 pub(crate) use films::doubts;
 pub use films::{RaceFilm, films};
 pub use lubrication::{Lubrication, lubrication};
-pub(crate) use moments::{MOMENTS, MomentOnRing};
+pub(crate) use moments::{MOMENTS, MomentOnRing, between};
 pub use moments::{moments, wrench};
 pub(crate) use stiffest::{StiffElement, stiffest};

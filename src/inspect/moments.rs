@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::contacts::{ContactSummary, Summary, visit};
-use crate::contact::{Aside, LeaningRing, OilTouch, Sink, Touch, Wrench, WrenchSum};
+use crate::contact::{Aside, LeaningRing, Motion, OilTouch, Sink, Touch, Wrench, WrenchSum};
 use crate::forces::load;
 use crate::model::{BodyId, Model, Race};
 
@@ -41,6 +41,23 @@ pub fn wrench(model: &Model, y: &[f64], race: Race) -> [f64; 6] {
     let [x, y, z] = force.into();
     let [about_x, about_y, about_z] = sum.sum.into();
     [x, y, z, about_x, about_y, about_z]
+}
+
+/// What a contact does to ball `j` and to its ring, wherever both are and however they move, in the scene's frame: on the ball about
+/// its centre, on the ring about its centre of mass.
+pub(crate) fn between(
+    model: &Model,
+    (j, race): (usize, Race),
+    ball: &Motion,
+    ring: &LeaningRing,
+) -> [Wrench; 2] {
+    let compiled = &model.balls[j];
+    let [at, standing] = ring.facing(ball);
+    let mut sum = WrenchSum::default();
+    model.rows[compiled.row].pairs[race].evaluate(&compiled.side, &at, &standing, &mut sum);
+    let [on_ball, _] = sum.on_bodies(&at.place(), Some(ring));
+    let in_scene = sum.wrench.turned(|v| ring.rotation.frame.to_scene(v));
+    [on_ball, in_scene.on_ring(&ring.arm(ball))]
 }
 
 /// The moment on a ring, ball by ball.

@@ -38,5 +38,7 @@ mod _core {
     #[pymodule_export]
     use super::simulation::GoingRun;
     #[pymodule_export]
-    use super::statics::{equilibrium, load_distribution, placed, rolling, stiffness};
+    use super::statics::{
+        dynamic_coefficients, equilibrium, load_distribution, placed, rolling, stiffness,
+    };
 }

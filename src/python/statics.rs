@@ -92,6 +92,22 @@ pub(super) fn stiffness<'py>(py: Python<'py>, scene: &str) -> PyResult<Bound<'py
     Ok(all)
 }
 
+/// Stiffness and damping for a rotor, in the mean over so many positions of the cage per pitch.
+#[pyfunction]
+pub(super) fn dynamic_coefficients<'py>(
+    py: Python<'py>,
+    scene: &str,
+    positions: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let of = move |scene: &Scene| ballrace::dynamic_coefficients(scene, positions);
+    let found = solved(py, scene, of)?;
+    let all = PyDict::new(py);
+    set(&all, "stiffness", found.stiffness.concat(), &[5, 5])?;
+    set(&all, "damping", found.damping.concat(), &[5, 5])?;
+    all.set_item("equilibrium", arrays(py, &found.equilibrium)?)?;
+    Ok(all)
+}
+
 /// A scene as JSON with a number for the axial place of every defect, as a run has it.
 #[pyfunction]
 pub(super) fn placed(py: Python<'_>, scene: &str) -> PyResult<String> {

@@ -56,38 +56,11 @@ pub struct EquivalentLoads {
 /// # Errors
 /// As [`super::equilibrium()`]; [`Error::Scene`] for no positions, [`Error::Memory`] for more than fit.
 pub fn load_distribution(scene: &Scene, positions: usize) -> Result<LoadDistribution> {
-    if positions == 0 {
-        return Err(Error::scene("positions", "0", "at least 1 per ball pitch"));
-    }
-    scene.validate()?;
-    let mut scene = scene.clone();
-    scene.defects.clear();
-    // Once for all positions: tilts that are held by request stay as the cage turns.
-    let (scene, _) = place(&scene)?;
-    let most = scene.rows.iter().map(|row| row.ball_count).max();
-    let pitches = if repeats(&scene) {
-        1
-    } else {
-        most.unwrap_or(1)
-    };
-    let range = if pitches == 1 {
-        TAU / most.unwrap_or(1) as f64
-    } else {
-        TAU
-    };
-    let count = pitches.saturating_mul(positions);
-    check_memory(&scene, count)?;
-    let turn: Vec<f64> = (0..count)
-        .map(|k| range * k as f64 / count as f64)
-        .collect();
+    let (scene, turn) = healthy_turns(scene, positions)?;
     let equilibria = turn
         .iter()
         .map(|turn| {
-            let mut turned = scene.clone().into_owned();
-            for row in &mut turned.rows {
-                row.start_angle += turn;
-            }
-            let mut found = equilibrium(&turned)?;
+            let mut found = equilibrium(&turned(&scene, *turn))?;
             // Those of the scene that was given: the angle of a turned one says nothing.
             found.doubts = doubts(&scene, &found);
             Ok(found)
@@ -104,6 +77,45 @@ pub fn load_distribution(scene: &Scene, positions: usize) -> Result<LoadDistribu
         equilibria,
         equivalent,
     })
+}
+
+/// The healthy bearing, and how far its cage turns for so many positions per ball pitch \[rad\]: over a pitch where all balls are alike,
+/// else over a turn.
+pub(super) fn healthy_turns(scene: &Scene, positions: usize) -> Result<(Scene, Vec<f64>)> {
+    if positions == 0 {
+        return Err(Error::scene("positions", "0", "at least 1 per ball pitch"));
+    }
+    scene.validate()?;
+    let mut scene = scene.clone();
+    scene.defects.clear();
+    // Once for all positions: tilts that are held by request stay as the cage turns.
+    let scene = place(&scene)?.0.into_owned();
+    let most = scene.rows.iter().map(|row| row.ball_count).max();
+    let pitches = if repeats(&scene) {
+        1
+    } else {
+        most.unwrap_or(1)
+    };
+    let range = if pitches == 1 {
+        TAU / most.unwrap_or(1) as f64
+    } else {
+        TAU
+    };
+    let count = pitches.saturating_mul(positions);
+    check_memory(&scene, count)?;
+    let turn = (0..count)
+        .map(|k| range * k as f64 / count as f64)
+        .collect();
+    Ok((scene, turn))
+}
+
+/// A scene with its cage turned by an angle \[rad\].
+pub(super) fn turned(scene: &Scene, turn: f64) -> Scene {
+    let mut turned = scene.clone();
+    for row in &mut turned.rows {
+        row.start_angle += turn;
+    }
+    turned
 }
 
 /// Refuses more positions than fit into memory: they are here, and in the arrays of their columns.

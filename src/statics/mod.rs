@@ -10,11 +10,12 @@
 //! held: loose balls leave the race that no longer presses them, and often hang between the races on the cage.
 //!
 //! What follows from it: [`stiffness()`], which the rings' Newton solve forms anyway, and [`load_distribution`] over
-//! a turn of the cage. So does the place of a defect that is to lie where contacts run.
+//! a turn of the cage; [`dynamic_coefficients`] adds what depends on velocities. So does the place of a defect that is to lie where contacts run.
 
 mod arms;
 mod ball;
 mod cage;
+mod coefficients;
 mod compile;
 mod distribution;
 mod fallen;
@@ -29,6 +30,7 @@ mod residual;
 mod rings;
 pub(crate) mod rolling;
 mod search;
+mod small_motion;
 mod springs;
 pub(crate) mod start;
 pub(crate) mod steady;
@@ -43,6 +45,7 @@ use crate::inspect::{self, MomentOnRing, RaceFilm};
 use crate::model::{Ball, BodyId, Dof, Model, Race};
 use crate::reduction::axial_places;
 use crate::scene::{Doubt, Scene};
+pub use coefficients::{DynamicCoefficients, dynamic_coefficients};
 pub use compile::compile;
 pub use distribution::{EquivalentLoads, LoadDistribution, load_distribution};
 pub(crate) use fallen::Spacing;

@@ -5,6 +5,7 @@ mod common;
 
 mod balance;
 mod caps;
+mod coefficients;
 mod contact;
 mod energy;
 mod equilibrium;
