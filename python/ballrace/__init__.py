@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from .ratings.life import RatingLife, rating_life
     from .ratings.life_factor import LifeFactor
     from .recordings import Recording, read
+    from .rotor import StiffnessTable, stiffness_table
     from .run import simulate
     from .signals import Signals
     from .simulation import Simulation, Snapshot
@@ -96,6 +97,7 @@ else:
             "ratings.life": ("RatingLife", "rating_life"),
             "ratings.life_factor": ("LifeFactor",),
             "recordings": ("Recording", "read"),
+            "rotor": ("StiffnessTable", "stiffness_table"),
             "run": ("simulate",),
             "signals": ("Signals",),
             "simulation": ("Simulation", "Snapshot"),
@@ -150,6 +152,7 @@ __all__ = [
     "Simulation",
     "Snapshot",
     "Stiffness",
+    "StiffnessTable",
     "Touched",
     "Trend",
     "bearing",
@@ -188,6 +191,7 @@ __all__ = [
     "sobol",
     "spectra",
     "stiffness",
+    "stiffness_table",
     "trend",
 ]
 

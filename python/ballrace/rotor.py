@@ -1,0 +1,334 @@
+"""Stiffness and damping of a bearing over load and speed, for models of rotors."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from ._arguments import knows
+from ._io.whole import whole
+from ._libraries import needed
+from ._numbers import real, real_row
+from .errors import BallraceError, SceneError
+from .scene import SpeedDrive
+from .scene.scene import checked_scene
+from .statics import _warned
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Mapping
+
+    import polars as pl
+    from numpy.typing import ArrayLike
+
+    from .scene import Scene
+
+__all__ = ["StiffnessTable", "stiffness_table"]
+
+_AXES = ("x", "y", "z", "a", "b")
+"""Names of directions in columns: a and b are the tilts about x and y."""
+_ROSS = {"xx": (0, 0), "xy": (0, 1), "yx": (1, 0), "yy": (1, 1), "zz": (2, 2)}
+"""What a ``BearingElement`` of ROSS takes."""
+_MEANT = {
+    **dict.fromkeys(
+        ("speeds", "speed", "rpm", "frequency"), "speeds_rpm, speeds of the inner ring [rev/min]"
+    ),
+    **dict.fromkeys(
+        ("radial_load", "axial_load", "load"),
+        'loads, forces by the names of the scene\'s loads [N], such as {"radial": [200.0, 500.0], "axial": 100.0}',
+    ),
+}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class StiffnessTable:
+    """Stiffness and damping of a bearing over its loads and speeds.
+
+    Entry ``[load, speed, i, j]`` is the force [N] or moment [N m] to be added to the inner ring along ``i`` for
+    small, slow motion along ``j``, the outer ring being held: ``f = K q + C dq/dt``. The five directions are x
+    (right), y (up), z (along the axis) [m] and the tilts about x and y [rad], about the ring's centre of mass. The
+    frame is right-handed, and so is that of ROSS, whose z runs along the shaft, too: nothing changes its sign.
+
+    Attributes
+    ----------
+    stiffness : ndarray, shape (n_loads, n_speeds, 5, 5)
+        K [N/m, N/rad, N m/m, N m/rad]. Not quite symmetric: damping turns with the balls.
+    damping : ndarray, shape (n_loads, n_speeds, 5, 5)
+        C [N s/m, N s/rad, N m s/m, N m s/rad].
+    loads : dict of str to ndarray, shape (n_loads,)
+        Forces of the scene's loads in each case [N], by their names.
+    speeds : ndarray, shape (n_speeds,)
+        Speeds of the inner ring [rad/s].
+    name : str
+        The scene's name.
+    warnings : tuple of str
+        What was warned of in any case.
+    """
+
+    stiffness: NDArray[np.float64]
+    damping: NDArray[np.float64]
+    loads: dict[str, NDArray[np.float64]]
+    speeds: NDArray[np.float64]
+    name: str
+    warnings: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        cases, speeds = self.stiffness.shape[:2]
+        radial = 1e-6 * np.diagonal(self.stiffness, axis1=-2, axis2=-1)[..., :2]
+        return (
+            f"<StiffnessTable of {self.name!r}: {cases} loads, {speeds} speeds, "
+            f"radial {radial.min():.1f} to {radial.max():.1f} N/µm>"
+        )
+
+    @property
+    def stiffness_6x6(self) -> NDArray[np.float64]:
+        """K with the rotation about z, which the bearing leaves free: shape (n_loads, n_speeds, 6, 6)."""
+        return _with_rotation(self.stiffness)
+
+    @property
+    def damping_6x6(self) -> NDArray[np.float64]:
+        """C with the rotation about z, which the bearing leaves free: shape (n_loads, n_speeds, 6, 6)."""
+        return _with_rotation(self.damping)
+
+    def ross_arguments(self, load: int = 0) -> dict[str, Any]:
+        """Return the arguments of a ``BearingElement`` of ROSS, beside its node.
+
+        ROSS has x, y and z of a bearing, x and y coupled; what tilts do, and the coupling of z with x and y, it
+        has no place for (``stiffness_6x6`` has them).
+
+        Parameters
+        ----------
+        load : int
+            The load case, from 0.
+
+        Returns
+        -------
+        dict
+            ``kxx``, ``kxy``, …, ``kzz`` [N/m] and ``cxx``, …, ``czz`` [N s/m], each of shape (n_speeds,), and
+            ``frequency``, the speeds [rad/s], which have to rise; of a single speed numbers without it.
+
+        Raises
+        ------
+        SceneError
+            There is no such load case, or the speeds do not rise.
+        """
+        cases = len(self.stiffness)
+        if (
+            isinstance(load, bool)
+            or not isinstance(load, int | np.integer)
+            or not 0 <= load < cases
+        ):
+            raise SceneError("load", repr(load), f"a load case, 0 to {cases - 1}")
+        if np.any(np.diff(self.speeds) <= 0.0):
+            raise SceneError("speeds_rpm", f"{self.speeds.size} speeds", "rising, for ROSS")
+        found: dict[str, Any] = {}
+        for letter, matrices in (("k", self.stiffness[load]), ("c", self.damping[load])):
+            found |= {f"{letter}{name}": matrices[:, i, j] for name, (i, j) in _ROSS.items()}
+        if self.speeds.size == 1:
+            return {name: float(values[0]) for name, values in found.items()}
+        return {**found, "frequency": self.speeds}
+
+    def to_ross(self, n: int, *, load: int = 0, **more: Any) -> Any:
+        """Return a ``BearingElement`` of ROSS (package ross-rotordynamics, 2.3).
+
+        Parameters
+        ----------
+        n : int
+            Node of the shaft.
+        load : int
+            The load case, from 0.
+        **more
+            Further arguments of the element, such as ``n_link``, the node of its housing, or ``tag``.
+
+        Raises
+        ------
+        ImportError
+            ROSS is not installed: ``pip install ross-rotordynamics``.
+        SceneError
+            As :meth:`ross_arguments`.
+        """
+        arguments = self.ross_arguments(load)
+        ross = needed("ross", "a bearing element of ROSS", None)
+        return ross.BearingElement(n=n, **arguments, **more)
+
+    def to_polars(self) -> pl.DataFrame:
+        """Return a table with a line per load and speed.
+
+        Columns are the loads by their names [N], ``speed`` [rad/s], and ``kxx``, ``kxy``, …, ``cbb`` in SI units,
+        with ``a`` and ``b`` for the tilts about x and y.
+        """
+        from ._polars import pl
+
+        cases, speeds = self.stiffness.shape[:2]
+        columns = {name: np.repeat(values, speeds) for name, values in self.loads.items()}
+        columns["speed"] = np.tile(self.speeds, cases)
+        for letter, matrices in (("k", self.stiffness), ("c", self.damping)):
+            for i, row in enumerate(_AXES):
+                for j, column in enumerate(_AXES):
+                    columns[f"{letter}{row}{column}"] = matrices[..., i, j].ravel()
+        return pl.DataFrame(columns)
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Write the table of :meth:`to_polars` as text with commas, all digits.
+
+        Raises
+        ------
+        OSError
+            The file cannot be written.
+        """
+        with whole(path) as temporary:
+            self.to_polars().write_csv(temporary)
+
+
+@knows(_MEANT)
+def stiffness_table(
+    bearing: Scene,
+    loads: Mapping[str, ArrayLike] | None = None,
+    speeds_rpm: ArrayLike | None = None,
+    *,
+    positions: int = 4,
+) -> StiffnessTable:
+    """Compute the stiffness and damping of a bearing over its loads and speeds, for a model of a rotor.
+
+    At each load and speed the forces of a run's contacts, with their damping, films and friction, are linearised
+    about the steady motion in which it begins. The balls follow the ring: along their radius and the axis as their
+    contacts let them; along the orbit and in their rotation so that friction does not change. That holds for
+    motion that is slow against the balls on their contacts, below some kHz, and whose C dq/dt is small beside K q.
+    What varies as balls pass is averaged. Supports of rings, the cage and defects are no part of it.
+
+    Parameters
+    ----------
+    bearing : Scene
+        The scene.
+    loads : mapping of str to array_like, optional
+        Forces of the scene's loads [N], by their names: arrays of one length, or numbers for all cases. By default
+        those of the scene, as one case.
+    speeds_rpm : array_like, optional
+        Speeds of the inner ring [rev/min]; by default that of the scene.
+    positions : int
+        Positions of the cage per ball pitch over which is averaged.
+
+    Returns
+    -------
+    StiffnessTable
+        Matrices of the inner ring.
+
+    Raises
+    ------
+    SceneError
+        An argument or a field of the scene is not usable.
+    EquilibriumError
+        There is no stable equilibrium in some case, which a note tells.
+
+    Warns
+    -----
+    SceneWarning
+        As for :func:`ballrace.equilibrium`.
+
+    Examples
+    --------
+    >>> import ballrace as br
+    >>> bearing = br.presets.deep_groove_6205(500.0, 200.0)
+    >>> table = br.stiffness_table(bearing, {"axial": [100.0, 400.0]}, speeds_rpm=[0.0, 3000.0])
+    >>> table.stiffness.shape
+    (2, 2, 5, 5)
+    >>> axial = table.stiffness[:, 1, 2, 2]
+    >>> bool(axial[1] > axial[0])
+    True
+    """
+    scene = checked_scene(bearing)
+    if isinstance(positions, bool) or not isinstance(positions, int) or positions < 1:
+        raise SceneError("positions", repr(positions), "a whole number, at least 1 per ball pitch")
+    cases = _cases(scene, loads)
+    speeds = None if speeds_rpm is None else _speeds(speeds_rpm)
+    found: list[Mapping[str, Any]] = []
+    shape = (len(next(iter(cases.values()), [0.0])), 1 if speeds is None else speeds.size)
+    for case in range(shape[0]):
+        changes: dict[str, Any] = {
+            f"loads.{name}.force": float(of[case]) for name, of in cases.items()
+        }
+        for k in range(shape[1]):
+            if speeds is not None:
+                changes["drive"] = SpeedDrive(float(speeds[k]))
+            found.append(_coefficients(scene.replace(changes), positions, cases, case))
+    texts = dict.fromkeys(text for one in found for text in one["equilibrium"]["warnings"])
+    told = _warned({"warnings": texts}, stacklevel=4)
+    return StiffnessTable(
+        stiffness=np.stack([one["stiffness"] for one in found]).reshape(*shape, 5, 5),
+        damping=np.stack([one["damping"] for one in found]).reshape(*shape, 5, 5),
+        loads=cases,
+        speeds=np.array([_own_speed(scene)]) if speeds is None else speeds,
+        name=scene.name,
+        warnings=told["warnings"],
+    )
+
+
+def _coefficients(
+    scene: Scene, positions: int, cases: Mapping[str, NDArray[np.float64]], case: int
+) -> Mapping[str, Any]:
+    """Return the matrices of one load and speed; an error says which load."""
+    try:
+        return _core.dynamic_coefficients(scene._document(), positions)
+    except BallraceError as error:
+        told = ", ".join(f"{name} = {of[case]:g} N" for name, of in cases.items())
+        error.add_note(f"in load case {case}: {told}")
+        raise
+
+
+def _cases(scene: Scene, loads: Mapping[str, ArrayLike] | None) -> dict[str, NDArray[np.float64]]:
+    """Return the forces of all loads that are given, a number for each case."""
+    if loads is None:
+        constant = {name: load.force for name, load in scene.loads.items()}
+        numbers = {name: real(force) for name, force in constant.items()}
+        return {name: np.array([force]) for name, force in numbers.items() if math.isfinite(force)}
+    known = ", ".join(map(repr, scene.loads)) or "none, and the scene has none"
+    if not hasattr(loads, "items"):
+        allowed = f"a mapping of forces [N] by the names of the scene's loads: {known}"
+        raise SceneError("loads", f"a {type(loads).__name__}", allowed)
+    given = {}
+    for name, forces in loads.items():
+        if name not in scene.loads:
+            raise SceneError("loads", repr(name), f"names of the scene's loads: {known}")
+        given[name] = np.atleast_1d(_finite(f"loads[{name!r}]", forces))
+    try:
+        shared = np.broadcast_arrays(*given.values()) if given else ()
+    except ValueError:
+        lengths = ", ".join(f"{name}: {of.size}" for name, of in given.items())
+        raise SceneError("loads", lengths, "arrays of one length, or numbers") from None
+    return {name: of.copy() for name, of in zip(given, shared, strict=True)}
+
+
+def _speeds(speeds_rpm: ArrayLike) -> NDArray[np.float64]:
+    """Return speeds [rad/s]."""
+    return np.atleast_1d(_finite("speeds_rpm", speeds_rpm)) * (math.pi / 30.0)
+
+
+def _finite(name: str, given: ArrayLike) -> NDArray[np.float64]:
+    """Return a number or a row of numbers."""
+    row = real_row(name, given)
+    if row.ndim > 1 or row.size == 0 or not np.all(np.isfinite(row)):
+        raise SceneError(
+            name, f"an array of shape {row.shape}", "one finite number or a row of them"
+        )
+    return row
+
+
+def _own_speed(scene: Scene) -> float:
+    """Return the speed at which a scene begins [rad/s]."""
+    drive = scene.drive
+    if isinstance(drive, SpeedDrive):
+        if math.isfinite(speed := real(drive.speed)):
+            return speed
+        raise SceneError("speeds_rpm", "absent", "given: the scene's own speed changes in time")
+    return drive.initial_speed
+
+
+def _with_rotation(matrices: NDArray[np.float64]) -> NDArray[np.float64]:
+    wider = np.zeros((*matrices.shape[:-2], 6, 6))
+    wider[..., :5, :5] = matrices
+    return wider
