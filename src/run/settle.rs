@@ -179,6 +179,7 @@ fn frozen(scene: &Scene) -> Scene {
         moment.moment = TimeFunction::Constant(moment.moment.at(0.0));
     }
     scene.drive = Drive::Speed(TimeFunction::Constant(scene.drive.initial_speed()));
+    scene.ring_forces = scene.ring_forces.frozen();
     scene
 }
 

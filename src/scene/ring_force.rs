@@ -114,6 +114,16 @@ impl RingForces {
         self.0.insert(name.into(), force);
     }
 
+    /// The same as they are at t = 0, at any time.
+    pub(crate) fn frozen(&self) -> Self {
+        let still = |of: &Arc<dyn RingForce>| Arc::new(Frozen(Arc::clone(of)));
+        let each = self.0.iter();
+        Self(
+            each.map(|(name, of)| (name.clone(), still(of) as _))
+                .collect(),
+        )
+    }
+
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -123,6 +133,40 @@ impl RingForces {
     pub fn iter(&self) -> impl Iterator<Item = (&str, &dyn RingForce)> {
         let each = self.0.iter();
         each.map(|(name, force)| (name.as_str(), force.as_ref()))
+    }
+}
+
+/// A force as it is at t = 0.
+#[derive(Debug)]
+struct Frozen(Arc<dyn RingForce>);
+
+impl RingForce for Frozen {
+    fn ring(&self) -> RingName {
+        self.0.ring()
+    }
+
+    fn wrench(&self, _: f64, ring: &RingMotion) -> [f64; 6] {
+        self.0.wrench(0.0, ring)
+    }
+
+    fn stiffness(&self) -> f64 {
+        self.0.stiffness()
+    }
+
+    fn damping(&self) -> f64 {
+        self.0.damping()
+    }
+
+    fn energy(&self, ring: &RingMotion) -> f64 {
+        self.0.energy(ring)
+    }
+
+    fn peak(&self) -> [f64; 2] {
+        self.0.peak()
+    }
+
+    fn keeps_plane(&self) -> bool {
+        self.0.keeps_plane()
     }
 }
 
