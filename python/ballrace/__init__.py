@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from .ratings.life import RatingLife, rating_life
     from .ratings.life_factor import LifeFactor
     from .recordings import Recording, read
+    from .ring_force import RingForce, RingMotion
     from .rotor import StiffnessTable, stiffness_table
     from .run import simulate
     from .signals import Signals
@@ -97,6 +98,7 @@ else:
             "ratings.life": ("RatingLife", "rating_life"),
             "ratings.life_factor": ("LifeFactor",),
             "recordings": ("Recording", "read"),
+            "ring_force": ("RingForce", "RingMotion"),
             "rotor": ("StiffnessTable", "stiffness_table"),
             "run": ("simulate",),
             "signals": ("Signals",),
@@ -144,6 +146,8 @@ __all__ = [
     "RatingLife",
     "Record",
     "Recording",
+    "RingForce",
+    "RingMotion",
     "Run",
     "Scene",
     "SceneError",

@@ -41,6 +41,7 @@ __all__ = [
 
 _Array: TypeAlias = NDArray[np.float64]
 _Integers: TypeAlias = NDArray[np.int64]
+_Force: TypeAlias = tuple[str, str, Callable[..., list[float]], float, float, list[float], bool]
 
 @final
 class Model:
@@ -63,6 +64,7 @@ class Simulation:
         run: str,
         state: _Array | None = None,
         progress: Callable[[float], object] | None = None,
+        forces: list[_Force] = ...,
     ) -> Simulation: ...
     @staticmethod
     def restored(snapshot: str) -> Simulation: ...
@@ -89,7 +91,7 @@ class _Signals(TypedDict):
     columns: list[tuple[str, str, _Array]]
     slices: dict[str, list[str] | NDArray[np.uint64] | _Array] | None
     stats: str
-    warnings: list[tuple[Literal["accuracy", "scene"], str]]
+    warnings: list[tuple[Literal["accuracy", "scene", "asked"], str]]
     provenance: str
     scene: str
     end_state: _Array
@@ -149,6 +151,7 @@ def simulate(
     state: _Array | None = None,
     progress: Callable[[float], object] | None = None,
     sink: Callable[[dict[str, _Array]], object] | None = None,
+    forces: list[_Force] = ...,
 ) -> _Signals: ...
 def campaign(
     cases: Iterable[tuple[str, str]],

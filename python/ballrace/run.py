@@ -15,6 +15,7 @@ from ._progress import Bar
 from ._text import printable
 from .errors import AccuracyWarning, SceneError, SceneWarning
 from .options import Run, Start
+from .ring_force import passed, told
 from .scene.scene import checked_scene
 from .signals import Signals
 
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ._core import _Signals
+    from .ring_force import RingForce
     from .scene import Method, Scene
 
     _Sink: TypeAlias = Callable[[Mapping[str, NDArray[np.float64]]], object]
@@ -68,6 +70,7 @@ def simulate(
     time_limit: float | None = None,
     max_steps: int | None = None,
     out: str | os.PathLike[str] | None = None,
+    forces: Mapping[str, RingForce] | None = None,
 ) -> Signals:
     """Run a scene and record its probes.
 
@@ -138,6 +141,9 @@ def simulate(
         statistics and provenance. It appears at once when the run is over and it is whole, and replaces one of the
         same name; nothing of it is left where the run fails or is stopped. Until then a hidden folder beside it
         holds the samples: the disk must have room for them twice.
+    forces : mapping of str to RingForce, optional
+        Forces on the rings by functions of your own, by name; slow, for studies. A document cannot have them, so
+        the scene does not: ``out.warnings`` names them. What a function raises, this raises.
 
     Returns
     -------
@@ -180,6 +186,7 @@ def simulate(
     (50,)
     """
     target = None if out is None else _target(out)
+    code = passed(forces)
     document, asked, state = request(
         scene, reduce, start,
         duration=duration, fs=fs, rtol=rtol, accuracy=accuracy, method=method, threads=threads,
@@ -187,9 +194,13 @@ def simulate(
     )  # fmt: skip
 
     def run(sink: _Sink | None) -> _Signals:
-        return shown(
-            progress, scene.name, lambda told: _core.simulate(document, asked, state, told, sink)
+        raw = shown(
+            progress,
+            scene.name,
+            lambda share: _core.simulate(document, asked, state, share, sink, code),
         )
+        raw["warnings"] += told(forces)
+        return raw
 
     raw, written = (run(None), None) if target is None else _written(target, run)
     warn(raw, stacklevel=4)
@@ -223,9 +234,10 @@ def shown(
 
 
 def warn(raw: _Signals, *, stacklevel: int) -> None:
-    """Warn of what a run has met."""
+    """Warn of what a run has met; what was asked for is told without."""
     for category, text in raw["warnings"]:
-        warnings.warn(printable(text), _CATEGORIES[category], stacklevel=stacklevel)
+        if category != "asked":
+            warnings.warn(printable(text), _CATEGORIES[category], stacklevel=stacklevel)
 
 
 def _target(out: str | os.PathLike[str]) -> Path:

@@ -17,6 +17,7 @@ from ._io.record import samples, unless_damaged
 from ._io.whole import whole
 from ._numbers import real
 from .errors import FileError, SceneError
+from .ring_force import passed, told
 from .run import request, shown, warn
 from .scene.scene import Scene, checked_path, checked_scene
 from .signals import Signals
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from .ring_force import RingForce
     from .scene import Method
 
     Piece = dict[str, NDArray[np.float64]]
@@ -120,6 +122,9 @@ class Simulation:
         As of :func:`ballrace.simulate`. `progress` is of the beginning, until the start has settled.
     time_limit : float, optional
         Wall time that the beginning and each call may take [s]. A run that it stops may go on.
+    forces : mapping of str to RingForce, optional
+        As of :func:`ballrace.simulate`. What a function raises, the call raises and every later one; there are no
+        snapshots of such a run.
 
     Raises
     ------
@@ -161,7 +166,9 @@ class Simulation:
         settle: float | None = None,
         time_limit: float | None = None,
         max_steps: int | None = None,
+        forces: Mapping[str, RingForce] | None = None,
     ) -> None:
+        code = passed(forces)
         document, asked, state = request(
             checked_scene(scene), reduce, start,
             duration=_OPEN if duration is None else duration, fs=fs, rtol=rtol, accuracy=accuracy,
@@ -169,8 +176,11 @@ class Simulation:
             time_limit=time_limit, max_steps=max_steps,
         )  # fmt: skip
         self._core = shown(
-            progress, scene.name, lambda told: _core.Simulation(document, asked, state, told)
+            progress,
+            scene.name,
+            lambda share: _core.Simulation(document, asked, state, share, code),
         )
+        self._forces = tuple(forces or ())
         self._keep = keep
         self._pieces: list[Piece] = []
         self._end: float | None = None
@@ -201,10 +211,20 @@ class Simulation:
         made._keep = True
         made._pieces = list(snapshot._pieces)
         made._end = None
+        made._forces = ()
         return made
 
     def snapshot(self) -> Snapshot:
-        """Return what the run needs to go on from here, and its record until here."""
+        """Return what the run needs to go on from here, and its record until here.
+
+        Raises
+        ------
+        SceneError
+            It has forces by code, which a document cannot have.
+        """
+        if self._forces:
+            allowed = "none for a snapshot: code cannot be written; TableForce is part of the scene"
+            raise SceneError("forces", ", ".join(self._forces), allowed)
         return Snapshot(self._core.snapshot(), tuple(self._pieces))
 
     def __repr__(self) -> str:
@@ -288,7 +308,7 @@ class Simulation:
             It took more than `time_limit` or `max_steps` allows.
         """
         target = _number("t", t)
-        piece = shown(progress, "simulating", lambda told: self._core.advance_to(target, told))
+        piece = shown(progress, "simulating", lambda share: self._core.advance_to(target, share))
         if self._keep and piece["t"].size:
             self._pieces.append(piece)
         return piece
@@ -368,6 +388,7 @@ class Simulation:
         rest = {"t": raw["t"], **{name: values for name, _, values in raw["columns"]}}
         record = _joined([*self._pieces, rest])
         self._pieces = []
+        raw["warnings"] += told(self._forces)
         raw["t"] = record["t"]
         raw["columns"] = [(name, unit, record[name]) for name, unit, _ in raw["columns"]]
         return Signals._from_core(raw)

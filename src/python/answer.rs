@@ -50,16 +50,18 @@ pub(super) fn answering<T: Send + 'static>(
         progress,
         sink: None,
     };
-    handing_over(py, callbacks, |progress, _| work(progress))
+    handing_over(py, callbacks, &Interrupt::new(), |progress, _| {
+        work(progress)
+    })
 }
 
-/// As [`answering`], for work that hands over blocks, too; it waits while one is taken.
+/// As [`answering`], for work that hands over blocks, too; it waits while one is taken. Whoever holds `stop` ends the work.
 pub(super) fn handing_over<T: Send + 'static>(
     py: Python<'_>,
     callbacks: Callbacks<'_>,
+    stop: &Interrupt,
     work: impl FnOnce(Progress<'_>, Sink<'_>) -> Result<T> + Send + 'static,
 ) -> PyResult<T> {
-    let stop = Interrupt::new();
     // A block is given when it is asked for, so that they do not pile up.
     let (tell, listen) = mpsc::sync_channel(0);
     let heeded = stop.clone();

@@ -7,6 +7,7 @@ mod answer;
 mod campaign;
 mod errors;
 mod features;
+mod forces;
 mod oil;
 mod run;
 mod scene;

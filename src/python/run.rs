@@ -11,10 +11,12 @@ use pyo3::types::{PyDict, PyList};
 
 use super::answer::{Callbacks, answering, handing_over};
 use super::errors::{OrRaise, to_json};
+use super::forces::{Passed, Raised};
 use ballrace::DOFS;
 use ballrace::bindings::{check_length, layout_of};
 use ballrace::compile;
 use ballrace::dynamics;
+use ballrace::scene::RingForces;
 use ballrace::{Error, Run, Scene, Signals, SliceRow, Start};
 
 /// A compiled scene.
@@ -119,9 +121,9 @@ impl CompiledScene {
 ///
 /// With a `sink` times and columns come back empty: it was given them, block by block, as dicts of arrays.
 ///
-/// The run is a JSON document; a `state` goes before its start.
+/// The run is a JSON document; a `state` goes before its start. What `forces` raise, the run does.
 #[pyfunction]
-#[pyo3(signature = (scene, run, state = None, progress = None, sink = None))]
+#[pyo3(signature = (scene, run, state = None, progress = None, sink = None, forces = Vec::new()))]
 pub(super) fn simulate<'py>(
     py: Python<'py>,
     scene: &str,
@@ -129,24 +131,27 @@ pub(super) fn simulate<'py>(
     state: Option<PyReadonlyArray1<'py, f64>>,
     progress: Option<Py<PyAny>>,
     sink: Option<Py<PyAny>>,
+    forces: Vec<Passed>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let scene = Scene::from_json(scene).or_raise(py)?;
+    let mut scene = Scene::from_json(scene).or_raise(py)?;
     let mut run = Run::from_json(run).or_raise(py)?;
     if let Some(y) = state {
         run.start = Start::State(state_of(&scene, &y).or_raise(py)?);
     }
+    let raised = Raised::of_forces(&mut scene, forces);
     let callbacks = Callbacks {
         progress: progress.as_ref(),
         sink: sink.as_ref(),
     };
     let in_blocks = sink.is_some();
-    let signals = handing_over(py, callbacks, move |told, sink| {
+    let done = handing_over(py, callbacks, &raised.stop(), move |told, sink| {
         if in_blocks {
             ballrace::simulate_into(&scene, &run, sink, told)
         } else {
             ballrace::simulate_with_progress(&scene, &run, told)
         }
-    })?;
+    });
+    let signals = raised.before(py, done)?;
     if let Some(callback) = progress {
         callback.call1(py, (1.0,))?;
     }
@@ -173,7 +178,9 @@ pub(super) fn explain(py: Python<'_>, scene: &str) -> PyResult<(String, String)>
     Ok((to_json(&told)?, told.to_string()))
 }
 
-pub(super) fn hand_over(py: Python<'_>, signals: Signals) -> PyResult<Bound<'_, PyDict>> {
+pub(super) fn hand_over(py: Python<'_>, mut signals: Signals) -> PyResult<Bound<'_, PyDict>> {
+    // No document has forces by code.
+    signals.scene.ring_forces = RingForces::default();
     let warnings: Vec<(&str, String)> = signals
         .warnings()
         .iter()

@@ -9,16 +9,17 @@ use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::answer::{Progress, answering};
+use super::answer::{Callbacks, Progress, handing_over};
 use super::errors::OrRaise;
+use super::forces::{Passed, Raised};
 use super::run::{hand_over, state_of};
 use ballrace::inspect::ContactSummary;
-use ballrace::scene::RingName;
+use ballrace::scene::{RingForces, RingName};
 use ballrace::{Error, Result, Run, Scene, Snapshot, Start};
 
-/// A run that goes on; none after its end.
+/// A run that goes on, none after its end; and what its forces by code raised.
 #[pyclass(frozen, module = "ballrace._core", name = "Simulation")]
-pub(super) struct GoingRun(Arc<Mutex<Option<ballrace::Simulation>>>);
+pub(super) struct GoingRun(Arc<Mutex<Option<ballrace::Simulation>>>, Raised);
 
 /// A number of a contact.
 type Quantity = fn(&ContactSummary) -> f64;
@@ -26,31 +27,36 @@ type Quantity = fn(&ContactSummary) -> f64;
 #[pymethods]
 impl GoingRun {
     #[new]
-    #[pyo3(signature = (scene, run, state = None, progress = None))]
+    #[pyo3(signature = (scene, run, state = None, progress = None, forces = Vec::new()))]
     fn new(
         py: Python<'_>,
         scene: &str,
         run: &str,
         state: Option<PyReadonlyArray1<'_, f64>>,
         progress: Option<Py<PyAny>>,
+        forces: Vec<Passed>,
     ) -> PyResult<Self> {
-        let scene = Scene::from_json(scene).or_raise(py)?;
+        let mut scene = Scene::from_json(scene).or_raise(py)?;
         let mut run = Run::from_json(run).or_raise(py)?;
         if let Some(y) = state {
             run.start = Start::State(state_of(&scene, &y).or_raise(py)?);
         }
-        let made = answering(py, progress.as_ref(), move |told| {
+        let raised = Raised::of_forces(&mut scene, forces);
+        let made = under(py, progress.as_ref(), &raised, move |told| {
             ballrace::Simulation::begin_with_progress(&scene, &run, told)
         })?;
-        Ok(Self(Arc::new(Mutex::new(Some(made)))))
+        Ok(Self(Arc::new(Mutex::new(Some(made))), raised))
     }
 
     /// One that goes on where a snapshot was taken.
     #[staticmethod]
     fn restored(py: Python<'_>, snapshot: &str) -> PyResult<Self> {
         let snapshot = Snapshot::from_json(snapshot).or_raise(py)?;
-        let made = answering(py, None, move |_| ballrace::Simulation::restore(&snapshot))?;
-        Ok(Self(Arc::new(Mutex::new(Some(made)))))
+        let raised = Raised::default();
+        let made = under(py, None, &raised, move |_| {
+            ballrace::Simulation::restore(&snapshot)
+        })?;
+        Ok(Self(Arc::new(Mutex::new(Some(made))), raised))
     }
 
     /// What it needs to go on, as JSON.
@@ -66,7 +72,12 @@ impl GoingRun {
     /// The scene as it is now, as JSON.
     #[getter]
     fn scene(&self, py: Python<'_>) -> PyResult<String> {
-        self.with(py, |simulation| Ok(simulation.scene().to_json()))
+        self.with(py, |simulation| {
+            let mut scene = simulation.scene().clone();
+            // No document has forces by code.
+            scene.ring_forces = RingForces::default();
+            Ok(scene.to_json())
+        })
     }
 
     /// Names of the states.
@@ -162,7 +173,7 @@ impl GoingRun {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let going = Arc::clone(&self.0);
-        let signals = answering(py, progress.as_ref(), move |told| {
+        let signals = under(py, progress.as_ref(), &self.1, move |told| {
             let mut going = going.lock().unwrap_or_else(PoisonError::into_inner);
             going.as_ref().ok_or_else(over)?.check_end()?;
             going.take().ok_or_else(over)?.finish_with_progress(told)
@@ -180,7 +191,7 @@ impl GoingRun {
         work: impl FnOnce(&mut ballrace::Simulation, Progress<'_>) -> Result<T> + Send + 'static,
     ) -> PyResult<T> {
         let going = Arc::clone(&self.0);
-        answering(py, progress, move |told| {
+        under(py, progress, &self.1, move |told| {
             let mut going = going.lock().unwrap_or_else(PoisonError::into_inner);
             work(going.as_mut().ok_or_else(over)?, told)
         })
@@ -198,6 +209,21 @@ impl GoingRun {
         })
         .or_raise(py)
     }
+}
+
+/// Works on a thread of its own until done, or until a force by code raises, as this does then.
+fn under<T: Send + 'static>(
+    py: Python<'_>,
+    progress: Option<&Py<PyAny>>,
+    raised: &Raised,
+    work: impl FnOnce(Progress<'_>) -> Result<T> + Send + 'static,
+) -> PyResult<T> {
+    let callbacks = Callbacks {
+        progress,
+        sink: None,
+    };
+    let done = handing_over(py, callbacks, &raised.stop(), |told, _| work(told));
+    raised.before(py, done)
 }
 
 /// Nothing goes on after the end.
