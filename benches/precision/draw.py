@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import matplotlib as mpl
-from matplotlib.patheffects import withStroke
 from matplotlib.text import Annotation
 from matplotlib.ticker import LogLocator, NullLocator
 
@@ -47,8 +46,8 @@ BLUE, ORANGE, GREEN, RED, PURPLE, GREY, BROWN, BLACK = (
 )
 
 
-HALO = [withStroke(linewidth=2.5, foreground="white")]
-"""A label stays readable across a line."""
+BEHIND = {"facecolor": "white", "alpha": 0.7, "pad": 0.3, "linewidth": 0}
+"""A label stays readable across a line, and a text in the file."""
 
 
 def panels(titles: list[str], rows: int = 1) -> tuple[Figure, list[Axes]]:
@@ -90,7 +89,7 @@ def line(
             fontsize=8,
             va="center",
             annotation_clip=False,
-            path_effects=HALO,
+            bbox=BEHIND,
         )
 
 
@@ -153,5 +152,5 @@ def point(ax: Axes, x: float, y: float, label: str, colour: str) -> None:
         color=colour,
         fontsize=7,
         annotation_clip=False,
-        path_effects=HALO,
+        bbox=BEHIND,
     )

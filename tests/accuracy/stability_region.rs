@@ -187,7 +187,7 @@ impl Oscillator {
         };
         let mut found = Vec::new();
         let mut watch = |of: &mut Self, step: &DenseStep<'_>, _: &StepStatistics| {
-            found.push(step.y0()[if of.spring > 0.0 { 0 } else { 1 }]);
+            found.push(step.y0()[usize::from(of.spring <= 0.0)]);
             ControlFlow::Continue(())
         };
         let (of, y0) = ((0.0, f64::from(count) * h), [1.0, 1.0 - self.spring]);
