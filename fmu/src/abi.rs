@@ -17,7 +17,7 @@ use crate::instance::{Instance, State, Told};
 use crate::variables::Table;
 
 /// `fmi3Status`.
-type Status = c_int;
+pub type Status = c_int;
 const OK: Status = 0;
 const WARNING: Status = 1;
 const ERROR: Status = 3;
@@ -77,7 +77,7 @@ fn words(panic: &(dyn Any + Send)) -> &str {
 }
 
 /// Works with an instance.
-unsafe fn with(handle: *mut Handle, work: impl FnOnce(&mut Instance) -> Told<()>) -> Status {
+pub unsafe fn with(handle: *mut Handle, work: impl FnOnce(&mut Instance) -> Told<()>) -> Status {
     // SAFETY: null, or what `fmi3InstantiateCoSimulation` has returned and nobody else uses meanwhile.
     let Some(Handle { instance, log }) = (unsafe { handle.as_mut() }) else {
         return ERROR;
@@ -401,64 +401,6 @@ pub unsafe extern "C" fn fmi3DoStep(
             done
         })
     }
-}
-
-/// Functions for other interface types: there is no instance of these.
-macro_rules! no_instance {
-    ($($name:ident)*) => {$(
-        #[unsafe(no_mangle)]
-        pub extern "C" fn $name() -> *mut Handle {
-            ptr::null_mut()
-        }
-    )*};
-}
-
-no_instance! { fmi3InstantiateModelExchange fmi3InstantiateScheduledExecution }
-
-/// Functions for variables of other types than `fmi3Float64`, of which there are none: nothing of nothing is well. What else they are
-/// given is left where C puts it, as of a function with fewer parameters.
-macro_rules! no_variables {
-    ($($name:ident)*) => {$(
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $name(handle: *mut Handle, _: *const u32, count: usize) -> Status {
-            unsafe {
-                with(handle, |_| {
-                    if count == 0 {
-                        return Ok(());
-                    }
-                    Err(format!("{}: all variables are fmi3Float64", stringify!($name)))
-                })
-            }
-        }
-    )*};
-}
-
-no_variables! {
-    fmi3GetFloat32 fmi3GetInt8 fmi3GetUInt8 fmi3GetInt16 fmi3GetUInt16 fmi3GetInt32 fmi3GetUInt32 fmi3GetInt64 fmi3GetUInt64
-    fmi3GetBoolean fmi3GetString fmi3GetBinary fmi3GetClock
-    fmi3SetFloat32 fmi3SetInt8 fmi3SetUInt8 fmi3SetInt16 fmi3SetUInt16 fmi3SetInt32 fmi3SetUInt32 fmi3SetInt64 fmi3SetUInt64
-    fmi3SetBoolean fmi3SetString fmi3SetBinary fmi3SetClock
-    fmi3GetIntervalDecimal fmi3GetIntervalFraction fmi3GetShiftDecimal fmi3GetShiftFraction
-    fmi3SetIntervalDecimal fmi3SetIntervalFraction fmi3SetShiftDecimal fmi3SetShiftFraction
-    fmi3GetOutputDerivatives
-}
-
-/// Functions of what the description says that there is not.
-macro_rules! absent {
-    ($($name:ident)*) => {$(
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $name(handle: *mut Handle) -> Status {
-            unsafe { with(handle, |_| Err(format!("{} is not offered", stringify!($name)))) }
-        }
-    )*};
-}
-
-absent! {
-    fmi3EnterEventMode fmi3EnterConfigurationMode fmi3ExitConfigurationMode fmi3EvaluateDiscreteStates fmi3UpdateDiscreteStates
-    fmi3GetNumberOfVariableDependencies fmi3GetVariableDependencies fmi3GetDirectionalDerivative fmi3GetAdjointDerivative
-    fmi3EnterContinuousTimeMode fmi3CompletedIntegratorStep fmi3SetTime fmi3SetContinuousStates fmi3GetContinuousStates
-    fmi3GetContinuousStateDerivatives fmi3GetEventIndicators fmi3GetNominalsOfContinuousStates
-    fmi3GetNumberOfEventIndicators fmi3GetNumberOfContinuousStates fmi3ActivateModelPartition
 }
 
 /// The description of an FMU with a scene, in TOML: calls `answer` once, with true and `modelDescription.xml`, or with false and what is

@@ -9,9 +9,11 @@
 //! | `variables` | which inputs, parameters and outputs a scene has: the one table for description and interface |
 //! | `description` | `modelDescription.xml` of such a table |
 //! | `instance` | a simulation between communication steps, its values and states |
-//! | `abi` | the functions in C, and the only `unsafe` code: pointers, texts, panics that may not cross |
+//! | `abi` | the functions in C, with the only `unsafe` code: pointers, texts, panics that may not cross |
+//! | `absent` | the functions of what an FMU need not have |
 
 mod abi;
+mod absent;
 mod description;
 mod instance;
 mod variables;
