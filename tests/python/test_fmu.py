@@ -326,5 +326,23 @@ def test_what_is_refused_is_told_by_name_and_goes_on(pack: Pack) -> None:
         with pytest.raises(Exception, match="fmi3DoStep"):
             bearing.fmu.doStep(0.5, STEP)
         assert "the simulation stands at 0.00001 s" in bearing.log[-1][1]
+        with pytest.raises(Exception, match="fmi3GetFloat64"):
+            bearing.fmu.getFloat64([10**6])
+        assert bearing.log[-1] == (error, "no variable has the value reference 1000000")
+        with pytest.raises(Exception, match="fmi3GetFloat64"):
+            bearing.fmu.getFloat64([1, 2], nValues=1)
+        with pytest.raises(Exception, match="fmi3SetFMUState"):
+            bearing.fmu.setFMUState(None)
+        with pytest.raises(Exception, match="fmi3EnterEventMode"):
+            bearing.fmu.enterEventMode()
+        assert bearing.log[-1] == (error, "fmi3EnterEventMode is not offered")
         bearing.step()
         bearing.fmu.terminate()
+        with pytest.raises(Exception, match="fmi3DoStep"):
+            bearing.step()
+    tampered = pack(scene()).parent
+    with driven(tampered / "bearing.fmu") as (bearing,):
+        file = Path(bearing.fmu.unzipDirectory, "resources", "scene.toml")
+        file.write_text(scene().replace({"gravity": (0.0, 0.0, 0.0)}).to_toml(), encoding="utf-8")
+        with pytest.raises(Exception, match="Failed to instantiate"):
+            Driven(tampered / "bearing.fmu", Path(bearing.fmu.unzipDirectory))
