@@ -12,7 +12,7 @@ from .errors import SceneError
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["LARGEST", "RATES", "real", "real_row", "sampling_rate"]
+__all__ = ["LARGEST", "RATES", "per_pitch", "real", "real_row", "sampling_rate"]
 
 LARGEST = 1e60
 """Magnitude of a signal: sums of its fourth powers, which a kurtosis takes, are still numbers."""
@@ -36,6 +36,19 @@ def real(value: object) -> float:
         return float(value)
     except OverflowError:
         return math.inf if value > 0 else -math.inf
+
+
+def per_pitch(positions: object) -> int:
+    """Return how many positions of the cage there are to be per ball pitch.
+
+    Raises
+    ------
+    SceneError
+        It is no whole number from 1.
+    """
+    if isinstance(positions, bool) or not isinstance(positions, int) or positions < 1:
+        raise SceneError("positions", repr(positions), "a whole number, at least 1 per ball pitch")
+    return positions
 
 
 def sampling_rate(fs: object) -> float:

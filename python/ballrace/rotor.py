@@ -13,7 +13,7 @@ from . import _core
 from ._arguments import knows
 from ._io.whole import whole
 from ._libraries import needed
-from ._numbers import real, real_row
+from ._numbers import per_pitch, real, real_row
 from .errors import BallraceError, SceneError
 from .scene import SpeedDrive
 from .scene.scene import checked_scene
@@ -242,8 +242,7 @@ def stiffness_table(
     True
     """
     scene = checked_scene(bearing)
-    if isinstance(positions, bool) or not isinstance(positions, int) or positions < 1:
-        raise SceneError("positions", repr(positions), "a whole number, at least 1 per ball pitch")
+    per_pitch(positions)
     cases = _cases(scene, loads)
     speeds = None if speeds_rpm is None else _speeds(speeds_rpm)
     found: list[Mapping[str, Any]] = []
@@ -255,7 +254,8 @@ def stiffness_table(
         for k in range(shape[1]):
             if speeds is not None:
                 changes["drive"] = SpeedDrive(float(speeds[k]))
-            found.append(_coefficients(scene.replace(changes), positions, cases, case))
+            rpm = None if speeds is None else float(speeds[k]) * 30.0 / math.pi
+            found.append(_coefficients(scene, changes, positions, _told(cases, case, rpm)))
     texts = dict.fromkeys(text for one in found for text in one["equilibrium"]["warnings"])
     told = _warned({"warnings": texts}, stacklevel=4)
     return StiffnessTable(
@@ -269,15 +269,21 @@ def stiffness_table(
 
 
 def _coefficients(
-    scene: Scene, positions: int, cases: Mapping[str, NDArray[np.float64]], case: int
+    scene: Scene, changes: Mapping[str, Any], positions: int, told: str
 ) -> Mapping[str, Any]:
-    """Return the matrices of one load and speed; an error says which load."""
+    """Return the matrices of one load and speed; an error has a note of which."""
     try:
-        return _core.dynamic_coefficients(scene._document(), positions)
+        return _core.dynamic_coefficients(scene.replace(changes)._document(), positions)
     except BallraceError as error:
-        told = ", ".join(f"{name} = {of[case]:g} N" for name, of in cases.items())
-        error.add_note(f"in load case {case}: {told}")
+        error.add_note(told)
         raise
+
+
+def _told(cases: Mapping[str, NDArray[np.float64]], case: int, rpm: float | None) -> str:
+    """Say in words which load and speed it is."""
+    loads = ", ".join(f"{name} = {of[case]:g} N" for name, of in cases.items())
+    speed = "" if rpm is None else f", at {rpm:g} rev/min"
+    return f"in load case {case}: {loads}{speed}"
 
 
 def _cases(scene: Scene, loads: Mapping[str, ArrayLike] | None) -> dict[str, NDArray[np.float64]]:

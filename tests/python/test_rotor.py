@@ -84,6 +84,10 @@ def test_bad_arguments_are_refused_by_name(scene: br.Scene) -> None:
     with pytest.raises(EquilibriumError) as raised:
         br.stiffness_table(scene, {"radial": [200.0, 1e7]})
     assert raised.value.__notes__ == ["in load case 1: radial = 1e+07 N"]
+    oil = br.bearing("6205", radial_load=500.0, lubricant="vg68", temperature_c=50.0)
+    with pytest.raises(br.SceneError, match="reference_speed") as refused:
+        br.stiffness_table(oil, speeds_rpm=[1000.0, 0.0])
+    assert refused.value.__notes__[0].endswith("at 0 rev/min")
 
 
 def _shaken(scene: br.Scene, duration: float) -> tuple[NDArray[Any], NDArray[Any]]:
