@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._html import paragraph, points, table
-from .errors import SceneError, SceneWarning
+from ._numbers import per_pitch
+from .errors import SceneWarning
+from .ring_force import passed
 from .scene.scene import checked_scene
 
 if TYPE_CHECKING:
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
 
     import polars as pl
 
+    from .ring_force import RingForce
     from .scene import Scene
 
 __all__ = [
@@ -95,9 +98,8 @@ class Equilibrium:
     outer_tilt, inner_tilt : ndarray, shape (2,)
         Tilts of the rings about x and y [rad].
     outer_moment, inner_moment : ndarray, shape (2,)
-        Moments about x and y that the balls put on the rings, each about its own centre [N m]: what keeps a
-        ring from
-        tilting carries them.
+        Moments about x and y that the balls put on the rings, each about its own centre [N m]: what keeps a ring
+        from tilting carries them.
     row, ball : ndarray of int, shape (n_balls,)
         Row, and place of the ball in it, both from 0.
     angle, radius, z : ndarray, shape (n_balls,)
@@ -189,7 +191,12 @@ RaceControl = Literal["friction", "outer"]
 """What decides about which axis a ball spins that spins freely."""
 
 
-def equilibrium(scene: Scene, *, race_control: RaceControl = "friction") -> Equilibrium:
+def equilibrium(
+    scene: Scene,
+    *,
+    race_control: RaceControl = "friction",
+    forces: Mapping[str, RingForce] | None = None,
+) -> Equilibrium:
     """Solve a scene at rest in the cage's frame, with all loads, gravity and centrifugal forces.
 
     Centrifugal forces are those of the speed at which the balls go round at the contact angles found; friction
@@ -201,8 +208,9 @@ def equilibrium(scene: Scene, *, race_control: RaceControl = "friction") -> Equi
         The scene.
     race_control : {"friction", "outer"}
         What decides about which axis a ball spins that spins freely: friction at both races, as in a run, or the
-        outer race, on which it then does not pivot (Jones' hypothesis, which suits fast bearings under light
-        loads).
+        outer race, on which it then does not pivot (Jones' hypothesis, for fast bearings under light loads).
+    forces : mapping of str to RingForce, optional
+        Forces on the rings by functions of your own, as of :func:`ballrace.simulate`.
 
     Returns
     -------
@@ -223,7 +231,8 @@ def equilibrium(scene: Scene, *, race_control: RaceControl = "friction") -> Equi
         A number of the scene is one that no bearing is likely to have, or a contact's pressure exceeds the static
         rating.
     """
-    return _equilibrium(_core.equilibrium(checked_scene(scene)._document(), race_control))
+    document = checked_scene(scene)._document()
+    return _equilibrium(_core.equilibrium(document, race_control, passed(forces)))
 
 
 def _equilibrium(told: Mapping[str, Any]) -> Equilibrium:
@@ -255,9 +264,8 @@ class Stiffness:
     rings : ndarray, shape (6, 6)
         Both rings: x, y, z of the outer, then x, y, z of the inner ring [N/m].
     inner_spatial : ndarray, shape (5, 5)
-        Inner ring with its tilts: forces along x, y, z [N] and moments about x and y, about the ring's centre
-        of mass
-        [N m], by moves along x, y, z [m] and tilts about x and y [rad], in this order.
+        Inner ring with its tilts: forces along x, y, z [N] and moments about x and y, about the ring's centre of
+        mass [N m], by moves along x, y, z [m] and tilts about x and y [rad], in this order.
     rings_spatial : ndarray, shape (10, 10)
         The same of both rings: the five of the outer, then those of the inner ring.
     equilibrium : Equilibrium
@@ -436,8 +444,6 @@ def load_distribution(scene: Scene, *, positions: int = 16) -> LoadDistribution:
     (4, 9)
     >>> psi, load = loads.around(race="outer")
     """
-    if isinstance(positions, bool) or not isinstance(positions, int) or positions < 1:
-        raise SceneError("positions", repr(positions), "a whole number, at least 1 per ball pitch")
-    return LoadDistribution(
-        **_warned(dict(_core.load_distribution(checked_scene(scene)._document(), positions)))
-    )
+    document = checked_scene(scene)._document()
+    found = _core.load_distribution(document, per_pitch(positions))
+    return LoadDistribution(**_warned(dict(found)))

@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::errors::OrRaise;
+use super::forces::Raised;
 use ballrace::bindings::STACK;
 use ballrace::{Block, Column, Interrupt, Result};
 
@@ -53,6 +54,21 @@ pub(super) fn answering<T: Send + 'static>(
     handing_over(py, callbacks, &Interrupt::new(), |progress, _| {
         work(progress)
     })
+}
+
+/// As [`answering`], for work with forces by code: what one of them raises, this raises.
+pub(super) fn forced<T: Send + 'static>(
+    py: Python<'_>,
+    progress: Option<&Py<PyAny>>,
+    raised: &Raised,
+    work: impl FnOnce(Progress<'_>) -> Result<T> + Send + 'static,
+) -> PyResult<T> {
+    let callbacks = Callbacks {
+        progress,
+        sink: None,
+    };
+    let done = handing_over(py, callbacks, &raised.stop(), |told, _| work(told));
+    raised.before(py, done)
 }
 
 /// As [`answering`], for work that hands over blocks, too; it waits while one is taken. Whoever holds `stop` ends the work.

@@ -9,7 +9,7 @@ use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::answer::{Callbacks, Progress, handing_over};
+use super::answer::{Progress, forced};
 use super::errors::OrRaise;
 use super::forces::{Passed, Raised};
 use super::run::{hand_over, state_of};
@@ -42,7 +42,7 @@ impl GoingRun {
             run.start = Start::State(state_of(&scene, &y).or_raise(py)?);
         }
         let raised = Raised::of_forces(&mut scene, forces);
-        let made = under(py, progress.as_ref(), &raised, move |told| {
+        let made = forced(py, progress.as_ref(), &raised, move |told| {
             ballrace::Simulation::begin_with_progress(&scene, &run, told)
         })?;
         Ok(Self(Arc::new(Mutex::new(Some(made))), raised))
@@ -53,7 +53,7 @@ impl GoingRun {
     fn restored(py: Python<'_>, snapshot: &str) -> PyResult<Self> {
         let snapshot = Snapshot::from_json(snapshot).or_raise(py)?;
         let raised = Raised::default();
-        let made = under(py, None, &raised, move |_| {
+        let made = forced(py, None, &raised, move |_| {
             ballrace::Simulation::restore(&snapshot)
         })?;
         Ok(Self(Arc::new(Mutex::new(Some(made))), raised))
@@ -173,7 +173,7 @@ impl GoingRun {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let going = Arc::clone(&self.0);
-        let signals = under(py, progress.as_ref(), &self.1, move |told| {
+        let signals = forced(py, progress.as_ref(), &self.1, move |told| {
             let mut going = going.lock().unwrap_or_else(PoisonError::into_inner);
             going.as_ref().ok_or_else(over)?.check_end()?;
             going.take().ok_or_else(over)?.finish_with_progress(told)
@@ -191,7 +191,7 @@ impl GoingRun {
         work: impl FnOnce(&mut ballrace::Simulation, Progress<'_>) -> Result<T> + Send + 'static,
     ) -> PyResult<T> {
         let going = Arc::clone(&self.0);
-        under(py, progress, &self.1, move |told| {
+        forced(py, progress, &self.1, move |told| {
             let mut going = going.lock().unwrap_or_else(PoisonError::into_inner);
             work(going.as_mut().ok_or_else(over)?, told)
         })
@@ -209,21 +209,6 @@ impl GoingRun {
         })
         .or_raise(py)
     }
-}
-
-/// Works on a thread of its own until done, or until a force by code raises, as this does then.
-fn under<T: Send + 'static>(
-    py: Python<'_>,
-    progress: Option<&Py<PyAny>>,
-    raised: &Raised,
-    work: impl FnOnce(Progress<'_>) -> Result<T> + Send + 'static,
-) -> PyResult<T> {
-    let callbacks = Callbacks {
-        progress,
-        sink: None,
-    };
-    let done = handing_over(py, callbacks, &raised.stop(), |told, _| work(told));
-    raised.before(py, done)
 }
 
 /// Nothing goes on after the end.

@@ -4,8 +4,9 @@ use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::answer::answering;
+use super::answer::{answering, forced};
 use super::errors::{OrRaise, to_json};
+use super::forces::{Passed, Raised};
 use ballrace::bindings::{self, RowRolling, place};
 use ballrace::{
     BallEquilibrium, Equilibrium, EquivalentLoads, Error, RaceControl, Result, Scene,
@@ -64,13 +65,19 @@ fn control(name: &str) -> Result<RaceControl> {
 
 /// Static equilibrium.
 #[pyfunction]
+#[pyo3(signature = (scene, race_control, forces = Vec::new()))]
 pub(super) fn equilibrium<'py>(
     py: Python<'py>,
     scene: &str,
     race_control: &str,
+    forces: Vec<Passed>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let control = control(race_control).or_raise(py)?;
-    let found = solved(py, scene, move |scene| equilibrium_under(scene, control))?;
+    let mut scene = Scene::from_json_unchecked(scene).or_raise(py)?;
+    let raised = Raised::of_forces(&mut scene, forces);
+    let found = forced(py, None, &raised, move |_| {
+        equilibrium_under(&scene, control)
+    })?;
     arrays(py, &found)
 }
 

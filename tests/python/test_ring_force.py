@@ -55,6 +55,15 @@ def test_a_spring_by_code_is_that_by_a_table(scene: br.Scene) -> None:
     assert by_table["outer.y"][0] == pytest.approx(-800.0 / STIFFNESS, rel=0.2)
 
 
+def test_an_equilibrium_has_a_force_by_code(scene: br.Scene) -> None:
+    """Truth: the table's equilibrium."""
+    wanted = br.equilibrium(scene.replace({"table_forces.spring": TABLE}))
+    found = br.equilibrium(scene, forces={"spring": FORCE})
+    np.testing.assert_allclose(found.outer[1], wanted.outer[1], rtol=1e-9)
+    np.testing.assert_allclose(found.inner_load, wanted.inner_load, rtol=1e-6)
+    assert found.outer[1] == pytest.approx(-800.0 / STIFFNESS, rel=0.02)
+
+
 def test_a_record_tells_what_its_scene_does_not_have(scene: br.Scene, tmp_path: Path) -> None:
     out = br.simulate(scene, duration=2e-4, settle=0.0, forces={"spring": FORCE})
     assert (
