@@ -17,7 +17,7 @@ impl Films {
     pub fn new(model: &Model) -> Option<Self> {
         model.has_films_in_motion().then(|| Self {
             model: Box::new(model.clone()),
-            speed: model.scene.drive.initial_speed(),
+            speed: model.scene.relative_speed(0.0),
         })
     }
 

@@ -11,8 +11,8 @@ use crate::simd::InstructionSet;
 #[derive(Debug)]
 pub(super) struct Kept {
     pub reduction: Reduction,
-    /// Place of the driven rotation, if it is among the states.
-    pub driven: Option<usize>,
+    /// Places of the driven rotations of the rings, as far as they are among the states.
+    pub driven: [Option<usize>; 2],
     pub rolling: RollingRows,
     /// The planar right-hand side, where the scene has one.
     pub planar: Option<(InstructionSet, Planar)>,

@@ -94,7 +94,7 @@ impl SpatialWork {
         for race in Race::BOTH {
             let ring = race.ring();
             let (of, moment) = (&self.rings[race].ring, &self.moments[race]);
-            let driven = drive::acceleration(model, t);
+            let driven = drive::acceleration(model, race, t);
             let found = turning_accelerations(model, race, of, moment, driven);
             for (dof, found) in [Dof::TiltX, Dof::TiltY, Dof::Theta].into_iter().zip(found) {
                 if layout.has(ring, dof) {

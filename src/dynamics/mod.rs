@@ -24,7 +24,7 @@ use rayon::ThreadPool;
 use crate::forces::cage::CageLinks;
 use crate::forces::{self, Force, ForceSums, Instant, State, Table, Use, drive};
 use crate::integrate::System;
-use crate::model::{BodyId, DOFS, Degree, Dof, Layout, Model, Race, Spring};
+use crate::model::{BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Race, Spring};
 use crate::reduction::Reduction;
 
 pub(crate) use batch::{Batch, Guarantees, RingView, SideConstants, Touching, View};
@@ -81,9 +81,10 @@ impl<'m> Dynamics<'m> {
             mirrored: reduction.mirrored,
             closed: reduction.closed,
         };
-        let driven = reduction
-            .degrees()
-            .position(|(body, dof)| model.bodies[body].degrees[dof] == Degree::Driven);
+        let driven = Race::BOTH.map(|race| {
+            let of_ring = reduction.place(race.ring(), Dof::Theta);
+            of_ring.filter(|_| model.degree(race, Dof::Theta) == Degree::Driven)
+        });
         let rolling = RollingRows::new(&reduction);
         let keeps_axial_places = kind.axial_places.is_some();
         let order = Order::Kept(Box::new(Kept {
@@ -332,13 +333,13 @@ impl<'m> Dynamics<'m> {
         }
     }
 
-    /// M⁻¹ F of a body. Directions that are fixed do not accelerate; the driven ring's rotation accelerates as
+    /// M⁻¹ F of a body. Directions that are fixed do not accelerate; the rotation of a driven ring accelerates as
     /// prescribed.
     fn acceleration(&self, t: f64, body: BodyId) -> [f64; DOFS] {
         let (force, mobility) = (self.forces.of(body), &self.model.mobility[body]);
         let mut acceleration = std::array::from_fn(|i| force[i] * mobility[i]);
-        if body == BodyId::INNER
-            && let Some(prescribed) = drive::acceleration(self.model, t)
+        if let BodyKind::Ring(race) = body.kind()
+            && let Some(prescribed) = drive::acceleration(self.model, race, t)
         {
             acceleration[Dof::Theta] = prescribed;
         }
@@ -368,10 +369,12 @@ impl System for Dynamics<'_> {
             Order::Bodies => self.accelerate(t, accelerations),
             Order::Kept(kept) => {
                 kept.accelerate((&self.forces, &self.mobility), accelerations);
-                if let (Some(i), Some(prescribed)) =
-                    (kept.driven, drive::acceleration(self.model, t))
-                {
-                    accelerations[i] = prescribed;
+                for (race, driven) in Race::BOTH.into_iter().zip(kept.driven) {
+                    if let (Some(i), Some(prescribed)) =
+                        (driven, drive::acceleration(self.model, race, t))
+                    {
+                        accelerations[i] = prescribed;
+                    }
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! Lines at the fault frequencies of the rows, with their harmonics and sidebands.
 
-use super::shaft::{SHARE, Shaft};
+use super::shaft::{RingTurns, SHARE, Shaft};
 use super::spectrum::Spectrum;
 use super::transform::squared_envelope;
 use super::{Feature, named};
@@ -20,25 +20,27 @@ const HARMONICS: u8 = 3;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct FaultOrder {
     pub name: &'static str,
-    /// In turns of the shaft.
+    /// In turns of the shaft against the outer ring.
     pub order: f64,
     /// How far from there its line is sought, as a share of it.
     share: f64,
-    /// Distance of its sidebands, where what turns past the load makes it stronger and weaker: the shaft for the inner
-    /// race, the cage for a ball.
+    /// Distance of its sidebands, where what turns past the load makes it stronger and weaker: the ring for a race, the cage for a
+    /// ball. Loads stand in space; 0 of a ring that stands, though its speed is given.
     sidebands: Option<f64>,
 }
 
-/// The faults of a row by their orders: the cage's, those of balls that pass a place of the outer and of the inner race, and
+/// The faults of a row by their orders: the cage's in space, those of balls that pass a place of the outer and of the inner race, and
 /// of places of a ball that pass a race: it meets both in a turn, so twice the ball's spin. They are what the row did, or, of a
 /// record without measured kinematics, those of pure rolling at the nominal contact angle.
-pub(super) fn faults(row: &Row, did: Option<&RowKinematics>) -> [FaultOrder; 4] {
+pub(super) fn faults(row: &Row, did: Option<&RowKinematics>, turns: RingTurns) -> [FaultOrder; 4] {
     let [ftf, bpfo, bpfi, bsf] = row.orders();
     let measured = did.map(|did| did.orders(row.ball_count));
     let ([ftf, bpfo, bpfi], share) =
         measured.map_or(([ftf, bpfo, bpfi], SHARE), |(orders, _)| (orders, MEASURED));
     let spin = measured.and_then(|(_, spin)| spin);
     let (bsf, share_of_ball) = spin.map_or((bsf, SHARE), |spin| (spin, MEASURED));
+    // The cage goes round with the outer ring.
+    let ftf = turns.outer.map_or(ftf, |outer| (ftf + outer).abs());
     let fault = |name, order, sidebands| FaultOrder {
         name,
         order,
@@ -47,8 +49,8 @@ pub(super) fn faults(row: &Row, did: Option<&RowKinematics>) -> [FaultOrder; 4] 
     };
     [
         fault("ftf", ftf, None),
-        fault("bpfo", bpfo, None),
-        fault("bpfi", bpfi, Some(1.0)),
+        fault("bpfo", bpfo, turns.outer.map(f64::abs)),
+        fault("bpfi", bpfi, Some(turns.inner.abs())),
         FaultOrder {
             share: share_of_ball,
             ..fault("2bsf", 2.0 * bsf, Some(ftf))
@@ -63,7 +65,7 @@ pub(super) fn of(
     x: &[f64],
     (fs, band): (f64, Option<[f64; 2]>),
     shaft: Option<&Shaft>,
-    (rows, kinematics): (&[Row], &[RowKinematics]),
+    (rows, kinematics, turns): (&[Row], &[RowKinematics], RingTurns),
     certain: bool,
 ) -> Vec<Feature> {
     let spectra = shaft.map(|shaft| {
@@ -78,7 +80,7 @@ pub(super) fn of(
     let mut found = Vec::new();
     for (row, of) in rows.iter().enumerate() {
         let did = kinematics.iter().find(|did| did.row == row);
-        for fault in faults(of, did) {
+        for fault in faults(of, did, turns) {
             for (i, suffix) in ["", "_envelope"].into_iter().enumerate() {
                 let lines = spectra.as_ref().map(|spectra| {
                     let (spectrum, shaft, bin) = &spectra[i];
@@ -145,7 +147,10 @@ impl Lines {
         let distance = fault.sidebands.unwrap_or(0.0) * shaft;
         let sides = [place - distance, place + distance].map(beside);
         let sides: Vec<Amplitude> = sides.into_iter().flatten().collect();
-        let (harmonics, sidebands) = (together(&family), together(&sides));
+        let (harmonics, mut sidebands) = (together(&family), together(&sides));
+        if distance == 0.0 {
+            sidebands = (f64::NAN, f64::NAN);
+        }
         let stands_out = line.0 > STANDS_OUT * line.1;
         let known = |error: f64| if stands_out { error } else { f64::NAN };
         Some(Self {
@@ -194,7 +199,14 @@ mod tests {
 
     fn lines(scene: &Scene, x: &[f64], fs: f64) -> impl Fn(&str) -> Option<f64> + use<> {
         let shaft = Shaft::of(scene, 0.0, x.len(), fs);
-        let found = of("x", x, (fs, None), shaft.as_ref(), (&scene.rows, &[]), true);
+        let found = of(
+            "x",
+            x,
+            (fs, None),
+            shaft.as_ref(),
+            (&scene.rows, &[], RingTurns::INNER),
+            true,
+        );
         move |name: &str| {
             let wanted = format!("x.row0.{name}");
             let feature = found.iter().find(|feature| feature.name == wanted);
@@ -206,7 +218,7 @@ mod tests {
     /// FTF 0.3983, twice BSF 4.7135 of the ball diameter 7.94 mm on 39.04 mm.
     #[test]
     fn orders_of_the_6205() {
-        let found = faults(&scene().rows[0], None);
+        let found = faults(&scene().rows[0], None, RingTurns::INNER);
         for (found, wanted) in found.into_iter().zip([0.3983, 3.5848, 5.4152, 4.7135]) {
             assert!((found.order - wanted).abs() < 6e-5, "{found:?} {wanted}");
         }
@@ -222,7 +234,7 @@ mod tests {
             &[1.0; 50],
             (50e3, None),
             shaft.as_ref(),
-            (&scene.rows, &[]),
+            (&scene.rows, &[], RingTurns::INNER),
             true,
         );
         assert_eq!(found.len(), 2 * 2 * (2 + 2 + 3 + 3));
@@ -233,7 +245,7 @@ mod tests {
     #[test]
     fn a_family_is_added_up() {
         let (scene, fs, shaft) = (scene(), 20e3, 30.0);
-        let inner = faults(&scene.rows[0], None)[2].order * shaft;
+        let inner = faults(&scene.rows[0], None, RingTurns::INNER)[2].order * shaft;
         let parts = [
             (2.0, inner),
             (1.0, 2.0 * inner),
@@ -263,7 +275,7 @@ mod tests {
     #[test]
     fn a_line_in_noise_is_as_uncertain_as_it_is_told() {
         let (scene, fs, count) = (scene(), 20e3, 10_000);
-        let outer = faults(&scene.rows[0], None)[1].order * 30.0;
+        let outer = faults(&scene.rows[0], None, RingTurns::INNER)[1].order * 30.0;
         let mut uniform = uniform(11);
         let mut record = |sigma: f64| -> Vec<f64> {
             (0..count)
@@ -310,7 +322,7 @@ mod tests {
             start: 0.0,
             end: 1.0,
         }));
-        let outer = faults(&scene.rows[0], None)[1].order;
+        let outer = faults(&scene.rows[0], None, RingTurns::INNER)[1].order;
         let x: Vec<f64> = (0..count)
             .map(|i| f64::from(i) / fs)
             .map(|t| 3.0 * (TAU * outer * (20.0 * t + 10.0 * t * t)).sin())

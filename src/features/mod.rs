@@ -7,6 +7,7 @@
 //! | | … within 0.5 % of where balls of the run passed ([`crate::RowKinematics`]); without, 2 % of nominal rolling | `lines.rs` |
 //! | `….bpfo_harmonics`, … | root of the sum of the squares of the line and its second and third harmonic | `lines.rs` |
 //! | `….bpfi_sidebands`, `….2bsf_sidebands` | the same of the lines a shaft's, a cage's frequency beside it | `lines.rs` |
+//! | `….bpfo_sidebands` | an outer ring's frequency beside it, of a scene that gives it a speed | `lines.rs` |
 //! | `….bpfo_envelope`, `….bpfo_envelope_harmonics`, … | the same lines of its squared envelope | `lines.rs` |
 //! | `outer.ay.lines_from` | of a run from rest: from when on its lines are \[s\], where the shaft has a twentieth of its highest speed | `shaft.rs` |
 //! | `row0.outer.load_max`, `.load_min` | extremes of the contact loads of a row \[N\] | `loads.rs` |

@@ -2,7 +2,7 @@
 
 use super::batches::Batches;
 use super::record::Recorded;
-use super::shaft::Shaft;
+use super::shaft::{RingTurns, Shaft};
 use super::{Feature, FeatureOptions, check_record, lines, loads, lubrication, moments, named};
 use crate::base::error::{Error, Result};
 use crate::scene::Scene;
@@ -105,7 +105,8 @@ struct Analysis<'a> {
     scene: Option<&'a Scene>,
     kinematics: &'a [RowKinematics],
     shaft: Option<Shaft>,
-    /// Turns of the shaft, where its speed is known.
+    ring_turns: RingTurns,
+    /// Turns of the shaft against the outer ring, where its speed is known.
     turns: Option<f64>,
     batches: Batches,
     fs: f64,
@@ -129,6 +130,9 @@ impl<'a> Analysis<'a> {
             scene,
             kinematics: kinematics.unwrap_or_default(),
             shaft,
+            ring_turns: scene.map_or(RingTurns::INNER, |scene| {
+                RingTurns::of(scene, options.skip, count, fs)
+            }),
             turns,
             batches: Batches::none(),
             fs,
@@ -153,7 +157,7 @@ impl<'a> Analysis<'a> {
         let rows = self.scene.iter().flat_map(|scene| &scene.rows).enumerate();
         rows.map(|(at, row)| {
             let did = self.kinematics.iter().find(|did| did.row == at);
-            let [_, outer, ..] = lines::faults(row, did);
+            let [_, outer, ..] = lines::faults(row, did, self.ring_turns);
             self.turns.map(|turns| turns * outer.order)
         })
     }
@@ -184,7 +188,7 @@ impl<'a> Analysis<'a> {
             x,
             (self.fs, self.band),
             shaft,
-            (&scene.rows, self.kinematics),
+            (&scene.rows, self.kinematics, self.ring_turns),
             self.batches.count() > 0,
         ));
         if let Some(first) = shaft.map(Shaft::first).filter(|first| *first > 0) {

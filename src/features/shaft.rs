@@ -1,9 +1,10 @@
-//! The motion of the shaft over a record: its frequency, or the angle over which a run-up is resampled.
+//! The motion of the shaft over a record, of the inner ring against the outer: its frequency, or the angle over which a run-up is
+//! resampled.
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use crate::scene::{Drive, Scene};
+use crate::scene::{RingName, Scene};
 
 /// A line is sought this far from its kinematic frequency: the operating contact angle differs from the
 /// nominal one, by 10° at most, and the balls slip a little.
@@ -12,6 +13,39 @@ pub(super) const SHARE: f64 = 0.02;
 /// Part of the highest speed below which a shaft all but stands, and no line is sought over its angle: a turn has 20 times
 /// the samples of the fastest, of which spectra over the angle keep one.
 const SLOWEST: f64 = 0.05;
+
+/// Turns of the rings over a record, over those of the inner ring against the outer.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RingTurns {
+    /// Absent where its speed is not given.
+    pub outer: Option<f64>,
+    pub inner: f64,
+}
+
+impl RingTurns {
+    /// Where the outer ring stands.
+    pub const INNER: Self = Self {
+        outer: None,
+        inner: 1.0,
+    };
+
+    /// Over so many samples from a time on.
+    pub fn of(scene: &Scene, from: f64, count: usize, fs: f64) -> Self {
+        if scene.outer_speed.is_none() {
+            return Self::INNER;
+        }
+        let mut sums = [0.0; 2];
+        for speeds in (0..count).map(|i| scene.ring_speeds(from + i as f64 / fs)) {
+            sums[0] += speeds[0];
+            sums[1] += speeds[1];
+        }
+        let relative = sums[1] - sums[0];
+        Self {
+            outer: Some(sums[0] / relative),
+            inner: sums[1] / relative,
+        }
+    }
+}
 
 /// What a spectrum is taken over.
 pub(super) enum Shaft {
@@ -30,11 +64,9 @@ impl Shaft {
     /// Over so many samples from a time on. Absent where the speed is not given, or the shaft stands still or turns back.
     /// Of a run from rest, or to it, over the longest part in which it has a twentieth of its highest speed.
     pub fn of(scene: &Scene, from: f64, count: usize, fs: f64) -> Option<Self> {
-        let Drive::Speed(speed) = &scene.drive else {
-            return None;
-        };
+        scene.given_speed(RingName::Inner)?;
         let speeds: Vec<f64> = (0..count)
-            .map(|i| speed.at(from + i as f64 / fs) / TAU)
+            .map(|i| scene.relative_speed(from + i as f64 / fs) / TAU)
             .collect();
         let mean = speeds.iter().sum::<f64>() / speeds.len() as f64;
         let within = |share: f64| {

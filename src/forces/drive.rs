@@ -1,4 +1,4 @@
-//! The drive of the inner ring: a torque, or a prescribed speed, whose motion is known without a force.
+//! What turns the rings: a torque on the inner ring, or prescribed speeds, whose motion is known without a force.
 
 use super::{Force, ForceSums, Instant, RingWrench, Use};
 use crate::model::{Model, Race};
@@ -32,11 +32,9 @@ impl Force for DriveTorque {
     }
 }
 
-/// The angular acceleration of the inner ring where its speed is prescribed \[rad/s²\].
+/// The angular acceleration of a ring whose speed is prescribed \[rad/s²\].
 #[inline]
-pub(crate) fn acceleration(model: &Model, t: f64) -> Option<f64> {
-    match &model.scene.drive {
-        Drive::Speed(speed) => Some(speed.rate(t)),
-        Drive::Torque { .. } => None,
-    }
+pub(crate) fn acceleration(model: &Model, race: Race, t: f64) -> Option<f64> {
+    let speed = model.scene.given_speed(race.into())?;
+    Some(speed.rate(t))
 }

@@ -63,10 +63,7 @@ impl Force for Unbalances {
 
     /// Centrifugal forces, the ring at angle 0.
     fn at_start(&self, model: &Model, race: Race) -> RingWrench {
-        let speed = match race {
-            Race::Inner => model.scene.drive.initial_speed(),
-            Race::Outer => 0.0,
-        };
+        let speed = model.scene.ring_speeds(0.0)[race];
         let mut sum = RingWrench::default();
         for unbalance in model.unbalances.iter().filter(|u| u.ring == race) {
             let (sin, cos) = unbalance.angle.sin_cos();
@@ -113,7 +110,7 @@ fn on(model: &Model, t: f64, state: &State, ring: Race, others: &[f64; DOFS]) ->
         )
     };
     let weight = cross(whole, V2::new(gx, gy));
-    let driven = drive::acceleration(model, t).filter(|_| ring == Race::Inner);
+    let driven = drive::acceleration(model, ring, t);
     let spin = driven.unwrap_or_else(|| {
         let coupled = mobility[Dof::Y] * whole.x * whole.x + mobility[Dof::X] * whole.y * whole.y;
         let torque = others[Dof::Theta] + weight - cross(whole, accelerate(0.0));
@@ -133,7 +130,7 @@ fn on(model: &Model, t: f64, state: &State, ring: Race, others: &[f64; DOFS]) ->
 fn on_leaning(model: &Model, t: f64, state: &State, ring: Race, frame: &Frame) -> RingWrench {
     let mut sum = RingWrench::default();
     let motion = state.motion(ring.ring());
-    let driven = drive::acceleration(model, t).filter(|_| ring == Race::Inner);
+    let driven = drive::acceleration(model, ring, t);
     let (square, spin) = (motion.omega * motion.omega, driven.unwrap_or(0.0));
     for unbalance in model.unbalances.iter().filter(|u| u.ring == ring) {
         let (sin, cos) = motion.direction_of(unbalance.angle).sin_cos();

@@ -49,7 +49,7 @@ pub enum Degree {
     },
     /// Not at all.
     Fixed,
-    /// As the drive prescribes.
+    /// As a given speed prescribes.
     Driven,
 }
 

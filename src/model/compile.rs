@@ -16,7 +16,7 @@ use crate::contact::{
     BallSide, Damping, Elastic, Fault, Law, MOST_PITS, Pair, PittedContact, Rules, Shape, Torus,
     Traction, Waves, ZoneSlices, pits_at_once,
 };
-use crate::scene::{self, Approximations, Defect, Drive, Mount, Row, Scene, Surface};
+use crate::scene::{self, Approximations, Defect, Mount, Row, Scene, Surface};
 use crate::simd::InstructionSet;
 use crate::tilt::Inertia;
 
@@ -28,8 +28,10 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     let (outer, on_outer) = ring(scene, &scene.outer_ring, Race::Outer)?;
     let (inner, on_inner) = ring(scene, &scene.inner_ring, Race::Inner)?;
     let (mut bodies, rings) = (vec![outer, inner], [on_outer, on_inner]);
-    if matches!(scene.drive, Drive::Speed(_)) {
-        bodies[BodyId::INNER].degrees[Dof::Theta] = Degree::Driven;
+    for race in Race::BOTH {
+        if scene.given_speed(race.into()).is_some() {
+            bodies[race.ring().index()].degrees[Dof::Theta] = Degree::Driven;
+        }
     }
     let mut rows = Vec::new();
     let mut balls = Vec::new();

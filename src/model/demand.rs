@@ -60,6 +60,7 @@ fn numbers(scene: &Scene) -> usize {
         waves * size_of::<Waviness>() / size_of::<f64>() + row.diameter_errors.len()
     });
     in_time(drive)
+        + scene.outer_speed.as_ref().map_or(0, in_time)
         + loads
             .chain(moments)
             .chain(defects)

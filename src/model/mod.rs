@@ -314,11 +314,13 @@ impl Model {
     }
 
     /// Orbit rate of a row's balls and their rotation about z \[rad/s\] for pure rolling at the nominal contact
-    /// angle, fixed outer ring: ω_c = Ω(1 − γ)/2, θ̇_b = −ω_c d_m / (D cos α₀), γ = D cos α₀ / d_m.
+    /// angle: ω_c = Ω(1 − γ)/2, θ̇_b = −ω_c d_m / (D cos α₀), γ = D cos α₀ / d_m, with Ω of the inner ring against the outer, and
+    /// both faster by the outer ring's speed.
     pub fn rolling_speeds(&self, row: usize) -> (f64, f64) {
-        let speed = self.scene.drive.initial_speed();
+        let [outer, inner] = self.scene.ring_speeds(0.0);
         let (orbit, spin) = self.rolling_shares(row);
-        (speed * orbit, speed * spin)
+        let speed = inner - outer;
+        (speed * orbit + outer, speed * spin + outer)
     }
 
     /// Speed of a row's balls about the axis in a state of all bodies, in the mean \[rad/s\].
@@ -332,13 +334,14 @@ impl Model {
         speed
     }
 
-    /// The mean orbit rate of all balls over the speed of the inner ring, for pure rolling at the nominal contact angles.
+    /// The mean orbit rate of all balls against the outer ring over the speed of the inner against it, for pure rolling at the nominal
+    /// contact angles.
     pub(crate) fn rolling_share(&self) -> f64 {
         let of = |ball: &Ball| self.rolling_shares(ball.row).0;
         self.balls.iter().map(of).sum::<f64>() / self.balls.len() as f64
     }
 
-    /// [`Self::rolling_speeds`] over the speed of the inner ring.
+    /// [`Self::rolling_speeds`] seen from the outer ring, over the speed of the inner ring against it.
     pub(crate) fn rolling_shares(&self, row: usize) -> (f64, f64) {
         let row = &self.scene.rows[row];
         let gamma = row.ball_diameter * row.contact_angle.cos() / row.pitch_diameter;

@@ -23,7 +23,7 @@ pub(super) fn finer(model: &Model) -> usize {
     const EACH: f64 = 1.3;
     /// For what may start from rest too; and as many as cost less than the elements, beyond which friction is left as it is.
     const RANGE: [f64; 2] = [8.0, 96.0];
-    let speed = model.scene.drive.peak_speed();
+    let speed = model.scene.peak_relative_speed();
     let sweeps = model.rows.iter().enumerate().flat_map(|(i, row)| {
         let (radius, geometry) = (model.balls[row.first].side.radius, &model.scene.rows[i]);
         let turning = speed * (1.0 + model.rolling_shares(i).1.abs());
@@ -125,7 +125,10 @@ fn rolling(
     };
     let (sin, cos) = (towards * angle).sin_cos();
     let distance = race.a + race.sigma * l * cos;
-    let (orbit, spin) = model.rolling_speeds(row);
+    // Seen from the outer ring.
+    let speed = model.scene.relative_speed(0.0);
+    let (orbit, spin) = model.rolling_shares(row);
+    let (orbit, spin) = (speed * orbit, speed * spin);
     let ball = Motion {
         centre: V2::new(distance, 0.0),
         z: race.centre + l * sin,
@@ -138,7 +141,7 @@ fn rolling(
             radius,
             distance,
             angles: [towards * race.sigma * angle; 2],
-            speed: model.scene.drive.initial_speed(),
+            speed,
         };
         let rolling = between.controlled_by(side.other());
         Motion {
@@ -149,11 +152,7 @@ fn rolling(
     } else {
         ball
     };
-    let turning = if race.sigma > 0.0 {
-        0.0
-    } else {
-        model.scene.drive.initial_speed()
-    };
+    let turning = if race.sigma > 0.0 { 0.0 } else { speed };
     let ring = Motion {
         omega: turning,
         ..Motion::default()

@@ -2,11 +2,11 @@
 
 use super::compile::classify;
 use super::scales::Bottom;
-use super::{BodyId, Degree, Dof, Model, Race};
+use super::{BodyId, Dof, Model, Race};
 use crate::base::error::{Error, Result};
 use crate::contact::film::{self, Effects, Film, Oil, Reference};
 use crate::contact::{Elastic, Oiled, Pair};
-use crate::scene::{Drive, Lubricant, Row, TimeFunction};
+use crate::scene::{Lubricant, Row};
 
 impl Model {
     /// Whether any row has a lubricant that does something.
@@ -46,9 +46,8 @@ impl Model {
 
     /// Whether films change in a run: of a bearing whose rings do not keep one speed against each other.
     pub(crate) fn has_films_in_motion(&self) -> bool {
-        let steady = matches!(self.scene.drive, Drive::Speed(TimeFunction::Constant(_)))
-            && self.bodies[BodyId::OUTER].degrees[Dof::Theta] == Degree::Fixed;
-        !steady && self.has_films()
+        let is_free = self.bodies[BodyId::OUTER].degrees[Dof::Theta].is_free();
+        (is_free || !self.scene.turns_steadily()) && self.has_films()
     }
 
     /// Whether any contact has a film.
@@ -105,7 +104,7 @@ impl Model {
                 approach,
             };
             let film = Film::new(oil, &geometry, reference, effects);
-            Oiled::new(film, pair.race.r, self.scene.drive.initial_speed())
+            Oiled::new(film, pair.race.r, self.scene.relative_speed(0.0))
         };
         self.rows[row].pairs[race].flanks().map(of).collect()
     }

@@ -17,7 +17,7 @@
 
 use super::Race;
 
-/// A ball that rolls without slip on the outer race, which rests, and on the inner race.
+/// A ball that rolls without slip on the outer race, which rests or turns, and on the inner race.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PureRolling {
     pub orbit: f64,
@@ -27,7 +27,18 @@ pub(crate) struct PureRolling {
     pub outward: f64,
 }
 
-/// A ball between its races.
+impl PureRolling {
+    /// The same where both rings turn faster by a speed \[rad/s\].
+    pub fn turned_by(self, speed: f64) -> Self {
+        Self {
+            orbit: self.orbit + speed,
+            axial: self.axial + speed,
+            ..self
+        }
+    }
+}
+
+/// A ball between its races, seen from the outer ring.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Between {
     /// R.
@@ -36,7 +47,7 @@ pub(crate) struct Between {
     pub distance: f64,
     /// α_o and α_i.
     pub angles: [f64; 2],
-    /// Of the inner ring \[rad/s\].
+    /// Of the inner ring against the outer \[rad/s\].
     pub speed: f64,
 }
 

@@ -22,7 +22,8 @@ impl Scales {
     /// Estimated from loads at their peaks; a wrong load by half moves the frequency by a tenth.
     pub(super) fn of(model: &Model) -> Self {
         let scene = &model.scene;
-        let speed = scene.drive.peak_speed();
+        let [outer, inner] = scene.peak_speeds();
+        let speed = inner.max(outer);
         let (mut radial, mut axial) = (0.0, 0.0);
         for load in &model.loads {
             let peak = load.force.peak();
@@ -55,7 +56,7 @@ impl Scales {
             let (sin, cos) = geometry.contact_angle.max(10_f64.to_radians()).sin_cos();
             let external =
                 5.0 * radial / (model.balls.len() as f64 * cos) + axial / (row.count as f64 * sin);
-            let orbit = 0.4 * speed;
+            let orbit = 0.4 * inner + 0.6 * outer;
             let outwards = centrifugal(body.mass[Dof::X], orbit) * geometry.pitch_diameter / 2.0;
             let squeeze = (-geometry.clearance / 4.0 * cos).max(0.0)
                 + (geometry.axial_preload / 2.0 * sin).max(0.0);

@@ -110,11 +110,11 @@ impl Model {
         self.rows[row].hertz.map(|hertz| hertz.half_width * root)
     }
 
-    /// Mean surface speed at contacts of balls that roll, at the drive's largest speed \[m/s\].
+    /// Mean surface speed at contacts of balls that roll, at the rings' largest speed against each other \[m/s\].
     pub(crate) fn rolling_speed(&self, row: usize) -> f64 {
         let groove = self.rows[row].pairs[Race::Outer].race.r;
         let race = self.film_race(&self.scene.rows[row], Race::Outer, groove);
-        race.entrainment(self.scene.drive.peak_speed())
+        race.entrainment(self.scene.peak_relative_speed())
     }
 
     /// Shortest time in which a ball rolls over a quarter of the half-width of a contact with texture, or of a pit or its contact

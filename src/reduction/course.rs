@@ -1,25 +1,34 @@
 //! Motions that no force changes.
 
 use crate::model::{BodyId, DOFS, Dof, Layout, Model};
-use crate::scene::{Antiderivative, Drive, TimeFunction};
+use crate::scene::{Antiderivative, RingName, Scene, TimeFunction};
 
-/// A place whose speed is constant or follows the drive.
+/// A place whose speed is constant or follows those that are given to the rings.
 #[derive(Debug, Clone)]
 pub(crate) struct Course {
     place: f64,
+    /// The part of the speed that follows no ring.
     speed: f64,
-    /// The drive, if it changes.
-    drive: Option<Driven>,
+    /// The rings' speeds that change.
+    driven: Vec<Driven>,
 }
 
-/// A drive that changes, and the share of it that a speed changes by.
+/// A ring's speed that changes, and the share of it that a speed changes by.
 #[derive(Debug, Clone)]
 struct Driven {
     share: f64,
     speed: TimeFunction,
     turned: Antiderivative,
-    /// The part of the speed that does not follow the drive.
-    extra: f64,
+}
+
+impl Driven {
+    /// What it adds to a place and to a speed at a time.
+    fn at(&self, t: f64) -> (f64, f64) {
+        (
+            self.share * self.turned.at(&self.speed, t),
+            self.share * self.speed.at(t),
+        )
+    }
 }
 
 impl Course {
@@ -28,64 +37,71 @@ impl Course {
         Self {
             place: place - speed * t,
             speed,
-            drive: None,
+            driven: Vec::new(),
         }
     }
 
-    /// At a place at a time, with a speed that changes with a share of the drive's.
-    pub fn driven((t, place): (f64, f64), speed: f64, share: f64, drive: &Drive) -> Self {
-        let Drive::Speed(of @ TimeFunction::Profile(_)) = drive else {
-            return Self::steady((t, place), speed);
-        };
-        let (turned, extra) = (Antiderivative::new(of), speed - share * of.at(t));
-        Self {
-            place: place - (extra * t + share * turned.at(of, t)),
-            speed,
-            drive: Some(Driven {
+    /// At a place at a time, with a speed that changes with shares of those of outer and inner ring.
+    pub fn driven((t, place): (f64, f64), speed: f64, shares: [f64; 2], scene: &Scene) -> Self {
+        let of_ring = |(ring, share)| match scene.given_speed(ring)? {
+            TimeFunction::Constant(_) => None,
+            speed => Some(Driven {
                 share,
-                speed: of.clone(),
-                turned,
-                extra,
+                speed: speed.clone(),
+                turned: Antiderivative::new(speed),
             }),
+        };
+        let shares = [RingName::Outer, RingName::Inner].into_iter().zip(shares);
+        let shares = shares.filter(|(_, share)| *share != 0.0);
+        let driven: Vec<Driven> = shares.filter_map(of_ring).collect();
+        let (turned, following) = sum(&driven, t);
+        let extra = speed - following;
+        Self {
+            place: place - (extra * t + turned),
+            speed: extra,
+            driven,
         }
     }
 
-    /// In proportion to the drive: as at that time, or by a given share where the drive is then at rest.
-    pub fn geared(from: (f64, f64), speed: f64, at_rest: f64, drive: &Drive) -> Self {
-        let share = match drive.speed_from(from.0) {
-            0.0 => at_rest,
-            of => speed / of,
+    /// In proportion to the rings' speed against each other, seen from the outer ring: as at that time, or by a given share where
+    /// they then turn as one.
+    pub fn geared(from: (f64, f64), speed: f64, at_rest: f64, scene: &Scene) -> Self {
+        let [outer, inner] = scene.ring_speeds(from.0);
+        let share = if inner == outer {
+            at_rest
+        } else {
+            (speed - outer) / (inner - outer)
         };
-        Self::driven(from, speed, share, drive)
+        Self::driven(from, speed, [1.0 - share, share], scene)
     }
 
     /// Whether it ever leaves its place.
     pub fn moves(&self) -> bool {
-        self.speed != 0.0 || self.drive.is_some()
+        self.speed != 0.0 || !self.driven.is_empty()
     }
 
     /// Place and speed at a time.
     pub fn at(&self, t: f64) -> (f64, f64) {
-        match &self.drive {
-            Some(Driven {
-                share,
-                speed,
-                turned,
-                extra,
-            }) => (
-                self.place + extra * t + share * turned.at(speed, t),
-                extra + share * speed.at(t),
-            ),
-            None => (self.place + self.speed * t, self.speed),
+        if self.driven.is_empty() {
+            return (self.place + self.speed * t, self.speed);
         }
+        let (turned, speed) = sum(&self.driven, t);
+        (self.place + self.speed * t + turned, self.speed + speed)
     }
 
     /// Acceleration at a time.
     pub fn rate(&self, t: f64) -> f64 {
-        self.drive
-            .as_ref()
-            .map_or(0.0, |drive| drive.share * drive.speed.rate(t))
+        let of = |driven: &Driven| driven.share * driven.speed.rate(t);
+        self.driven.iter().map(of).sum()
     }
+}
+
+/// What all of them add to a place and to a speed at a time.
+fn sum(driven: &[Driven], t: f64) -> (f64, f64) {
+    driven.iter().fold((0.0, 0.0), |(place, speed), each| {
+        let (turned, of) = each.at(t);
+        (place + turned, speed + of)
+    })
 }
 
 /// A degree of freedom whose motion is prescribed.
@@ -128,7 +144,7 @@ impl Turn {
 
 impl Orbit {
     /// From a start, a state of all bodies: as fast as the balls of the row are in the mean, and in proportion to the
-    /// drive. `at` is the place of the first radius among the states, if they are.
+    /// rings. `at` is the place of the first radius among the states, if they are.
     pub fn of(model: &Model, row: usize, (t, start): (f64, &[f64]), at: Option<usize>) -> Self {
         let layout = model.layout();
         let balls = model.rows[row].balls();
@@ -149,7 +165,7 @@ impl Orbit {
                 (t, 0.0),
                 model.orbit_speed(row, start),
                 at_rest,
-                &model.scene.drive,
+                &model.scene,
             ),
         }
     }

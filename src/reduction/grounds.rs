@@ -10,7 +10,7 @@ use crate::model::{BodyId, Degree, Dof, Model, Race};
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Reason {
     Held,
-    Driven,
+    Driven(Race),
     NoMoment,
     Mirror,
     Copy,
@@ -20,9 +20,10 @@ pub(super) enum Reason {
 }
 
 impl Reason {
-    pub(super) const ALL: [Self; 8] = [
+    pub(super) const ALL: [Self; 9] = [
         Self::Held,
-        Self::Driven,
+        Self::Driven(Race::Outer),
+        Self::Driven(Race::Inner),
         Self::NoMoment,
         Self::Mirror,
         Self::Copy,
@@ -34,7 +35,8 @@ impl Reason {
     pub(super) fn describe(self) -> (&'static str, &'static str) {
         match self {
             Self::Held => ("held directions", "they do not move"),
-            Self::Driven => ("rotation of the inner ring", "the drive prescribes it"),
+            Self::Driven(Race::Outer) => ("rotation of the outer ring", "its speed is given"),
+            Self::Driven(Race::Inner) => ("rotation of the inner ring", "the drive prescribes it"),
             Self::NoMoment => ("spin of balls", "no friction: nothing turns them"),
             Self::Mirror => ("z", "mirror symmetry"),
             Self::Copy => ("balls of row 1", "mirror image of row 0"),
@@ -76,7 +78,10 @@ impl Grounds {
         }
         match model.bodies[body].degrees[dof] {
             Degree::Fixed => self.exact.then_some(Reason::Held),
-            Degree::Driven => self.exact.then_some(Reason::Driven),
+            Degree::Driven => {
+                let race = Race::BOTH.into_iter().find(|race| race.ring() == body);
+                race.filter(|_| self.exact).map(Reason::Driven)
+            }
             Degree::Free { stiffness, damping } => match (dof, ball) {
                 (Dof::Z, _) if self.plane => Some(Reason::Mirror),
                 // The image pulls the rings the other way.
@@ -109,7 +114,7 @@ impl Grounds {
             start[layout.at(body, dof)],
             start[layout.speed_at(body, dof)],
         );
-        let (drive, at) = (&model.scene.drive, |place: f64| (t, place));
+        let (scene, at) = (&model.scene, |place: f64| (t, place));
         match (reason, dof) {
             (Reason::Copy, _) | (Reason::Rolling, Dof::Y) | (Reason::Idle, Dof::X | Dof::Y) => None,
             (Reason::Mirror, _) => Some(Course::steady(at(model.bodies[body].nominal[dof]), 0.0)),
@@ -118,11 +123,14 @@ impl Grounds {
                 Some(Course::steady(at(places.of(model, body)), 0.0))
             }
             (Reason::Idle, Dof::Z) => Some(Course::steady(at(place), 0.0)),
-            (Reason::Driven, _) => Some(Course::driven(at(place), speed, 1.0, drive)),
+            (Reason::Driven(of), _) => {
+                let follows = Race::BOTH.map(|race| f64::from(race == of));
+                Some(Course::driven(at(place), speed, follows, scene))
+            }
             (Reason::Rolling, _) => {
                 let row = model.balls[body.as_ball()?].row;
                 let (_, at_rest) = model.rolling_shares(row);
-                Some(Course::geared(at(place), speed, at_rest, drive))
+                Some(Course::geared(at(place), speed, at_rest, scene))
             }
             _ => Some(Course::steady(at(place), speed)),
         }
@@ -133,13 +141,14 @@ impl Grounds {
 pub(super) fn is_felt(model: &Model, motion: &Prescribed, reason: Reason) -> bool {
     match reason {
         Reason::NoMoment | Reason::Idle => false,
-        // The angle of a smooth, round and balanced ring has no effect.
-        Reason::Driven => {
+        // The angle of a smooth, round and balanced ring has no effect, its speed one on films that follow it.
+        Reason::Driven(race) => {
             let told = |pair: &Pair| {
                 pair.law.turns_balls() || !pair.faults.is_empty() || !pair.waves.is_round()
             };
-            let inner = model.rows.iter().any(|row| told(&row.pairs[Race::Inner]));
-            inner || forces::ALL.iter().any(|force| force.turns_with_ring(model))
+            let on_ring = model.rows.iter().any(|row| told(&row.pairs[race]));
+            let turns = forces::ALL.iter().any(|force| force.turns_with_ring(model));
+            on_ring || model.has_films_in_motion() || turns
         }
         // Only a defect makes the angle of a ball matter.
         Reason::Rolling => {

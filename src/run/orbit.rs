@@ -22,17 +22,19 @@ pub(crate) fn note(model: &Model) -> Option<&'static str> {
     })
 }
 
-/// Share of their orbit rate that balls which nothing drives have lost between two states of all bodies, in proportion to
-/// the speed of the inner ring; none where something drives them, or where they do not orbit.
+/// Share of their orbit rate that balls which nothing drives have lost between two states of all bodies, against the outer ring and in
+/// proportion to the speed of the inner against it; none where something drives them, or where they do not orbit.
 pub(crate) fn slowed(model: &Model, from: &[f64], to: &[f64]) -> Option<f64> {
     note(model)?;
-    let speed = |y: &[f64]| model.layout().motion(y, BodyId::INNER).omega;
+    let of = |y: &[f64], ring| model.layout().motion(y, ring).omega;
+    let speed = |y: &[f64]| of(y, BodyId::INNER) - of(y, BodyId::OUTER);
+    let rate = |y: &[f64]| rate(model, y) - of(y, BodyId::OUTER);
     let reference = if speed(from) == 0.0 {
         model.rolling_share() * speed(to)
     } else {
-        rate(model, from) * speed(to) / speed(from)
+        rate(from) * speed(to) / speed(from)
     };
-    (reference != 0.0).then(|| 1.0 - rate(model, to) / reference)
+    (reference != 0.0).then(|| 1.0 - rate(to) / reference)
 }
 
 /// The balls that no friction drives, among those of all rows.

@@ -5,7 +5,7 @@
 use crate::base::quantities::{length, number};
 use crate::dynamics::Dynamics;
 use crate::model::{BodyId, BodyKind, Dof};
-use crate::scene::{Drive, Row};
+use crate::scene::Row;
 
 /// Speed of a body or of a turning surface beyond which nothing holds together \[m/s\]: that of sound in steel.
 const FASTEST: f64 = 5000.0;
@@ -30,10 +30,8 @@ impl Bounds {
         let model = dynamics.model();
         let degrees = dynamics.degrees();
         let scene = model.scene();
-        let driven = match &scene.drive {
-            Drive::Speed(speed) => speed.peak(),
-            Drive::Torque { initial_speed, .. } => initial_speed.abs(),
-        };
+        let [outer, inner] = scene.peak_speeds();
+        let driven = inner.max(outer);
         let pitch = |row: &Row| row.pitch_diameter;
         let pitch = scene.rows.iter().map(pitch).fold(0.0, f64::max);
         let fastest = FASTEST.max(driven * pitch);

@@ -15,9 +15,9 @@ use crate::base::error::{Error, Result};
 use crate::base::words::{Unfit, Words};
 use crate::dynamics::Dynamics;
 use crate::integrate::Options;
-use crate::model::{BodyId, Dof, Model};
+use crate::model::{Dof, Model, Race};
 use crate::reduction::Reduction;
-use crate::scene::{Drive, Scene};
+use crate::scene::Scene;
 use crate::signals::{Keep, Recorder, Sampling, Signals, Statistics};
 use crate::simd::Distrust;
 use crate::statics::Placed;
@@ -182,10 +182,12 @@ impl<'s> Session<'s> {
     fn go_on_with(&mut self, model: Model, scene: Scene) {
         let (model, distrust) = selftest::trusted(model);
         let (time, mut y) = (self.trajectory.time(), self.trajectory.last().to_vec());
-        if scene.drive != self.prepared.scene.drive
-            && let Drive::Speed(speed) = &scene.drive
-        {
-            y[model.layout().speed_at(BodyId::INNER, Dof::Theta)] = speed.at(time);
+        for race in Race::BOTH {
+            let [before, after] =
+                [&self.prepared.scene, &scene].map(|of| of.given_speed(race.into()));
+            if let Some(speed) = after.filter(|_| before != after) {
+                y[model.layout().speed_at(race.ring(), Dof::Theta)] = speed.at(time);
+            }
         }
         self.earlier = Some(self.statistics());
         self.options = options(&model);

@@ -52,6 +52,9 @@ pub(crate) fn options(model: &Model) -> Options {
     breakpoints.extend(match &scene.drive {
         Drive::Speed(value) | Drive::Torque { value, .. } => value.breakpoints_apart(apart),
     });
+    if let Some(speed) = &scene.outer_speed {
+        breakpoints.extend(speed.breakpoints_apart(apart));
+    }
     Options {
         first_step: solver.first_step,
         max_step,

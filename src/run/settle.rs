@@ -23,7 +23,7 @@ use crate::model::{BodyId, Degree, Dof, Model, Race, RowModel};
 use crate::reduction::Reduction;
 use crate::run::pool::on;
 use crate::run::selftest;
-use crate::scene::{Drive, RingName, Scene, Surface, TimeFunction};
+use crate::scene::{Drive, Scene, Surface, TimeFunction};
 use crate::statics::start::{Start, face, from_equilibrium, start};
 use crate::statics::{Spacing, compile};
 
@@ -178,12 +178,15 @@ fn frozen(scene: &Scene) -> Scene {
     for moment in scene.moments.values_mut() {
         moment.moment = TimeFunction::Constant(moment.moment.at(0.0));
     }
-    scene.drive = Drive::Speed(TimeFunction::Constant(scene.drive.initial_speed()));
+    let [outer, inner] = scene.ring_speeds(0.0).map(TimeFunction::Constant);
+    scene.drive = Drive::Speed(inner);
+    scene.inner_ring.support.theta = None;
+    scene.outer_speed = scene.outer_speed.map(|_| outer);
     scene.ring_forces = scene.ring_forces.frozen();
     scene
 }
 
-/// The state of all bodies at which settling begins: the start with inner ring, cage and balls wound back by what they
+/// The state of all bodies at which settling begins: the start with rings, cage and balls wound back by what they
 /// turn in the meantime. A given state is left as it is.
 fn before(model: &Model, from: &Start, y0: Vec<f64>, seconds: f64) -> Result<Vec<f64>> {
     if matches!(from, Start::State(_)) {
@@ -196,7 +199,9 @@ fn before(model: &Model, from: &Start, y0: Vec<f64>, seconds: f64) -> Result<Vec
         _ => start(&earlier, from)?,
     };
     let angle = |body| model.layout().at(body, Dof::Theta);
-    y[angle(BodyId::INNER)] = -turned.inner;
+    for (race, turned) in Race::BOTH.into_iter().zip(turned.rings) {
+        y[angle(race.ring())] -= turned;
+    }
     for (j, ball) in model.balls.iter().enumerate() {
         y[angle(BodyId::ball(j))] = -turned.balls[ball.row];
     }
@@ -206,7 +211,7 @@ fn before(model: &Model, from: &Start, y0: Vec<f64>, seconds: f64) -> Result<Vec
 
 /// How far bodies turn in a time \[rad\].
 struct Turned {
-    inner: f64,
+    rings: [f64; 2],
     /// About the axis, a row each.
     rows: Vec<f64>,
     /// About their own centres, in the mean of a row.
@@ -233,7 +238,7 @@ impl Turned {
             }
         };
         Self {
-            inner: seconds * speed(BodyId::INNER),
+            rings: Race::BOTH.map(|race| seconds * speed(race.ring())),
             rows: rows.clone().map(|row| seconds * orbit(row)).collect(),
             balls: rows.map(|row| seconds * spin(row)).collect(),
         }
@@ -242,23 +247,31 @@ impl Turned {
     /// A scene with all angles as they were before.
     fn back(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
+        let [outer, inner] = self.rings;
         for (row, turned) in scene.rows.iter_mut().zip(&self.rows) {
             row.start_angle = (row.start_angle - turned) % TAU;
-            for wave in &mut row.inner_waviness {
-                wave.phase = (wave.phase + f64::from(wave.order) * self.inner) % TAU;
+            let waves = [
+                (&mut row.outer_waviness, outer),
+                (&mut row.inner_waviness, inner),
+            ];
+            for (waves, turned) in waves.into_iter().filter(|(_, turned)| *turned != 0.0) {
+                for wave in waves {
+                    wave.phase = (wave.phase + f64::from(wave.order) * turned) % TAU;
+                }
             }
         }
         for defect in scene.defects.values_mut() {
             let turned = match defect.on {
-                Surface::OuterRace => 0.0,
-                Surface::InnerRace => self.inner,
+                Surface::OuterRace => outer,
+                Surface::InnerRace => inner,
                 Surface::Ball => self.balls[defect.row],
             };
             defect.angle = (defect.angle - turned) % TAU;
         }
         for unbalance in scene.unbalances.values_mut() {
-            if unbalance.ring == RingName::Inner {
-                unbalance.angle = (unbalance.angle - self.inner) % TAU;
+            let turned = self.rings[Race::from(unbalance.ring)];
+            if turned != 0.0 {
+                unbalance.angle = (unbalance.angle - turned) % TAU;
             }
         }
         scene

@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use super::{Drive, Row, Scene, Surface};
+use super::{Row, Scene, Surface};
 
-/// Kinematic orders of Z balls of diameter D on the pitch diameter d_m at the contact angle α \[rad\] from pure rolling, the
-/// outer ring at rest, with γ = D cos α / d_m: FTF (1 − γ)/2, BPFO Z(1 − γ)/2, BPFI Z(1 + γ)/2, BSF d_m/2D (1 − γ²), in
-/// turns of the inner ring.
+/// Kinematic orders of Z balls of diameter D on the pitch diameter d_m at the contact angle α \[rad\] from pure rolling, with
+/// γ = D cos α / d_m: FTF (1 − γ)/2, BPFO Z(1 − γ)/2, BPFI Z(1 + γ)/2, BSF d_m/2D (1 − γ²), in turns of the inner ring against the
+/// outer, and FTF of the cage against the outer ring.
 ///
 /// ```
 /// // The bearing 6205 of the Case Western Reserve data; both diameters in the same unit.
@@ -30,7 +30,7 @@ pub fn kinematic_orders(
 }
 
 impl Row {
-    /// Kinematic orders FTF, BPFO, BPFI and BSF at the nominal contact angle, in turns of the inner ring.
+    /// Kinematic orders FTF, BPFO, BPFI and BSF at the nominal contact angle, in turns of the inner ring against the outer.
     pub fn orders(&self) -> [f64; 4] {
         kinematic_orders(
             self.ball_count as f64,
@@ -43,10 +43,10 @@ impl Row {
 
 impl Scene {
     /// The defect with the highest first line and that line \[Hz\]: BPFO, BPFI or, since a ball strikes both races,
-    /// twice BSF, at the highest speed that a drive has within a duration \[s\]; absent without defects, or where
-    /// nothing turns.
+    /// twice BSF, at the highest speed that the rings have against each other within a duration \[s\]; absent without defects,
+    /// or where nothing turns.
     pub(crate) fn highest_fault_line(&self, duration: f64) -> Option<(&str, f64)> {
-        let shaft = self.drive.highest_speed(duration) / TAU;
+        let shaft = self.highest_speed(duration) / TAU;
         let defects = self.defects.iter().filter(|(_, d)| d.width.largest() > 0.0);
         let lines = defects.map(|(name, defect)| {
             let [_, bpfo, bpfi, bsf] = self.rows[defect.row].orders();
@@ -61,17 +61,12 @@ impl Scene {
             .filter(|(_, line)| *line > 0.0)
             .max_by(|a, b| a.1.total_cmp(&b.1))
     }
-}
 
-impl Drive {
-    /// Largest magnitude of the speed within a duration \[s\] from t = 0; that at the start where a torque is given
+    /// Largest magnitude of the rings' speed against each other within a duration \[s\] from t = 0; of a torque with that at the start
     /// \[rad/s\].
     fn highest_speed(&self, duration: f64) -> f64 {
-        match self {
-            Self::Speed(speed) => (0..=1000)
-                .map(|i| speed.at(duration * f64::from(i) / 1000.0).abs())
-                .fold(0.0, f64::max),
-            Self::Torque { initial_speed, .. } => initial_speed.abs(),
-        }
+        (0..=1000)
+            .map(|i| self.relative_speed(duration * f64::from(i) / 1000.0).abs())
+            .fold(0.0, f64::max)
     }
 }

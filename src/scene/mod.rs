@@ -38,6 +38,7 @@ mod table_force;
 mod texture;
 mod tilt;
 mod time;
+mod turning;
 mod validate;
 
 use std::collections::BTreeMap;
@@ -113,6 +114,10 @@ pub struct Scene {
     pub cage: Option<Cage>,
     /// What turns the inner ring.
     pub drive: Drive,
+    /// Given speed of the outer ring Ω_o(t) \[rad/s\], counter-clockwise about z; may not jump. Its waviness, texture and defects turn
+    /// with it, loads, gravity and its support do not. Absent: it stands, or its support lets it turn.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outer_speed: Option<TimeFunction>,
     /// Gravity \[m/s²\]; 9.81 along −y by default.
     #[serde(default = "defaults::gravity")]
     pub gravity: [f64; 3],
@@ -189,6 +194,7 @@ impl Scene {
             spin: None,
             cage: None,
             drive,
+            outer_speed: None,
             gravity: defaults::gravity(),
             loads: BTreeMap::new(),
             moments: BTreeMap::new(),
@@ -235,11 +241,11 @@ impl Scene {
     }
 
     /// Speed of the rings against each other that a lubricant's films are computed for, Ω_ref \[rad/s\]: its own, or the
-    /// largest of the drive.
+    /// largest that is given.
     pub fn reference_speed_of(&self, lubricant: &Lubricant) -> f64 {
         lubricant
             .reference_speed
-            .unwrap_or_else(|| self.drive.peak_speed())
+            .unwrap_or_else(|| self.peak_relative_speed())
     }
 
     /// Material of a row's balls: its own, or that of the scene.

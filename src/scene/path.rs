@@ -79,7 +79,7 @@ pub(super) fn show_absent(scene: &mut Value) {
             }
         }
     };
-    show(&[], &["lubricant", "spin"]);
+    show(&[], &["lubricant", "spin", "outer_speed"]);
     show(&["rows", ALL, "texture"], &["orders", "reference_load"]);
     show(&["rows", ALL], &["lubricant", "texture"]);
     for ring in ["outer_ring", "inner_ring"] {

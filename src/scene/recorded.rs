@@ -46,7 +46,11 @@ impl Scene {
             [x, y, z, theta, tilt_x, tilt_y, turns, turns].map(|mount| mount != Mount::Fixed)
         };
         match body {
-            0 => can(&self.outer_ring.support, Mount::Fixed),
+            0 => {
+                let mut moves = can(&self.outer_ring.support, Mount::Fixed);
+                moves[3] |= self.outer_speed.is_some();
+                moves
+            }
             1 => {
                 let mut moves = can(&self.inner_ring.support, Mount::Free);
                 moves[3] |= matches!(self.drive, Drive::Speed(_));

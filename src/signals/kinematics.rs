@@ -15,7 +15,6 @@ use crate::dynamics::Dynamics;
 use crate::inspect;
 use crate::integrate::DenseStep;
 use crate::model::{BodyId, Model, Race, RowModel};
-use crate::scene::{Drive, TimeFunction};
 use crate::statics::{RaceControl, Spacing, in_motion, steady::keep, steady::orbit};
 
 /// Mean speeds of a row over a run \[Hz\], all in the positive sense about z.
@@ -35,36 +34,38 @@ pub struct RowKinematics {
     /// where all balls of the row have a defect that tumbles.
     pub spin: Option<f64>,
     /// What [`Self::cage`] would be of balls that roll at the contact angles of the static equilibrium; absent where there is
-    /// none, where nothing loads the row at rest, or where the speed of the shaft changes.
+    /// none, where nothing loads the row at rest, or where the speed of a ring changes.
     pub rolling: Option<f64>,
 }
 
 impl RowKinematics {
-    /// FTF, BPFO, BPFI and BSF of so many balls, in turns of the inner ring; BSF absent with [`Self::spin`].
+    /// FTF, BPFO, BPFI and BSF of so many balls, in turns of the inner ring against the outer; BSF absent with [`Self::spin`].
     pub(crate) fn orders(&self, balls: usize) -> ([f64; 3], Option<f64>) {
         let balls = balls as f64;
         let orders = [
-            self.cage,
+            self.cage - self.outer,
             balls * (self.cage - self.outer),
             balls * (self.inner - self.cage),
         ];
-        let shaft = self.inner.abs();
+        let shaft = (self.inner - self.outer).abs();
         (
             orders.map(|f| f.abs() / shaft),
             self.spin.map(|f| f / shaft),
         )
     }
 
-    /// How much faster the balls went round than by rolling, as a share of that.
+    /// How much faster the balls went round than by rolling, seen from the outer ring, as a share of that.
     pub fn ahead(&self) -> Option<f64> {
-        self.rolling.map(|rolling| self.cage / rolling - 1.0)
+        let seen = |cage: f64| cage - self.outer;
+        self.rolling
+            .map(|rolling| seen(self.cage) / seen(rolling) - 1.0)
     }
 }
 
 /// How far balls may go between two looks \[rad\], and the longest time between them, since speeds change \[s\].
 const APART: f64 = 0.3;
 const LONGEST: f64 = 1e-3;
-/// Turns of the inner ring from which a run has means.
+/// Turns of the inner ring against the outer from which a run has means.
 const TURNS: f64 = 1.0;
 
 /// Follows the balls of a run.
@@ -147,11 +148,10 @@ impl Orbits {
         let rate = |angle: f64| angle / (TAU * (last - first));
         let [before, after] = self.rings;
         let [outer, inner] = Race::BOTH.map(|race| after[race] - before[race]);
-        if inner.abs() < TURNS * TAU {
+        if (inner - outer).abs() < TURNS * TAU {
             return Vec::new();
         }
-        let steady = matches!(model.scene().drive, Drive::Speed(TimeFunction::Constant(_)));
-        let rolling = if steady {
+        let rolling = if model.scene().turns_steadily() {
             rolling(model, RaceControl::Friction).ok()
         } else {
             None

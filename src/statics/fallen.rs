@@ -95,7 +95,7 @@ impl Loose {
     /// None where a row has no two balls of either kind that follow each other, or has loose ones in several places.
     fn of(model: &Model, y: &[f64], (row, cage): (&RowModel, &Cage)) -> Option<Self> {
         let mut balls: Vec<usize> = row.balls().collect();
-        if model.scene.drive.initial_speed() < 0.0 {
+        if orbit(model, row) < 0.0 {
             balls.reverse();
         }
         let is_loose = |j: &usize| inspect::contact(model, y, *j, Race::Inner).load == 0.0;
@@ -138,8 +138,13 @@ impl Loose {
         let longer = (wanted - ahead)
             .clamp(shortest - ahead, longest - ahead)
             .clamp(behind - longest, behind - shortest);
-        -longer.copysign(longer * model.scene.drive.initial_speed())
+        -longer.copysign(longer * orbit(model, row))
     }
+}
+
+/// How fast a row goes round, by nominal rolling \[rad/s\].
+fn orbit(model: &Model, row: &RowModel) -> f64 {
+    model.rolling_speeds(model.balls[row.first].row).0
 }
 
 /// Turns a ball about the axis of the bearing.

@@ -24,7 +24,7 @@ impl Problem<'_> {
     /// Takes centrifugal forces and friction from how the balls roll where they stand; returns the largest change of a force.
     pub(super) fn carry_round(&mut self, rings: &Rings, places: &[Vector2<f64>]) -> f64 {
         let model = self.model;
-        if model.scene.drive.initial_speed() == 0.0 {
+        if model.scene.ring_speeds(0.0) == [0.0; 2] {
             return 0.0;
         }
         let mut y = self.state(rings, places);

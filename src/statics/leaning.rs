@@ -112,12 +112,12 @@ impl Problem<'_> {
 
     fn placed_forces(&self, rings: &Rings, race: Race) -> OnRing {
         let [x, y] = self.tilt(rings, race);
-        let omega = self.model.scene.drive.initial_speed();
+        let omega = self.model.scene.ring_speeds(0.0)[race];
         let centre = unknowns::of(rings, race);
         let ring = RingMotion {
             place: [centre.x, centre.y, centre.z],
             angles: [x, y, 0.0],
-            rates: [0.0, 0.0, if race == Race::Inner { omega } else { 0.0 }],
+            rates: [0.0, 0.0, omega],
             ..RingMotion::default()
         };
         let mut sum = OnRing::zeros();

@@ -128,7 +128,8 @@ impl DefectPasses {
         for moment in healthy.moments.values_mut() {
             moment.moment = TimeFunction::Constant(moment.moment.extreme());
         }
-        if defect.on == Surface::OuterRace {
+        let stands = defect.on == Surface::OuterRace && scene.outer_speed.is_none();
+        if stands {
             let turn = defect.angle - scene.rows[defect.row].start_angle;
             for row in &mut healthy.rows {
                 row.start_angle += turn;
@@ -137,7 +138,8 @@ impl DefectPasses {
         let model = compile_placed(&healthy)?;
         let row = &model.rows[defect.row];
         let contacts = match defect.on {
-            Surface::OuterRace => vec![(row.first, Race::Outer)],
+            Surface::OuterRace if stands => vec![(row.first, Race::Outer)],
+            Surface::OuterRace => row.balls().map(|j| (j, Race::Outer)).collect(),
             Surface::InnerRace => row.balls().map(|j| (j, Race::Inner)).collect(),
             Surface::Ball => {
                 let both = |j| Race::BOTH.map(|race| (j, race));

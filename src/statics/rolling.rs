@@ -36,7 +36,10 @@ pub(crate) fn at_contacts(model: &Model, control: RaceControl, y: &mut [f64]) {
 /// Sets pure-rolling speeds at the places of a state.
 pub(crate) fn nominally(model: &Model, y: &mut [f64]) {
     let layout = model.layout();
-    y[layout.speed_at(BodyId::INNER, Dof::Theta)] = model.scene.drive.initial_speed();
+    let [outer, inner] = model.scene.ring_speeds(0.0);
+    for (race, speed) in Race::BOTH.into_iter().zip([outer, inner]) {
+        y[layout.speed_at(race.ring(), Dof::Theta)] = speed;
+    }
     for (j, ball) in model.balls.iter().enumerate() {
         let (orbit, spin) = model.rolling_speeds(ball.row);
         set_orbit(layout, y, BodyId::ball(j), orbit);
@@ -48,9 +51,9 @@ pub(crate) fn nominally(model: &Model, y: &mut [f64]) {
                 radius: row.ball_diameter / 2.0,
                 distance: row.pitch_diameter / 2.0,
                 angles: [angle; 2],
-                speed: model.scene.drive.initial_speed(),
+                speed: inner - outer,
             };
-            let rolling = between.resisted([1.0; 2]);
+            let rolling = between.resisted([1.0; 2]).turned_by(outer);
             set_turning(
                 model,
                 y,
@@ -88,7 +91,7 @@ fn set_orbit(layout: Layout, y: &mut [f64], ball: BodyId, orbit: f64) {
 /// Corrects the speeds of loaded balls for their operating contact angles: a row orbits at the load-weighted
 /// mean of the rates at which its balls would roll on both races, and each ball spins as its contacts ask.
 ///
-/// With levers ρ = R cos α of the two contacts and a ball at radius r, no slip on the fixed outer race means
+/// With levers ρ = R cos α of the two contacts and a ball at radius r, seen from the outer ring, no slip on the outer race means
 /// θ̇ = −ω_c r/ρ_o, on the inner θ̇ = (ω_c r − Ω(r − ρ_i))/ρ_i; both hold for ω_c r (1 + ρ_i/ρ_o) = Ω(r − ρ_i).
 /// The nominal angle would leave a thrust-loaded bearing to find its speeds by friction.
 fn roll_at_contacts(model: &Model, control: RaceControl, y: &mut [f64]) {
@@ -96,7 +99,8 @@ fn roll_at_contacts(model: &Model, control: RaceControl, y: &mut [f64]) {
         return roll_freely(model, control, y);
     }
     let layout = model.layout();
-    let speed = model.scene.drive.initial_speed();
+    let [turned, inner] = model.scene.ring_speeds(0.0);
+    let speed = inner - turned;
     for row in 0..model.rows.len() {
         let mut rolling = Vec::new();
         let (mut weighted, mut weight) = (0.0, 0.0);
@@ -116,10 +120,10 @@ fn roll_at_contacts(model: &Model, control: RaceControl, y: &mut [f64]) {
         let orbit = if weight > 0.0 {
             weighted / weight
         } else {
-            model.rolling_speeds(row).0
+            speed * model.rolling_shares(row).0
         };
         for (j, r, [outer, inner], [on_outer, on_inner]) in rolling {
-            set_orbit(layout, y, BodyId::ball(j), orbit);
+            set_orbit(layout, y, BodyId::ball(j), orbit + turned);
             let spins = [
                 outer.map(|lever| (-orbit * r / lever, on_outer)),
                 inner.map(|lever| ((orbit * r - speed * (r - lever)) / lever, on_inner)),
@@ -131,7 +135,7 @@ fn roll_at_contacts(model: &Model, control: RaceControl, y: &mut [f64]) {
                     (sum + spin * load, all + load)
                 });
             if load > 0.0 {
-                y[layout.speed_at(BodyId::ball(j), Dof::Theta)] = sum / load;
+                y[layout.speed_at(BodyId::ball(j), Dof::Theta)] = sum / load + turned;
             }
         }
     }
@@ -183,13 +187,16 @@ fn between_races(
         radius: model.balls[j].side.radius,
         distance: x.hypot(y_),
         angles: contacts.map(|contact| contact.angle * side),
-        speed: model.scene.drive.initial_speed(),
+        speed: model.scene.relative_speed(0.0),
     };
     let rolling = match control {
         RaceControl::Friction => between.resisted(contacts.map(|contact| resistance(&contact))),
         RaceControl::Outer => between.controlled_by(Race::Outer),
     };
-    Some((load, rolling))
+    Some((
+        load,
+        rolling.turned_by(model.scene.ring_speeds(0.0)[Race::Outer]),
+    ))
 }
 
 /// How a contact resists pivoting, but for a factor: load times the square of the half-length of its zone \[N m²\].

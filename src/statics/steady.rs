@@ -102,7 +102,7 @@ struct SteadyRow<'a, const N: usize> {
     /// Orbit and angular velocities \[rad/s\].
     orbit: f64,
     spins: Vec<SVector<f64, N>>,
-    /// Of the shaft \[rad/s\].
+    /// Of the rings against each other \[rad/s\].
     speed: f64,
     /// Of oil in the balls' way (see [`drag`]).
     drag: f64,
@@ -115,7 +115,7 @@ impl<'a, const N: usize> SteadyRow<'a, N> {
     fn of(model: &'a Model, row: &RowModel, balls: &'a [usize], y: &[f64]) -> Option<Self> {
         let rubs = Race::BOTH.map(|race| row.pairs[race].law.traction.is_some());
         let first = BodyId::ball(*balls.first()?);
-        let speed = model.scene.drive.initial_speed().abs();
+        let speed = model.scene.relative_speed(0.0).abs();
         if rubs != [true; 2] || speed == 0.0 || model.mobility[first][Dof::Theta] == 0.0 {
             return None;
         }

@@ -10,4 +10,5 @@ mod pieces;
 mod reduction;
 mod settle;
 mod touched;
+mod turning;
 mod unlike_rows;

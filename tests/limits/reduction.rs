@@ -147,6 +147,29 @@ fn scenes_in_oil() -> Vec<(&'static str, Scene, usize)> {
     scenes
 }
 
+/// Those whose outer ring turns.
+fn hubs() -> Vec<(&'static str, Scene, usize)> {
+    let mut damaged = plane(NormalLaw::Hertz, false);
+    let defect = spall(Surface::OuterRace, 0.0);
+    damaged.defects.insert("spall".to_owned(), defect);
+    let scenes = [
+        ("a hub with a spall", damaged, 44),
+        ("a hub", plane(NormalLaw::Hertz, true), 62),
+        ("a hub, two rows for one", mirrored(), 2 * (4 * 13 + 4)),
+    ];
+    let ramp = Profile::Ramp {
+        from: 50.0,
+        to: -200.0,
+        start: 0.0,
+        end: 2e-3,
+    };
+    let turned = scenes.map(|(name, mut scene, kept)| {
+        scene.outer_speed = Some(TimeFunction::Profile(ramp.clone()));
+        (name, scene, kept)
+    });
+    turned.into()
+}
+
 /// Scenes by name, with the states that a run keeps of them.
 fn scenes() -> Vec<(&'static str, Scene, usize)> {
     let hertz = || NormalLaw::Hertz;
@@ -234,6 +257,7 @@ fn scenes() -> Vec<(&'static str, Scene, usize)> {
     }
     scenes.push(("two level rows", scene, 2 * (2 * 13 + 4)));
     scenes.extend(scenes_in_oil());
+    scenes.extend(hubs());
     let mut scene = plane(hertz(), false);
     scene.rows[0].ball_support.x = Some(Mount::Fixed);
     scenes.push(("balls held in one direction", scene, 2 * (9 + 4)));

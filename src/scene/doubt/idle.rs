@@ -2,9 +2,7 @@
 
 use super::{Doubt, millimetres};
 use crate::base::quantities::number;
-use crate::scene::{
-    Drive, Load, Material, Mount, NormalLaw, Ring, RingName, Row, Scene, Spin, Surface,
-};
+use crate::scene::{Load, Material, Mount, NormalLaw, Ring, RingName, Row, Scene, Spin, Surface};
 
 /// A moment \[N m\] that counts as none.
 const NO_MOMENT: f64 = 1e-9;
@@ -31,7 +29,7 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
 fn moments(scene: &Scene, found: &mut Vec<Doubt>) {
     let mut tell = |path: String, ring: RingName, moment: [f64; 3], about: &[usize]| {
         let [.., theta, tilt_x, tilt_y, _, _] = scene.moves(ring as usize);
-        let driven = ring == RingName::Inner && matches!(scene.drive, Drive::Speed(_));
+        let driven = scene.given_speed(ring).is_some();
         let moves = [tilt_x, tilt_y, theta && !driven];
         let is_lost = |axis: &&usize| !moves[**axis] && moment[**axis].abs() > NO_MOMENT;
         for axis in about.iter().filter(is_lost) {

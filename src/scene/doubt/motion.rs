@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::{Doubt, angle, length, phase};
 use crate::base::quantities::number;
 use crate::scene::contact::extreme_slip;
-use crate::scene::{Contact, Drive, Friction, Row, Scene};
+use crate::scene::{Contact, Drive, Friction, Row, Scene, TimeFunction};
 
 /// Speed times pitch diameter, n d_m \[mm/min\]: bearings of aircraft engines come near it, and one of 120 mm bore on a
 /// test rig reached 3.9 million (E. N. Bamberger, E. V. Zaretsky, H. Signer, NASA TN D-7870, 1975).
@@ -57,11 +57,13 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
     for (name, unbalance) in &scene.unbalances {
         angle(format!("unbalances.{name}.angle"), unbalance.angle, found);
         if unbalance.moment >= UNBALANCE {
-            let force = unbalance.moment * scene.drive.peak_speed().powi(2);
+            let [outer, inner] = scene.peak_speeds();
+            let speed = inner.max(outer);
+            let force = unbalance.moment * speed.powi(2);
             let usual = format!(
                 "machines keep below {UNBALANCE} kg m; it pulls with {} N at {} rev/min",
                 number(force),
-                number(scene.drive.peak_speed() * 60.0 / TAU)
+                number(speed * 60.0 / TAU)
             );
             let value = format!("{} kg m", number(unbalance.moment));
             found.push(Doubt::new(
@@ -110,7 +112,7 @@ fn friction(path: &str, friction: &Friction, found: &mut Vec<Doubt>) {
 }
 
 fn speed(scene: &Scene, found: &mut Vec<Doubt>) {
-    let peak = scene.drive.peak_speed();
+    let peak = scene.peak_relative_speed();
     let turns = peak * 60.0 / TAU;
     let factor = |row: &Row| turns * 1e3 * row.pitch_diameter;
     let is_deep_groove = |row: &Row| row.contact_angle < DEEP_GROOVE_ANGLE;
@@ -130,7 +132,15 @@ fn speed(scene: &Scene, found: &mut Vec<Doubt>) {
     else {
         return;
     };
+    let outer = scene.outer_speed.as_ref();
+    if let Some(speed) = outer {
+        phase("outer_speed", speed, found);
+    }
     let path = match &scene.drive {
+        Drive::Speed(speed) if speed.peak() < outer.map_or(0.0, TimeFunction::peak) => {
+            phase("drive.speed", speed, found);
+            "outer_speed"
+        }
         Drive::Speed(speed) => {
             phase("drive.speed", speed, found);
             "drive.speed"

@@ -32,10 +32,10 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
 }
 
 fn speed(scene: &Scene, found: &mut Vec<Doubt>) {
-    let Drive::Speed(speed) = &scene.drive else {
+    if matches!(scene.drive, Drive::Torque { .. }) {
         return;
-    };
-    let turns = speed.peak() * 60.0 / TAU;
+    }
+    let turns = scene.peak_relative_speed() * 60.0 / TAU;
     let pitches = scene.rows.iter().map(|row| row.pitch_diameter);
     let factor = turns * 1e3 * pitches.fold(0.0, f64::max);
     if SLOW.contains(&factor) {

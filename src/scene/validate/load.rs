@@ -5,26 +5,13 @@ use crate::base::error::{Error, Result};
 use crate::base::quantities;
 use crate::scene::{Drive, Profile, Scene, TableForce, TimeFunction};
 
-pub(super) fn drive(drive: &Drive) -> Result<()> {
-    match drive {
-        Drive::Speed(speed) => {
-            time_function("drive.speed", speed, (1e6, "rad/s"))?;
-            let jumps = match speed {
-                TimeFunction::Profile(Profile::Ramp { start, end, .. }) => start == end,
-                TimeFunction::Profile(Profile::Table { times, .. }) => {
-                    times.windows(2).any(|pair| pair[0] == pair[1])
-                }
-                _ => false,
-            };
-            if jumps {
-                return Err(Error::scene(
-                    "drive.speed",
-                    "a jump in time",
-                    "a speed that changes over a time longer than zero",
-                ));
-            }
-            Ok(())
-        }
+/// What turns the rings.
+pub(super) fn drive(scene: &Scene) -> Result<()> {
+    if let Some(speed) = &scene.outer_speed {
+        ring_speed("outer_speed", speed)?;
+    }
+    match &scene.drive {
+        Drive::Speed(speed) => ring_speed("drive.speed", speed),
         Drive::Torque {
             value,
             initial_speed,
@@ -38,6 +25,26 @@ pub(super) fn drive(drive: &Drive) -> Result<()> {
             )
         }
     }
+}
+
+/// The given speed of a ring.
+fn ring_speed(path: &str, speed: &TimeFunction) -> Result<()> {
+    time_function(path, speed, (1e6, "rad/s"))?;
+    let jumps = match speed {
+        TimeFunction::Profile(Profile::Ramp { start, end, .. }) => start == end,
+        TimeFunction::Profile(Profile::Table { times, .. }) => {
+            times.windows(2).any(|pair| pair[0] == pair[1])
+        }
+        _ => false,
+    };
+    if jumps {
+        return Err(Error::scene(
+            path,
+            "a jump in time",
+            "a speed that changes over a time longer than zero",
+        ));
+    }
+    Ok(())
 }
 
 pub(super) fn loads(scene: &Scene) -> Result<()> {

@@ -11,7 +11,7 @@ mod race;
 mod texture;
 mod tilt;
 
-use super::{Drive, RingName, Row, SCHEMA, Scene};
+use super::{RingName, Row, SCHEMA, Scene};
 use crate::base::error::{Error, Result};
 use check::{entry_name, positive, within};
 
@@ -39,16 +39,8 @@ impl Scene {
         }
         bearing::ring(self, RingName::Outer)?;
         bearing::ring(self, RingName::Inner)?;
-        tilt::ring("outer_ring", &self.outer_ring, false)?;
-        let is_driven = matches!(self.drive, Drive::Speed(_));
-        tilt::ring("inner_ring", &self.inner_ring, is_driven)?;
-        if is_driven && self.inner_ring.support.theta.is_some() {
-            return Err(Error::scene(
-                "inner_ring.support.theta",
-                "a mount",
-                "absent, since drive.speed turns the inner ring",
-            ));
-        }
+        tilt::ring(self, RingName::Outer)?;
+        tilt::ring(self, RingName::Inner)?;
         contact::materials(&self.materials)?;
         contact::contact("contact", &self.contact)?;
         contact::friction("friction", &self.friction)?;
@@ -57,7 +49,7 @@ impl Scene {
             within("cage.damping", cage.damping, 0.0..=1e12, "N s/m")?;
             within("cage.play", cage.play, 0.0..=1.0, "m")?;
         }
-        load::drive(&self.drive)?;
+        load::drive(self)?;
         lubricant::lubricants(self)?;
         for (i, g) in self.gravity.iter().enumerate() {
             within(&format!("gravity[{i}]"), *g, -1e6..=1e6, "m/s²")?;

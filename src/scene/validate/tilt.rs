@@ -6,15 +6,20 @@ use super::check::{self, entry_name, place, positive, within};
 use super::load::{direction, time_function};
 use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
-use crate::scene::{CoupledSupport, Drive, Mount, Ring, Scene};
+use crate::scene::{CoupledSupport, Mount, RingName, Scene};
 
 /// The furthest that a ring may tilt \[rad\].
 const FURTHEST: f64 = 0.5;
 /// How far a coupled support may miss being symmetric and positive semidefinite, over its largest entry: rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// A ring's own fields; `is_driven` where the drive prescribes its rotation.
-pub(super) fn ring(path: &str, ring: &Ring, is_driven: bool) -> Result<()> {
+/// A ring's own fields.
+pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
+    let (path, ring, speed) = match name {
+        RingName::Outer => ("outer_ring", &scene.outer_ring, "outer_speed"),
+        RingName::Inner => ("inner_ring", &scene.inner_ring, "drive.speed"),
+    };
+    let turned_by = scene.given_speed(name).map(|_| speed);
     let at = |field: &str| format!("{path}.{field}");
     if let Some(inertia) = ring.transverse_inertia {
         positive(&at("transverse_inertia"), inertia, "kg m²")?;
@@ -35,13 +40,21 @@ pub(super) fn ring(path: &str, ring: &Ring, is_driven: bool) -> Result<()> {
         check::mount(&at(&format!("support.{field}")), mount, true)?;
     }
     match &ring.support.coupled {
-        Some(coupled) => support(&at("support.coupled"), coupled, is_driven),
-        None => Ok(()),
+        Some(coupled) => support(&at("support.coupled"), coupled, turned_by)?,
+        None => {}
+    }
+    match turned_by {
+        Some(speed) if ring.support.theta.is_some() => Err(Error::scene(
+            at("support.theta"),
+            "a mount",
+            format!("absent, since {speed} turns the {} ring", name.name()),
+        )),
+        _ => Ok(()),
     }
 }
 
-/// A coupled support.
-fn support(path: &str, coupled: &CoupledSupport, is_driven: bool) -> Result<()> {
+/// A coupled support, of a ring whose rotation a speed may prescribe.
+fn support(path: &str, coupled: &CoupledSupport, turned_by: Option<&str>) -> Result<()> {
     place(&format!("{path}.axial_position"), coupled.axial_position)?;
     for (field, rows) in [
         ("stiffness", coupled.stiffness),
@@ -64,8 +77,10 @@ fn support(path: &str, coupled: &CoupledSupport, is_driven: bool) -> Result<()> 
             let allowed = "positive semidefinite: no eigenvalue below 0";
             return Err(Error::scene(path, told, allowed));
         }
-        if is_driven && rows[5] != [0.0; 6] {
-            let allowed = "0 in the row and column of θ, since drive.speed turns the ring";
+        if let Some(speed) = turned_by
+            && rows[5] != [0.0; 6]
+        {
+            let allowed = format!("0 in the row and column of θ, since {speed} turns the ring");
             return Err(Error::scene(path, format!("{:?}", rows[5]), allowed));
         }
     }
@@ -92,13 +107,15 @@ pub(super) fn loads(scene: &Scene) -> Result<()> {
         let path = format!("unbalances.{name}");
         let offset = unbalance.axial_position.unwrap_or_default();
         place(&format!("{path}.axial_position"), offset)?;
-        let is_driven = matches!(scene.drive, Drive::Speed(_));
         let (ring, turns) = match unbalance.ring {
-            crate::scene::RingName::Outer => (
+            RingName::Outer => (
                 &scene.outer_ring,
                 scene.outer_ring.support.mounts(Mount::Fixed)[3] != Mount::Fixed,
             ),
-            crate::scene::RingName::Inner => (&scene.inner_ring, !is_driven),
+            RingName::Inner => (
+                &scene.inner_ring,
+                scene.given_speed(RingName::Inner).is_none(),
+            ),
         };
         if ring.leans() && turns {
             let allowed = "a ring whose rotation is driven or held, where that ring may tilt";
