@@ -353,12 +353,12 @@ class Simulation:
 
         Examples
         --------
-        A spring from the outer ring to a housing, held for 10 µs each:
+        A belt pulls the inner ring down by 500 N, and by 50 N/µm more as it is stretched; held for 10 µs each:
 
         >>> import ballrace as br
         >>> scene = br.presets.deep_groove_6205(radial_load=500.0)
-        >>> simulation = br.Simulation(scene.replace({"outer_ring.support.y": "free"}))
-        >>> y = simulation.names.index("outer.y")
+        >>> simulation = br.Simulation(scene)
+        >>> y = simulation.names.index("inner.y")
         >>> rest = simulation.state[y]
         >>> for step in range(1, 101):
         ...     force = 500.0 + 5e7 * (simulation.state[y] - rest)

@@ -3,11 +3,12 @@
 use std::f64::consts::PI;
 
 use super::body::{Body, Degree, ball_mass, conformity, groove_radius, ring_mass};
+use super::loads::{loads, moments};
 use super::race::{RaceGeometry, geometry};
 use super::ring::layout_of;
 use super::{
-    Ball, BodyId, DOFS, Dof, LoadModel, Model, MomentModel, Race, RingModel, RowModel, Scales,
-    Spring, UnbalanceModel, demand, nodes,
+    Ball, BodyId, DOFS, Dof, Model, Race, RingModel, RowModel, Scales, Spring, UnbalanceModel,
+    demand, nodes,
 };
 use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
@@ -99,21 +100,6 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     check_pits_at_once(&model)?;
     fit_nodes(&mut model);
     Ok(model)
-}
-
-impl Model {
-    /// The same bearing with the sizes that loads, moments and drive have in a scene that differs in nothing else. Scales, films and what
-    /// follows from loads at rest stay those of the loads that it was compiled with.
-    #[must_use]
-    pub(crate) fn loaded(&self, scene: &Scene) -> Self {
-        let mut model = self.clone();
-        model.scene.loads.clone_from(&scene.loads);
-        model.scene.moments.clone_from(&scene.moments);
-        model.scene.drive.clone_from(&scene.drive);
-        model.loads = loads(scene, &model.rings);
-        model.moments = moments(scene);
-        model
-    }
 }
 
 /// Refuses more pits than a contact has room for.
@@ -414,39 +400,6 @@ fn unbalances(
         });
     }
     Ok(found)
-}
-
-fn loads(scene: &Scene, rings: &[RingModel; 2]) -> Vec<LoadModel> {
-    scene
-        .loads
-        .values()
-        .map(|load| {
-            let ring = &rings[Race::from(load.ring)];
-            let at = load.at.unwrap_or_default();
-            let is_off = at != [0.0; 3] || ring.centre_of_mass != 0.0;
-            LoadModel {
-                ring: load.ring.into(),
-                direction: unit(load.direction),
-                force: load.force.clone(),
-                arm: is_off.then(|| ring.arm(at)),
-            }
-        })
-        .collect()
-}
-
-fn moments(scene: &Scene) -> Vec<MomentModel> {
-    let moments = scene.moments.values();
-    let of = |moment: &scene::Moment| MomentModel {
-        ring: moment.ring.into(),
-        direction: unit(moment.direction),
-        moment: moment.moment.clone(),
-    };
-    moments.map(of).collect()
-}
-
-fn unit(direction: [f64; 3]) -> [f64; 3] {
-    let size = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
-    direction.map(|x| x / size)
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ mod compile;
 mod demand;
 mod dof;
 mod layout;
+mod loads;
 mod nodes;
 mod oil;
 mod race;
@@ -18,11 +19,9 @@ mod texture;
 
 use std::ops::Range;
 
-use nalgebra::Vector3;
-
 use crate::contact::hertz::Hertz;
 use crate::contact::{BallSide, Pair, ZoneSlices};
-use crate::scene::{Component, Scene, TimeFunction};
+use crate::scene::{Component, Scene};
 use crate::simd::{InstructionSet, LANES};
 
 pub use body::{Body, Degree};
@@ -30,6 +29,7 @@ pub(crate) use compile::{ball_fault, compile_placed, race_fault};
 pub use dof::{DOFS, Dof};
 pub(crate) use layout::RINGS;
 pub use layout::{BodyId, BodyKind, Layout, Race};
+pub(crate) use loads::{LoadModel, MomentModel};
 pub use ring::layout_of;
 pub(crate) use ring::{CoupledModel, RingModel};
 pub(crate) use rolling::{Between, PureRolling};
@@ -140,24 +140,6 @@ pub(crate) struct Spring {
     pub stiffness: f64,
     pub damping: f64,
     pub nominal: f64,
-}
-
-/// A load compiled.
-#[derive(Debug, Clone)]
-pub(crate) struct LoadModel {
-    pub ring: Race,
-    pub direction: [f64; 3],
-    pub force: TimeFunction,
-    /// Where it acts, from the ring's centre of mass in its frame \[m\]; none at the ring's origin where that is all there is.
-    pub arm: Option<Vector3<f64>>,
-}
-
-/// A moment compiled.
-#[derive(Debug, Clone)]
-pub(crate) struct MomentModel {
-    pub ring: Race,
-    pub direction: [f64; 3],
-    pub moment: TimeFunction,
 }
 
 /// An unbalance compiled.

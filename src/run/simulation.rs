@@ -239,20 +239,20 @@ impl Simulation {
     /// the motion as it is, bit by bit.
     ///
     /// ```
-    /// use ballrace::scene::{Mount, presets};
+    /// use ballrace::scene::presets;
     /// use ballrace::{Run, Simulation};
     ///
-    /// let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
-    /// scene.outer_ring.support.y = Some(Mount::Free);
+    /// let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
     /// let mut simulation = Simulation::begin(&scene, &Run { duration: Run::OPEN, ..Run::default() })?;
-    /// // A spring from the outer ring to a housing: 50 N/µm, held for 10 µs each.
-    /// let rest = simulation.state()[1];
+    /// let y = simulation.model().names().iter().position(|name| name == "inner.y").unwrap();
+    /// // A belt pulls the inner ring down by 500 N, and by 50 N/µm more as it is stretched; held for 10 µs each.
+    /// let rest = simulation.state()[y];
     /// for step in 1..=100 {
-    ///     let stretch = simulation.state()[1] - rest;
+    ///     let stretch = simulation.state()[y] - rest;
     ///     simulation.set_loads(&[("loads.radial.force", 500.0 + 5e7 * stretch)])?;
     ///     simulation.advance_to(1e-5 * f64::from(step))?;
     /// }
-    /// assert!((simulation.state()[1] - rest).abs() < 1e-6);
+    /// assert!((simulation.state()[y] - rest).abs() < 1e-6);
     /// # Ok::<(), ballrace::Error>(())
     /// ```
     ///

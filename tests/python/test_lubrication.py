@@ -64,7 +64,7 @@ def test_explain_tells_the_oil() -> None:
     assert (oil["oil"], oil["load_from"], oil["speed_from"]) == ("vg68", "equilibrium", "drive")
     assert oil["kinematic_viscosity"] == pytest.approx(34.8162e-6, rel=1e-4)
     offered = {variant["change"]: variant["note"] for variant in told.variants}
-    assert "9.5 N mm" in offered["without oil"]
+    assert "friction torque 0.2 instead of 9.7 N mm" in offered["without oil"]
     assert "vg68 at 55 °C" in str(told)
 
 

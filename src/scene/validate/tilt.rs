@@ -39,9 +39,8 @@ pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
     ] {
         check::mount(&at(&format!("support.{field}")), mount, true)?;
     }
-    match &ring.support.coupled {
-        Some(coupled) => support(&at("support.coupled"), coupled, turned_by)?,
-        None => {}
+    if let Some(coupled) = &ring.support.coupled {
+        support(&at("support.coupled"), coupled, turned_by)?;
     }
     match turned_by {
         Some(speed) if ring.support.theta.is_some() => Err(Error::scene(
