@@ -69,6 +69,8 @@ def _functions(scene: Scene) -> dict[str, Ramp | Sine | Table]:
     found |= {f"moments.{name}.moment": moment.moment for name, moment in scene.moments.items()}
     if isinstance(scene.drive, SpeedDrive):
         found["drive.speed"] = scene.drive.speed
+    if scene.outer_speed is not None:
+        found["outer_speed"] = scene.outer_speed
     return {path: f for path, f in found.items() if isinstance(f, Ramp | Sine | Table)}
 
 
@@ -86,7 +88,7 @@ def _changes(path: str, function: Ramp | Sine | Table) -> bool:
         if function.times[0] == function.times[-1] and len(set(function.values)) > 1:
             raise SceneError(path, "a table that jumps once", _PERIODIC)
         return len(set(function.values)) > 1
-    if function.from_ != function.to and path != "drive.speed":
+    if function.from_ != function.to and path not in ("drive.speed", "outer_speed"):
         raise SceneError(path, f"a ramp from {function.from_:g} to {function.to:g}", _PERIODIC)
     return False
 

@@ -31,6 +31,7 @@ _ROW_DISTANCE = 1.08
 """Distance of two rows over the ball diameter: 1.03 to 1.18, by the load centres that NSK prints of 52 and 53."""
 
 _SPEED = "speed_rpm, the speed of the inner ring [rev/min]"
+_OUTER = "outer_rpm, the speed of the outer ring [rev/min]"
 _SIZE = (
     'a designation or a Bearing as the first argument, such as br.bearing("6205"); br.catalogue.find(bore=25e-3) '
     "looks by size [m]"
@@ -38,6 +39,7 @@ _SIZE = (
 _LOADS = "radial_load and axial_load [N]"
 _MEANT = {
     **dict.fromkeys(("speed", "rpm", "n", "speed_hz"), _SPEED),
+    **dict.fromkeys(("outer_speed", "outer_speed_rpm"), _OUTER),
     **dict.fromkeys(("d", "D", "B", "bore", "outside_diameter", "width", "ball_count"), _SIZE),
     **dict.fromkeys(("load", "force", "Fr", "Fa"), _LOADS),
 }
@@ -50,7 +52,8 @@ def bearing(
     *,
     radial_load: float | None = None,
     axial_load: float | None = None,
-    speed_rpm: float = 1800.0,
+    speed_rpm: float | None = None,
+    outer_rpm: float | None = None,
     clearance: str | float | None = None,
     defects: Defect | Mapping[str, Defect] | None = None,
     lubricant: str | Lubricant | None = None,
@@ -78,8 +81,11 @@ def bearing(
         ``radial_load * tan(contact_angle)``. By default the opposed bearing gives it the thrust under which half
         of its balls carry, 1.22 times that. A double row bearing, which stands back to back without play and
         preload, takes it either way.
-    speed_rpm : float
-        Speed of the inner ring [rev/min].
+    speed_rpm : float, optional
+        Speed of the inner ring [rev/min]; by default 1800, and 0 where the outer ring turns.
+    outer_rpm : float, optional
+        Speed of the outer ring with what it sits in [rev/min], as in hubs, idlers and planets; by default it
+        stands. Its defects, waviness and texture turn with it, loads and gravity do not.
     clearance : {"C2", "CN", "C3", "C4", "C5"} or float, optional
         Of a deep groove bearing: the middle of a class of ISO 5753-1, or a diametral clearance [m]; by default the
         class that the name says (``"6205-2RS/C3"``), else CN. Fits take some of it. Angular contact bearings have
@@ -126,6 +132,8 @@ def bearing(
     radial = 0.1 * made.static_rating if radial_load is None else _load("radial_load", radial_load)
     axial = _thrust(made, radial, axial_load)
     size = metal(made)
+    if speed_rpm is None:
+        speed_rpm = 1800.0 if outer_rpm is None else 0.0
     return filled(
         name=made.designation,
         rows=rows,
@@ -137,6 +145,7 @@ def bearing(
             "axial": Load(ring="inner", direction=(0.0, 0.0, 1.0), force=axial),
         },
         speed_rpm=speed_rpm,
+        outer_rpm=outer_rpm,
         defects=defects,
         lubricant=lubricant,
         temperature_c=temperature_c,

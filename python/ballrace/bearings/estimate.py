@@ -39,6 +39,7 @@ _OFF = {
     "double_row": (0.08, Orders(ftf=0.02, bpfo=0.115, bpfi=0.095, bsf=0.08)),
 }
 """Errors of ball diameter and orders that nine of ten bearings of the catalogue keep, as shares."""
+_ESTIMATED = ("ftf", "bpfo", "bpfi", "bsf")
 _PITCH_OFF = 0.015
 """Of the pitch diameter: six of seven published ones are nearer to the mean of bore and outside diameter."""
 
@@ -133,6 +134,7 @@ def _uncertainty(made: Bearing) -> Uncertainty:
         ball_diameter=ball * made.ball_diameter,
         pitch_diameter=_PITCH_OFF * made.pitch_diameter,
         orders=Orders(
-            **{name: share * getattr(mean, name) for name, share in vars(of_orders).items()}
+            **{name: getattr(of_orders, name) * getattr(mean, name) for name in _ESTIMATED},
+            inner=0.0,
         ),
     )

@@ -46,6 +46,7 @@ def filled(
     outer_ring: Ring,
     inner_ring: Ring,
     speed_rpm: float,
+    outer_rpm: float | None = None,
     loads: Mapping[str, Load] | None,
     unbalances: Mapping[str, Unbalance] | None = None,
     defects: Defect | Mapping[str, Defect] | None,
@@ -61,6 +62,8 @@ def filled(
     """
     if not math.isfinite(real(speed_rpm)):
         raise SceneError("speed_rpm", repr(speed_rpm), "a speed [rev/min]")
+    if outer_rpm is not None and not math.isfinite(real(outer_rpm)):
+        raise SceneError("outer_rpm", repr(outer_rpm), "a speed [rev/min], or None")
     one = {"defect": defects} if isinstance(defects, Defect) else defects
     return Scene(
         name=name,
@@ -73,6 +76,7 @@ def filled(
         loads=named("loads", loads, Load, _LOADS),
         unbalances=unbalances or {},
         drive=SpeedDrive(speed_rpm * math.pi / 30.0),
+        outer_speed=None if outer_rpm is None else outer_rpm * math.pi / 30.0,
         defects=named("defects", one, Defect, _DEFECTS),
         probes={"outer": MotionProbe(body="outer"), "inner": MotionProbe(body="inner")},
     ).validate()

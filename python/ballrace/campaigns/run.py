@@ -152,7 +152,8 @@ def campaign(
         the lines of the signal at its fault frequencies ``outer.ay.row0.ftf``, ``.bpfo``, ``.bpfi``, ``.2bsf``
         (a ball's defect meets both races in a turn), the root of the sum of the squares of the first three
         harmonics (``.bpfo_harmonics``), and of the sidebands a shaft's frequency beside BPFI and a cage's beside
-        2 BSF (``.bpfi_sidebands``, ``.2bsf_sidebands``); and all of these of the squared envelope,
+        2 BSF (``.bpfi_sidebands``, ``.2bsf_sidebands``; with an ``outer_speed`` also ``.bpfo_sidebands``); and all
+        of these of the squared envelope,
         ``outer.ay.row0.bpfo_envelope``, ``.bpfo_envelope_harmonics`` and so on. They are sought within 0.5 % of
         where the balls of the run passed; of a run of less than a turn, within 2 % of nominal rolling. Where the
         given speed changes by more than 2 %, lines are taken over the shaft's angle; of a run from rest from a

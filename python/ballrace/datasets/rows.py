@@ -13,6 +13,7 @@ from ..diagnosis.kinematics import kinematics_of
 from ..recordings.scenes import origin_of
 from ..scene import Ramp, SpeedDrive
 from ..scene.defect import widest
+from ..scene.turning import relative_speed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -81,10 +82,12 @@ def _operation(scene: Scene, middle: float) -> dict[str, Any]:
 
 
 def _profile(scene: Scene) -> str:
-    speed = scene.drive.speed if isinstance(scene.drive, SpeedDrive) else None
-    if isinstance(speed, int | float):
+    if relative_speed(scene) is not None:
         return "constant"
-    if isinstance(speed, Ramp):
+    speed = scene.drive.speed if isinstance(scene.drive, SpeedDrive) else None
+    if speed == 0.0:
+        speed = scene.outer_speed
+    if isinstance(speed, Ramp) and (scene.outer_speed is None or speed is scene.outer_speed):
         return "increasing" if abs(speed.to) > abs(speed.from_) else "decreasing"
     return "varying"
 

@@ -103,22 +103,21 @@ class Comb:
 def comb_of(part: Part, orders: Orders) -> Comb:
     """Return the comb of a part.
 
-    A place on the inner race goes through the load zone once a turn of the shaft, a ball once a turn of the cage:
-    their lines have sidebands there. A ball's defect meets a race twice a turn of the ball. Where the ball's axis
-    turns, blows change from pass to pass through the load zone, and the lines between sidebands fade: two
-    sidebands on each side are a family of their own.
+    A place on the inner race goes through the load zone once a turn of the shaft, a ball once a turn of the cage,
+    one on the outer race where its ring turns: their lines have sidebands there. A ball's defect meets a race
+    twice a turn. Where the ball's axis turns, blows change from pass to pass through the load zone, and the
+    lines between sidebands fade: two sidebands on each side are a family of their own.
     """
     plain = tuple((k, 0) for k in _HARMONICS)
     sides = tuple((k, side) for k in _WITH_SIDEBANDS for side in (-1, 1))
     wide = tuple((k, side) for k in _WITH_SIDEBANDS for side in (-2, -1, 1, 2))
     match part:
         case "outer_race":
-            return Comb(
-                name="BPFO", order=orders.bpfo, sideband=0.0, sideband_name="", families=(plain,)
-            )
+            return Comb(name="BPFO", order=orders.bpfo, sideband=orders.outer, sideband_name="f_o",
+                        families=(plain + sides,) if orders.outer else (plain,))  # fmt: skip
         case "inner_race":
-            return Comb(name="BPFI", order=orders.bpfi, sideband=1.0, sideband_name="f_r",
-                        families=(plain + sides,))  # fmt: skip
+            return Comb(name="BPFI", order=orders.bpfi, sideband=orders.inner, sideband_name="f_r",
+                        families=(plain + sides,) if orders.inner else (plain,))  # fmt: skip
         case "ball":
             return Comb(name="2·BSF", order=2.0 * orders.bsf, sideband=orders.ftf, sideband_name="FTF",
                         families=(plain + sides, wide), reach=_REACH_OF_BALLS)  # fmt: skip

@@ -5,17 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from .._numbers import real
 from ..bearings import Bearing, catalogue
 from ..errors import EquilibriumError, SceneError
-from ..frequencies.kinematic import Orders, of_row, orders
-from ..frequencies.operating import FaultFrequencies, fault_frequencies
+from ..frequencies.kinematic import Orders, of_row
+from ..frequencies.operating import FaultFrequencies, rates_at_a_turn
 from ..scene import Row, Scene
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 __all__ = ["AnyBearing", "Kinematics", "kinematics_of"]
 
@@ -23,6 +20,8 @@ AnyBearing: TypeAlias = (
     "str | Bearing | Scene | Row | Orders | FaultFrequencies | Mapping[str, float]"
 )
 """What names a bearing: a designation, a bearing of the catalogue, a scene or a row of one, or its orders."""
+
+_NEEDED = ("ftf", "bpfo", "bpfi", "bsf")
 
 _WANTED = "a designation, a Bearing, a Scene, a Row, or orders: a mapping of ftf, bpfo, bpfi, bsf"
 
@@ -84,21 +83,22 @@ def _of_scene(scene: Scene, row: int) -> Kinematics:
         raise SceneError("row", repr(row), f"a row, 0 to {len(scene.rows) - 1}")
     of = scene.rows[row]
     try:
-        found = fault_frequencies(scene, 60.0, row=row).orders
+        found = rates_at_a_turn(scene, row).orders
     except EquilibriumError:
-        found = orders(of.ball_count, of.ball_diameter, of.pitch_diameter, of.contact_angle)
+        found = rates_at_a_turn(scene, row, operating=False).orders
     return Kinematics(name=scene.name or "the scene's bearing", orders=found, row=of)
 
 
 def _of_mapping(given: Mapping[str, float]) -> Orders:
-    names: Sequence[str] = [field.name for field in fields(Orders)]
-    if sorted(given) != sorted(names):
-        raise SceneError("bearing", repr(dict(given)), f"orders by the names {', '.join(names)}")
+    if not set(_NEEDED) <= set(given) <= {field.name for field in fields(Orders)}:
+        raise SceneError("bearing", repr(dict(given)), f"orders by the names {', '.join(_NEEDED)}")
     return Orders(**given)
 
 
 def _checked(given: Orders) -> Orders:
     for name, order in vars(given).items():
-        if not 0.05 <= real(order) <= 100.0:
-            raise SceneError(f"bearing.{name}", repr(order), "an order of the shaft, 0.05 to 100")
+        least = 0.05 if name in _NEEDED else 0.0
+        if not least <= real(order) <= 100.0:
+            allowed = f"an order of the shaft, {least:g} to 100"
+            raise SceneError(f"bearing.{name}", repr(order), allowed)
     return given

@@ -1,13 +1,13 @@
-"""Kinematic frequencies of a bearing whose outer ring stands still, from pure rolling.
+"""Kinematic frequencies of a bearing from pure rolling.
 
-Everything is in orders, that is in multiples of the speed of the inner ring; times the shaft's frequency
-in hertz they are hertz (:meth:`Orders.at`).
+Everything is in orders, that is in multiples of the speed of the inner ring against the outer, the shaft's where
+the outer ring stands still; times its frequency in hertz they are hertz (:meth:`Orders.at`).
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from .. import _core
@@ -27,19 +27,24 @@ class Orders:
     Attributes
     ----------
     ftf : float
-        Cage, the fundamental train frequency.
+        Cage, the fundamental train frequency; seen from where the loads stand.
     bpfo : float
         Balls passing a place on the outer race.
     bpfi : float
         Balls passing a place on the inner race.
     bsf : float
         Spin of a ball in the cage; a defect on a ball meets a race twice a turn.
+    inner, outer : float
+        Turns of the rings past the loads, at which hits on their races swell: those of the shaft are 1, and 0 of
+        an outer ring that stands.
     """
 
     ftf: float
     bpfo: float
     bpfi: float
     bsf: float
+    inner: float = 1.0
+    outer: float = 0.0
 
     def at(self, shaft: float) -> Orders:
         """Return the frequencies [Hz] for a shaft frequency [Hz]."""
@@ -48,6 +53,29 @@ class Orders:
             bpfo=self.bpfo * shaft,
             bpfi=self.bpfi * shaft,
             bsf=self.bsf * shaft,
+            inner=self.inner * shaft,
+            outer=self.outer * shaft,
+        )
+
+    def turned(self, outer: float) -> Orders:
+        """Return the orders where the outer ring turns too.
+
+        Parameters
+        ----------
+        outer : float
+            Speed of the outer ring over that of the inner ring against it, Ω_o/(Ω_i − Ω_o): -1 where the inner
+            ring stands, as in hubs and idlers.
+
+        Examples
+        --------
+        A place of the outer race is met as often, and goes through the load once a turn; the cage is faster:
+
+        >>> hub = orders(9, 7.94e-3, 39.04e-3).turned(-1.0)
+        >>> round(hub.bpfo, 4), round(hub.ftf, 4), hub.inner, hub.outer
+        (3.5848, 0.6017, 0.0, 1.0)
+        """
+        return replace(
+            self, ftf=abs(self.ftf + outer), inner=abs(self.inner + outer), outer=abs(outer)
         )
 
 

@@ -1,6 +1,6 @@
 """Fault frequencies of a bearing as it runs: at the contact angle under its load, with the slip of its cage.
 
-Where the outer ring stands still and the balls roll, the load alone moves the frequencies from the nominal
+Where the balls roll, the load alone moves the frequencies from the nominal
 ones: thrust opens the contact angle, which raises BPFO and lowers BPFI. Slip makes the cage slower than rolling
 would, lowers BPFO and raises BPFI. At high speed the contact angles of both races differ and balls spin about an
 axis of their own, which makes the cage faster by percents. Of a scene, speeds are those at which friction at both
@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from .._numbers import real
 from ..bearings import Bearing, catalogue
 from ..errors import SceneError
 from ..scene import MotionProbe, Scene, SpeedDrive
+from ..scene.turning import constant_speeds
 from ..signals import Signals
 
 if TYPE_CHECKING:
@@ -30,6 +31,9 @@ if TYPE_CHECKING:
 
 __all__ = ["FaultFrequencies", "fault_frequencies"]
 
+_Speeds: TypeAlias = tuple[float, float]
+"""Frequencies of outer and inner ring [Hz]."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class FaultFrequencies:
@@ -38,16 +42,18 @@ class FaultFrequencies:
     Attributes
     ----------
     shaft : float
-        Frequency of the inner ring f_r [Hz].
+        Frequency of the inner ring against the outer [Hz], the shaft's where the outer ring stands.
     ftf, bpfo, bpfi, bsf : float
-        Cage, ball passes on the outer and the inner race, spin of a ball in the cage [Hz]. A defect on a ball
-        meets the races at twice ``bsf``; in a run, whose balls spin about the axis only, at BSF/cos α or
+        Cage in space, ball passes on the outer and the inner race, spin of a ball in the cage [Hz]. A defect on a
+        ball meets the races at twice ``bsf``; in a run, whose balls spin about the axis only, at BSF/cos α or
         twice that (:func:`ballrace.frequencies.operating.spin_of`).
     contact_angle : float
         The angle under load at rest [rad].
     slip : float or None
         How far the cage stays behind rolling at this angle, as a share of it; negative where it is ahead, None
         where it was not measured.
+    outer : float
+        Frequency of the outer ring f_o [Hz].
     """
 
     shaft: float
@@ -57,18 +63,32 @@ class FaultFrequencies:
     bsf: float
     contact_angle: float
     slip: float | None = None
+    outer: float = 0.0
+
+    @property
+    def inner(self) -> float:
+        """Frequency of the inner ring f_r [Hz]."""
+        return self.shaft + self.outer
 
     @property
     def orders(self) -> frequencies.Orders:
         """The same in multiples of the shaft's frequency."""
-        hertz = frequencies.Orders(ftf=self.ftf, bpfo=self.bpfo, bpfi=self.bpfi, bsf=self.bsf)
-        return hertz.at(1.0 / self.shaft)
+        turned = self.outer / self.shaft
+        hertz = frequencies.Orders(
+            ftf=self.ftf - self.outer,
+            bpfo=self.bpfo,
+            bpfi=self.bpfi,
+            bsf=self.bsf,
+            inner=self.shaft,
+        )
+        return replace(hertz.at(1.0 / self.shaft), inner=1.0).turned(turned)
 
 
 def fault_frequencies(
     of: str | Bearing | Scene | Signals,
     speed_rpm: float | None = None,
     *,
+    outer_rpm: float | None = None,
     row: int = 0,
     operating: bool = True,
     race_control: RaceControl = "friction",
@@ -85,6 +105,8 @@ def fault_frequencies(
         and of the spin where balls spin freely. Of older files by a probe that records the motion of a ball.
     speed_rpm : float, optional
         Speed of the inner ring [rev/min]; by default that of the scene, if it is given and constant.
+    outer_rpm : float, optional
+        Speed of the outer ring [rev/min]; by default that of the scene, or 0.
     row : int
         Row of balls, from 0.
     operating : bool
@@ -113,32 +135,48 @@ def fault_frequencies(
     >>> loaded = br.fault_frequencies(br.bearing("6205", radial_load=300.0, axial_load=200.0, speed_rpm=1797.0))
     >>> bool(loaded.bpfo > found.bpfo), bool(loaded.bpfi < found.bpfi)
     (True, True)
+
+    A hub: the inner ring stands.
+
+    >>> hub = br.fault_frequencies("6205", 0.0, outer_rpm=1797.0)
+    >>> round(abs(hub.bpfo), 2), round(hub.ftf, 2), hub.orders.outer
+    (107.36, 18.02, 1.0)
     """
     if isinstance(of, str):
         of = catalogue[of]
     if isinstance(of, Bearing):
         if speed_rpm is None:
             raise SceneError("speed_rpm", "None", "the speed of the inner ring [rev/min]")
-        return _rolling(of, of.contact_angle, _shaft(speed_rpm))
+        return _rolling(of, of.contact_angle, _speeds(speed_rpm, outer_rpm or 0.0))
     scene = of.scene if isinstance(of, Signals) else of
     if not isinstance(scene, Scene):
         raise SceneError("of", f"a {type(of).__name__}", "a designation, Bearing, Scene or Signals")
     if not 0 <= row < len(scene.rows):
         raise SceneError("row", str(row), f"a row, 0 to {len(scene.rows) - 1}")
     did = _measured(of, row) if isinstance(of, Signals) else None
-    if speed_rpm is not None:
-        shaft = _shaft(speed_rpm)
-    else:
-        shaft = did["inner"] if did is not None else _constant_speed(scene)
+    speeds = _speeds_of(scene, did, speed_rpm, outer_rpm)
     if not operating:
-        return _rolling(scene.rows[row], scene.rows[row].contact_angle, shaft)
-    found = _under_load(scene, row, shaft, race_control)
+        return _rolling(scene.rows[row], scene.rows[row].contact_angle, speeds)
+    found = _under_load(scene, row, speeds, race_control)
     if not isinstance(of, Signals):
         return found
     if did is not None:
         return _as_measured(found, did, scene, row)
     cage = cage_frequency(of, row)
     return found if cage is None else _slipping(found, cage, scene.rows[row].ball_count)
+
+
+def rates_at_a_turn(scene: Scene, row: int = 0, *, operating: bool = True) -> FaultFrequencies:
+    """Return the fault frequencies of a scene at a turn a second of the rings against each other, for its orders.
+
+    The rings share it as their speeds do, where these are given and constant; else the outer ring stands.
+    """
+    outer, inner = constant_speeds(scene) or (0.0, 0.0)
+    relative = abs(inner - outer)
+    if scene.outer_speed is None or relative == 0.0:
+        return fault_frequencies(scene, 60.0, outer_rpm=0.0, row=row, operating=operating)
+    inner_rpm, outer_rpm = 60.0 * inner / relative, 60.0 * outer / relative
+    return fault_frequencies(scene, inner_rpm, outer_rpm=outer_rpm, row=row, operating=operating)
 
 
 def operating_angle(scene: Scene, row: int = 0) -> float:
@@ -152,22 +190,26 @@ def operating_angle(scene: Scene, row: int = 0) -> float:
 
 
 def _under_load(
-    scene: Scene, row: int, shaft: float, race_control: RaceControl
+    scene: Scene, row: int, speeds: _Speeds, race_control: RaceControl
 ) -> FaultFrequencies:
-    """Return the frequencies of balls under load at a shaft's speed [Hz]."""
-    driven = replace(scene, drive=SpeedDrive(2.0 * math.pi * shaft))
+    """Return the frequencies of balls under load at the rings' speeds."""
+    outer, inner = speeds
+    turning = None if scene.outer_speed is None and outer == 0.0 else 2.0 * math.pi * outer
+    driven = replace(scene, drive=SpeedDrive(2.0 * math.pi * inner), outer_speed=turning)
     found = _core.rolling(driven._document(), race_control)[row]
     if found is None:
-        return _rolling(scene.rows[row], scene.rows[row].contact_angle, shaft)
+        return _rolling(scene.rows[row], scene.rows[row].contact_angle, speeds)
     angle, cage, spin = found
     balls = scene.rows[row].ball_count
+    shaft = inner - outer
     return FaultFrequencies(
         shaft=shaft,
         ftf=cage,
-        bpfo=balls * cage,
-        bpfi=balls * (shaft - cage),
+        bpfo=balls * (cage - outer),
+        bpfi=balls * (inner - cage),
         bsf=math.copysign(spin if scene.spin == "free" else spin * math.cos(angle), shaft),
         contact_angle=angle,
+        outer=outer,
     )
 
 
@@ -226,9 +268,14 @@ def spin_of(scene: Scene, rates: FaultFrequencies, row: int = 0) -> tuple[float,
     return order, 2 if any(each >= track for each in reach) else 1
 
 
-def _rolling(of: Bearing | Row, angle: float, shaft: float) -> FaultFrequencies:
+def _rolling(of: Bearing | Row, angle: float, speeds: _Speeds) -> FaultFrequencies:
+    outer, inner = speeds
+    shaft = inner - outer
     hertz = frequencies.orders(of.ball_count, of.ball_diameter, of.pitch_diameter, angle).at(shaft)
-    return FaultFrequencies(shaft=shaft, contact_angle=angle, **vars(hertz))
+    return FaultFrequencies(
+        shaft=shaft, contact_angle=angle, ftf=hertz.ftf + outer, bpfo=hertz.bpfo, bpfi=hertz.bpfi,
+        bsf=hertz.bsf, outer=outer,
+    )  # fmt: skip
 
 
 def _measured(out: Signals, row: int) -> Mapping[str, float] | None:
@@ -240,16 +287,16 @@ def _as_measured(
     rolling: FaultFrequencies, did: Mapping[str, float], scene: Scene, row: int
 ) -> FaultFrequencies:
     """Return the frequencies of a run for a shaft's; BSF of balls that spin about z only is that of rolling."""
-    scale = rolling.shaft / did["inner"]
+    scale = rolling.shaft / (did["inner"] - did["outer"])
     balls = scene.rows[row].ball_count
     spin = did["spin"] if scene.spin == "free" else None
     return replace(
         rolling,
-        ftf=scale * did["cage"],
+        ftf=scale * (did["cage"] - did["outer"]) + rolling.outer,
         bpfo=scale * balls * (did["cage"] - did["outer"]),
         bpfi=scale * balls * (did["inner"] - did["cage"]),
         bsf=rolling.bsf if spin is None else abs(scale) * spin,
-        slip=1.0 - scale * did["cage"] / rolling.ftf,
+        slip=1.0 - scale * (did["cage"] - did["outer"]) / (rolling.ftf - rolling.outer),
     )
 
 
@@ -258,21 +305,47 @@ def _slipping(rolling: FaultFrequencies, cage: float, balls: int) -> FaultFreque
     return replace(
         rolling,
         ftf=cage,
-        bpfo=balls * cage,
-        bpfi=balls * (rolling.shaft - cage),
-        slip=1.0 - cage / rolling.ftf,
+        bpfo=balls * (cage - rolling.outer),
+        bpfi=balls * (rolling.inner - cage),
+        slip=1.0 - (cage - rolling.outer) / (rolling.ftf - rolling.outer),
     )
 
 
-def _shaft(speed_rpm: float) -> float:
-    if not math.isfinite(real(speed_rpm)) or speed_rpm == 0.0:
-        raise SceneError("speed_rpm", repr(speed_rpm), "a speed of the inner ring [rev/min], not 0")
-    return speed_rpm / 60.0
+def _speeds(inner_rpm: float, outer_rpm: float) -> _Speeds:
+    """Return the speeds [Hz], which are not the same.
+
+    Raises
+    ------
+    SceneError
+        One is not usable, or balls do not roll.
+    """
+    if not math.isfinite(real(outer_rpm)):
+        raise SceneError("outer_rpm", repr(outer_rpm), "a speed of the outer ring [rev/min]")
+    if not math.isfinite(real(inner_rpm)) or inner_rpm == outer_rpm:
+        told = "not 0" if outer_rpm == 0.0 else f"not that of the outer ring, {outer_rpm:g}"
+        allowed = f"a speed of the inner ring [rev/min], {told}"
+        raise SceneError("speed_rpm", repr(inner_rpm), allowed)
+    return outer_rpm / 60.0, inner_rpm / 60.0
 
 
-def _constant_speed(scene: Scene) -> float:
-    if isinstance(scene.drive, SpeedDrive) and isinstance(scene.drive.speed, int | float):
-        return _shaft(scene.drive.speed * 30.0 / math.pi)
-    raise SceneError(
-        "speed_rpm", "None", "the speed [rev/min]: that of the scene is not given, or changes"
+def _speeds_of(
+    scene: Scene,
+    did: Mapping[str, float] | None,
+    speed_rpm: float | None,
+    outer_rpm: float | None,
+) -> _Speeds:
+    """Return the speeds that are given, else those that a run measured, or of the scene [Hz]."""
+    if did is not None and speed_rpm is None and outer_rpm is None:
+        return did["outer"], did["inner"]
+    known = constant_speeds(scene)
+    turns = scene.outer_speed is not None
+    if known is None and (speed_rpm is None or (outer_rpm is None and turns)):
+        raise SceneError(
+            "speed_rpm" if speed_rpm is None else "outer_rpm",
+            "None",
+            "the speed [rev/min]: that of the scene is not given, or changes",
+        )
+    outer, inner = (speed * 30.0 / math.pi for speed in known or (0.0, 0.0))
+    return _speeds(
+        inner if speed_rpm is None else speed_rpm, outer if outer_rpm is None else outer_rpm
     )

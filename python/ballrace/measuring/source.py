@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from .._numbers import LARGEST, real, real_row
 from ..errors import SceneError
-from ..scene import MotionProbe, SpeedDrive
+from ..scene import MotionProbe
+from ..scene.turning import relative_speed
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -137,16 +138,17 @@ def unit(direction: tuple[float, float, float]) -> tuple[float, ...]:
 
 
 def shaft_rate(scene: Scene) -> float | None:
-    """Return the frequency of the inner ring [Hz], if it is given and constant."""
-    if isinstance(scene.drive, SpeedDrive) and isinstance(scene.drive.speed, int | float):
-        return float(scene.drive.speed) / (2.0 * math.pi)
-    return None
+    """Return the frequency of the inner ring against the outer [Hz], if it is given and constant."""
+    speed = relative_speed(scene)
+    return None if speed is None else speed / (2.0 * math.pi)
 
 
 def _shaft_angle(out: Signals) -> NDArray[np.float64] | None:
-    recorded = f"{probe_of(out.scene, 'inner')}.theta"
-    if recorded in out:
-        return out[recorded]
+    inner, outer = (f"{probe_of(out.scene, ring)}.theta" for ring in ("inner", "outer"))
+    if inner in out and out.scene.outer_speed is None:
+        return out[inner]
+    if inner in out and outer in out:
+        return out[inner] - out[outer]
     rate = shaft_rate(out.scene)
     return None if rate is None else 2.0 * np.pi * rate * out.t
 

@@ -123,6 +123,8 @@ def check(out: Signals, column: str, row: int, frames: int) -> None:
     if isinstance(frames, bool) or not 2 <= frames <= 500:
         raise SceneError("frames", repr(frames), "2 to 500")
     needed = [column, "inner.theta"]
+    if out.scene.outer_speed is not None:
+        needed.append("outer.theta")
     for number, of_row in enumerate(out.scene.rows):
         for ball in range(of_row.ball_count):
             needed += [f"row{number}_ball{ball}.{axis}" for axis in ("x", "y", "z", "theta")]

@@ -110,7 +110,8 @@ def order_map(
     of : Signals, Measurement, Recording, Channel or array_like
         A run-up, as a run, a record, or an array.
     angle : str or array_like
-        Column of the shaft's angle, or the angle itself [rad].
+        Column of the shaft's angle, or the angle itself [rad]. Of a run whose outer ring turns, that of the inner
+        ring is taken against the outer's.
     column : str, optional
         Column of the signal; by default ``outer.ay`` if there is one, else the first.
     per_turn : int, optional
@@ -192,7 +193,7 @@ def _fault_orders(
     highest: float,
 ) -> None:
     """Draw a line for each harmonic of each fault; orders do not change as the speed does."""
-    from ..frequencies.operating import fault_frequencies
+    from ..frequencies.operating import rates_at_a_turn
     from ..spectra import fault_bands
 
     scene = scene_of(of)
@@ -201,7 +202,7 @@ def _fault_orders(
         return
     if rates is None:
         assert scene is not None
-        rates = fault_frequencies(scene, 60.0, row=row, operating=False)
+        rates = rates_at_a_turn(scene, row, operating=False)
     chosen = faults_of(of, faults, row)
     for band in fault_bands(rates.orders, sidebands=0, spin=spin_of(of, rates, row)):
         if band.fault in chosen and band.centre <= highest:
@@ -213,14 +214,18 @@ def _fault_orders(
             )  # fmt: skip
 
 
-def _angle(of: object, column: str) -> ArrayLike:
-    """Return a column of a run or a recording."""
+def _angle(of: Given, column: str) -> ArrayLike:
+    """Return an angle of a run or a recording; where the outer ring turns, that of the inner ring against it."""
     if not isinstance(of, Mapping):
         raise SceneError(
             "angle", repr(column), "the shaft's angle [rad]: the signal has no columns"
         )
     found: ArrayLike = of[column]
-    return found
+    scene = scene_of(of)
+    if scene is None or scene.outer_speed is None or column != "inner.theta":
+        return found
+    against = np.asarray(found) - np.asarray(of["outer.theta"])
+    return against if against[-1] >= against[0] else -against
 
 
 def kurtogram(

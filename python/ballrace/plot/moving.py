@@ -42,7 +42,7 @@ class Moving:
         self._largest = max(float(load.max()) for load in loads) or 1.0
 
     def still(self) -> Iterator[Any]:
-        """Give what stands still in the front view: circles of the races, defects of the outer race, a scale."""
+        """Give what stands in the front view: circles of the races, outer defects unless they turn, a scale."""
         from .._plotly import Scatter
 
         row, shapes = self._of_row, self._shapes
@@ -57,7 +57,7 @@ class Moving:
             yield Scatter(x=radius * np.cos(turn), y=radius * np.sin(turn), mode="lines",
                           line={"color": _INK, "width": width}, hoverinfo="skip")  # fmt: skip
         for name, defect in self._scene.defects.items():
-            if defect.on == "outer_race" and defect.row == self._row:
+            if defect.row == self._row and not self._is_carried(defect):
                 yield self._on_race(defect, name, 0.0)
         title = {"text": "load / N", "side": "top"}
         bar = {
@@ -91,7 +91,7 @@ class Moving:
         yield 1, self._bars(places, k)
         yield 1, self._turned(k)
         for name, defect in self._scene.defects.items():
-            if defect.row == self._row and defect.on != "outer_race":
+            if defect.row == self._row and self._is_carried(defect):
                 yield 1, self._carried(defect, name, k)
         for row in range(len(self._scene.rows)):
             for half in (1.0, -1.0):
@@ -156,10 +156,14 @@ class Moving:
         x, y = _short(ends * math.cos(angle)), _short(ends * math.sin(angle))
         return Scatter(x=x, y=y, mode="lines", line=line, name="shaft", hoverinfo="skip")
 
+    def _is_carried(self, defect: Defect) -> bool:
+        return defect.on != "outer_race" or self._scene.outer_speed is not None
+
     def _carried(self, defect: Defect, name: str, k: int) -> Any:
-        """Draw a defect that moves with the inner ring or a ball."""
-        if defect.on == "inner_race":
-            return self._on_race(defect, name, float(self._out["inner.theta"][k]))
+        """Draw a defect that moves with a ring or a ball."""
+        if defect.on != "ball":
+            ring = "inner" if defect.on == "inner_race" else "outer"
+            return self._on_race(defect, name, float(self._out[f"{ring}.theta"][k]))
         x, y, _ = self._place(self._row, int(defect.ball or 0), k)
         turned = defect.angle + float(self._out[f"row{self._row}_ball{defect.ball}.theta"][k])
         radius = 0.5e3 * self._of_row.ball_diameter

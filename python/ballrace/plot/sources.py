@@ -13,6 +13,7 @@ from ..errors import EquilibriumError, SceneError
 from ..frequencies import operating
 from ..frequencies.operating import FaultFrequencies, fault_frequencies
 from ..scene import SpeedDrive
+from ..scene.turning import relative_speed
 from ..signals import Signals
 from ..spectra.checks import checked_signal
 from .style import unit, words
@@ -82,7 +83,7 @@ def rates_of(of: object, rates: FaultFrequencies | None, row: int) -> FaultFrequ
     scene = scene_of(of)
     if rates is not None or scene is None or not isinstance(scene.drive, SpeedDrive):
         return rates
-    if not isinstance(scene.drive.speed, int | float) or scene.drive.speed == 0.0:
+    if not relative_speed(scene):
         return None
     known = of if isinstance(of, Signals) else scene
     try:

@@ -72,7 +72,7 @@ class Turning:
         return np.array(found)
 
     def still(self) -> Iterator[Any]:
-        """Give the rings, cut open, defects of the outer race, and the cage, alike however it turns."""
+        """Give the rings, cut open, defects of an outer race that stands, and the cage, alike however it turns."""
         from .._plotly import Mesh3d, Scatter3d
 
         kinds = {"outer ring": ("outer", "#9fb3c8", 0.3), "inner ring": ("inner", "#8fa3ba", 0.55)}
@@ -85,7 +85,8 @@ class Turning:
             )  # fmt: skip
         around = np.linspace(0.0, 2.0 * math.pi, 97)
         cage = _arc(0.5 * self._of_row.pitch_diameter, around, self._of_row.axial_position)
-        for name, points in ({"cage": cage} | self._damages("outer_race", 0.0)).items():
+        stands = {} if self._outer_turns else self._damages("outer_race", 0.0)
+        for name, points in ({"cage": cage} | stands).items():
             yield Scatter3d(**self._axes(points), **_style(name))
 
     def at(self, k: int) -> list[Any]:
@@ -168,9 +169,16 @@ class Turning:
         return corners
 
     def _lines(self, k: int) -> dict[str, Array]:
-        """Return the shaft's mark and defects of the inner race by their names."""
+        """Return the shaft's mark and defects of races that turn by their names."""
         theta = float(self._out["inner.theta"][k])
-        return {"shaft": self._mark(theta)} | self._damages("inner_race", theta)
+        found = {"shaft": self._mark(theta)} | self._damages("inner_race", theta)
+        if self._outer_turns:
+            found |= self._damages("outer_race", float(self._out["outer.theta"][k]))
+        return found
+
+    @property
+    def _outer_turns(self) -> bool:
+        return self._scene.outer_speed is not None
 
     def _mark(self, theta: float) -> Array:
         """Mark the bore, which shows how far the shaft has turned."""

@@ -13,15 +13,19 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from ..bearings.rows import catalogue
 from ..duty import duty_cycle
 from ..errors import EquilibriumError, SceneError, SceneWarning
-from ..scene import Scene, SpeedDrive
 from ..scene.scene import checked_scene
+from ..scene.turning import relative_speed
 from ..statics import LoadDistribution, load_distribution
 from .life_factor import Contamination, LifeFactor, check_contamination, life_factor
 from .load_rating import equivalent_load, race_ratings, row_rating, together
+
+if TYPE_CHECKING:
+    from ..scene import Scene
 
 __all__ = ["RatingLife", "rating_life"]
 
@@ -201,7 +205,7 @@ def rating_life(
         reference=_miner([(state.share, state.reference) for state in states]),
         equivalent_load=equivalent,
         basic=1e6 * (value / equivalent) ** 3 if equivalent else None,
-        speed=_speed(healthy),
+        speed=relative_speed(healthy),
         modified=_modified(states),
         factor=hardest.factor,
     )
@@ -209,7 +213,7 @@ def rating_life(
 
 def _by_turns(cycle: list[tuple[float, Scene]]) -> list[tuple[float, Scene]]:
     """Return states with their shares of the turns in place of those of the time, where they differ."""
-    turns = [share * abs(_speed(scene) or 0.0) for share, scene in cycle]
+    turns = [share * abs(relative_speed(scene) or 0.0) for share, scene in cycle]
     if not sum(turns):
         return cycle
     return [
@@ -299,9 +303,3 @@ def _rating(scene: Scene) -> tuple[float, str]:
     if known is not None and same and len(scene.rows) == known.row_count:
         return known.dynamic_rating, f"catalogue: {known.sources.ratings}"
     return together([row_rating(row) for row in scene.rows]), "formula of ISO 281"
-
-
-def _speed(scene: Scene) -> float | None:
-    if isinstance(scene.drive, SpeedDrive) and isinstance(scene.drive.speed, int | float):
-        return float(scene.drive.speed)
-    return None

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 from ..errors import SceneError
 from ..scene import SpeedDrive
+from ..scene.turning import relative_speed
 from ..statics import RaceFilm, equilibrium
 
 if TYPE_CHECKING:
@@ -89,7 +90,7 @@ def life_factor(
     contamination : Contamination or float
         Class of contamination, or e_C.
     """
-    if isinstance(scene.drive, SpeedDrive) and scene.drive.speed == 0.0:
+    if relative_speed(scene) == 0.0:
         return None
     films = equilibrium(_at_its_speed(scene)).films
     if len(films) < 2 * len(scene.rows):

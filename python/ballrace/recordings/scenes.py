@@ -5,36 +5,32 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from ..scene import Ramp, Sine, SpeedDrive, Table
 from ..scene.defect import extent, widest
+from ..scene.turning import relative_speed, value_at
 from .windows import Origin
 
 if TYPE_CHECKING:
-    from ..scene import Scene, TimeFunction
+    from ..scene import Scene
 
 __all__ = ["origin_of", "shaft_of"]
 
 
 def shaft_of(scene: Scene) -> float | None:
-    """Return the rate of the shaft [Hz] where a scene keeps it constant, else None."""
-    drive = scene.drive
-    if not isinstance(drive, SpeedDrive) or not isinstance(drive.speed, int | float):
-        return None
-    return abs(drive.speed) / (2.0 * math.pi)
+    """Return the rate of the inner ring against the outer [Hz] where a scene keeps it constant, else None."""
+    speed = relative_speed(scene)
+    return None if speed is None else abs(speed) / (2.0 * math.pi)
 
 
 def origin_of(scene: Scene, version: str | None) -> Origin:
     """Return what windows of a run tell of its scene."""
     return Origin(
-        speed=lambda t: _speed(scene, t),
+        speed=lambda t: relative_speed(scene, t),
         load=lambda t: [
             {
                 "name": n,
                 "ring": load.ring,
                 "direction": list(load.direction),
-                "force": _at(load.force, t),
+                "force": value_at(load.force, t),
             }
             for n, load in scene.loads.items()
         ],
@@ -53,25 +49,3 @@ def origin_of(scene: Scene, version: str | None) -> Origin:
         ],
         version=version,
     )
-
-
-def _speed(scene: Scene, t: float) -> float | None:
-    """Return the speed [rad/s] at a time; a driving torque leaves it to the run."""
-    drive = scene.drive
-    return _at(drive.speed, t) if isinstance(drive, SpeedDrive) else None
-
-
-def _at(value: TimeFunction, t: float) -> float:
-    """Return the value of a function of time; at a jump the one after it."""
-    match value:
-        case Ramp(from_=before, to=after, start=start, end=end):
-            share = (
-                float(t >= end) if start == end else min(max((t - start) / (end - start), 0.0), 1.0)
-            )
-            return before + share * (after - before)
-        case Sine(mean=mean, amplitude=amplitude, frequency=frequency, phase=phase):
-            return mean + amplitude * math.sin(2.0 * math.pi * frequency * t + phase)
-        case Table(times=times, values=values):
-            return float(np.interp(t, times, values))
-        case _:
-            return float(value)

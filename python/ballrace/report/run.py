@@ -55,7 +55,10 @@ def _add_frequencies(page: Page, out: Signals) -> None:
             page.text("No constant speed: fault frequencies stand at their orders.")
             return
         ball = fault_rate(found, "ball", spin_of(out.scene, found, row))
-        hertz = (found.shaft, found.ftf, found.bpfo, found.bpfi, ball)
+        hertz = [found.shaft, found.ftf, found.bpfo, found.bpfi, ball]
+        if found.outer != 0.0:
+            # Passed the other way round where the outer ring is the faster one.
+            hertz = [abs(f) for f in hertz]
         rows.append(
             [f"{row}", words.degrees(found.contact_angle), *(words.number(f) for f in hertz)]
         )

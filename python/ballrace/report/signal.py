@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from .. import spectra
 from ..errors import BallraceError, SceneError
-from ..scene import SpeedDrive
+from ..scene.turning import relative_speed
 from . import words
 
 if TYPE_CHECKING:
@@ -45,10 +45,7 @@ def add_signal(page: Page, out: Signals, name: str) -> None:
     from ..plot.style import words as in_words
 
     page.section(f"Signal: {in_words(name)}")
-    constant = isinstance(out.scene.drive, SpeedDrive) and isinstance(
-        out.scene.drive.speed, int | float
-    )
-    if not constant:
+    if relative_speed(out.scene) is None:
         page.figure(plot.signals(out, name), "the signal over time; the speed changes.")
         _add_order_map(page, out, name)
         return
@@ -64,7 +61,7 @@ def add_signal(page: Page, out: Signals, name: str) -> None:
 def _add_spectra(page: Page, out: Signals, name: str) -> None:
     from .. import plot
 
-    turns = out.n_samples / out.fs * abs(float(out.scene.drive.speed)) / 6.2832  # type: ignore[union-attr,arg-type]
+    turns = out.n_samples / out.fs * abs(relative_speed(out.scene) or 0.0) / 6.2832
     found = spectra.kurtogram(out[name], out.fs, narrowest=min(out.fs / 8.0, 2000.0))
     page.figure(
         plot.envelope_spectrum(out, name),

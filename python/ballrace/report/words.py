@@ -16,7 +16,7 @@ from ..scene import (
 from ..scene.defect import widest
 
 if TYPE_CHECKING:
-    from ..scene import Defect, Lubricant, NormalLaw, Scene
+    from ..scene import Defect, Lubricant, NormalLaw, Scene, TimeFunction
 
 __all__ = ["absent", "bearing", "degrees", "large", "model", "number", "operation"]
 
@@ -90,7 +90,10 @@ def operation(scene: Scene) -> list[tuple[str, str]]:
         force = f"{load.force:.5g} N" if isinstance(load.force, int | float) else "changes in time"
         text = f"{force} on the {load.ring} ring along ({x:.3g}, {y:.3g}, {z:.3g})"
         told.append((f"Load, {name}", text.replace("-", "−")))
-    return [*told, ("Speed", _speed(scene.drive)), *_unbalances(scene)]
+    told.append(("Speed", _speed(scene.drive)))
+    if scene.outer_speed is not None:
+        told.append(("Speed of the outer ring", _turns(scene.outer_speed, "outer")))
+    return [*told, *_unbalances(scene)]
 
 
 def _unbalances(scene: Scene) -> list[tuple[str, str]]:
@@ -103,9 +106,13 @@ def _unbalances(scene: Scene) -> list[tuple[str, str]]:
 def _speed(drive: SpeedDrive | TorqueDrive) -> str:
     if isinstance(drive, TorqueDrive):
         return f"driven by a torque, from {drive.initial_speed:.4g} rad/s"
-    if isinstance(drive.speed, int | float):
-        return f"{drive.speed * 30.0 / math.pi:.5g} rev/min, inner ring".replace("-", "−")
-    return "changes in time, inner ring"
+    return _turns(drive.speed, "inner")
+
+
+def _turns(speed: TimeFunction, ring: str) -> str:
+    if isinstance(speed, int | float):
+        return f"{speed * 30.0 / math.pi:.5g} rev/min, {ring} ring".replace("-", "−")
+    return f"changes in time, {ring} ring"
 
 
 def absent(scene: Scene) -> list[str]:

@@ -27,6 +27,7 @@ from .lubricant import Lubricant
 from .material import Materials
 from .probe import Probe
 from .solver import Solver
+from .time import TimeFunction
 
 __all__ = ["Scene", "Spin", "checked_scene"]
 
@@ -73,6 +74,10 @@ class Scene(Part):
         Cage; None: the balls are not linked.
     drive : Drive
         What turns the inner ring.
+    outer_speed : TimeFunction or None
+        Given speed of the outer ring [rad/s], counter-clockwise about z; may not jump. Its waviness, texture and
+        defects turn with it; loads, gravity, its support and the axes of motion probes do not. None: it stands,
+        or turns as its support lets it.
     gravity : tuple of three floats
         Gravity [m/s²].
     loads : mapping of str to Load
@@ -115,6 +120,7 @@ class Scene(Part):
     spin: Spin | None = field(default=None, metadata=LEFT_OUT)
     cage: Cage | None = None
     drive: Drive
+    outer_speed: TimeFunction | None = field(default=None, metadata=LEFT_OUT)
     gravity: tuple[float, float, float] = (0.0, -9.81, 0.0)
     loads: Mapping[str, Load] = field(default_factory=_empty)
     moments: Mapping[str, Moment] = field(default_factory=_empty, metadata=LEFT_OUT)

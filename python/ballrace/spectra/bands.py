@@ -46,7 +46,7 @@ class FaultBand:
     harmonic : int
         Multiple of its fault frequency: BPFO, BPFI, 2·BSF or FTF.
     sideband : int
-        How many rates of the shaft (inner race) or of the cage (ball) beside it.
+        How many rates of the inner ring, of the outer ring where it turns, or of the cage (ball) beside it.
     centre, low, high : float
         Kinematic place of the line and edges of the band, in orders or [Hz].
     spinning : int
@@ -74,7 +74,7 @@ class FaultBand:
             line = times + name[self.fault]
         if self.sideband == 0:
             return line
-        beside = "FTF" if self.fault == "ball" else "f_r"
+        beside = {"outer_race": "f_o", "ball": "FTF"}.get(self.fault, "f_r")
         many = "" if abs(self.sideband) == 1 else f"{abs(self.sideband)}·"
         return f"{line} {'+' if self.sideband > 0 else '−'} {many}{beside}"
 
@@ -133,7 +133,8 @@ def fault_bands(
     harmonics : int
         Multiples of each fault frequency, from 1 to this.
     sidebands : int
-        Sidebands to either side: of the shaft for the inner race, of the cage for a ball, none for others.
+        Sidebands to either side: of the shaft for the inner race, of the outer ring for its race where it turns
+        (:meth:`ballrace.frequencies.Orders.turned`), of the cage for a ball, none for others.
     slip : float
         Share by which a fault frequency may lie off its kinematic value, by slip and by the contact angle: half
         the width of the first harmonic's bands; the others are wider as they are higher.
@@ -160,8 +161,8 @@ def fault_bands(
     _check(shaft, harmonics, sidebands, slip)
     ball, hits = (orders.bsf, 2) if spin is None else spin
     rates: tuple[tuple[Fault, float, float], ...] = (
-        ("outer_race", orders.bpfo, 0.0),
-        ("inner_race", orders.bpfi, 1.0),
+        ("outer_race", orders.bpfo, orders.outer),
+        ("inner_race", orders.bpfi, orders.inner),
         ("ball", hits * ball, orders.ftf),
         ("cage", orders.ftf, 0.0),
     )

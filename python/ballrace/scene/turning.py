@@ -1,0 +1,57 @@
+"""How fast the rings of a scene turn, as far as it says so."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .drive import SpeedDrive
+from .time import Ramp, Sine, Table
+
+if TYPE_CHECKING:
+    from .scene import Scene
+    from .time import TimeFunction
+
+__all__ = ["constant_speeds", "relative_speed", "value_at"]
+
+
+def constant_speeds(scene: Scene) -> tuple[float, float] | None:
+    """Return the speeds of outer and inner ring [rad/s]; None where one is not given, or changes."""
+    outer = 0.0 if scene.outer_speed is None else scene.outer_speed
+    inner = scene.drive.speed if isinstance(scene.drive, SpeedDrive) else None
+    if isinstance(outer, int | float) and isinstance(inner, int | float):
+        return float(outer), float(inner)
+    return None
+
+
+def relative_speed(scene: Scene, t: float | None = None) -> float | None:
+    """Return how fast the inner ring turns against the outer at a time [rad/s]; None of one that a torque drives.
+
+    That is what fault frequencies go with, the speed of the shaft where the outer ring stands. Without a time it
+    is None as well where a speed changes.
+    """
+    if t is None:
+        steady = constant_speeds(scene)
+        return None if steady is None else steady[1] - steady[0]
+    if not isinstance(scene.drive, SpeedDrive):
+        return None
+    outer = 0.0 if scene.outer_speed is None else value_at(scene.outer_speed, t)
+    return value_at(scene.drive.speed, t) - outer
+
+
+def value_at(function: TimeFunction, t: float) -> float:
+    """Return the value of a function of time; at a jump the one after it."""
+    match function:
+        case Ramp(from_=before, to=after, start=start, end=end):
+            share = (
+                float(t >= end) if start == end else min(max((t - start) / (end - start), 0.0), 1.0)
+            )
+            return before + share * (after - before)
+        case Sine(mean=mean, amplitude=amplitude, frequency=frequency, phase=phase):
+            return mean + amplitude * math.sin(2.0 * math.pi * frequency * t + phase)
+        case Table(times=times, values=values):
+            return float(np.interp(t, times, values))
+        case _:
+            return float(function)
