@@ -76,8 +76,8 @@ impl InstructionSet {
     pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
         match self.0 {
             // NEON has fused products everywhere.
-            Level::Baseline if cfg!(target_arch = "aarch64") => task.run::<true>(),
-            Level::Baseline => task.run::<false>(),
+            Level::Baseline if cfg!(target_arch = "aarch64") => baseline::<_, true>(task),
+            Level::Baseline => baseline::<_, false>(task),
             #[cfg(target_arch = "x86_64")]
             Level::V3(instructions) => instructions.vectorize(Fused(task)),
             #[cfg(target_arch = "x86_64")]
@@ -115,6 +115,12 @@ impl InstructionSet {
             Level::V4(instructions) => Simd::vectorize(instructions, task),
         }
     }
+}
+
+/// Does a task without any instructions of its own. A function apart, so that the other sets' frames need not its memory, which without
+/// optimisation is half a megabyte.
+fn baseline<T: Task, const FMA: bool>(task: T) -> T::Output {
+    task.run::<FMA>()
 }
 
 struct CountLanes;

@@ -68,6 +68,13 @@ pub(crate) trait Number:
         (part(exponent), part(mantissa))
     }
 
+    /// Does work with numbers of this kind in a function of its own, compiled for the same instructions. Without optimisation each
+    /// operation takes memory in the frame of the function it is taken into, which else sums up to megabytes.
+    #[inline(always)]
+    fn outlined<R>(self, work: impl FnOnce() -> R) -> R {
+        work()
+    }
+
     /// e to the power of each.
     fn exp(self) -> Self {
         self.curve(f64::exp, |_, value| value)

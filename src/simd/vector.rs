@@ -318,6 +318,11 @@ impl<S: Simd> Number for Vector<S> {
     }
 
     #[inline(always)]
+    fn outlined<R>(self, work: impl FnOnce() -> R) -> R {
+        self.simd.vectorize(Outlined(work))
+    }
+
+    #[inline(always)]
     fn guess_inverse_root(self) -> Self {
         let simd = self.simd;
         let words: S::u32s = pulp::cast(self.numbers);
@@ -343,6 +348,18 @@ impl<S: Simd> Number for Vector<S> {
         let counted = self.with(simd.transmute_f64s_u64s(counted)) + -COUNTS;
         let exponent = counted * (-32.0_f64).exp2() + -1023.0 + self * 0.0;
         (exponent, self.with(simd.transmute_f64s_u64s(mantissa)))
+    }
+}
+
+/// Work that is compiled for the instructions of whoever asks for it.
+struct Outlined<F>(F);
+
+impl<R, F: FnOnce() -> R> Wide for Outlined<F> {
+    type Output = R;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> R {
+        self.0()
     }
 }
 

@@ -61,9 +61,15 @@ impl Halves {
         add: impl FnMut(usize, T),
     ) {
         if self.moments.is_some() {
-            self.weighed::<T, FMA, true>(slip, half, add);
+            half.outlined(
+                #[inline(always)]
+                || self.weighed::<T, FMA, true>(slip, half, add),
+            );
         } else {
-            self.weighed::<T, FMA, false>(slip, half, add);
+            half.outlined(
+                #[inline(always)]
+                || self.weighed::<T, FMA, false>(slip, half, add),
+            );
         }
     }
 
@@ -76,25 +82,21 @@ impl Halves {
     ) {
         let needles = match &self.moments {
             Some(moments) if FILM => {
-                let needles = Needles::of::<FMA>(slip, half.same(0.0), half);
+                let needles = half.outlined(
+                    #[inline(always)]
+                    || Needles::of::<FMA>(slip, half.same(0.0), half),
+                );
                 let powers = moments.of::<T, FMA>(&needles, half);
                 Some((moments, needles, powers))
             }
             _ => None,
         };
         for (part, fine) in self.fine.chunks(PART).enumerate() {
-            let mut peaks = [[half; 2]; PART];
-            for (peak, t) in peaks.iter_mut().zip(fine) {
-                let u = half * *t;
-                let (plus, minus) = slip.squares::<FMA>(u);
-                let mut plus = slip.peak::<FMA, FILM>(plus, u);
-                let mut minus = slip.peak::<FMA, FILM>(minus, u);
-                if let Some((_, needles, _)) = &needles {
-                    plus = plus - needles.at::<FMA>(half.same(*t));
-                    minus = minus - needles.at::<FMA>(half.same(-*t));
-                }
-                *peak = [plus + minus, plus - minus];
-            }
+            let smooth = needles.as_ref().map(|(_, needles, _)| needles);
+            let peaks = half.outlined(
+                #[inline(always)]
+                || peaks::<T, FMA, FILM>(slip, smooth, half, fine),
+            );
             let shares = self.shares.chunks_exact(self.fine.len());
             for (i, (x, shares)) in self.nodes.iter().zip(shares).enumerate() {
                 let shares = &shares[part * PART..][..fine.len()];
@@ -116,6 +118,31 @@ impl Halves {
             }
         }
     }
+}
+
+/// Even and odd parts at places of the finer rule, less the needles.
+#[inline(always)]
+fn peaks<T: Number, const FMA: bool, const FILM: bool>(
+    slip: &Slip<T>,
+    needles: Option<&Needles<T>>,
+    half: T,
+    fine: &[f64],
+) -> [[T; 2]; PART] {
+    let mut peaks = [[half; 2]; PART];
+    for (peak, t) in peaks.iter_mut().zip(fine) {
+        let u = half * *t;
+        let (plus, minus) = slip.squares::<FMA>(u);
+        let mut sides = [plus, minus];
+        for (side, t) in sides.iter_mut().zip([*t, -*t]) {
+            *side = slip.peak::<FMA, FILM>(*side, u);
+            if let Some(needles) = needles {
+                *side = *side - needles.at::<FMA>(half.same(t));
+            }
+        }
+        let [plus, minus] = sides;
+        *peak = [plus + minus, plus - minus];
+    }
+    peaks
 }
 
 /// Even and odd part at a node.

@@ -69,8 +69,13 @@ impl<T: Number> Needles<T> {
         // No step of Newton's method leads from one zero to the other.
         let far = root / (c_2.abs() + TINY) * 0.125;
         let limit = far - (far + -0.1).or_zero();
-        let first = Needle::of::<FMA>(&zone, (c_0, q), (there, limit));
-        let second = Needle::of::<FMA>(&zone, (q, c_2), (there, limit));
+        let near = |zero| {
+            half.outlined(
+                #[inline(always)]
+                || Needle::of::<FMA>(&zone, zero, (there, limit)),
+            )
+        };
+        let (first, second) = (near((c_0, q)), near((q, c_2)));
         let count = match (first.is_any(), second.is_any()) {
             (_, true) => 2,
             (true, false) => 1,
@@ -86,18 +91,23 @@ impl<T: Number> Needles<T> {
     #[inline(always)]
     pub fn moments<const FMA: bool>(&self, to: &mut [T]) {
         let [first, second] = &self.needles;
+        let known = |needle| {
+            first.place.outlined(
+                #[inline(always)]
+                move || Known::new::<FMA>(needle),
+            )
+        };
         match self.count {
             0 => {}
             1 => {
-                let mut first = Known::new::<FMA>(first);
+                let mut first = known(first);
                 for (k, to) in to.iter_mut().enumerate() {
                     *to = first.next::<FMA>(k);
                 }
             }
             // Side by side, since each power waits for those below it.
             _ => {
-                let mut first = Known::new::<FMA>(first);
-                let mut second = Known::new::<FMA>(second);
+                let (mut first, mut second) = (known(first), known(second));
                 for (k, to) in to.iter_mut().enumerate() {
                     *to = first.next::<FMA>(k) + second.next::<FMA>(k);
                 }
@@ -109,11 +119,14 @@ impl<T: Number> Needles<T> {
     #[inline(always)]
     pub fn at<const FMA: bool>(&self, x: T) -> T {
         let [first, second] = &self.needles;
-        match self.count {
-            0 => x.same(0.0),
-            1 => first.at::<FMA>(x),
-            _ => first.at::<FMA>(x) + second.at::<FMA>(x),
+        if self.count == 0 {
+            return x.same(0.0);
         }
+        let mut sum = first.at::<FMA>(x);
+        if self.count > 1 {
+            sum += second.at::<FMA>(x);
+        }
+        sum
     }
 }
 

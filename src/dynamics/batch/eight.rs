@@ -314,6 +314,8 @@ impl EvaluateEight<'_> {
         let curve = self.model.rows[group.class].pairs[group.race(0)].hollow_curve();
         let eight = Eight::<LEAN> { group, of: self };
         match curve {
+            // Rings that tilt have no symmetry.
+            None if self.symmetric => self.model.instructions.run(SymmetricEight(eight)),
             None => self.model.instructions.run(eight),
             Some(contour) => self.model.instructions.run(EightOnCurve(eight, contour)),
         }
@@ -372,6 +374,24 @@ impl<const LEAN: bool> Eight<'_, LEAN> {
             eight.constants.radius[lane] *= 0.5;
         }
     }
+
+    /// Evaluates them before rings that stand parallel.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn parallel<const FMA: bool, const SYMMETRIC: bool>(self) {
+        let mut eight = EightContacts::default();
+        self.gather(&mut eight);
+        let Self { group, of } = self;
+        let race = group.race(0);
+        let pair = &of.model.rows[group.class].pairs[race];
+        let mut ring = RingLanes::of(&of.views[race].ring, pair.race.sigma);
+        if let Some(outer) = group.both() {
+            let inner = RingLanes::of(&of.views[Race::Inner].ring, Race::Inner.sigma());
+            ring = ring.or(outer, &inner);
+        }
+        let summing = Summing::Elements(of.model.instructions, &mut group.rubbing);
+        group.forces = pair.forces::<FMA, SYMMETRIC>(&eight, &ring, Mask::default(), summing);
+    }
 }
 
 impl<const LEAN: bool> Task for Eight<'_, LEAN> {
@@ -381,28 +401,33 @@ impl<const LEAN: bool> Task for Eight<'_, LEAN> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
+        if !LEAN {
+            self.parallel::<FMA, false>();
+            return;
+        }
         let mut eight = EightContacts::default();
         self.gather(&mut eight);
         let Self { group, of } = self;
         let race = group.race(0);
         let pair = &of.model.rows[group.class].pairs[race];
-        let (view, skip) = (&of.views[race], Mask::default());
-        if LEAN {
-            let rubbing = (of.model.instructions, &mut group.rubbing);
-            (group.forces, group.across) =
-                pair.forces_leaning::<FMA>((&eight, group.turning), &view.ring, rubbing);
-            return;
-        }
-        let mut ring = RingLanes::of(&view.ring, pair.race.sigma);
-        if let Some(outer) = group.both() {
-            let inner = RingLanes::of(&of.views[Race::Inner].ring, Race::Inner.sigma());
-            ring = ring.or(outer, &inner);
-        }
-        let summing = Summing::Elements(of.model.instructions, &mut group.rubbing);
-        group.forces = if of.symmetric {
-            pair.forces::<FMA, true>(&eight, &ring, skip, summing)
-        } else {
-            pair.forces::<FMA, false>(&eight, &ring, skip, summing)
-        };
+        let rubbing = (of.model.instructions, &mut group.rubbing);
+        let held = (&eight, group.turning);
+        (group.forces, group.across) =
+            pair.forces_leaning::<FMA>(held, &of.views[race].ring, rubbing);
+    }
+}
+
+/// Evaluates groups of balls in the middle of their grooves.
+struct SymmetricEight<'a, const LEAN: bool>(Eight<'a, LEAN>);
+
+impl<const LEAN: bool> Task for SymmetricEight<'_, LEAN> {
+    type Output = ();
+
+    // Compiled for the instruction set that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        debug_assert!(!LEAN, "rings that tilt have no symmetry");
+        self.0.parallel::<FMA, true>();
     }
 }
