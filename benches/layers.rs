@@ -2,9 +2,11 @@
 //! instruction set and rings that lean, the integrator alone, a run, the static solve. `cargo bench -p ballrace-benches --bench layers`.
 
 use std::hint::black_box;
-use std::sync::Arc;
+use std::ops::ControlFlow;
 use std::time::Instant;
 
+use ballrace::InstructionSet;
+use ballrace::bindings::Pool;
 use ballrace::compile;
 use ballrace::dynamics::Dynamics;
 use ballrace::inspect;
@@ -12,10 +14,8 @@ use ballrace::integrate::{DORMAND_PRINCE, Options, System, Tolerance, integrate}
 use ballrace::scene::{
     Defect, Friction, Lubricant, Mount, NormalLaw, Scene, Slices, Surface, TimeFunction, presets,
 };
-use ballrace::simd::InstructionSet;
 use ballrace::{Model, Race, Run, Start, equilibrium, load_distribution, simulate, start};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use rayon::ThreadPoolBuilder;
 
 fn wheel(law: NormalLaw, slices: Slices) -> Scene {
     let mut scene = presets::wheel_bearing(3000.0);
@@ -179,7 +179,7 @@ fn leaning_rings(c: &mut Criterion) {
 
 /// Serial against two threads, called from inside the pool as a run does: the break-even.
 fn threads(c: &mut Criterion) {
-    let pool = Arc::new(ThreadPoolBuilder::new().num_threads(2).build().unwrap());
+    let pool = Pool::of(2).unwrap().unwrap();
     let mut group = c.benchmark_group("threads");
     for (balls, slices) in [
         (13, Slices::Fitted(6)),
@@ -195,10 +195,10 @@ fn threads(c: &mut Criterion) {
         group.bench_function(format!("{name}, 1"), |b| {
             b.iter(|| serial.rhs(0.0, black_box(&y), &mut dy));
         });
-        let mut shared = Dynamics::new(&model).shared(Arc::clone(&pool));
+        let mut shared = Dynamics::new(&model).shared(pool.clone());
         group.bench_function(format!("{name}, 2"), |b| {
             b.iter_custom(|count| {
-                pool.install(|| {
+                pool.inside(&mut |_| ControlFlow::Continue(()), |_| {
                     let begun = Instant::now();
                     for _ in 0..count {
                         shared.rhs(0.0, black_box(&y), &mut dy);

@@ -12,10 +12,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         ..Run::default()
     };
     let axial = [-3000.0, 0.0, f64::NAN, 3000.0];
-    let cases = axial.map(|load| Case {
-        scene: presets::wheel_bearing(load),
-        run: run.clone(),
-    });
+    let cases = axial.map(|load| Case::new(presets::wheel_bearing(load), run.clone()));
     let options = FeatureOptions::default();
     let outcomes = campaign(cases, 2, &options, &mut |_| ControlFlow::Continue(()))?;
     let mut failed = 0;

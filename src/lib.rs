@@ -52,11 +52,12 @@ mod reduction;
 mod run;
 pub mod scene;
 mod signals;
-pub mod simd;
+mod simd;
 mod statics;
 mod tilt;
 mod velocities;
 
+pub use base::clock::set_clock;
 pub use base::error::{Error, Result};
 pub use base::interrupt::Interrupt;
 pub use campaign::{Case, Finished, Outcome, campaign, stream};
@@ -74,6 +75,7 @@ pub use signals::touched::Touched;
 pub use signals::{
     Accuracy, Bandwidth, Block, Column, Provenance, Signals, SliceRow, Statistics, Warning,
 };
+pub use simd::{Distrust, InstructionSet, UnknownInstructionSet};
 pub use statics::start::{Start, start};
 pub use statics::{
     BallEquilibrium, ContactEquilibrium, DynamicCoefficients, Equilibrium, EquivalentLoads,
@@ -85,12 +87,12 @@ pub use statics::{
 #[doc(hidden)]
 pub mod bindings {
     pub use crate::base::memory::{available, within};
+    pub use crate::base::pool::{Pool, STACK};
     pub use crate::features::loads::columns as load_columns;
     pub use crate::features::lubrication::columns as lubrication_columns;
     pub use crate::features::transform::{amplitudes, hann_weighted, squared_envelope};
     pub use crate::features::{Recorded, check as check_features, check_recorded, features_of};
     pub use crate::model::layout_of;
-    pub use crate::run::pool::STACK;
     pub use crate::signals::kinematics::{RowRolling, rolling};
     pub use crate::statics::place;
     pub use crate::statics::start::check_length;

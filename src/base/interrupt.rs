@@ -6,8 +6,8 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
+use crate::base::clock;
 use crate::base::error::{Error, Result};
 
 /// Stops from another thread what works under it: `equilibrium`, `stiffness`, `load_distribution`, `explain`, `start`,
@@ -45,8 +45,8 @@ impl Interrupt {
     }
 }
 
-/// Works on this thread until done or until a time.
-pub(crate) fn until<T>(deadline: Instant, work: impl FnOnce() -> T) -> T {
+/// Works on this thread until done or until a time of the clock \[s\].
+pub(crate) fn until<T>(deadline: f64, work: impl FnOnce() -> T) -> T {
     under(Limit::Deadline(deadline), work)
 }
 
@@ -62,14 +62,14 @@ pub(crate) fn check() -> Result<()> {
 
 enum Limit {
     Asked(Interrupt),
-    Deadline(Instant),
+    Deadline(f64),
 }
 
 impl Limit {
     fn is_over(&self) -> bool {
         match self {
             Self::Asked(interrupt) => interrupt.is_set(),
-            Self::Deadline(time) => Instant::now() >= *time,
+            Self::Deadline(time) => clock::now() >= *time,
         }
     }
 }
@@ -101,9 +101,9 @@ mod tests {
         stop.set();
         assert_eq!(check(), Ok(()));
         assert!(stop.heed(check).is_err());
-        stop.heed(|| until(Instant::now(), || ()));
+        stop.heed(|| until(clock::now(), || ()));
         assert_eq!(check(), Ok(()));
-        assert!(until(Instant::now(), check).is_err());
+        assert!(until(clock::now(), check).is_err());
         let panicked = std::panic::catch_unwind(|| stop.heed(|| panic!("as meant")));
         assert!(panicked.is_err());
         assert_eq!(check(), Ok(()));

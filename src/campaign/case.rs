@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::time::Instant;
 
+use crate::base::clock;
 use crate::base::error::{Error, Result};
 use crate::base::interrupt::Interrupt;
 use crate::features::{
@@ -19,6 +19,7 @@ use crate::signals::Signals;
 
 /// What to run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Case {
     /// The scene.
     pub scene: Scene,
@@ -49,6 +50,11 @@ pub struct Finished {
 }
 
 impl Case {
+    /// A scene and how it is run.
+    pub fn new(scene: Scene, run: Run) -> Self {
+        Self { scene, run }
+    }
+
     /// Runs it, until done or asked to stop.
     pub(super) fn outcome(
         &self,
@@ -56,9 +62,9 @@ impl Case {
         options: &FeatureOptions,
         stop: &Interrupt,
     ) -> Outcome {
-        let begun = Instant::now();
+        let begun = clock::now();
         let result = stop.heed(|| guarded(|| self.finish(options, stop)));
-        let wall_time = begun.elapsed().as_secs_f64();
+        let wall_time = clock::since(begun);
         Outcome {
             index,
             result,

@@ -6,7 +6,7 @@
 //! use ballrace::{Case, FeatureOptions, Run, campaign, scene::presets};
 //!
 //! let run = Run { duration: 1e-3, ..Run::default() };
-//! let cases = [-3000.0, 0.0, 3000.0].map(|axial| Case { scene: presets::wheel_bearing(axial), run: run.clone() });
+//! let cases = [-3000.0, 0.0, 3000.0].map(|axial| Case::new(presets::wheel_bearing(axial), run.clone()));
 //! let mut outcomes = campaign(cases, 2, &FeatureOptions::default(), &mut |_| ControlFlow::Continue(()))?;
 //! assert_eq!(outcomes.len(), 3);
 //! let signals = outcomes.remove(2).result?.signals; // of +3 kN: outcomes stand in the order of the cases

@@ -7,20 +7,21 @@
 use std::ops::ControlFlow;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{Case, Outcome};
+use crate::base::clock;
 use crate::base::error::{Error, Result};
 use crate::base::interrupt::Interrupt;
 use crate::base::memory;
+use crate::base::pool::STACK;
 use crate::features::FeatureOptions;
-use crate::run::pool::STACK;
 
 /// How long the calling thread waits at most before it looks up.
 const ATTENTION: Duration = Duration::from_millis(50);
 
-/// How long a stop waits at most for cases that finish meanwhile, of what Ctrl-C may take: half a second.
-const PATIENCE: Duration = Duration::from_millis(150);
+/// How long a stop waits at most for cases that finish meanwhile, of what Ctrl-C may take: half a second \[s\].
+const PATIENCE: f64 = 0.15;
 
 /// Cases handed out a thread: one that runs and one that waits, or has finished and waits to be seen.
 const AHEAD: usize = 2;
@@ -32,7 +33,8 @@ const RECORDS: f64 = 2.0;
 /// `watch` is called on this thread at least about every 50 ms with the outcomes that have come in since, in any
 /// order (see [`Outcome::index`]), or none; it may stop everything. Cases interrupted by that are not reported;
 /// those that finish within 150 ms are, in one last call. No more than two cases a thread are held at a time, and each
-/// has its part of the memory that there is at the beginning.
+/// has its part of the memory that there is at the beginning. Where the crate is built without its feature `parallel`, cases run
+/// one after the other on this thread, and `watch` is called after each.
 ///
 /// # Errors
 /// [`Error::Scene`] for more than 1024 threads, or more than the system grants.
@@ -43,6 +45,10 @@ pub fn stream(
     watch: &mut dyn FnMut(Vec<Outcome>) -> ControlFlow<()>,
 ) -> Result<()> {
     let threads = count(threads)?;
+    if cfg!(not(feature = "parallel")) {
+        in_turn(cases, options, watch);
+        return Ok(());
+    }
     let (hand_out, queue) = channel::<(usize, Case)>();
     let (hand_in, outcomes) = channel::<Outcome>();
     let shared = Arc::new(Shared {
@@ -73,6 +79,21 @@ pub fn stream(
         watch,
     );
     Ok(())
+}
+
+/// Runs cases one after the other on this thread.
+fn in_turn(
+    cases: impl Iterator<Item = Case>,
+    options: &FeatureOptions,
+    watch: &mut dyn FnMut(Vec<Outcome>) -> ControlFlow<()>,
+) {
+    let (stop, memory) = (Interrupt::new(), memory::available() / RECORDS);
+    for (index, case) in cases.enumerate() {
+        let outcome = memory::within(memory, || case.outcome(index, options, &stop));
+        if watch(vec![outcome]).is_break() {
+            return;
+        }
+    }
 }
 
 /// What the threads have in common.
@@ -156,9 +177,10 @@ fn feed(
 
 /// What comes in until every thread has let go of its sender, or patience ends.
 fn await_last(outcomes: &Receiver<Outcome>) -> Vec<Outcome> {
-    let end = Instant::now() + PATIENCE;
-    let left = || end.saturating_duration_since(Instant::now());
-    std::iter::from_fn(|| outcomes.recv_timeout(left()).ok()).collect()
+    let begun = clock::now();
+    let left = || (PATIENCE - clock::since(begun)).clamp(0.0, PATIENCE);
+    let next = || outcomes.recv_timeout(Duration::from_secs_f64(left()));
+    std::iter::from_fn(|| next().ok()).collect()
 }
 
 /// What has come in, or within the time of attention comes in.
@@ -171,6 +193,50 @@ fn gather(outcomes: &Receiver<Outcome>) -> Vec<Outcome> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::Run;
+    use crate::scene::presets;
+
+    /// Limit: cases in turn have the bits of cases on threads, and end where they are stopped.
+    #[test]
+    fn in_turn_is_as_on_threads() {
+        let run = Run {
+            duration: 1e-3,
+            ..Run::default()
+        };
+        let cases = || {
+            let scenes = [0.0, 1e9, 3000.0].map(presets::wheel_bearing);
+            scenes
+                .into_iter()
+                .map(|scene| Case::new(scene, run.clone()))
+        };
+        let options = FeatureOptions::default();
+        let mut shared = Vec::new();
+        let mut watch = |done: Vec<Outcome>| {
+            shared.extend(done);
+            ControlFlow::Continue(())
+        };
+        stream(cases(), 2, &options, &mut watch).unwrap();
+        shared.sort_by_key(|outcome| outcome.index);
+        let mut alone = Vec::new();
+        in_turn(cases(), &options, &mut |done| {
+            alone.extend(done);
+            ControlFlow::Continue(())
+        });
+        let features = |of: &[Outcome]| {
+            let found = of.iter().map(|outcome| outcome.result.clone());
+            found
+                .map(|result| result.map(|finished| finished.features))
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(features(&alone), features(&shared));
+        assert!(alone[0].result.is_ok() && alone[1].result.is_err());
+        let mut seen = 0;
+        in_turn(cases(), &options, &mut |done| {
+            seen += done.len();
+            ControlFlow::Break(())
+        });
+        assert_eq!(seen, 1);
+    }
 
     /// As of a thread in a very long evaluation, which the stop does not reach before its end.
     #[test]

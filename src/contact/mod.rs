@@ -12,6 +12,8 @@
 //! * `stiffness` — force at rest and its derivative by the place: what statics need;
 //! * `closed_form` — whole contacts as one formula, where there is one.
 //!
+//! What is public beside the laws is hidden from the documentation: it is for the crate's own tests, and changes without notice.
+//!
 //! `defect` has defects: arcs where a surface is absent, the elements that a slice meets there (section 7), and what
 //! makes their forces conservative.
 
@@ -37,8 +39,10 @@ pub(crate) use batch::{
     Across, BatchForces, Constants, EightContacts, Places, RingLanes, Rubbing, Summing,
 };
 pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz_stiffness};
+#[doc(hidden)]
 pub use defect::Fault;
 pub(crate) use defect::{MOST_PITS, PittedContact, Sight, Toward, pits_at_once};
+#[doc(hidden)]
 pub use frames::Motion;
 pub(crate) use frames::{LeaningRing, attitude_accelerations, attitude_rates, centrifugal};
 pub(crate) use held::{
@@ -46,14 +50,21 @@ pub(crate) use held::{
 };
 pub use laws::elastic::{elliptic, hertz, iso16281};
 pub use laws::film;
+#[doc(hidden)]
 pub use laws::film::Oiled;
 pub(crate) use laws::film::{FilmEffect, FilmNumbers};
-pub use laws::{Cut, Damping, Elastic, Law, Traction};
+pub use laws::{Cut, Elastic};
+#[doc(hidden)]
+pub use laws::{Damping, Law, Traction};
+#[doc(hidden)]
 pub use oil::OilTouch;
 pub(crate) use profile::{Before, Contour, Curve, HeightTable, Raise, Section};
+#[doc(hidden)]
 pub use profile::{Torus, Waves};
+#[doc(hidden)]
 pub use quadrature::{Rules, ZoneSlices};
 pub(crate) use scalar::Sighted;
+#[doc(hidden)]
 pub use scalar::{BallSide, Pair, Shape};
 pub(crate) use spatial::{Wrench, WrenchSum};
 pub(crate) use stiffness::Tangent;
@@ -77,6 +88,7 @@ pub fn wrapped(angle: f64) -> f64 {
 }
 
 /// One force between ball and ring: a slice on the race or on a fault circle.
+#[doc(hidden)]
 #[derive(Debug, Clone, Copy)]
 pub struct Touch {
     /// Place of the slice along the ball, from its centre \[m\].
@@ -121,6 +133,7 @@ pub struct Touch {
 ///
 /// By itself, what makes elastic forces the gradient of their energy beside those along normals: of waves, and of the
 /// axial ends of defects. Damping and friction do not follow it.
+#[doc(hidden)]
 #[derive(Debug, Clone, Copy)]
 pub struct Aside {
     /// On the ball in the plane \[N\].
@@ -136,6 +149,7 @@ pub struct Aside {
 }
 
 /// Receives the single forces of a contact.
+#[doc(hidden)]
 pub trait Sink {
     /// Whether [`Touch::energy`] is needed; it costs a power a slice.
     fn asks_energy(&self) -> bool {

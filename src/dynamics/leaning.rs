@@ -4,9 +4,9 @@
 //! for what balls slip that turn across the ring's axis. Balls that spin about the axis of parallel rings do not come here.
 
 use nalgebra::Vector3;
-use rayon::ThreadPool;
 
 use super::batch::{Batch, OnRings, RingView};
+use crate::base::pool::Pool;
 use crate::contact::{LeaningRing, attitude_accelerations};
 use crate::forces::{State, Table, drive};
 use crate::model::{BodyId, Degree, Dof, Model, Race};
@@ -46,7 +46,7 @@ impl SpatialWork {
         state: &State,
         contacts: &mut Batch,
         forces: &mut Table,
-        pool: Option<&ThreadPool>,
+        pool: Option<&Pool>,
     ) -> [f64; 2] {
         let views = RingView::look(&mut self.rings, model, state);
         let on_rings = contacts.add_leaning(forces, model, &views, pool);

@@ -17,10 +17,7 @@ mod rolling;
 mod spinning_tests;
 mod sums;
 
-use std::sync::Arc;
-
-use rayon::ThreadPool;
-
+use crate::base::pool::Pool;
 use crate::forces::cage::CageLinks;
 use crate::forces::{self, Force, ForceSums, Instant, State, Table, Use, drive};
 use crate::integrate::System;
@@ -56,7 +53,7 @@ pub struct Dynamics<'m> {
     springs: Vec<Spring>,
     /// One over the mass where a direction is free, 0 where it is not or where the run keeps an axial place.
     mobility: Table,
-    pool: Option<Arc<ThreadPool>>,
+    pool: Option<Pool>,
     /// Films that follow the rings' speed.
     films: Option<Films>,
     /// Rings that may tilt.
@@ -159,8 +156,8 @@ impl<'m> Dynamics<'m> {
 
     /// Shares the balls of an evaluation among the threads of a pool.
     #[must_use]
-    #[doc(hidden)] // for the benchmarks alone: a pool of rayon is no part of the interface
-    pub fn shared(self, pool: Arc<ThreadPool>) -> Self {
+    #[doc(hidden)] // for the benchmarks alone
+    pub fn shared(self, pool: Pool) -> Self {
         Self {
             pool: Some(pool),
             ..self
@@ -200,8 +197,8 @@ impl<'m> Dynamics<'m> {
     }
 
     /// The threads that share an evaluation, if there are more than one.
-    pub(crate) fn pool(&self) -> Option<&ThreadPool> {
-        self.pool.as_deref()
+    pub(crate) fn pool(&self) -> Option<&Pool> {
+        self.pool.as_ref()
     }
 
     /// Slices whose damping wanted to pull in the last evaluation.
@@ -276,7 +273,7 @@ impl<'m> Dynamics<'m> {
             Some(films) => films.follow(&self.state, &mut self.contacts),
         };
         let (state, forces) = (&self.state, &mut self.forces);
-        let (contacts, pool) = (&mut self.contacts, self.pool.as_deref());
+        let (contacts, pool) = (&mut self.contacts, self.pool.as_ref());
         self.contact_torques = match &mut self.leaning {
             Some(leaning) => leaning.add_contacts(model, state, contacts, forces, pool),
             None => contacts.add_to(forces, model, &View::parallel(state), pool),

@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
-use std::time::Instant;
 
 use serde::Serialize;
 
+use crate::base::clock;
 use crate::base::error::Result;
 use crate::base::interrupt;
 use crate::dynamics::Dynamics;
@@ -96,7 +96,7 @@ fn steps(model: &Model, start: &[f64], count: usize) -> Result<(f64, f64)> {
         let mut dynamics = Dynamics::begin(model, reduction.as_ref(), start);
         let tolerance = tolerance(&dynamics)?;
         let own = dynamics.compress(start);
-        let begun = Instant::now();
+        let begun = clock::now();
         let mut stop = |_: &mut Dynamics<'_>, step: &DenseStep<'_>, stats: &StepStatistics| {
             let now = (step.t1(), stats.nfev);
             if stats.accepted <= GROWING {
@@ -118,7 +118,7 @@ fn steps(model: &Model, start: &[f64], count: usize) -> Result<(f64, f64)> {
         // A run that breaks down says so itself; what it did until then still tells the cost.
         let _ = method::run(&mut dynamics, task, &mut None, &mut stop);
         interrupt::check()?;
-        best = best.min(begun.elapsed().as_secs_f64());
+        best = best.min(clock::since(begun));
     }
     let [(from, before), (to, nfev)] = reached;
     let rate = (nfev - before) as f64 / (to - from);
@@ -147,14 +147,14 @@ fn time_at_places(
         let mut dy = vec![0.0; own.len()];
         dynamics.rhs(0.0, &own, &mut dy);
         let mut time = || {
-            let begun = Instant::now();
+            let begun = clock::now();
             for _ in 0..EVALUATIONS {
                 if interrupt::check().is_err() {
                     break;
                 }
                 work(&mut dynamics, std::hint::black_box(&own), &mut dy);
             }
-            begun.elapsed().as_secs_f64() / EVALUATIONS as f64
+            clock::since(begun) / EVALUATIONS as f64
         };
         (0..TIMES).map(|_| time()).fold(f64::INFINITY, f64::min)
     };

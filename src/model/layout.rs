@@ -339,7 +339,7 @@ impl Layout {
     /// # Panics
     /// If there is no such body.
     #[inline]
-    pub fn motion(self, y: &[f64], body: BodyId) -> Motion {
+    pub(crate) fn motion(self, y: &[f64], body: BodyId) -> Motion {
         let (q, v) = y.split_at(self.half());
         let motion = Motion::new(self.of(q, body), self.of(v, body));
         if self.has(body, Dof::TurnX) {

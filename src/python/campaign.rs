@@ -11,7 +11,7 @@ use super::errors::{OrRaise, record};
 use super::features::options_from;
 use super::run::hand_over;
 use ballrace::bindings::{available, check_features, within};
-use ballrace::{Case, Finished, Outcome, Run, Scene};
+use ballrace::{Case, Finished, InstructionSet, Outcome, Run, Scene};
 
 /// Share of the memory for cases whose signals are kept: the rest is for those that wait to be written, and for the
 /// table they are written from.
@@ -84,6 +84,13 @@ pub(super) fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }
 
+/// Names of the instruction sets that the processor has, widest first.
+#[pyfunction]
+pub(super) fn instruction_sets() -> Vec<&'static str> {
+    let all = InstructionSet::available();
+    all.iter().map(InstructionSet::name).collect()
+}
+
 /// The next case, if there is one.
 fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<Case>> {
     let Some(next) = cases.bind(py).clone().next() else {
@@ -92,7 +99,7 @@ fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<
     let (scene, run): (String, String) = next?.extract()?;
     let scene = Scene::from_json(&scene).or_raise(py)?;
     let run = Run::from_json(&run).or_raise(py)?;
-    Ok(Some(Case { scene, run }))
+    Ok(Some(Case::new(scene, run)))
 }
 
 /// Checks for Ctrl-C, and hands the outcomes over.

@@ -20,7 +20,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use super::campaign::{available_threads, campaign, check_run};
+    use super::campaign::{available_threads, campaign, check_run, instruction_sets};
     #[pymodule_export]
     use super::features::{
         amplitudes, feature_columns, hann_weighted, orders, run_features, signal_features,

@@ -1,11 +1,11 @@
 //! Follows a motion beyond the end of a run, for what filtered samples take from there.
 
 use std::ops::ControlFlow;
-use std::time::Instant;
 
 use super::method::{self, Integration};
 use super::step_collapse::StepCollapse;
 use super::watch::{Progress, StepWatch, TELL_EVERY};
+use crate::base::clock;
 use crate::base::error::{Error, Result};
 use crate::dynamics::Dynamics;
 use crate::integrate::{self, DenseStep, Options, Tolerance};
@@ -24,15 +24,15 @@ pub(super) fn go_on(
         return Ok(0);
     }
     let mut collapse = StepCollapse::new(dynamics.model(), options.max_step);
-    let (mut told, mut stopped) = (Instant::now(), false);
+    let (mut told, mut stopped) = (clock::now(), false);
     let mut observe =
         |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &integrate::StepStatistics| {
             if dynamics.lost().is_some() || collapse.after(step.h()) {
                 return ControlFlow::Break(());
             }
             stopped = watch.step(dynamics, step, step.t1()).is_break();
-            if told.elapsed() >= TELL_EVERY {
-                told = Instant::now();
+            if clock::since(told) >= TELL_EVERY {
+                told = clock::now();
                 stopped |= progress(1.0).is_break();
             }
             if stopped {

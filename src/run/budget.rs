@@ -1,8 +1,8 @@
 //! Limits of a run's cost: wall time, and steps.
 
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
 
+use crate::base::clock;
 use crate::base::error::{Error, Result};
 use crate::base::interrupt;
 use crate::base::words::{Remembered, Words};
@@ -21,30 +21,28 @@ pub(crate) fn within<T>(
     let Some(seconds) = limit else {
         return work(progress);
     };
-    // A limit beyond what a duration can say is none.
-    let allowed = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
-    let begun = Instant::now();
+    if !clock::is_there() {
+        let allowed = "None where the system has no clock, or one given by set_clock";
+        return Err(Error::scene("time_limit", seconds, allowed));
+    }
+    let deadline = clock::now() + seconds;
+    let is_over = || clock::now() >= deadline;
     let mut asked = false;
     let mut watched = |share| {
         asked = progress(share).is_break();
-        if asked || begun.elapsed() >= allowed {
+        if asked || is_over() {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
         }
     };
-    let result = match begun.checked_add(allowed) {
-        Some(deadline) => interrupt::until(deadline, || work(&mut watched)),
-        None => work(&mut watched),
-    };
+    let result = interrupt::until(deadline, || work(&mut watched));
     match result {
-        Err(Error::Interrupted { time }) if !asked && begun.elapsed() >= allowed => {
-            Err(Error::Budget {
-                time,
-                name: "time_limit",
-                limit: seconds,
-            })
-        }
+        Err(Error::Interrupted { time }) if !asked && is_over() => Err(Error::Budget {
+            time,
+            name: "time_limit",
+            limit: seconds,
+        }),
         other => other,
     }
 }

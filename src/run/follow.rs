@@ -1,7 +1,6 @@
 //! Follows a motion over a stretch of time, step by step, and detects when it is no longer physical.
 
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
 
 use super::beyond::go_on;
 use super::budget::StepBudget;
@@ -12,6 +11,7 @@ use super::runaway;
 use super::settings::tolerance;
 use super::step_collapse::StepCollapse;
 use super::watch::{Progress, StepWatch, TELL_EVERY};
+use crate::base::clock;
 use crate::base::error::{Error, Result};
 use crate::base::words::{Remembered, Words};
 use crate::dynamics::Dynamics;
@@ -54,7 +54,7 @@ pub(crate) struct Trajectory {
     pulls: usize,
     truncated: usize,
     nfev_past_end: usize,
-    wall_time: Duration,
+    wall_time: f64,
 }
 
 impl Trajectory {
@@ -74,7 +74,7 @@ impl Trajectory {
             pulls: 0,
             truncated: 0,
             nfev_past_end: 0,
-            wall_time: Duration::ZERO,
+            wall_time: 0.0,
         }
     }
 
@@ -128,7 +128,7 @@ impl Trajectory {
         if self.time >= until {
             return Ok(());
         }
-        let begun = Instant::now();
+        let begun = clock::now();
         let model = dynamics.model();
         let tolerance = tolerance(dynamics)?;
         let y0 = dynamics.compress(&self.first);
@@ -180,7 +180,7 @@ impl Trajectory {
             return Err(Error::Interrupted { time });
         }
         self.stats = solution.stats;
-        self.wall_time += begun.elapsed();
+        self.wall_time += clock::since(begun);
         Ok(())
     }
 
@@ -192,7 +192,7 @@ impl Trajectory {
         options: &Options,
         progress: Progress<'_>,
     ) -> Result<()> {
-        let begun = Instant::now();
+        let begun = clock::now();
         let tolerance = tolerance(dynamics)?;
         let (end, time) = ((self.time, &self.own[..]), self.interval.zero + self.time);
         self.nfev_past_end = go_on(dynamics, watch, end, (&tolerance, options), progress)?;
@@ -200,7 +200,7 @@ impl Trajectory {
             return Err(Error::Interrupted { time });
         }
         let _ = progress(1.0);
-        self.wall_time += begun.elapsed();
+        self.wall_time += clock::since(begun);
         Ok(())
     }
 
@@ -209,7 +209,7 @@ impl Trajectory {
         Statistics {
             clamped_pulls: self.pulls,
             truncated_contacts: self.truncated,
-            wall_time: self.wall_time.as_secs_f64(),
+            wall_time: self.wall_time,
             nfev_past_end: self.nfev_past_end,
             ..statistics(model, &self.stats, (&self.first, &self.last))
         }
@@ -243,7 +243,7 @@ struct Follower<'a, 'w, 'p> {
     bounds: runaway::Bounds,
     progress: Progress<'p>,
     ask_every: usize,
-    told: Instant,
+    told: f64,
     /// Why it cannot go on, after a step \[s\].
     halt: Option<(f64, Halt)>,
     /// Whether all steps are spent.
@@ -317,10 +317,10 @@ impl Follower<'_, '_, '_> {
     }
 
     fn tell(&mut self, step: &DenseStep<'_>, stats: &StepStatistics) -> ControlFlow<()> {
-        if !stats.accepted.is_multiple_of(self.ask_every) || self.told.elapsed() < TELL_EVERY {
+        if !stats.accepted.is_multiple_of(self.ask_every) || clock::since(self.told) < TELL_EVERY {
             return ControlFlow::Continue(());
         }
-        self.told = Instant::now();
+        self.told = clock::now();
         let Interval { from, to, .. } = self.of.interval;
         (self.progress)((step.t1() - from) / (to - from))
     }

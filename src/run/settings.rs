@@ -11,10 +11,13 @@ use crate::scene::{Drive, Method};
 /// Largest steps between corners of a table from which a step ends on each: with fewer, that would cost many more steps.
 const ROOM: f64 = 4.0;
 
-/// How many threads share an evaluation.
+/// How many threads share an evaluation: one where the crate is built without any.
 pub(crate) fn threads(model: &Model, asked: usize) -> Result<usize> {
     if asked > 1024 {
         return Err(Error::scene("threads", asked, "at most 1024; 0 chooses"));
+    }
+    if cfg!(not(feature = "parallel")) {
+        return Ok(1);
     }
     if asked > 0 {
         return Ok(asked);

@@ -1,14 +1,13 @@
 //! What sees the steps of a run, and what is told of it.
 
 use std::ops::ControlFlow;
-use std::time::Duration;
 
 use crate::dynamics::Dynamics;
 use crate::integrate::DenseStep;
 use crate::signals::Recorder;
 
-/// How often progress is reported.
-pub(super) const TELL_EVERY: Duration = Duration::from_millis(20);
+/// How often progress is reported \[s\].
+pub(super) const TELL_EVERY: f64 = 0.02;
 
 /// Sees the first state of a run and every accepted step, on the integrator's clock.
 pub(crate) trait StepWatch: Send {

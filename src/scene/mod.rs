@@ -66,6 +66,8 @@ pub(crate) use oils::CENTISTOKE;
 pub use oils::{Base, NAMED_OILS, NamedOil, OilSheet, OilSource, Sourced, named_oil};
 pub use probe::{Component, ContactQuantity, Probe};
 pub use ring_force::{RingForce, RingForces, RingMotion};
+/// What [`Scene::with`] sets a field to: a number, a text, a list or a document of JSON.
+pub use serde_json::Value;
 pub use solver::{Method, Solver};
 pub use spin::Spin;
 pub use table_force::TableForce;
@@ -338,7 +340,7 @@ impl Scene {
     ///
     /// # Panics
     /// Never: every scene has a JSON form.
-    pub fn with(&self, changes: &[(&str, serde_json::Value)]) -> Result<Self> {
+    pub fn with(&self, changes: &[(&str, Value)]) -> Result<Self> {
         // The copy has the same forces of its program.
         let bare = Self {
             ring_forces: RingForces::default(),
@@ -354,7 +356,7 @@ impl Scene {
         Ok(scene)
     }
 
-    fn read(document: &serde_json::Value) -> Result<Self> {
+    fn read(document: &Value) -> Result<Self> {
         let scene: Self = interpret(document, "scene")?;
         scene.validate()?;
         Ok(scene)

@@ -13,6 +13,7 @@ const VARIABLE: &str = "BALLRACE_SIMD";
 
 /// An instruction set that is not known or that this processor does not have.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct UnknownInstructionSet {
     /// What was asked for.
     pub value: String,
@@ -22,6 +23,7 @@ pub struct UnknownInstructionSet {
 
 /// An instruction set that this processor says it has and that does not compute what it should; a narrower one is used instead.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct Distrust {
     /// Name of the instruction set.
     pub instructions: &'static str,

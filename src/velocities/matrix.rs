@@ -2,11 +2,10 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use super::arrow::{Arrow, EightOnRing};
 use super::carrier::{Carrier, RingRotation};
 use super::held_balls::{HeldBalls, Met};
+use crate::base::pool;
 use crate::contact::AXIAL;
 use crate::dynamics::{Batch, Dynamics, Guarantees, View};
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
@@ -64,10 +63,7 @@ impl<const N: usize> ContactMatrix<N> {
         let constants = &self.search.constants;
         let find = |batch: &mut HeldBalls<N>| batch.find_elements(model, constants, views);
         let batches = &mut self.batches[..self.active];
-        match dynamics.pool() {
-            Some(pool) => pool.install(|| batches.par_iter_mut().for_each(find)),
-            None => batches.iter_mut().for_each(find),
-        }
+        pool::each(dynamics.pool(), batches, find);
     }
 
     /// The balls that meet something, by eights of one class of rows: first those between both rings, so that others may go
@@ -115,10 +111,7 @@ impl<const N: usize> ContactMatrix<N> {
         let model = dynamics.coated();
         let find = |batch: &mut HeldBalls<N>| batch.find_slopes(model, views, reach);
         let batches = &mut self.batches[..self.active];
-        match dynamics.pool() {
-            Some(pool) => pool.install(|| batches.par_iter_mut().for_each(find)),
-            None => batches.iter_mut().for_each(find),
-        }
+        pool::each(dynamics.pool(), batches, find);
     }
 
     /// Makes the matrix of the last slopes.

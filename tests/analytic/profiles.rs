@@ -4,12 +4,12 @@ use crate::common;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
+use ballrace::InstructionSet;
 use ballrace::dynamics::Dynamics;
 use ballrace::scene::{
     Defect, Friction, GothicArch, Load, NormalLaw, RaceProfile, RingName, Scene, Slices, Surface,
     Waviness, presets,
 };
-use ballrace::simd::InstructionSet;
 use ballrace::{
     Equilibrium, Error, Model, Race, Start, compile, equilibrium, inspect, load_distribution,
     start, stiffness,

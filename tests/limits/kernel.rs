@@ -4,6 +4,7 @@
 use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use ballrace::InstructionSet;
 use ballrace::compile;
 use ballrace::dynamics::Dynamics;
 use ballrace::dynamics::contributions;
@@ -13,7 +14,6 @@ use ballrace::scene::{
     Defect, Friction, GothicArch, Lubricant, Mount, NormalLaw, Scene, Slices, Surface, Texture,
     Waviness, presets,
 };
-use ballrace::simd::InstructionSet;
 use ballrace::{Model, Race, Start, start};
 use common::{Noise, effects, oiled, through_points};
 

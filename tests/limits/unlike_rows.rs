@@ -3,6 +3,7 @@
 //! Analytic: rows share nothing but the rings, so the forces of a bearing are those of its rows alone, and on the rings their
 //! sum.
 
+use ballrace::InstructionSet;
 use ballrace::Reduction;
 use ballrace::compile;
 use ballrace::dynamics::Dynamics;
@@ -11,7 +12,6 @@ use ballrace::integrate::System;
 use ballrace::scene::{
     Contact, Friction, Material, Method, NormalLaw, Scene, Slices, Support, presets,
 };
-use ballrace::simd::InstructionSet;
 use ballrace::{BodyId, Dof, Layout, Model, Run, Start, equilibrium, simulate, start};
 
 /// Rows of a wheel bearing, the second and third unlike the first in all that a row may say for itself.

@@ -24,11 +24,8 @@ fn cases() -> Vec<Case> {
             if i == 7 {
                 scene.rows[0].ball_diameter = -1.0;
             }
-            Case {
-                scene,
-                // Of different length, so that they do not finish in their order.
-                run: run(1e-3 * f64::from(8 - i)),
-            }
+            // Of different length, so that they do not finish in their order.
+            Case::new(scene, run(1e-3 * f64::from(8 - i)))
         })
         .collect()
 }
@@ -129,7 +126,7 @@ fn contact_loads_have_their_extremes() {
         contact_loads: true,
         ..FeatureOptions::default()
     };
-    let found = campaign([Case { scene, run }], 1, &options, &mut |_| {
+    let found = campaign([Case::new(scene, run)], 1, &options, &mut |_| {
         ControlFlow::Continue(())
     })
     .unwrap();
@@ -210,7 +207,7 @@ fn a_stop_is_heard() {
         let mut run = run(duration);
         run.fs = 2.0 / duration;
         run.bandwidth = Bandwidth::Raw;
-        Some(Case { scene, run })
+        Some(Case::new(scene, run))
     });
     let mut seen = Vec::new();
     let options = FeatureOptions::default();
@@ -230,12 +227,12 @@ fn a_stop_is_heard() {
 /// A number of steps ends a run where it has taken them, on any machine; one that it does not need changes nothing.
 #[test]
 fn a_budget_of_steps_is_an_outcome() {
-    let case = |max_steps| Case {
-        scene: presets::deep_groove_6205(500.0, 0.0, 1800.0),
-        run: Run {
+    let case = |max_steps| {
+        let run = Run {
             max_steps,
             ..run(2e-3)
-        },
+        };
+        Case::new(presets::deep_groove_6205(500.0, 0.0, 1800.0), run)
     };
     let cases = [
         case(None),

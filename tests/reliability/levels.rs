@@ -5,10 +5,10 @@ use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::process::Command;
 
+use ballrace::InstructionSet;
 use ballrace::scene::{
     Approximations, Defect, Friction, Method, NormalLaw, Scene, Surface, presets,
 };
-use ballrace::simd::InstructionSet;
 use ballrace::{Run, Start, Warning};
 use common::{apart, run, soon_over_the_spall};
 

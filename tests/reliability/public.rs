@@ -103,10 +103,7 @@ fn statics_and_costs_are_told() {
 fn a_campaign_keeps_its_failures() {
     let mut broken = bearing();
     broken.rows[0].ball_diameter = -1.0;
-    let cases = [bearing(), broken].map(|scene| Case {
-        scene,
-        run: short(),
-    });
+    let cases = [bearing(), broken].map(|scene| Case::new(scene, short()));
     let mut done = 0;
     let outcomes = campaign(cases, 2, &FeatureOptions::default(), &mut |count| {
         done = count;

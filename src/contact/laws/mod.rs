@@ -3,19 +3,24 @@
 //! Each law is written once, for any kind of number: for one contact, for eight side by side, and with derivatives.
 
 pub mod cut;
+#[doc(hidden)]
 pub mod damping;
 pub mod elastic;
 pub mod film;
+#[doc(hidden)]
 pub mod traction;
 
 pub use cut::Cut;
+#[doc(hidden)]
 pub use damping::Damping;
 pub use elastic::Elastic;
+#[doc(hidden)]
 pub use traction::Traction;
 
 use film::Oiled;
 
 /// The laws that all contacts of a row's balls with one race follow.
+#[doc(hidden)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Law {
     /// Elastic force of an element by its penetration.

@@ -19,9 +19,8 @@ use std::array::from_fn;
 use std::ops::Range;
 
 use nalgebra::Vector3;
-use rayon::ThreadPool;
-use rayon::prelude::*;
 
+use crate::base::pool::{self, Pool};
 use crate::contact::{self, BatchForces, InPlane};
 use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Degree, Dof, Model, Race};
@@ -173,7 +172,7 @@ impl Batch {
         forces: &mut Table,
         model: &Model,
         views: &[View<'_>; 2],
-        pool: Option<&ThreadPool>,
+        pool: Option<&Pool>,
     ) -> [f64; 2] {
         self.fill(forces, model, views, pool);
         let mut rings = self.add_balls(forces);
@@ -195,7 +194,7 @@ impl Batch {
         forces: &mut Table,
         model: &Model,
         views: &[View<'_>; 2],
-        pool: Option<&ThreadPool>,
+        pool: Option<&Pool>,
     ) -> OnRings {
         self.fill(forces, model, views, pool);
         let (rings, across) = (self.add_balls(forces), self.moments_across(views));
@@ -210,7 +209,7 @@ impl Batch {
         forces: &mut Table,
         model: &Model,
         views: &[View<'_>; 2],
-        pool: Option<&ThreadPool>,
+        pool: Option<&Pool>,
     ) {
         self.find(Some(forces), model, views);
         self.axially_fixed(forces, model, views);
@@ -221,7 +220,7 @@ impl Batch {
     }
 
     /// Evaluates what was found, by eights and one by one.
-    fn evaluate(&mut self, model: &Model, views: &[View<'_>; 2], pool: Option<&ThreadPool>) {
+    fn evaluate(&mut self, model: &Model, views: &[View<'_>; 2], pool: Option<&Pool>) {
         let all = EvaluateEight {
             constants: &self.constants,
             symmetric: self.kind.symmetric,
@@ -242,18 +241,9 @@ impl Batch {
         };
         let one = |single: &mut Single| single.evaluate(model, &views[single.race]);
         let (groups, singles) = (&mut self.groups[..self.active], &mut self.singles);
-        if let Some(pool) = pool {
-            // A run already lives inside the pool, where this costs no more than a call.
-            pool.install(|| {
-                groups.par_iter_mut().for_each(eight);
-                leave(groups, singles);
-                singles.par_iter_mut().for_each(one);
-            });
-        } else {
-            groups.iter_mut().for_each(eight);
-            leave(groups, singles);
-            singles.iter_mut().for_each(one);
-        }
+        pool::each(pool, groups, eight);
+        leave(groups, singles);
+        pool::each(pool, singles, one);
     }
 
     /// Evaluates the rows whose balls keep their axial places.

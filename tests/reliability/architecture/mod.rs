@@ -252,3 +252,18 @@ fn python_stays_in_its_room() {
         }
     }
 }
+
+/// Some systems have neither threads nor a clock: each is asked for in one place.
+#[test]
+fn threads_and_clock_have_one_place() {
+    for (what, place) in [
+        ("rayon::", "base/pool.rs"),
+        ("Instant::now", "base/clock.rs"),
+    ] {
+        let sources = all().into_iter();
+        let users = sources
+            .filter(|(path, text)| !path.starts_with("python/") && code(text).contains(what));
+        let users: Vec<String> = users.map(|(path, _)| path).collect();
+        assert_eq!(users, [place], "{what}");
+    }
+}

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::sources::{Source, all, code, test_files, word};
 
 /// Libraries that are used inside only.
-const INSIDE: [&str; 2] = ["nalgebra", "pulp"];
+const INSIDE: [&str; 3] = ["nalgebra", "pulp", "rayon"];
 
 /// Top-level items of formatted code, each with its attributes in front.
 pub(super) fn items(code: &str) -> Vec<String> {

@@ -23,6 +23,7 @@ mod traction;
 
 pub use conjunction::LubricatedRace;
 pub use constants::{Effects, Film, Limits, Reference};
+#[doc(hidden)]
 pub use in_contact::Oiled;
 pub(crate) use in_contact::{FilmEffect, FilmNumbers};
 pub use now::FilmNow;

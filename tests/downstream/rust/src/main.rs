@@ -7,12 +7,12 @@ use std::ops::ControlFlow;
 use std::process::Command;
 use std::{env, thread};
 
+use ballrace::InstructionSet;
 use ballrace::integrate::{DORMAND_PRINCE, Options, System, Tolerance, integrate};
 use ballrace::scene::presets::{self, Arrangement};
 use ballrace::scene::{
     Defect, Drive, Friction, Load, Lubricant, RingName, Row, Spin, Surface, Texture,
 };
-use ballrace::simd::InstructionSet;
 use ballrace::{
     Case, FeatureOptions, Model, Run, Scene, Simulation, Start, campaign, compile, dynamics,
     equilibrium, simulate, simulate_with_progress, start, stiffness,
@@ -176,10 +176,8 @@ fn use_all() -> Result<(), Box<dyn Error>> {
         Err(error) => println!("{}", told(&error)),
     }
 
-    let cases = [-1.0, 1.0].map(|axial| Case {
-        scene: presets::wheel_bearing(3000.0 * axial),
-        run: run.clone(),
-    });
+    let cases =
+        [-1.0, 1.0].map(|axial| Case::new(presets::wheel_bearing(3000.0 * axial), run.clone()));
     let options = FeatureOptions::default();
     for outcome in campaign(cases, 2, &options, &mut |_| ControlFlow::Continue(()))? {
         println!("{} features", outcome.result?.features.len());

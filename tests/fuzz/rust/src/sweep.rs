@@ -46,10 +46,7 @@ pub fn check(text: &str) {
     let run = short(run);
     let rows = rows(&sweep);
     let cases = rows.iter().filter_map(|row| decided(base.with(row)));
-    let run_of = |scene: Scene| Case {
-        scene,
-        run: run.clone(),
-    };
+    let run_of = |scene: Scene| Case::new(scene, run.clone());
     outcomes(cases.map(run_of).collect(), &options);
 }
 
