@@ -6,6 +6,7 @@ import contextlib
 import importlib.util
 import json
 import os
+import platform
 import re
 import stat
 import subprocess
@@ -17,7 +18,7 @@ import numpy as np
 import pytest
 
 import ballrace as br
-from ballrace.cli import main
+from ballrace.cli import about, main
 
 
 @pytest.fixture(autouse=True)
@@ -319,6 +320,39 @@ def test_doctor(capsys: pytest.CaptureFixture[str]) -> None:
     text = capsys.readouterr().out
     assert "vector instructions: " in text
     assert text.endswith("all is well\n")
+
+
+@pytest.mark.parametrize(
+    ("processor", "compatible", "told"),
+    [
+        (("x86_64", ["baseline"]), False, True),
+        (("AMD64", ["baseline"]), False, True),
+        (("x86_64", ["baseline"]), True, False),
+        (("x86_64", ["x86-64-v3", "baseline"]), False, False),
+        (("arm64", ["baseline"]), False, False),
+    ],
+)
+def test_doctor_tells_that_polars_needs_rtcompat(
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    processor: tuple[str, list[str]],
+    compatible: bool,
+    told: bool,
+) -> None:
+    """Truth: the usual build of polars wants AVX2 on x86-64; its module `_polars_runtime_compat` does not."""
+    machine, sets = processor
+    found = importlib.util.find_spec
+
+    def find_spec(name: str) -> object:
+        if name == "_polars_runtime_compat":
+            return object() if compatible else None
+        return found(name)
+
+    monkeypatch.setattr(about._core, "instruction_sets", lambda: sets)
+    monkeypatch.setattr(platform, "machine", lambda: machine)
+    monkeypatch.setattr(importlib.util, "find_spec", find_spec)
+    assert main(["doctor"]) == int(told)
+    assert ("polars[rtcompat]" in capsys.readouterr().out) == told
 
 
 def test_report_of_a_file_and_a_folder(

@@ -76,6 +76,14 @@ def _schema(options: argparse.Namespace) -> None:
     print(json.dumps(schema(), indent=2))
 
 
+def _lacks_rtcompat() -> bool:
+    """Whether polars is a build for instructions (AVX2, FMA) that this processor does not have."""
+    on_x86 = platform.machine().lower() in {"x86_64", "amd64"}
+    if not on_x86 or "x86-64-v3" in _core.instruction_sets():
+        return False
+    return importlib.util.find_spec("_polars_runtime_compat") is None
+
+
 def _doctor(options: argparse.Namespace) -> None:
     del options
     print(f"ballrace {version()}, Python {platform.python_version()}, {platform.platform()}")
@@ -90,10 +98,16 @@ def _doctor(options: argparse.Namespace) -> None:
         )
         lines.append([name, told])
     print_table(["library", "version"], lines)
+    unfit = _lacks_rtcompat()
+    if unfit:
+        print(
+            "polars: built for AVX2, which this processor lacks, so tables may end the process: "
+            'pip install "polars[rtcompat]>=1.34"'
+        )
     out = simulate(deep_groove_6205(), duration=0.002)
     distrust = out.provenance.distrust
     print(f"vector instructions: {out.provenance.simd}" + (f" ({distrust})" if distrust else ""))
     print(f"a run of 2 ms took {1e3 * out.stats.wall_time:.0f} ms, {out.stats.nfev} evaluations")
-    if sys.version_info < (3, 11) or distrust:
+    if sys.version_info < (3, 11) or distrust or unfit:
         raise BallraceError("something of the above is not as it should be")
     print("all is well")
