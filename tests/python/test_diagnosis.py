@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import pickle
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,6 +18,7 @@ import pytest
 import ballrace as br
 from ballrace.diagnosis.null import largest_z, null_orders, probability
 from ballrace.diagnosis.severity import zone_of
+from ballrace.diagnosis.verdict import Verdict, decided
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -199,6 +201,19 @@ def test_faint_blows_of_a_ball_are_damage() -> None:
     """Neither the load zone nor waves of a race have a ball's rate, so that its blows need no size."""
     x = noise(blows(RATES["ball"], SIDEBANDS["ball"]), 0.05)
     assert judged(0.1 * x / x.std(), unit="m/s^2").parts == ("ball",)
+
+
+def test_what_is_likelier_of_damage_is_not_cleared() -> None:
+    """Of noise nothing stands out; a ratio of 1 : 20 leaves it open all the same, one of 1 : 2 does not."""
+    evidence = judged(noise(np.zeros(24_000), 1.0)).evidence
+
+    def told(ratio: float) -> Verdict:
+        given = evidence | {"ball": replace(evidence["ball"], ratio=ratio)}
+        return decided(given, (), 0.01, limits=None, silent=False, blows=None, wanting=())
+
+    assert told(0.5).verdict == "healthy"
+    assert told(0.05).verdict == "undecided"
+    assert "20 times likelier with the ball damaged" in told(0.05).why
 
 
 def test_lines_between_both_limits_leave_it_open() -> None:
