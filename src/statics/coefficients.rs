@@ -42,7 +42,7 @@ pub struct DynamicCoefficients {
 ///
 /// ```
 /// use ballrace::scene::presets;
-/// let found = ballrace::dynamic_coefficients(&presets::deep_groove_6205(500.0, 200.0, 1800.0), 4)?;
+/// let found = ballrace::dynamic_coefficients(&presets::deep_groove_6205(500.0, 0.0, 1800.0), 4)?;
 /// let [x, y] = [0, 1].map(|i| found.stiffness[i][i]);
 /// // Loaded along −y, and stiffest there; damped in all directions.
 /// assert!(y > x && found.damping[0][0] > 0.0);
