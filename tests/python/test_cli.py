@@ -18,7 +18,8 @@ import numpy as np
 import pytest
 
 import ballrace as br
-from ballrace.cli import about, main
+from ballrace import _core
+from ballrace.cli import main
 
 
 @pytest.fixture(autouse=True)
@@ -348,7 +349,7 @@ def test_doctor_tells_that_polars_needs_rtcompat(
             return object() if compatible else None
         return found(name)
 
-    monkeypatch.setattr(about._core, "instruction_sets", lambda: sets)
+    monkeypatch.setattr(_core, "instruction_sets", lambda: sets)
     monkeypatch.setattr(platform, "machine", lambda: machine)
     monkeypatch.setattr(importlib.util, "find_spec", find_spec)
     assert main(["doctor"]) == int(told)

@@ -208,7 +208,7 @@ def test_what_is_likelier_of_damage_is_not_cleared() -> None:
     evidence = judged(noise(np.zeros(24_000), 1.0)).evidence
 
     def told(ratio: float) -> Verdict:
-        given = evidence | {"ball": replace(evidence["ball"], ratio=ratio)}
+        given = dict(evidence) | {"ball": replace(evidence["ball"], ratio=ratio)}
         return decided(given, (), 0.01, limits=None, silent=False, blows=None, wanting=())
 
     assert told(0.5).verdict == "healthy"

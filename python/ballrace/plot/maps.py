@@ -214,7 +214,7 @@ def _fault_orders(
             )  # fmt: skip
 
 
-def _angle(of: Given, column: str) -> ArrayLike:
+def _angle(of: object, column: str) -> ArrayLike:
     """Return an angle of a run or a recording; where the outer ring turns, that of the inner ring against it."""
     if not isinstance(of, Mapping):
         raise SceneError(
@@ -224,7 +224,7 @@ def _angle(of: Given, column: str) -> ArrayLike:
     scene = scene_of(of)
     if scene is None or scene.outer_speed is None or column != "inner.theta":
         return found
-    against = np.asarray(found) - np.asarray(of["outer.theta"])
+    against: NDArray[np.float64] = np.asarray(found) - np.asarray(of["outer.theta"])
     return against if against[-1] >= against[0] else -against
 
 
