@@ -1,7 +1,7 @@
 //! From a user's scene to its model, in two passes.
 //!
 //! 1. The *healthy* bearing at rest under its largest loads says where defects lie that are placed by contacts, what steep walls
-//!    unload, and whether pits are smaller than their contacts ([`place`]).
+//!    unload, and whether pits are smaller than their contacts ([`place()`]).
 //! 2. The bearing with its defects at rest, without oil and with round races, says over which widths waves are averaged, and how thick
 //!    films are (`loads`).
 //!
