@@ -204,6 +204,13 @@ def scenes() -> list[s.Scene]:
             {"drive": s.SpeedDrive(s.Sine(mean=9.0, amplitude=1.0, frequency=2.0, phase=0.0))}
         ),
         full.replace({"drive": s.SpeedDrive(100.0), "contact.slices": s.AccurateSlices(1e-5)}),
+        full.replace(
+            {
+                "drive": s.SpeedDrive(100.0),
+                "outer_ring.support.theta": None,
+                "outer_speed": s.Ramp(from_=1.0, to=-9.0, start=0.0, end=0.1),
+            }
+        ),
         shaped(full),
         lubricated(full),
         leaning(full),

@@ -68,5 +68,6 @@ def _rates(name: str) -> str:
     known = next((found for start, found in _KNOWN.items() if name.startswith(start)), None)
     if known is None:
         return "; br.frequencies.orders has its fault frequencies by number and diameter of its rolling elements"
-    told = ", ".join(f"{key.upper()} {value:.4g}" for key, value in vars(known).items())
+    lines = ("ftf", "bpfo", "bpfi", "bsf")
+    told = ", ".join(f"{line.upper()} {getattr(known, line):.4g}" for line in lines)
     return f"; its fault frequencies are {told} times the shaft's"
