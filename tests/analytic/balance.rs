@@ -102,18 +102,28 @@ fn left(scene: &Scene, found: &Equilibrium) -> (f64, f64) {
     let mut largest = loads.fold(0.0, f64::max);
     // The presets' rings are free along x, y and z.
     let ring = |i: usize| sum[i].hypot(sum[i + 1]).hypot(sum[i + 2]);
-    let mut worst = ring(0).max(ring(4));
-    for (j, ball) in found.balls.iter().enumerate() {
-        let q = 4 * (2 + j);
+    for ball in &found.balls {
         largest = largest.max(ball.outer.load).max(ball.inner.load);
-        let orbit = orbits[j];
-        let mass =
-            Material::default().density * PI / 6.0 * scene.rows[ball.row].ball_diameter.powi(3);
-        let radius = y[q].hypot(y[q + 1]);
-        let outwards = (sum[q] * y[q] + sum[q + 1] * y[q + 1]) / radius;
-        let radial = outwards + mass * orbit * orbit * radius;
-        worst = worst.max(radial.hypot(sum[q + 2]));
     }
+    let worst = |orbits: &[f64]| {
+        let mut worst = ring(0).max(ring(4));
+        for ((j, ball), orbit) in found.balls.iter().enumerate().zip(orbits) {
+            let q = 4 * (2 + j);
+            let mass =
+                Material::default().density * PI / 6.0 * scene.rows[ball.row].ball_diameter.powi(3);
+            let radius = y[q].hypot(y[q + 1]);
+            let outwards = (sum[q] * y[q] + sum[q + 1] * y[q + 1]) / radius;
+            let radial = outwards + mass * orbit * orbit * radius;
+            worst = worst.max(radial.hypot(sum[q + 2]));
+        }
+        worst
+    };
+    // Where centrifugal forces are small beside the loads, balls roll as at the nominal contact angle; else as a run begins.
+    let rolling = found
+        .balls
+        .iter()
+        .map(|ball| model.rolling_speeds(ball.row).0);
+    let worst = worst(&orbits).min(worst(&rolling.collect::<Vec<f64>>()));
     (worst, largest)
 }
 
