@@ -246,6 +246,8 @@ def test_rest_is_a_zero_of_the_equations(document: object) -> str:
         assert ((load > 0.0) == (pressure > 0.0)).all()
     stiff = decided(lambda: br.stiffness(scene))
     loads = decided(lambda: br.load_distribution(scene, positions=1))
-    if isinstance(loads, br.LoadDistribution):
-        alike(loads.outer_load[0], found.outer_load, 1e-3, "first position")
+    # Which leaves defects out; a healthy bearing may be one that does not stand.
+    healthy = decided(lambda: br.equilibrium(scene.replace({"defects": {}})))
+    if isinstance(loads, br.LoadDistribution) and isinstance(healthy, br.Equilibrium):
+        alike(loads.outer_load[0], healthy.outer_load, 1e-3, "first position")
     return f"{type(stiff).__name__}, {type(loads).__name__}"

@@ -90,7 +90,7 @@ def windows(
     }
     return pl.DataFrame(
         {
-            **{name: _pieces(x, length, hop) for name, x in samples.columns.items()},
+            **{name: _pieces(name, x, length, hop) for name, x in samples.columns.items()},
             "start": starts / samples.fs,
             "label": pl.Series([origin.label if label is None else label] * rows, dtype=pl.String),
             "bearing_id": pl.Series([bearing_id] * rows, dtype=kind),
@@ -117,9 +117,12 @@ def _check_labels(label: object, bearing_id: object) -> None:
         raise SceneError("bearing_id", repr(bearing_id), "text, a whole number, or None")
 
 
-def _pieces(x: NDArray[np.float64], length: int, hop: int) -> pl.Series:
+def _pieces(name: str, x: NDArray[np.float64], length: int, hop: int) -> pl.Series:
     from .._polars import pl
 
+    largest = np.abs(x).max(initial=0.0, where=np.isfinite(x))
+    if largest > np.finfo(np.float32).max:
+        raise SceneError(name, f"{largest:.3g}", "a signal within 3.4e38: windows are float32")
     view = np.lib.stride_tricks.sliding_window_view(x, length)[::hop]
     return pl.Series(values=view.astype(np.float32))
 
