@@ -369,6 +369,9 @@ class Simulation:
         """
         if not hasattr(loads, "items"):
             raise SceneError("loads", repr(loads), "sizes by their paths")
+        for path, size in loads.items():
+            if not math.isfinite(real(size)):
+                raise SceneError(checked_path(path), repr(size), "a finite number [N], [N m]")
         self._core.set_loads([(checked_path(path), real(size)) for path, size in loads.items()])
 
     def finish(self, *, progress: bool | Callable[[float], object] | None = None) -> Signals:

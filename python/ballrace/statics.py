@@ -359,7 +359,8 @@ class LoadDistribution:
         Moments about x and y that balls and loads put on the rings [N m].
     outer_equivalent, inner_equivalent : ndarray, shape (n_rows,)
         Equivalent loads of the races [N]: the load that, on every ball all the time, tires the race as much. The
-        inner ring turns, (mean of Q³)^(1/3); the outer ring stands, (mean of Q^(10/3))^(3/10), after ISO/TS 16281.
+        inner ring turns, (mean of Q³)^(1/3); the outer ring stands, (mean of Q^(10/3))^(3/10), after ISO/TS 16281;
+        where ``outer_speed`` turns the outer ring, the first is its too, the second of an inner ring that stands.
     warnings : tuple of str
         What was warned of.
     """

@@ -164,7 +164,7 @@ impl Scene {
             None => {
                 let allowed =
                     "loads.NAME.force, moments.NAME.moment or drive.torque.value of the scene";
-                Err(Error::scene(path, path, allowed))
+                Err(Error::scene(path, "not there", allowed))
             }
         }
     }

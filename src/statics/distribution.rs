@@ -28,7 +28,8 @@ pub struct LoadDistribution {
 /// Loads \[N\] that tire the races of a row as much, acting on every ball all the time.
 ///
 /// The inner ring turns under the load and every place of it meets every load, (mean of Q³)^{1/3}; the outer ring
-/// stands, and its most loaded places decide, (mean of Q^{10/3})^{3/10}. ISO/TS 16281, section on ball bearings, and
+/// stands, and its most loaded places decide, (mean of Q^{10/3})^{3/10}. Where [`Scene::outer_speed`] turns the outer ring, the
+/// first is its mean too, and the second that of an inner ring that stands. ISO/TS 16281, section on ball bearings, and
 /// T. A. Harris, *Rolling Bearing Analysis*, ch. 18, after G. Lundberg, A. Palmgren 1947.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -66,10 +67,11 @@ pub fn load_distribution(scene: &Scene, positions: usize) -> Result<LoadDistribu
             Ok(found)
         })
         .collect::<Result<Vec<_>>>()?;
+    let [outer, inner] = exponents(&scene);
     let equivalent = (0..scene.rows.len())
         .map(|row| EquivalentLoads {
-            outer: mean(&equilibria, row, STANDING, |ball| ball.outer.load),
-            inner: mean(&equilibria, row, TURNING, |ball| ball.inner.load),
+            outer: mean(&equilibria, row, outer, |ball| ball.outer.load),
+            inner: mean(&equilibria, row, inner, |ball| ball.inner.load),
         })
         .collect();
     Ok(LoadDistribution {
@@ -77,6 +79,18 @@ pub fn load_distribution(scene: &Scene, positions: usize) -> Result<LoadDistribu
         equilibria,
         equivalent,
     })
+}
+
+/// Exponents of the outer and the inner race. Where no speed of the outer ring says otherwise, the inner ring turns under the load.
+fn exponents(scene: &Scene) -> [f64; 2] {
+    let [outer, inner] = scene.ring_speeds(0.0);
+    if outer == 0.0 {
+        [STANDING, TURNING]
+    } else if inner == 0.0 {
+        [TURNING, STANDING]
+    } else {
+        [TURNING; 2]
+    }
 }
 
 /// The healthy bearing, and how far its cage turns for so many positions per ball pitch \[rad\]: over a pitch where all balls are alike,

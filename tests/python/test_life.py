@@ -41,6 +41,10 @@ def test_loads_that_are_known_are_taken() -> None:
         {"loads.radial.force": Sine(mean=1400.0, amplitude=100.0, frequency=2.0, phase=0.0)}
     )
     assert br.rating_life(swells, around=twice) == br.rating_life(swells)
+    other = br.load_distribution(br.bearing("6206", radial_load=500.0))
+    for wrong in (other, other.outer_load):
+        with pytest.raises(br.SceneError, match=r"^around = "):
+            br.rating_life(br.presets.motor(), around=wrong)  # type: ignore[arg-type]
 
 
 def test_equivalent_load_of_iso_281() -> None:

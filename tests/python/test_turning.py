@@ -143,3 +143,15 @@ def test_a_torque_may_turn_the_inner_ring_while_the_outer_is_driven() -> None:
     # The balls drag the inner ring after the outer.
     assert out["inner.omega"][-1] > -50.0
     assert relative_speed(scene) is None
+
+
+def test_the_ring_that_turns_meets_every_load() -> None:
+    """Analytic: ISO/TS 16281, means of order 3 of a ring that turns under the load, of 10/3 of one that stands."""
+    for inner, outer, orders in ((0.0, 1800.0, (3.0, 10.0 / 3.0)), (900.0, -900.0, (3.0, 3.0))):
+        found = br.load_distribution(
+            br.bearing("6205", radial_load=800.0, speed_rpm=inner, outer_rpm=outer)
+        )
+        for race, order in zip(("outer", "inner"), orders, strict=True):
+            loads = getattr(found, f"{race}_load")
+            mean = np.mean(loads**order) ** (1.0 / order)
+            assert getattr(found, f"{race}_equivalent") == pytest.approx([mean], rel=1e-9)

@@ -112,7 +112,7 @@ def rating_life(
     Parameters
     ----------
     scene : Scene
-        The scene. The inner ring turns against the load.
+        The scene. The inner ring turns against the load, or the outer one where the scene says so.
     rating : float, optional
         Basic dynamic load rating C of the whole bearing [N], as its maker prints it. By default that of the
         catalogue if the scene's name is there with the same balls, else by the formula of ISO 281.
@@ -121,8 +121,8 @@ def rating_life(
         ``"normal"``, ``"slight"`` and ``"typical"`` contamination to ``"severe"`` and ``"very severe"``, or e_C
         itself, 0 to 1. It counts where the scene has an oil.
     around : LoadDistribution, optional
-        What :func:`load_distribution` says of the scene, where it is there: all but a tenth of the time is its. It
-        counts where loads and speed are constant.
+        The :func:`load_distribution` of the scene where you have it already: it takes nine tenths of the time. It
+        is used where loads and speeds are constant.
 
     Returns
     -------
@@ -166,6 +166,7 @@ def rating_life(
     ratings = [
         race_ratings(row, scale * own) for row, own in zip(healthy.rows, formulas, strict=True)
     ]
+    _check_around(around, healthy)
     cycle = _by_turns(duty_cycle(healthy))
     known = around if [scene for _, scene in cycle] == [healthy] else None
     with warnings.catch_warnings():
@@ -209,6 +210,17 @@ def rating_life(
         modified=_modified(states),
         factor=hardest.factor,
     )
+
+
+def _check_around(around: object, scene: Scene) -> None:
+    """Refuse what is no distribution of as many balls."""
+    balls = sum(row.ball_count for row in scene.rows)
+    if isinstance(around, LoadDistribution):
+        if (len(around.outer_equivalent), around.ball.size) != (len(scene.rows), balls):
+            told = f"one of {around.ball.size} balls"
+            raise SceneError("around", told, f"that of this scene, which has {balls}")
+    elif around is not None:
+        raise SceneError("around", f"a {type(around).__name__}", "a LoadDistribution, or None")
 
 
 def _by_turns(cycle: list[tuple[float, Scene]]) -> list[tuple[float, Scene]]:

@@ -17,6 +17,7 @@ from .._interrupt import answers_ctrl_c
 from .._numbers import real_row
 from ..errors import SceneError
 from .checks import checked_band, checked_length, given_signal
+from .pieces import transforms
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -81,12 +82,12 @@ def cyclic_coherence(
     if samples < _SHORTEST:
         raise SceneError("length", str(samples), f"at least {_SHORTEST} samples")
     signal = signal - signal.mean()
-    here = _pieces(signal, samples)
+    here = transforms(signal, samples)
     power = np.mean(np.abs(here) ** 2, axis=0)
     turns = np.arange(signal.size) / fs
     value = np.empty((wanted.size, power.size))
     for row, rate in zip(value, wanted, strict=True):
-        below = _pieces(signal * np.exp(2j * np.pi * rate * turns), samples)[:, : power.size]
+        below = transforms(signal * np.exp(2j * np.pi * rate * turns), samples)[:, : power.size]
         both = np.abs(np.mean(here * below.conj(), axis=0)) ** 2
         least = power * np.mean(np.abs(below) ** 2, axis=0)
         row[:] = np.divide(both, least, out=np.zeros_like(both), where=least > 0.0)
@@ -137,19 +138,6 @@ def improved_envelope_spectrum(
         raise SceneError("band", repr(band), f"wide enough for frequencies {f[1]:g} Hz apart")
     mean: NDArray[np.float64] = value[:, inside].mean(axis=1)
     return mean
-
-
-def _pieces(
-    x: NDArray[np.float64] | NDArray[np.complex128], samples: int
-) -> NDArray[np.complex128]:
-    """Return the transforms of pieces under a Hann window, each half over the next one."""
-    from scipy.fft import fft, rfft
-    from scipy.signal.windows import hann
-
-    cut = np.lib.stride_tricks.sliding_window_view(x, samples)[:: max(samples // 2, 1)]
-    windowed = cut * hann(samples, sym=False)
-    found: NDArray[np.complex128] = fft(windowed) if np.iscomplexobj(x) else rfft(windowed)
-    return found
 
 
 def _checked_rates(rates: ArrayLike, fs: float) -> NDArray[np.float64]:

@@ -22,6 +22,7 @@ from .._interrupt import answers_ctrl_c
 from .._numbers import real
 from ..errors import SceneError
 from .checks import checked_length, given_signal
+from .pieces import transforms
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -208,10 +209,7 @@ def _by_chance(size: int, samples: int) -> NDArray[np.float64]:
 
 def _by_pieces(x: NDArray[np.float64], samples: int) -> NDArray[np.float64]:
     """Return the kurtosis at the frequencies between 0 and fs/2 of pieces of a signal."""
-    from scipy.signal.windows import hann
-
-    cut = np.lib.stride_tricks.sliding_window_view(x, samples)[:: samples // 2]
-    power = np.abs(np.fft.rfft(cut * hann(samples, sym=False))[:, 1 : (samples + 1) // 2]) ** 2
+    power = np.abs(transforms(x, samples)[:, 1 : (samples + 1) // 2]) ** 2
     mean = power.mean(axis=0)
     least = _SILENT * float(mean.max(initial=0.0))
     square = np.mean(power**2, axis=0)
