@@ -39,7 +39,8 @@ fn bounds(method: Method) -> MethodBounds {
             rings: LIGHTEST,
         },
         // With contact stiffness in its matrix stable to 0.88 with half a percent of damping, to 1.5 with five. Undamped an
-        // oscillation grows by 5.3e-3 (ωh)⁴ a radian, which any damping of note takes away.
+        // oscillation grows by 5.3e-3 (ωh)⁴ a radian, which any damping of note takes away; at 0.9 by 5.5e-3, half as much again
+        // (`benches/stability_region.py`).
         Method::Adams => MethodBounds {
             oscillation: 0.9,
             lag: (5.3e-3, 4.0),
