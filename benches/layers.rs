@@ -151,12 +151,12 @@ fn leaning_rings(c: &mut Criterion) {
         }),
     ] {
         let (parallel, y) = loaded(&scene);
-        let free = Some(Mount::Free);
+        let free = || Some(Mount::Free);
         let inner = &mut scene.inner_ring.support;
-        (inner.tilt_x, inner.tilt_y) = (free, free);
+        (inner.tilt_x, inner.tilt_y) = (free(), free());
         let one = compile(&scene).unwrap();
         let outer = &mut scene.outer_ring.support;
-        (outer.tilt_x, outer.tilt_y) = (free, free);
+        (outer.tilt_x, outer.tilt_y) = (free(), free());
         let leaning = compile(&scene).unwrap();
         let (upright, tilted) = (upright(&y), turned(&parallel, &y, &leaning));
         for instructions in InstructionSet::available() {

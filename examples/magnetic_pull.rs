@@ -52,7 +52,7 @@ fn motor() -> Scene {
         damping: 300.0,
     };
     let support = &mut scene.outer_ring.support;
-    (support.x, support.y) = (Some(mount), Some(mount));
+    (support.x, support.y) = (Some(mount.clone()), Some(mount));
     scene
 }
 

@@ -21,7 +21,7 @@ fn bearing() -> Scene {
         stiffness: 1e8,
         damping: 300.0,
     });
-    (scene.outer_ring.support.x, scene.outer_ring.support.y) = (housing, housing);
+    (scene.outer_ring.support.x, scene.outer_ring.support.y) = (housing.clone(), housing);
     let down = Load::new(RingName::Inner, [0.0, -1.0, 0.0], 500.0);
     scene.loads.insert("down".to_owned(), down);
     let motion = Probe::Motion {

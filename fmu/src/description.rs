@@ -81,17 +81,21 @@ fn of(reference: usize, variable: &Variable) -> String {
     let (causality, start) = match &variable.source {
         Source::Time => (r#"causality="independent" variability="continuous""#, None),
         Source::Field {
-            role: Role::Load | Role::Speed,
+            role: Role::Load | Role::Speed | Role::Place,
             start,
             ..
-        } => (r#"causality="input" variability="continuous""#, Some(start)),
+        } => (
+            r#"causality="input" variability="continuous""#,
+            Some(*start),
+        ),
+        Source::Rate => (r#"causality="input" variability="continuous""#, Some(0.0)),
         Source::Field {
             role: Role::Parameter,
             start,
             ..
         } => (
             r#"causality="parameter" variability="tunable""#,
-            Some(start),
+            Some(*start),
         ),
         _ => (r#"causality="output" variability="continuous""#, None),
     };

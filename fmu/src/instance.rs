@@ -43,8 +43,18 @@ pub struct Instance {
     new: BTreeSet<usize>,
     /// The importer's time at the simulation's t = 0 \[s\].
     start: f64,
+    led: Led,
     simulation: Option<Simulation>,
     answers: Answers,
+}
+
+/// How rings whose motions are given were led.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+struct Led {
+    /// Whether any of them has been moved.
+    moves: bool,
+    /// Their speeds at the beginning of the last step, by the references of their places, and its length \[s\].
+    before: Option<(BTreeMap<usize, f64>, f64)>,
 }
 
 /// What was computed of the state where the simulation stands.
@@ -64,6 +74,7 @@ pub struct State {
     values: BTreeMap<usize, f64>,
     new: BTreeSet<usize>,
     start: f64,
+    led: Led,
     snapshot: Option<Snapshot>,
 }
 
@@ -96,6 +107,7 @@ impl Instance {
             values: BTreeMap::new(),
             new: BTreeSet::new(),
             start: 0.0,
+            led: Led::default(),
             simulation: None,
             answers: Answers::default(),
         })
@@ -106,6 +118,7 @@ impl Instance {
         self.phase = Phase::Instantiated;
         self.values.clear();
         self.new.clear();
+        self.led = Led::default();
         self.simulation = None;
         self.answers = Answers::default();
     }
@@ -143,11 +156,50 @@ impl Instance {
             ));
         }
         let until = (from - start + step).max(simulation.time());
+        if step > 0.0 && self.led.moves {
+            self.lead(step, until)?;
+        }
+        let simulation = self.simulation()?;
         let done = simulation.advance_to(until);
         // Nobody reads the record.
         simulation.take_block();
         self.answers = Answers::default();
         done.map_err(|e| e.to_string())
+    }
+
+    /// Leads rings whose motions are given over a step, to where their places and speeds at its beginning point: with the acceleration
+    /// since the step before, as far as there was one.
+    fn lead(&mut self, step: f64, until: f64) -> Told<()> {
+        let value = |at: usize| self.values.get(&at).copied();
+        let places = self.table.list.iter().enumerate();
+        let places = places.filter_map(|(at, variable)| match &variable.source {
+            Source::Field {
+                path,
+                start,
+                role: Role::Place,
+            } => Some((at, path.clone(), *start)),
+            _ => None,
+        });
+        let mut rates = BTreeMap::new();
+        let mut motions = Vec::new();
+        for (at, path, start) in places {
+            let (place, rate) = (value(at).unwrap_or(start), value(at + 1).unwrap_or(0.0));
+            let before = self.led.before.as_ref();
+            let since = before.and_then(|(rates, step)| Some((rate - rates.get(&at)?) / step));
+            let faster = since.unwrap_or(0.0) * step;
+            motions.push((path, [place + step * (rate + 0.5 * faster), rate + faster]));
+            rates.insert(at, rate);
+        }
+        let motions: Vec<_> = motions
+            .iter()
+            .map(|(path, to)| (path.as_str(), *to))
+            .collect();
+        let simulation = self.simulation()?;
+        simulation
+            .set_motions(&motions, until)
+            .map_err(|e| e.to_string())?;
+        self.led.before = Some((rates, step));
+        Ok(())
     }
 
     /// The importer's time \[s\].
@@ -164,8 +216,10 @@ impl Instance {
     /// Sets an input or a parameter.
     pub fn set(&mut self, reference: u32, value: f64) -> Told<()> {
         let variable = self.variable(reference)?;
-        let Source::Field { start, .. } = &variable.source else {
-            return Err(format!("{} is neither input nor parameter", variable.name));
+        let (start, leads, is_rate) = match &variable.source {
+            Source::Field { start, role, .. } => (*start, *role == Role::Place, false),
+            Source::Rate => (0.0, true, true),
+            _ => return Err(format!("{} is neither input nor parameter", variable.name)),
         };
         if !value.is_finite() {
             return Err(format!("{} = {value}: a finite number", variable.name));
@@ -174,15 +228,19 @@ impl Instance {
             return Err("nothing can be set after fmi3Terminate".to_owned());
         }
         let reference = reference as usize;
-        let before = self.values.get(&reference).unwrap_or(start);
+        let before = self.values.get(&reference).copied().unwrap_or(start);
         if before.to_bits() == value.to_bits() {
             return Ok(());
         }
         self.values.insert(reference, value);
-        if self.phase == Phase::Step {
-            self.new.insert(reference);
-        } else {
-            self.simulation = None;
+        match self.phase {
+            Phase::Step if leads => self.led.moves = true,
+            Phase::Step => {
+                self.new.insert(reference);
+            }
+            // At the start a ring stands where it is given to be, whatever its speed will be.
+            _ if is_rate => self.led.moves = true,
+            _ => self.simulation = None,
         }
         self.answers = Answers::default();
         Ok(())
@@ -195,6 +253,9 @@ impl Instance {
             Source::Time => values.push(time),
             Source::Field { start, .. } => {
                 values.push(*self.values.get(&(reference as usize)).unwrap_or(start));
+            }
+            Source::Rate => {
+                values.push(*self.values.get(&(reference as usize)).unwrap_or(&0.0));
             }
             Source::Motion(body, component) => {
                 let (body, component) = (*body, *component);
@@ -287,6 +348,7 @@ impl Instance {
             values: self.values.clone(),
             new: self.new.clone(),
             start: self.start,
+            led: self.led.clone(),
             snapshot: self.simulation.as_mut().map(Simulation::snapshot),
         }
     }
@@ -302,6 +364,7 @@ impl Instance {
         (self.phase, self.start) = (state.phase, state.start);
         self.values.clone_from(&state.values);
         self.new.clone_from(&state.new);
+        self.led.clone_from(&state.led);
         self.answers = Answers::default();
         Ok(())
     }

@@ -35,6 +35,8 @@ pub enum Source {
         start: f64,
         role: Role,
     },
+    /// The speed of a ring whose place is the variable before: what a motion that is given from outside has beside it.
+    Rate,
     /// How a ring moves.
     Motion(BodyId, Component),
     /// Part of what the balls put on a ring.
@@ -50,6 +52,8 @@ pub enum Role {
     Load,
     /// The speed of the drive, an input: the scene is compiled anew where it changes.
     Speed,
+    /// The place of a ring whose motion is given, an input that is followed from step to step.
+    Place,
     /// A tunable parameter: likewise.
     Parameter,
 }
@@ -132,7 +136,24 @@ fn fields(scene: &Scene) -> Vec<Variable> {
             source: Source::Field { path, start, role },
         }
     };
-    numbers.into_iter().map(of).collect()
+    let fields = numbers.into_iter().map(of);
+    fields.flat_map(with_rate).collect()
+}
+
+/// A field, and behind the place of a ring whose motion is given its speed.
+fn with_rate(field: Variable) -> Vec<Variable> {
+    let rate = match field.source {
+        Source::Field {
+            role: Role::Place, ..
+        } => Some(Variable {
+            name: format!("{}.rate", field.name),
+            about: "speed of the ring whose place is given".to_owned(),
+            unit: if field.unit == "m" { "m/s" } else { "rad/s" },
+            source: Source::Rate,
+        }),
+        _ => None,
+    };
+    [Some(field), rate].into_iter().flatten().collect()
 }
 
 fn collect(value: &Value, path: String, found: &mut Vec<(String, f64)>) {
@@ -155,7 +176,7 @@ fn collect(value: &Value, path: String, found: &mut Vec<(String, f64)>) {
     }
 }
 
-/// Fields that are inputs, as they stay the same in time: sizes of loads and moments, and the drive.
+/// Fields that are inputs, as they stay the same in time: sizes of loads and moments, the drive, and places that rings are given.
 fn inputs(scene: &Scene) -> Vec<(String, Role, &'static str)> {
     let constant = |size: &TimeFunction| matches!(size, TimeFunction::Constant(_));
     let loads = scene.loads.iter().filter(|(_, load)| constant(&load.force));
@@ -167,7 +188,28 @@ fn inputs(scene: &Scene) -> Vec<(String, Role, &'static str)> {
         Drive::Speed(_) => ("drive.speed".to_owned(), Role::Speed, "rad/s"),
         _ => ("drive.torque.value".to_owned(), Role::Load, "N.m"),
     };
-    loads.chain(moments).chain([drive]).collect()
+    let rings = [
+        ("outer_ring", &scene.outer_ring.support),
+        ("inner_ring", &scene.inner_ring.support),
+    ];
+    let places = rings.into_iter().flat_map(|(ring, support)| {
+        let mounts = [
+            ("x", &support.x, "m"),
+            ("y", &support.y, "m"),
+            ("z", &support.z, "m"),
+            ("tilt_x", &support.tilt_x, "rad"),
+            ("tilt_y", &support.tilt_y, "rad"),
+        ];
+        mounts
+            .into_iter()
+            .filter_map(move |(field, mount, unit)| match mount {
+                Some(Mount::Given(place)) if constant(place) => {
+                    Some((format!("{ring}.support.{field}.given"), Role::Place, unit))
+                }
+                _ => None,
+            })
+    });
+    loads.chain(moments).chain([drive]).chain(places).collect()
 }
 
 /// The directions in which forces move a ring.
@@ -177,7 +219,8 @@ fn moves(scene: &Scene, race: Race) -> [bool; 6] {
         Race::Inner => (&scene.inner_ring.support, Mount::Free),
     };
     let ([x, y, z, theta], [about_x, about_y]) = (support.mounts(absent), support.tilt_mounts());
-    let mut moves = [x, y, z, about_x, about_y, theta].map(|mount| mount != Mount::Fixed);
+    let is_moved = |mount| matches!(mount, Mount::Free | Mount::Spring { .. });
+    let mut moves = [x, y, z, about_x, about_y, theta].map(is_moved);
     moves[5] &= race == Race::Outer || !matches!(scene.drive, Drive::Speed(_));
     moves
 }

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .errors import SceneError
-from .scene import Ramp, Sine, SpeedDrive, Table
+from .scene import Ramp, Sine, SpeedDrive, Spline, Table
+from .scene.time import values_at
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -50,7 +51,7 @@ def duty_cycle(scene: Scene) -> list[tuple[float, Scene]]:
     if not varying:
         return [(1.0, scene)]
     times, shares = _nodes(varying)
-    values = {path: _at(function, times) for path, function in varying.items()}
+    values = {path: values_at(function, times) for path, function in varying.items()}
     together: dict[tuple[float, ...], float] = {}
     for share, *found in zip(shares, *values.values(), strict=True):
         state = tuple(map(float, found))
@@ -61,7 +62,7 @@ def duty_cycle(scene: Scene) -> list[tuple[float, Scene]]:
     ]
 
 
-def _functions(scene: Scene) -> dict[str, Ramp | Sine | Table]:
+def _functions(scene: Scene) -> dict[str, Ramp | Sine | Table | Spline]:
     """Return what may change in time, by its path."""
     found: dict[str, TimeFunction] = {
         f"loads.{name}.force": load.force for name, load in scene.loads.items()
@@ -71,19 +72,21 @@ def _functions(scene: Scene) -> dict[str, Ramp | Sine | Table]:
         found["drive.speed"] = scene.drive.speed
     if scene.outer_speed is not None:
         found["outer_speed"] = scene.outer_speed
-    return {path: f for path, f in found.items() if isinstance(f, Ramp | Sine | Table)}
+    return {path: f for path, f in found.items() if isinstance(f, Ramp | Sine | Table | Spline)}
 
 
-def _lasting(function: Ramp | Sine | Table) -> float:
+def _lasting(function: Ramp | Sine | Table | Spline) -> float:
     """Return the value of what does not change, or the last of a ramp."""
     if isinstance(function, Ramp):
         return function.to
-    return float(_at(function, np.zeros(1))[0])
+    return float(values_at(function, 0.0))
 
 
-def _changes(path: str, function: Ramp | Sine | Table) -> bool:
+def _changes(path: str, function: Ramp | Sine | Table | Spline) -> bool:
     if isinstance(function, Sine):
         return function.amplitude != 0.0 and function.frequency != 0.0
+    if isinstance(function, Spline):
+        return len(set(function.values)) > 1 or any(function.rates)
     if isinstance(function, Table):
         if function.times[0] == function.times[-1] and len(set(function.values)) > 1:
             raise SceneError(path, "a table that jumps once", _PERIODIC)
@@ -100,13 +103,13 @@ _PERIODIC = (
 
 
 def _nodes(
-    varying: dict[str, Ramp | Sine | Table],
+    varying: dict[str, Ramp | Sine | Table | Spline],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return times of one period and the share of the period that each stands for."""
     start, end = _period(varying)
     fastest = max((abs(f.frequency) for f in varying.values() if isinstance(f, Sine)), default=0.0)
     longest = min((end - start) / _PIECES, 1.0 / (8.0 * fastest) if fastest else math.inf)
-    corners = [t for f in varying.values() if isinstance(f, Table) for t in f.times]
+    corners = [t for f in varying.values() if isinstance(f, Table | Spline) for t in f.times]
     edges = np.unique([start, *corners, end])
     times, shares = [], []
     for left, right in pairwise(edges):
@@ -117,9 +120,13 @@ def _nodes(
     return np.concatenate(times), np.concatenate(shares)
 
 
-def _period(varying: dict[str, Ramp | Sine | Table]) -> tuple[float, float]:
+def _period(varying: dict[str, Ramp | Sine | Table | Spline]) -> tuple[float, float]:
     """Return first and last time of one period of everything that changes."""
-    spans = {path: (f.times[0], f.times[-1]) for path, f in varying.items() if isinstance(f, Table)}
+    spans = {
+        path: (f.times[0], f.times[-1])
+        for path, f in varying.items()
+        if isinstance(f, Table | Spline)
+    }
     rates = {path: abs(f.frequency) for path, f in varying.items() if isinstance(f, Sine)}
     if not spans:
         slowest = 1.0 / min(rates.values())
@@ -142,12 +149,3 @@ def _period(varying: dict[str, Ramp | Sine | Table]) -> tuple[float, float]:
 
 def _fits(turns: float) -> bool:
     return abs(turns - round(turns)) <= _WHOLE * max(turns, 1.0)
-
-
-def _at(function: Ramp | Sine | Table, times: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the values of a sine or a table at times at which it does not jump."""
-    if isinstance(function, Sine):
-        turns = function.frequency * times
-        return function.mean + function.amplitude * np.sin(2.0 * math.pi * turns + function.phase)
-    assert isinstance(function, Table)
-    return np.interp(times, function.times, function.values)

@@ -15,7 +15,7 @@ from ._io.files import as_path
 from ._io.parquet import read_sealed, seal, writing_to
 from ._io.record import samples, unless_damaged
 from ._io.whole import whole
-from ._numbers import real
+from ._numbers import real, real_row
 from .errors import FileError, SceneError
 from .ring_force import passed, told
 from .run import request, shown, warn
@@ -24,7 +24,7 @@ from .signals import Signals
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -373,6 +373,51 @@ class Simulation:
             if not math.isfinite(real(size)):
                 raise SceneError(checked_path(path), repr(size), "a finite number [N], [N m]")
         self._core.set_loads([(checked_path(path), real(size)) for path, size in loads.items()])
+
+    def set_motions(self, motions: Mapping[str, Sequence[float]], *, until: float) -> None:
+        """Move rings whose motion the scene gives from where they are to places with speeds, by paths of motions.
+
+        For rings that are part of another simulation, which says before each piece where they will be at its end.
+        Places and speeds are continuous, a cubic leads from one to the other; after that time they go on with
+        these speeds. The integrator starts anew as in :meth:`change`, but nothing is compiled.
+
+        Parameters
+        ----------
+        motions : mapping of str to two floats
+            Place [m] and speed [m/s], of tilts [rad] and [rad/s], by paths such as ``inner_ring.support.x.given``.
+        until : float
+            When they are there [s]; later than :attr:`time`.
+
+        Raises
+        ------
+        SceneError
+            A path is no given motion, a place is too far or no number, or the time is over. The simulation is then
+            as it was.
+
+        Examples
+        --------
+        Another program carries the inner ring, and moves it down by 5 µm in 1 ms:
+
+        >>> import ballrace as br
+        >>> held = {"inner_ring.support.x": br.scene.Given(0.0), "inner_ring.support.y": br.scene.Given(-5e-6)}
+        >>> simulation = br.Simulation(br.presets.deep_groove_6205(radial_load=500.0).replace(held))
+        >>> before = simulation.wrench("inner")[1]
+        >>> for step in range(1, 11):
+        ...     t = 1e-4 * step
+        ...     simulation.set_motions({"inner_ring.support.y.given": (-5e-6 - 5e-3 * t, -5e-3)}, until=t)
+        ...     piece = simulation.advance_to(t)
+        >>> bool(simulation.wrench("inner")[1] > before + 100.0)
+        True
+        """
+        if not hasattr(motions, "items"):
+            raise SceneError("motions", repr(motions), "a place and a speed by their paths")
+        pairs: list[tuple[str, Sequence[float]]] = []
+        for path, to in motions.items():
+            given = real_row(checked_path(path), to)
+            if given.shape != (2,) or not np.isfinite(given).all():
+                raise SceneError(path, repr(to), "a place and a speed, two finite numbers")
+            pairs.append((path, given.tolist()))
+        self._core.set_motions(pairs, real(until))
 
     def finish(self, *, progress: bool | Callable[[float], object] | None = None) -> Signals:
         """End the run here, and return its record.

@@ -3,7 +3,7 @@
 use super::planar::{Planar, Rates};
 use super::rolling::RollingRows;
 use crate::forces::{State, Table};
-use crate::model::Model;
+use crate::model::{Dof, Model, Race};
 use crate::reduction::Reduction;
 use crate::simd::InstructionSet;
 
@@ -13,6 +13,8 @@ pub(super) struct Kept {
     pub reduction: Reduction,
     /// Places of the driven rotations of the rings, as far as they are among the states.
     pub driven: [Option<usize>; 2],
+    /// The same of other directions of rings whose motion is given.
+    pub given: Vec<(usize, Race, Dof)>,
     pub rolling: RollingRows,
     /// The planar right-hand side, where the scene has one.
     pub planar: Option<(InstructionSet, Planar)>,

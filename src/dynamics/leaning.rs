@@ -94,8 +94,15 @@ impl SpatialWork {
         for race in Race::BOTH {
             let ring = race.ring();
             let (of, moment) = (&self.rings[race].ring, &self.moments[race]);
-            let driven = drive::acceleration(model, race, t);
-            let found = turning_accelerations(model, race, of, moment, driven);
+            let spin = drive::acceleration(model, race, t).unwrap_or_default();
+            let [places, rates] = state.tilt(race);
+            let given = |i: usize| {
+                let at = (race, Dof::TILTS[i]);
+                let given = model.given_acceleration(at, t, [places[i], rates[i]]);
+                given.unwrap_or_default()
+            };
+            let prescribed = [given(0), given(1), spin];
+            let found = turning_accelerations(model, race, of, moment, prescribed);
             for (dof, found) in [Dof::TiltX, Dof::TiltY, Dof::Theta].into_iter().zip(found) {
                 if layout.has(ring, dof) {
                     accelerations[layout.at(ring, dof)] = found;
@@ -105,23 +112,23 @@ impl SpatialWork {
     }
 }
 
-/// Accelerations of a ring's tilts and of its spin under a moment about its centre of mass \[N m\], with that of a driven spin
-/// \[rad/s²\].
+/// Accelerations of a ring's tilts and of its spin under a moment about its centre of mass \[N m\], with those of given tilts and of a
+/// driven spin \[rad/s²\].
 pub(crate) fn turning_accelerations(
     model: &Model,
     race: Race,
     ring: &LeaningRing,
     moment: &Vector3<f64>,
-    driven: Option<f64>,
+    driven: [f64; 3],
 ) -> [f64; 3] {
-    let spin = match model.degree(race, Dof::Theta) {
-        Degree::Free { .. } => None,
-        Degree::Fixed => Some(0.0),
-        Degree::Driven => Some(driven.unwrap_or_default()),
-    };
-    let layout = model.layout();
-    let held = |dof| (!layout.has(race.ring(), dof)).then_some(0.0);
-    let prescribed = [held(Dof::TiltX), held(Dof::TiltY), spin];
+    let [x, y, spin] = driven;
+    let prescribed = [(Dof::TiltX, x), (Dof::TiltY, y), (Dof::Theta, spin)].map(|(dof, driven)| {
+        match model.degree(race, dof) {
+            Degree::Free { .. } => None,
+            Degree::Fixed => Some(0.0),
+            Degree::Driven => Some(driven),
+        }
+    });
     let inertia = &model.rings[race].inertia;
     ring.rotation.accelerations(inertia, moment, &prescribed)
 }
@@ -138,7 +145,7 @@ fn tumble(model: &Model, state: &State, ball: BodyId, accelerations: &mut [f64])
         &turning.into(),
         &state.motion(ball).turning(),
         attitude,
-        model.attitude_rate(),
+        model.lead_rate(),
     );
     for (dof, found) in Dof::ATTITUDE.into_iter().zip(found) {
         accelerations[layout.at(ball, dof)] = found;

@@ -38,10 +38,10 @@ pub(super) fn free_rings(law: &NormalLaw) -> Scene {
     scene.rows[1].start_angle = 0.4;
     (scene.contact.law, scene.contact.damping) = (law.clone(), 0.0);
     scene.gravity = [0.0; 3];
-    let free = Some(Mount::Free);
+    let free = || Some(Mount::Free);
     for ring in [&mut scene.outer_ring, &mut scene.inner_ring] {
-        ring.support = Support::new([free; 4]);
-        (ring.support.tilt_x, ring.support.tilt_y) = (free, free);
+        ring.support = Support::new([free(), free(), free(), free()]);
+        (ring.support.tilt_x, ring.support.tilt_y) = (free(), free());
         (ring.mass, ring.inertia, ring.transverse_inertia) = (Some(0.2), Some(1e-4), Some(7e-5));
     }
     scene.inner_ring.centre_of_mass = Some(3e-3);

@@ -1,5 +1,6 @@
 //! The right-hand side: contacts, evaluated by eights, and all other forces, in one order.
 
+mod accelerations;
 mod batch;
 mod contributions;
 mod evaluation;
@@ -21,7 +22,7 @@ use crate::base::pool::Pool;
 use crate::forces::cage::CageLinks;
 use crate::forces::{self, Force, ForceSums, Instant, State, Table, Use, drive};
 use crate::integrate::System;
-use crate::model::{BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Race, Spring};
+use crate::model::{BodyId, DOFS, Degree, Dof, Model, Race, Spring};
 use crate::reduction::Reduction;
 
 pub(crate) use batch::{Batch, Guarantees, RingView, SideConstants, Touching, View};
@@ -82,11 +83,19 @@ impl<'m> Dynamics<'m> {
             let of_ring = reduction.place(race.ring(), Dof::Theta);
             of_ring.filter(|_| model.degree(race, Dof::Theta) == Degree::Driven)
         });
+        let given = Race::BOTH.into_iter().flat_map(|race| {
+            let given = model.rings[race].given.all();
+            let place = |dof| reduction.place(race.ring(), dof);
+            let kept = given.filter_map(move |(dof, _)| Some((place(dof)?, race, dof)));
+            kept.collect::<Vec<_>>()
+        });
+        let given = given.collect();
         let rolling = RollingRows::new(&reduction);
         let keeps_axial_places = kind.axial_places.is_some();
         let order = Order::Kept(Box::new(Kept {
             reduction,
             driven,
+            given,
             rolling,
             planar: None,
         }));
@@ -318,30 +327,6 @@ impl<'m> Dynamics<'m> {
             }
         }
     }
-
-    /// M⁻¹ F of all bodies.
-    pub(crate) fn accelerate(&self, t: f64, accelerations: &mut [f64]) {
-        let bodies = Layout::each_mut(accelerations).iter_mut();
-        for (acceleration, body) in bodies.zip(self.model.layout().bodies()) {
-            *acceleration = self.acceleration(t, body);
-        }
-        if let Some(leaning) = &self.leaning {
-            leaning.accelerate(self.model, t, &self.state, accelerations);
-        }
-    }
-
-    /// M⁻¹ F of a body. Directions that are fixed do not accelerate; the rotation of a driven ring accelerates as
-    /// prescribed.
-    fn acceleration(&self, t: f64, body: BodyId) -> [f64; DOFS] {
-        let (force, mobility) = (self.forces.of(body), &self.model.mobility[body]);
-        let mut acceleration = std::array::from_fn(|i| force[i] * mobility[i]);
-        if let BodyKind::Ring(race) = body.kind()
-            && let Some(prescribed) = drive::acceleration(self.model, race, t)
-        {
-            acceleration[Dof::Theta] = prescribed;
-        }
-        acceleration
-    }
 }
 
 impl System for Dynamics<'_> {
@@ -371,6 +356,11 @@ impl System for Dynamics<'_> {
                         (driven, drive::acceleration(self.model, race, t))
                     {
                         accelerations[i] = prescribed;
+                    }
+                }
+                for &(i, race, dof) in &kept.given {
+                    if let Some(given) = self.given_acceleration(t, race, dof) {
+                        accelerations[i] = given;
                     }
                 }
             }

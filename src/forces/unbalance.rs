@@ -103,10 +103,15 @@ fn on(model: &Model, t: f64, state: &State, ring: Race, others: &[f64; DOFS]) ->
     }
     let [gx, gy, _] = model.scene.gravity;
     let mobility = &model.mobility[ring.ring()];
+    let [place, speed] = [&state.q, &state.v].map(|half| half.of(ring.ring()));
+    let along = |dof: Dof, force: f64| {
+        let given = model.given_acceleration((ring, dof), t, [place[dof], speed[dof]]);
+        given.unwrap_or(mobility[dof] * force)
+    };
     let accelerate = |spin: f64| {
         V2::new(
-            mobility[Dof::X] * (others[Dof::X] + square * whole.x + spin * whole.y),
-            mobility[Dof::Y] * (others[Dof::Y] + square * whole.y - spin * whole.x),
+            along(Dof::X, others[Dof::X] + square * whole.x + spin * whole.y),
+            along(Dof::Y, others[Dof::Y] + square * whole.y - spin * whole.x),
         )
     };
     let weight = cross(whole, V2::new(gx, gy));

@@ -15,7 +15,8 @@ pub struct Body {
     pub mass: [f64; DOFS],
     /// How each direction moves.
     pub degrees: [Degree; DOFS],
-    /// Nominal place x, y, z \[m\] and angle \[rad\]: rings at the origin, balls on the pitch circle.
+    /// Nominal place x, y, z \[m\] and angle \[rad\]: rings at the origin or where a given motion begins, balls on the pitch
+    /// circle.
     pub nominal: [f64; DOFS],
 }
 
@@ -49,7 +50,7 @@ pub enum Degree {
     },
     /// Not at all.
     Fixed,
-    /// As a given speed prescribes.
+    /// As a given motion prescribes, about z a given speed.
     Driven,
 }
 
@@ -77,6 +78,7 @@ impl From<Mount> for Degree {
             },
             Mount::Fixed => Self::Fixed,
             Mount::Spring { stiffness, damping } => Self::Free { stiffness, damping },
+            Mount::Given(_) => Self::Driven,
         }
     }
 }

@@ -7,8 +7,8 @@ use super::loads::{loads, moments};
 use super::race::{RaceGeometry, geometry};
 use super::ring::layout_of;
 use super::{
-    Ball, BodyId, DOFS, Dof, Model, Race, RingModel, RowModel, Scales, Spring, UnbalanceModel,
-    demand, nodes,
+    Ball, BodyId, Dof, Model, Race, RingModel, RowModel, Scales, Spring, UnbalanceModel, demand,
+    nodes,
 };
 use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
@@ -199,13 +199,15 @@ fn ring(scene: &Scene, ring: &scene::Ring, race: Race) -> Result<(Body, RingMode
         polar: inertia,
         transverse,
     };
+    let compiled = RingModel::new(ring, of);
+    let at_start = |dof| compiled.given.of(dof).map_or(0.0, |motion| motion.at(0.0));
     let body = Body {
         name: label.to_owned(),
-        nominal: [0.0; DOFS],
+        nominal: Dof::ALL.map(at_start),
         mass: [mass, mass, mass, inertia],
         degrees: ring.support.mounts(absent).map(Degree::from),
     };
-    Ok((body, RingModel::new(ring, of)))
+    Ok((body, compiled))
 }
 
 /// Hertz's contact of a ball and one race.

@@ -2,6 +2,7 @@
 
 use crate::base::error::Result;
 use crate::base::memory;
+use crate::model::GivenMotions;
 use crate::scene::{Defect, Drive, Probe, Profile, Row, Scene, TimeFunction, Waviness, Width};
 
 /// Copies of a scene's lists that are held at once: the document, the scene as placed, simplified, frozen to settle and
@@ -59,10 +60,15 @@ fn numbers(scene: &Scene) -> usize {
         let waves = row.outer_waviness.len() + row.inner_waviness.len();
         waves * size_of::<Waviness>() / size_of::<f64>() + row.diameter_errors.len()
     });
+    let given = [&scene.outer_ring, &scene.inner_ring].map(|ring| {
+        let given = GivenMotions::new(ring);
+        given.all().map(|(_, motion)| in_time(motion)).sum()
+    });
     in_time(drive)
         + scene.outer_speed.as_ref().map_or(0, in_time)
         + loads
             .chain(moments)
+            .chain(given)
             .chain(defects)
             .chain(probes)
             .chain(rows)
@@ -72,6 +78,7 @@ fn numbers(scene: &Scene) -> usize {
 fn in_time(value: &TimeFunction) -> usize {
     match value {
         TimeFunction::Profile(Profile::Table { times, values }) => times.len() + values.len(),
+        TimeFunction::Profile(Profile::Spline { times, .. }) => 3 * times.len(),
         _ => 1,
     }
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use super::given::GivenMotions;
 use super::{Model, Race, RingModel};
 use crate::scene::{Moment, Scene, TimeFunction};
 
@@ -24,7 +25,7 @@ pub(crate) struct MomentModel {
 }
 
 impl Model {
-    /// The same bearing with the sizes that loads, moments and drive have in a scene that differs in nothing else. Scales, films and what
+    /// The same bearing with the sizes of loads, moments and drive and the given motions of a scene that differs in nothing else. Scales, films and what
     /// follows from loads at rest stay those of the loads that it was compiled with.
     #[must_use]
     pub(crate) fn loaded(&self, scene: &Scene) -> Self {
@@ -32,6 +33,14 @@ impl Model {
         model.scene.loads.clone_from(&scene.loads);
         model.scene.moments.clone_from(&scene.moments);
         model.scene.drive.clone_from(&scene.drive);
+        for (race, ring) in [
+            (Race::Outer, &scene.outer_ring),
+            (Race::Inner, &scene.inner_ring),
+        ] {
+            model.rings[race].given = GivenMotions::new(ring);
+        }
+        model.scene.outer_ring.clone_from(&scene.outer_ring);
+        model.scene.inner_ring.clone_from(&scene.inner_ring);
         model.loads = loads(scene, &model.rings);
         model.moments = moments(scene);
         model

@@ -7,6 +7,7 @@ mod body;
 mod compile;
 mod demand;
 mod dof;
+mod given;
 mod layout;
 mod loads;
 mod nodes;
@@ -27,6 +28,7 @@ use crate::simd::{InstructionSet, LANES};
 pub use body::{Body, Degree};
 pub(crate) use compile::{ball_fault, compile_placed, race_fault};
 pub use dof::{DOFS, Dof};
+pub(crate) use given::GivenMotions;
 pub(crate) use layout::RINGS;
 pub use layout::{BodyId, BodyKind, Layout, Race};
 pub(crate) use loads::{LoadModel, MomentModel};
@@ -273,9 +275,9 @@ impl Model {
         }
     }
 
-    /// Rate at which Euler parameters are led back to length one and to the ball's angular velocity \[1/s\]: slow for steps, which
-    /// follow the highest frequency, and fast against what errors of steps add up to.
-    pub(crate) fn attitude_rate(&self) -> f64 {
+    /// Rate at which Euler parameters are led back to length one and to the ball's angular velocity, and rings to given motions
+    /// \[1/s\]: slow for steps, which follow the highest frequency, and fast against what errors of steps add up to.
+    pub(crate) fn lead_rate(&self) -> f64 {
         0.02 * self.scales.frequency
     }
 

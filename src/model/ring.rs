@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix6, Vector3};
 
+use super::given::GivenMotions;
 use super::{BodyId, Degree, Dof, Layout, Model, Race};
 use crate::contact::{LeaningRing, Motion};
 use crate::scene::{self, CoupledSupport, Mount, Scene, Surface};
@@ -13,11 +14,12 @@ pub(crate) struct RingModel {
     pub inertia: Inertia,
     /// Axial place of the centre of mass in the ring's frame \[m\].
     pub centre_of_mass: f64,
-    /// Nominal tilt \[rad\].
+    /// Nominal tilt, of a given one that at t = 0 \[rad\].
     pub tilt: [f64; 2],
     /// How each tilt moves.
     pub degrees: [Degree; 2],
     pub coupled: Option<CoupledModel>,
+    pub given: GivenMotions,
 }
 
 /// Springs and dampers between all directions of a ring, at a place of its axis from the centre of mass \[m\].
@@ -36,12 +38,19 @@ impl RingModel {
             damping: Matrix6::from_fn(|i, j| of.damping[i][j]),
             place: of.axial_position - centre_of_mass,
         };
+        let given = GivenMotions::new(ring);
+        let held = ring.tilt.unwrap_or_default();
+        let at_start = |dof: Dof| {
+            let nominal = held[dof.index() - Dof::TiltX.index()];
+            given.of(dof).map_or(nominal, |motion| motion.at(0.0))
+        };
         Self {
             inertia,
             centre_of_mass,
-            tilt: ring.tilt.unwrap_or_default(),
+            tilt: [Dof::TiltX, Dof::TiltY].map(at_start),
             degrees: ring.support.tilt_mounts().map(Degree::from),
             coupled: ring.support.coupled.as_deref().map(coupled),
+            given,
         }
     }
 

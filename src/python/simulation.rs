@@ -165,6 +165,18 @@ impl GoingRun {
         self.with(py, |simulation| simulation.set_loads(&loads))
     }
 
+    /// Moves rings to places with speeds at a time, by dotted paths.
+    fn set_motions(
+        &self,
+        py: Python<'_>,
+        motions: Vec<(String, [f64; 2])>,
+        until: f64,
+    ) -> PyResult<()> {
+        let motions = motions.iter().map(|(path, to)| (path.as_str(), *to));
+        let motions: Vec<_> = motions.collect();
+        self.with(py, |simulation| simulation.set_motions(&motions, until))
+    }
+
     /// Ends it; returns what `simulate` does, of the samples that were not taken.
     #[pyo3(signature = (progress = None))]
     fn finish<'py>(

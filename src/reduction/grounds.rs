@@ -78,6 +78,7 @@ impl Grounds {
         }
         match model.bodies[body].degrees[dof] {
             Degree::Fixed => self.exact.then_some(Reason::Held),
+            Degree::Driven if dof != Dof::Theta => None,
             Degree::Driven => {
                 let race = Race::BOTH.into_iter().find(|race| race.ring() == body);
                 race.filter(|_| self.exact).map(Reason::Driven)

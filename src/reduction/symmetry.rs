@@ -194,6 +194,9 @@ fn parallel_at_start(model: &Model, start: &[f64]) -> Symmetry {
 
 /// Nothing may act along z.
 fn nothing_axial(model: &Model) -> Symmetry {
+    require(!model.has_given_motions_off_plane(), || {
+        "a motion is given out of the plane".to_owned()
+    })?;
     let found = forces::ALL.iter().find_map(|force| force.along_z(model));
     found.map_or(Ok(()), Err)
 }

@@ -9,7 +9,7 @@ use super::settle::{self, Settled};
 use crate::base::error::Result;
 use crate::base::memory;
 use crate::model::Model;
-use crate::scene::Scene;
+use crate::scene::{Scene, TimeFunction};
 use crate::signals::{Accuracy, Bandwidth, Demand, Signals};
 use crate::statics::start::Start;
 use crate::statics::{Placed, compile, place};
@@ -18,8 +18,8 @@ use crate::statics::{Placed, compile, place};
 #[derive(Debug, Clone)]
 pub(super) struct Prepared {
     pub scene: Scene,
-    /// What loads were when the scene was compiled, by their paths, of those that were set since.
-    pub compiled_loads: BTreeMap<String, f64>,
+    /// What loads and given motions the scene was compiled with, by their paths, of those that were set since.
+    pub compiled_with: BTreeMap<String, TimeFunction>,
     /// The defects by name, and where the contact runs that they were placed by.
     pub placed: BTreeMap<String, Placed>,
     pub settled: Settled,
@@ -28,17 +28,24 @@ pub(super) struct Prepared {
 }
 
 impl Prepared {
-    /// Compiles it, with the loads that it was compiled with before those that are set now.
+    /// Compiles it as it was before loads and motions were set.
     pub fn compile(&self) -> Result<Model> {
-        if self.compiled_loads.is_empty() {
-            return compile(&self.scene);
-        }
-        let mut scene = self.scene.clone();
-        for (path, size) in &self.compiled_loads {
-            *scene.constant_load(path)? = *size;
-        }
-        Ok(compile(&scene)?.loaded(&self.scene))
+        compile_with(&self.scene, &self.compiled_with)
     }
+}
+
+/// Compiles a scene with some loads and given motions, by their paths, and then gives it its own.
+pub(super) fn compile_with(scene: &Scene, with: &BTreeMap<String, TimeFunction>) -> Result<Model> {
+    if with.is_empty() {
+        return compile(scene);
+    }
+    let mut before = scene.clone();
+    for (path, of) in with {
+        if let Some(place) = before.in_time(path) {
+            place.clone_from(of);
+        }
+    }
+    Ok(compile(&before)?.loaded(scene))
 }
 
 /// How pilot runs are simulated.
@@ -71,7 +78,7 @@ pub(super) fn prepare(
     Ok(Prepared {
         accuracy: accuracy.transpose()?,
         scene,
-        compiled_loads: BTreeMap::new(),
+        compiled_with: BTreeMap::new(),
         placed,
         settled,
     })

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::Run;
 use super::follow::{Interval, Trajectory};
 use super::pool::on;
-use super::prepare::{Prepared, Simulate, check_memory, prepare};
+use super::prepare::{Prepared, Simulate, check_memory, compile_with, prepare};
 use super::provenance::{Done, provenance};
 use super::selftest;
 use super::settings::{options, threads};
@@ -15,9 +15,9 @@ use crate::base::error::{Error, Result};
 use crate::base::words::{Unfit, Words};
 use crate::dynamics::Dynamics;
 use crate::integrate::Options;
-use crate::model::{Dof, Model, Race};
+use crate::model::{Degree, Dof, Model, Race};
 use crate::reduction::Reduction;
-use crate::scene::Scene;
+use crate::scene::{Profile, Scene, TimeFunction};
 use crate::signals::{Keep, Recorder, Sampling, Signals, Statistics};
 use crate::simd::Distrust;
 use crate::statics::Placed;
@@ -156,25 +156,74 @@ impl<'s> Session<'s> {
     }
 
     /// Goes on with another scene of the same bodies and probes from where it stands, defects placed, and with its model.
-    pub fn change(&mut self, model: Model, scene: Scene, placed: BTreeMap<String, Placed>) {
-        self.prepared.compiled_loads.clear();
-        self.prepared.placed = placed;
+    pub fn change(&mut self, scene: Scene, placed: BTreeMap<String, Placed>) -> Result<()> {
+        let compiled_with = self.held_motions(&scene);
+        let model = compile_with(&scene, &compiled_with)?;
+        check_kept(&self.model, &model)?;
+        (self.prepared.compiled_with, self.prepared.placed) = (compiled_with, placed);
         self.go_on_with(model, scene);
+        Ok(())
+    }
+
+    /// Motions that were set and that another scene keeps, held where they are: what they were before a run's time has no meaning.
+    fn held_motions(&self, scene: &Scene) -> BTreeMap<String, TimeFunction> {
+        let (mut before, mut after) = (self.prepared.scene.clone(), scene.clone());
+        let set = self.prepared.compiled_with.keys();
+        let kept = set.filter_map(|path| {
+            let before = before.given_motion(path)?;
+            let held = TimeFunction::Constant(before.at(self.trajectory.time()));
+            let is_kept = after.given_motion(path) == Some(before);
+            is_kept.then(|| (path.clone(), held))
+        });
+        kept.collect()
     }
 
     /// Goes on with other sizes of constant loads, by their paths, and otherwise with the model as it is.
     pub fn set_loads(&mut self, loads: &[(&str, f64)]) -> Result<()> {
         let mut scene = self.prepared.scene.clone();
-        let mut compiled = self.prepared.compiled_loads.clone();
+        let mut compiled = self.prepared.compiled_with.clone();
         for (path, size) in loads {
             let before = std::mem::replace(scene.constant_load(path)?, *size);
+            compiled.entry((*path).to_owned()).or_insert(before.into());
+        }
+        self.go_on_loaded(scene, compiled)
+    }
+
+    /// Goes on with given motions that lead from where rings are to places with speeds at a time \[s\], by their paths.
+    pub fn set_motions(&mut self, motions: &[(&str, [f64; 2])], until: f64) -> Result<()> {
+        let now = self.trajectory.time();
+        if !(until > now && until.is_finite()) {
+            let allowed = format!("later than {now} s, where the simulation stands");
+            return Err(Error::scene("until", until, allowed));
+        }
+        let mut scene = self.prepared.scene.clone();
+        let mut compiled = self.prepared.compiled_with.clone();
+        for (path, [place, speed]) in motions {
+            let Some(motion) = scene.given_motion(path) else {
+                let allowed = "a given motion of the scene, such as inner_ring.support.x.given";
+                return Err(Error::scene(*path, "not there", allowed));
+            };
+            let spline = Profile::Spline {
+                times: vec![now, until],
+                values: vec![motion.at(now), *place],
+                rates: vec![motion.rate(now), *speed],
+            };
+            let before = std::mem::replace(motion, TimeFunction::Profile(spline));
             compiled.entry((*path).to_owned()).or_insert(before);
         }
+        self.go_on_loaded(scene, compiled)
+    }
+
+    fn go_on_loaded(
+        &mut self,
+        scene: Scene,
+        compiled_with: BTreeMap<String, TimeFunction>,
+    ) -> Result<()> {
         if scene == self.prepared.scene {
             return Ok(());
         }
         scene.validate()?;
-        self.prepared.compiled_loads = compiled;
+        self.prepared.compiled_with = compiled_with;
         self.go_on_with(self.model.loaded(&scene), scene);
         Ok(())
     }
@@ -188,6 +237,11 @@ impl<'s> Session<'s> {
             if let Some(speed) = after.filter(|_| before != after) {
                 y[model.layout().speed_at(race.ring(), Dof::Theta)] = speed.at(time);
             }
+        }
+        let is_moved = self.prepared.scene.outer_ring != scene.outer_ring
+            || self.prepared.scene.inner_ring != scene.inner_ring;
+        if is_moved {
+            model.follow_given(time, &mut y);
         }
         self.earlier = Some(self.statistics());
         self.options = options(&model);
@@ -233,6 +287,34 @@ impl<'s> Session<'s> {
             scene: self.prepared.scene,
         }
     }
+}
+
+/// Refuses a model that has other bodies, directions, or columns.
+fn check_kept(before: &Model, after: &Model) -> Result<()> {
+    let others = "what leaves them as they are: begin another simulation for others";
+    let refuse = |what: &str| Err(Error::scene("changes", what, others));
+    let held = |model: &Model| -> Vec<bool> {
+        let held = |race: Race| move |dof: Dof| model.rings[race].given.of(dof).is_some();
+        let degrees = model.bodies.iter().flat_map(|body| body.degrees);
+        let fixed = degrees.map(|degree| degree == Degree::Fixed);
+        let given = Race::BOTH.map(|race| Dof::TRANSLATIONS.map(held(race)));
+        fixed.chain(given.into_iter().flatten()).collect()
+    };
+    let rows = |model: &Model| -> Vec<usize> { model.rows.iter().map(|row| row.count).collect() };
+    if before.layout() != after.layout() || rows(before) != rows(after) {
+        return refuse("other bodies or directions");
+    }
+    if held(before) != held(after) {
+        return refuse("other directions that are held");
+    }
+    let recorded = |model: &Model| {
+        let scene = model.scene();
+        (scene.recorded().into_owned(), scene.cage.is_some())
+    };
+    if recorded(before) != recorded(after) {
+        return refuse("other probes");
+    }
+    Ok(())
 }
 
 /// All of a run.

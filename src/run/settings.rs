@@ -30,7 +30,7 @@ pub(crate) fn threads(model: &Model, asked: usize) -> Result<usize> {
     })
 }
 
-/// Step cap, first step, breakpoints of loads and drive.
+/// Step cap, first step, breakpoints of loads, drive and given motions.
 pub(crate) fn options(model: &Model) -> Options {
     let scene = &model.scene;
     let solver = &scene.solver;
@@ -58,6 +58,8 @@ pub(crate) fn options(model: &Model) -> Options {
     if let Some(speed) = &scene.outer_speed {
         breakpoints.extend(speed.breakpoints_apart(apart));
     }
+    let given = model.rings.iter().flat_map(|ring| ring.given.all());
+    breakpoints.extend(given.flat_map(|(_, motion)| motion.breakpoints_apart(apart)));
     Options {
         first_step: solver.first_step,
         max_step,

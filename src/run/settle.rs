@@ -178,6 +178,9 @@ fn frozen(scene: &Scene) -> Scene {
     for moment in scene.moments.values_mut() {
         moment.moment = TimeFunction::Constant(moment.moment.at(0.0));
     }
+    for ring in [&mut scene.outer_ring, &mut scene.inner_ring] {
+        ring.support.hold_given();
+    }
     let [outer, inner] = scene.ring_speeds(0.0).map(TimeFunction::Constant);
     scene.drive = Drive::Speed(inner);
     scene.inner_ring.support.theta = None;

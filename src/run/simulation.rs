@@ -11,10 +11,10 @@ use super::{Run, Snapshot};
 use crate::base::error::{Error, Result};
 use crate::dynamics::at_films_of;
 use crate::inspect::{self, ContactSummary};
-use crate::model::{Degree, Model, Race};
+use crate::model::{Model, Race};
 use crate::scene::{RingName, Scene};
 use crate::signals::{Block, Keep, Signals};
-use crate::statics::{compile, place};
+use crate::statics::place;
 
 /// A run that goes on in pieces.
 ///
@@ -224,10 +224,7 @@ impl Simulation {
         self.check()?;
         let scene = self.scene().with(changes)?;
         let (scene, placed) = place(&scene)?;
-        let model = compile(&scene)?;
-        check_kept(self.model(), &model)?;
-        self.session.change(model, scene.into_owned(), placed);
-        Ok(())
+        self.session.change(scene.into_owned(), placed)
     }
 
     /// Sets the sizes of constant loads and moments, and of a constant torque of the drive, by their paths: `loads.radial.force`,
@@ -261,6 +258,42 @@ impl Simulation {
     pub fn set_loads(&mut self, loads: &[(&str, f64)]) -> Result<()> {
         self.check()?;
         self.session.set_loads(loads)
+    }
+
+    /// Moves rings whose motion the scene gives from where they are to places \[m\] or tilts \[rad\] with speeds \[m/s\], \[rad/s\] at a
+    /// time \[s\], by the paths of their motions: `inner_ring.support.x.given`. After that time they go on with these speeds, until they are
+    /// moved again.
+    ///
+    /// For rings that are part of another simulation, which says before each piece where they will be at its end. Places and speeds
+    /// are continuous: a cubic leads from one to the other. The integrator starts anew, as in [`Self::change`], but nothing is
+    /// compiled.
+    ///
+    /// ```
+    /// use ballrace::scene::{Mount, RingName, presets};
+    /// use ballrace::{Run, Simulation};
+    ///
+    /// let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    /// // The shaft of another program carries the inner ring.
+    /// let support = &mut scene.inner_ring.support;
+    /// (support.x, support.y) = (Some(Mount::given(0.0)), Some(Mount::given(-5e-6)));
+    /// let mut simulation = Simulation::begin(&scene, &Run { duration: Run::OPEN, ..Run::default() })?;
+    /// let before = simulation.wrench(RingName::Inner)[1];
+    /// for step in 1..=10 {
+    ///     let t = 1e-4 * f64::from(step);
+    ///     // Down by another 5 µm in 1 ms.
+    ///     simulation.set_motions(&[("inner_ring.support.y.given", [-5e-6 - 5e-3 * t, -5e-3])], t)?;
+    ///     simulation.advance_to(t)?;
+    /// }
+    /// assert!(simulation.wrench(RingName::Inner)[1] > before + 100.0);
+    /// # Ok::<(), ballrace::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Scene`] names the path that is no given motion, a place that is too far, or a time that is over; the simulation is
+    /// then as it was.
+    pub fn set_motions(&mut self, motions: &[(&str, [f64; 2])], until: f64) -> Result<()> {
+        self.check()?;
+        self.session.set_motions(motions, until)
     }
 
     /// Ends the run here: the samples that were not taken, statistics and provenance.
@@ -330,29 +363,4 @@ impl Simulation {
     fn check(&self) -> Result<()> {
         self.ended.clone().map_or(Ok(()), Err)
     }
-}
-
-/// Refuses a model that has other bodies, directions, or columns.
-fn check_kept(before: &Model, after: &Model) -> Result<()> {
-    let others = "what leaves them as they are: begin another simulation for others";
-    let refuse = |what: &str| Err(Error::scene("changes", what, others));
-    let held = |model: &Model| -> Vec<bool> {
-        let degrees = model.bodies.iter().flat_map(|body| body.degrees);
-        degrees.map(|degree| degree == Degree::Fixed).collect()
-    };
-    let rows = |model: &Model| -> Vec<usize> { model.rows.iter().map(|row| row.count).collect() };
-    if before.layout() != after.layout() || rows(before) != rows(after) {
-        return refuse("other bodies or directions");
-    }
-    if held(before) != held(after) {
-        return refuse("other directions that are held");
-    }
-    let recorded = |model: &Model| {
-        let scene = model.scene();
-        (scene.recorded().into_owned(), scene.cage.is_some())
-    };
-    if recorded(before) != recorded(after) {
-        return refuse("other probes");
-    }
-    Ok(())
 }

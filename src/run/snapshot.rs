@@ -9,7 +9,7 @@ use super::Run;
 use super::prepare::Prepared;
 use super::settle::Settled;
 use crate::base::error::{Error, Result};
-use crate::scene::Scene;
+use crate::scene::{Scene, TimeFunction};
 use crate::signals::{Accuracy, Statistics};
 use crate::statics::Placed;
 
@@ -24,7 +24,7 @@ pub struct Snapshot {
     time: f64,
     scene: Scene,
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    compiled_loads: BTreeMap<String, f64>,
+    compiled_with: BTreeMap<String, TimeFunction>,
     run: Run,
     placed: BTreeMap<String, Placed>,
     settled: Settled,
@@ -51,7 +51,7 @@ impl Snapshot {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             time,
             scene: prepared.scene.clone(),
-            compiled_loads: prepared.compiled_loads.clone(),
+            compiled_with: prepared.compiled_with.clone(),
             run: run.clone(),
             placed: prepared.placed.clone(),
             settled: prepared.settled.clone(),
@@ -97,7 +97,7 @@ impl Snapshot {
     pub(super) fn prepared(&self) -> Prepared {
         Prepared {
             scene: self.scene.clone(),
-            compiled_loads: self.compiled_loads.clone(),
+            compiled_with: self.compiled_with.clone(),
             placed: self.placed.clone(),
             settled: self.settled.clone(),
             accuracy: self.accuracy,

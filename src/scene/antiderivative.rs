@@ -1,9 +1,10 @@
 //! Integrals over time of values that change; those of a table are summed once.
 
-use super::time::{Profile, TimeFunction, reached};
+use super::points::{Cubic, reached};
+use super::time::{Profile, TimeFunction};
 
 /// What the integral of a [`TimeFunction`] needs besides the function itself: of a ramp or a table the integrals from its
-/// first corner to each of them, and to t = 0.
+/// first corner to each of them, and to t = 0, of a spline from its first point.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Antiderivative {
     areas: Vec<f64>,
@@ -22,6 +23,19 @@ impl Antiderivative {
                 end,
             }) => made.sum(&[*start, *end], &[*from, *to]),
             TimeFunction::Profile(Profile::Table { times, values }) => made.sum(times, values),
+            TimeFunction::Profile(Profile::Spline {
+                times,
+                values,
+                rates,
+            }) => {
+                let mut area = 0.0;
+                made.areas.push(area);
+                for span in times.windows(2) {
+                    area += Cubic::of(times, values, rates, span[0]).integral(span[1]);
+                    made.areas.push(area);
+                }
+                made.at_zero = made.to_of_spline(times, values, rates, 0.0);
+            }
             _ => {}
         }
         made
@@ -62,7 +76,18 @@ impl Antiderivative {
             TimeFunction::Profile(Profile::Table { times, values }) => {
                 self.to(times, values, t) - self.at_zero
             }
+            TimeFunction::Profile(Profile::Spline {
+                times,
+                values,
+                rates,
+            }) => self.to_of_spline(times, values, rates, t) - self.at_zero,
         }
+    }
+
+    /// Integral of a spline from its first point to `t`, before it too.
+    fn to_of_spline(&self, times: &[f64], values: &[f64], rates: &[f64], t: f64) -> f64 {
+        let before = reached(times, t).saturating_sub(1);
+        self.areas[before] + Cubic::of(times, values, rates, t).integral(t)
     }
 
     /// Integral from the first corner to `t`, before it too, of what is linear between corners and constant beyond: whole

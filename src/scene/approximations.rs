@@ -64,7 +64,7 @@ impl Approximations {
                 );
             }
             for (i, row) in scene.rows.iter().enumerate() {
-                if row.ball_support.mounts(Mount::Free) != [Mount::Free; 4] {
+                if row.ball_support.mounts(Mount::Free) != [const { Mount::Free }; 4] {
                     return refuse(
                         "rolling",
                         format!("false with rows[{i}].ball_support, which holds balls in place"),

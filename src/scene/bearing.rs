@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Contact, Friction, Lubricant, Material, Texture, defaults};
+use super::{Contact, Friction, Lubricant, Material, Texture, TimeFunction, defaults};
 
 /// One row of balls between two grooves (geometry of model section 2).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -249,7 +249,7 @@ pub struct Ring {
     #[serde(default)]
     pub support: Support,
     /// Nominal tilt (τ_x, τ_y) \[rad\], at most 0.5: how far the ring tilts where its tilts are held or their springs relaxed, as a
-    /// right-handed rotation about x and y; absent: not at all.
+    /// right-handed rotation about x and y; absent: not at all. Nothing of a tilt whose motion is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tilt: Option<[f64; 2]>,
     /// Moment of inertia about an axis across z through the centre of mass \[kg m²\]; absent: from what `inertia` comes from, of a
@@ -291,7 +291,7 @@ pub struct Support {
 }
 
 /// One direction of a support.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[non_exhaustive]
 pub enum Mount {
@@ -308,9 +308,46 @@ pub enum Mount {
         #[serde(default)]
         damping: f64,
     },
+    /// A ring follows a given motion: its place in time \[m\], of tilts \[rad\]; a number, a sine or a spline. About z a speed
+    /// prescribes it, the drive's or [`Scene::outer_speed`](super::Scene::outer_speed).
+    Given(Box<TimeFunction>),
+}
+
+impl Mount {
+    /// A given motion \[m\], \[rad\].
+    pub fn given(motion: impl Into<TimeFunction>) -> Self {
+        Self::Given(Box::new(motion.into()))
+    }
+
+    /// Whether forces move a body in this direction.
+    pub(crate) fn gives(&self) -> bool {
+        matches!(self, Self::Free | Self::Spring { .. })
+    }
 }
 
 impl Support {
+    /// The mount of a direction, by the field's name.
+    pub(super) fn along(&mut self, direction: &str) -> Option<&mut Option<Mount>> {
+        match direction {
+            "x" => Some(&mut self.x),
+            "y" => Some(&mut self.y),
+            "z" => Some(&mut self.z),
+            "theta" => Some(&mut self.theta),
+            "tilt_x" => Some(&mut self.tilt_x),
+            "tilt_y" => Some(&mut self.tilt_y),
+            _ => None,
+        }
+    }
+
+    /// Holds a ring of given motions where they begin.
+    pub(crate) fn hold_given(&mut self) {
+        for direction in ["x", "y", "z", "tilt_x", "tilt_y"] {
+            if let Some(Some(Mount::Given(motion))) = self.along(direction) {
+                **motion = motion.at(0.0).into();
+            }
+        }
+    }
+
     /// From the mounts along x, y and z and about z.
     pub fn new([x, y, z, theta]: [Option<Mount>; 4]) -> Self {
         Self {
@@ -323,8 +360,10 @@ impl Support {
     }
 
     /// The four mounts (x, y, z, θ) with absent ones filled in.
+    #[allow(clippy::needless_pass_by_value)] // a word in every call
     pub fn mounts(&self, absent: Mount) -> [Mount; 4] {
-        [self.x, self.y, self.z, self.theta].map(|mount| mount.unwrap_or(absent))
+        let mounts = [&self.x, &self.y, &self.z, &self.theta];
+        mounts.map(|mount| mount.as_ref().unwrap_or(&absent).clone())
     }
 }
 

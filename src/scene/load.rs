@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
-use super::bearing::RingName;
+use super::bearing::{Mount, RingName};
 use super::time::TimeFunction;
 use crate::base::error::{Error, Result};
 
@@ -142,10 +142,36 @@ impl Drive {
 }
 
 impl Scene {
-    /// The size of a load, of a moment or of the drive's torque by its path, of one that is the same at all times.
-    pub(crate) fn constant_load(&mut self, path: &str) -> Result<&mut f64> {
+    /// The size of a load, of a moment or of the drive's torque, or the given motion of a ring, by its path.
+    pub(crate) fn in_time(&mut self, path: &str) -> Option<&mut TimeFunction> {
+        if self.given_motion(path).is_some() {
+            self.given_motion(path)
+        } else {
+            self.size(path)
+        }
+    }
+
+    /// The given motion of a ring by its path, such as `inner_ring.support.x.given`.
+    pub(crate) fn given_motion(&mut self, path: &str) -> Option<&mut TimeFunction> {
         let steps: Vec<&str> = path.split('.').collect();
-        let size = match steps[..] {
+        let [ring, "support", direction, "given"] = steps[..] else {
+            return None;
+        };
+        let support = match ring {
+            "outer_ring" => &mut self.outer_ring.support,
+            "inner_ring" => &mut self.inner_ring.support,
+            _ => return None,
+        };
+        match support.along(direction)? {
+            Some(Mount::Given(motion)) => Some(motion),
+            _ => None,
+        }
+    }
+
+    /// The size of a load, of a moment or of the drive's torque by its path.
+    fn size(&mut self, path: &str) -> Option<&mut TimeFunction> {
+        let steps: Vec<&str> = path.split('.').collect();
+        match steps[..] {
             ["loads", name, "force"] => self.loads.get_mut(name).map(|load| &mut load.force),
             ["moments", name, "moment"] => self.moments.get_mut(name).map(|of| &mut of.moment),
             ["drive", "torque", "value"] => match &mut self.drive {
@@ -153,12 +179,15 @@ impl Scene {
                 Drive::Speed(_) => None,
             },
             _ => None,
-        };
-        match size {
+        }
+    }
+
+    /// The size of a load, of a moment or of the drive's torque by its path, of one that is the same at all times.
+    pub(crate) fn constant_load(&mut self, path: &str) -> Result<&mut f64> {
+        match self.size(path) {
             Some(TimeFunction::Constant(size)) => Ok(size),
             Some(TimeFunction::Profile(_)) => {
-                let allowed =
-                    "a size that is the same at all times, not one of a ramp, sine or table";
+                let allowed = "a size that is the same at all times, not one of a ramp, sine, table or spline";
                 Err(Error::scene(path, "changing in time", allowed))
             }
             None => {

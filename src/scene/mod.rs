@@ -28,6 +28,7 @@ mod lubricant;
 mod material;
 mod oils;
 mod path;
+mod points;
 pub mod presets;
 mod probe;
 mod recorded;

@@ -95,7 +95,7 @@ pub fn cornering_wheel(lateral: f64) -> Scene {
         damping: 0.5,
     });
     let support = &mut scene.inner_ring.support;
-    (support.tilt_x, support.tilt_y) = (tilts, tilts);
+    (support.tilt_x, support.tilt_y) = (tilts.clone(), tilts);
     scene
 }
 
@@ -145,7 +145,7 @@ pub fn angular_contact_pair(
         damping: 0.1,
     });
     let support = &mut scene.inner_ring.support;
-    (support.tilt_x, support.tilt_y) = (tilts, tilts);
+    (support.tilt_x, support.tilt_y) = (tilts.clone(), tilts);
     if let Some(load) = scene.loads.get_mut("radial") {
         load.at = Some([0.0, 0.0, -overhang]);
     }
@@ -197,7 +197,7 @@ pub fn deep_groove_6205(radial_load: f64, axial_load: f64, speed_rpm: f64) -> Sc
 /// Springs and dampers along x, y and z; the rotation is left to the default of the ring.
 fn held(stiffness: f64, damping: f64) -> Support {
     let mount = Some(Mount::Spring { stiffness, damping });
-    Support::new([mount, mount, mount, None])
+    Support::new([mount.clone(), mount.clone(), mount, None])
 }
 
 /// Radial load along −y, axial along +z, on the inner ring.

@@ -36,14 +36,10 @@ impl Scene {
     /// [`Scene::body_index`].
     pub(super) fn moves(&self, body: usize) -> [bool; 8] {
         let can = |support: &Support, absent| {
-            let [x, y, z, theta] = support.mounts(absent);
-            let [tilt_x, tilt_y] = support.tilt_mounts();
-            let turns = if self.balls_turn() {
-                Mount::Free
-            } else {
-                Mount::Fixed
-            };
-            [x, y, z, theta, tilt_x, tilt_y, turns, turns].map(|mount| mount != Mount::Fixed)
+            let [x, y, z, theta] = support.mounts(absent).map(|mount| mount != Mount::Fixed);
+            let [tilt_x, tilt_y] = support.tilt_mounts().map(|mount| mount != Mount::Fixed);
+            let turns = self.balls_turn();
+            [x, y, z, theta, tilt_x, tilt_y, turns, turns]
         };
         match body {
             0 => {

@@ -7,7 +7,7 @@ use crate::base::error::{Error, Result};
 impl Support {
     /// The mounts of both tilts, which are fixed where they are absent.
     pub fn tilt_mounts(&self) -> [Mount; 2] {
-        [self.tilt_x, self.tilt_y].map(|mount| mount.unwrap_or(Mount::Fixed))
+        [&self.tilt_x, &self.tilt_y].map(|mount| mount.clone().unwrap_or(Mount::Fixed))
     }
 
     /// Whether it says anything of tilts or couples directions.
@@ -21,7 +21,7 @@ impl Ring {
     pub(crate) fn leans(&self) -> bool {
         let support = &self.support;
         self.tilt.is_some_and(|tilt| tilt != [0.0; 2])
-            || support.tilt_mounts() != [Mount::Fixed; 2]
+            || support.tilt_mounts() != [const { Mount::Fixed }; 2]
             || support.coupled.is_some()
     }
 }

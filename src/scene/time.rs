@@ -4,6 +4,8 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::points::{Cubic, reached};
+
 /// A value in time: a plain number, or one of the [`Profile`]s.
 ///
 /// In TOML: `force = 7000.0`, or `force = { ramp = { from = 0.0, to = 7000.0, start = 0.0, end = 0.1 } }`.
@@ -49,6 +51,15 @@ pub enum Profile {
         times: Vec<f64>,
         /// A value a time.
         values: Vec<f64>,
+    },
+    /// A cubic between points that has their rates there (Hermite's interpolation), beyond them a straight line.
+    Spline {
+        /// Times, strictly increasing \[s\].
+        times: Vec<f64>,
+        /// A value a time.
+        values: Vec<f64>,
+        /// Its rate of change, a value a time, over a second.
+        rates: Vec<f64>,
     },
 }
 
@@ -104,6 +115,11 @@ impl TimeFunction {
                     value(after - 1) + (value(after) - value(after - 1)) * share
                 }
             }
+            Self::Profile(Profile::Spline {
+                times,
+                values,
+                rates,
+            }) => Cubic::of(times, values, rates, t).at(t),
         }
     }
 
@@ -141,14 +157,42 @@ impl TimeFunction {
                     (value(after) - value(after - 1)) / (times[after] - times[after - 1])
                 }
             }
+            Self::Profile(Profile::Spline {
+                times,
+                values,
+                rates,
+            }) => Cubic::of(times, values, rates, t).rate(t),
         }
     }
 
-    /// Times at which the value jumps or has a corner \[s\].
+    /// Second derivative in time at `t`, from the right at a corner; a corner or a jump itself counts for nothing.
+    pub fn curvature(&self, t: f64) -> f64 {
+        match self {
+            Self::Profile(Profile::Sine {
+                amplitude,
+                frequency,
+                phase,
+                ..
+            }) => {
+                let w = std::f64::consts::TAU * frequency;
+                -amplitude * w * w * (w * t + phase).sin()
+            }
+            Self::Profile(Profile::Spline {
+                times,
+                values,
+                rates,
+            }) => Cubic::of(times, values, rates, t).curvature(t),
+            _ => 0.0,
+        }
+    }
+
+    /// Times at which the value jumps or has a corner, of a spline one of its curvature \[s\].
     pub fn breakpoints(&self) -> Vec<f64> {
         match self {
             Self::Profile(Profile::Ramp { start, end, .. }) => vec![*start, *end],
-            Self::Profile(Profile::Table { times, .. }) => times.clone(),
+            Self::Profile(Profile::Table { times, .. } | Profile::Spline { times, .. }) => {
+                times.clone()
+            }
             _ => Vec::new(),
         }
     }
@@ -157,7 +201,8 @@ impl TimeFunction {
     /// from the ones beside them \[s\]. Where corners are closer than steps the error decides, as it does for any other
     /// function that is not smooth; jumps are always reported.
     pub(crate) fn breakpoints_apart(&self, apart: f64) -> Vec<f64> {
-        let Self::Profile(Profile::Table { times, .. }) = self else {
+        let Self::Profile(Profile::Table { times, .. } | Profile::Spline { times, .. }) = self
+        else {
             return self.breakpoints();
         };
         let ends = |i: usize| {
@@ -175,7 +220,7 @@ impl TimeFunction {
             .collect()
     }
 
-    /// The value of the largest magnitude that is ever taken, with its sign.
+    /// The value of the largest magnitude that is ever taken, of a spline up to its ends, with its sign.
     ///
     /// ```
     /// use ballrace::scene::{Profile, TimeFunction};
@@ -191,6 +236,36 @@ impl TimeFunction {
                 mean, amplitude, ..
             }) => mean + amplitude.abs().copysign(*mean),
             Self::Profile(Profile::Table { values, .. }) => values.iter().fold(0.0, larger),
+            Self::Profile(Profile::Spline { .. }) => self.range().iter().fold(0.0, larger),
+        }
+    }
+
+    /// Least and largest value that are ever taken, of a spline up to its ends.
+    pub(super) fn range(&self) -> [f64; 2] {
+        let over = |values: &mut dyn Iterator<Item = f64>| {
+            let none = [f64::INFINITY, f64::NEG_INFINITY];
+            values.fold(none, |[least, most], x| [least.min(x), most.max(x)])
+        };
+        match self {
+            Self::Constant(value) => [*value; 2],
+            Self::Profile(Profile::Ramp { from, to, .. }) => [from.min(*to), from.max(*to)],
+            Self::Profile(Profile::Sine {
+                mean, amplitude, ..
+            }) => [mean - amplitude.abs(), mean + amplitude.abs()],
+            Self::Profile(Profile::Table { values, .. }) => over(&mut values.iter().copied()),
+            Self::Profile(Profile::Spline {
+                times,
+                values,
+                rates,
+            }) => {
+                let turning = times.windows(2).flat_map(|span| {
+                    let cubic = Cubic::of(times, values, rates, span[0]);
+                    let within = |t: &f64| span[0] < *t && *t < span[1];
+                    let level = cubic.level().into_iter().filter(within);
+                    level.map(|t| cubic.at(t)).collect::<Vec<_>>()
+                });
+                over(&mut values.iter().copied().chain(turning))
+            }
         }
     }
 
@@ -198,25 +273,6 @@ impl TimeFunction {
     pub fn peak(&self) -> f64 {
         self.extreme().abs()
     }
-}
-
-/// How many of these times, which do not decrease, lie at or before `t`. Of evenly spaced ones, as most tables have, the
-/// place follows from the time itself; of others by bisection.
-pub(super) fn reached(times: &[f64], t: f64) -> usize {
-    let (Some(first), Some(last)) = (times.first(), times.last()) else {
-        return 0;
-    };
-    let share = (t - first) / (last - first) * (times.len() - 1) as f64;
-    // Saturates; not a number where all times are one becomes 0.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let guess = share as usize;
-    for after in guess..=guess.saturating_add(2).min(times.len()) {
-        let passed = after == 0 || times[after - 1] <= t;
-        if passed && times.get(after).is_none_or(|next| *next > t) {
-            return after;
-        }
-    }
-    times.partition_point(|&x| x <= t)
 }
 
 impl Serialize for TimeFunction {
@@ -232,7 +288,7 @@ impl<'de> Deserialize<'de> for TimeFunction {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         number_or_map(
             deserializer,
-            "a number, or one of { ramp = … }, { sine = … }, { table = … }",
+            "a number, or one of { ramp = … }, { sine = … }, { table = … }, { spline = … }",
             Self::Constant,
             Self::Profile,
         )

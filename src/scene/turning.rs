@@ -46,7 +46,7 @@ impl Scene {
         [outer, self.drive.peak_speed()]
     }
 
-    /// Largest speed of the rings against each other that is known, |Ω_i − Ω_o|; where one of them is a sine, a bound of
+    /// Largest speed of the rings against each other that is known, |Ω_i − Ω_o|; where one of them is a sine or a spline, a bound of
     /// it \[rad/s\].
     pub(crate) fn peak_relative_speed(&self) -> f64 {
         let Some(outer) = &self.outer_speed else {
@@ -70,15 +70,12 @@ impl Scene {
     }
 }
 
-/// Least and largest value at a time; of a sine those at any time.
+/// Least and largest value at a time; of a sine or a spline those at any time.
 fn ends(of: &TimeFunction, t: f64) -> [f64; 2] {
-    if let TimeFunction::Profile(Profile::Sine {
-        mean, amplitude, ..
-    }) = of
-    {
-        return [mean - amplitude.abs(), mean + amplitude.abs()];
+    match of {
+        TimeFunction::Profile(Profile::Sine { .. } | Profile::Spline { .. }) => of.range(),
+        _ => [of.at(t); 2],
     }
-    [of.at(t); 2]
 }
 
 #[cfg(test)]

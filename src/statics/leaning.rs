@@ -178,6 +178,9 @@ impl Problem<'_> {
         let lever = model.radius(Race::Inner.ring());
         let mut rings = Rings::zeros();
         for race in Race::BOTH {
+            for dof in Dof::TRANSLATIONS {
+                rings[unknowns::at(race, dof)] = model.bodies[race.ring()].nominal[dof];
+            }
             for (dof, tilt) in Dof::TILTS.into_iter().zip(model.rings[race].tilt) {
                 rings[unknowns::at(race, dof)] = lever * tilt;
             }

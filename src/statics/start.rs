@@ -22,12 +22,18 @@ pub enum Start {
     State(Vec<f64>),
 }
 
-/// The state at t = 0.
+/// The state at t = 0, rings where given motions have them.
 ///
 /// # Errors
 /// [`Error::Equilibrium`] if the load cannot be carried; [`Error::Scene`] for a state of wrong length or
 /// with a number that is not finite.
 pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
+    let mut y = begin(model, start)?;
+    model.follow_given(0.0, &mut y);
+    Ok(y)
+}
+
+fn begin(model: &Model, start: &Start) -> Result<Vec<f64>> {
     match start {
         Start::Rolling => {
             let mut y = vec![0.0; model.dim()];

@@ -77,16 +77,16 @@ impl<const N: usize> Carrier<N> {
             frame.to_ring(&turning)
         };
         let mobility = self.scale;
-        let at_rest = turning_accelerations(model, race, ring, &Vector3::zeros(), None);
+        let at_rest = turning_accelerations(model, race, ring, &Vector3::zeros(), [0.0; 3]);
         for k in 0..3 {
             let mut unit = Vector3::zeros();
             unit[k] = 1.0;
             let seen = frame.to_ring(&unit);
             // Forces act at the frame's origin, and turn the ring about its centre of mass.
             let [force, moment] = ring.about_centre(&unit, &Vector3::zeros());
-            let by_force = turning_accelerations(model, race, ring, &moment, None);
+            let by_force = turning_accelerations(model, race, ring, &moment, [0.0; 3]);
             let turned = frame.to_scene(&unit);
-            let by_moment = turning_accelerations(model, race, ring, &turned, None);
+            let by_moment = turning_accelerations(model, race, ring, &turned, [0.0; 3]);
             let mut rates = [0.0; 3];
             rates[k] = 1.0;
             let turning = turns(rates);

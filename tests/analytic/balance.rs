@@ -74,7 +74,7 @@ fn ordinary(seed: u64) -> Scene {
         damping: 300.0,
     };
     let outer = &mut scene.outer_ring.support;
-    (outer.x, outer.y, outer.z) = (Some(support), Some(support), Some(support));
+    (outer.x, outer.y, outer.z) = (Some(support.clone()), Some(support.clone()), Some(support));
     if noise.yes() {
         scene.gravity = [0.0; 3];
     }

@@ -11,6 +11,7 @@ mod energy;
 mod equilibrium;
 mod fitted;
 mod friction;
+mod given_motion;
 mod laws;
 mod lubricant;
 mod lubrication;

@@ -18,7 +18,7 @@ fn leaning() -> Scene {
         damping: 0.05,
     });
     let support = &mut scene.inner_ring.support;
-    (support.tilt_x, support.tilt_y) = (tilts, tilts);
+    (support.tilt_x, support.tilt_y) = (tilts.clone(), tilts);
     scene
 }
 

@@ -101,7 +101,7 @@ pub fn soon_over_the_spall(axial_load: f64) -> Scene {
 pub fn one_ball(squeeze: f64) -> Scene {
     let mut scene = presets::deep_groove_6205(1000.0, 0.0, 0.0);
     let fixed = Some(Mount::Fixed);
-    let held = Support::new([fixed, fixed, fixed, None]);
+    let held = Support::new([fixed.clone(), fixed.clone(), fixed, None]);
     scene.rows[0].ball_count = 1;
     scene.rows[0].start_angle = 0.0;
     scene.rows[0].clearance = -squeeze;

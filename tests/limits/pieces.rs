@@ -356,6 +356,169 @@ fn the_same_loads_again_leave_the_bits() {
     assert_eq!(whole.end_state, pieces.end_state);
 }
 
+const PUSHED: &str = "inner_ring.support.y.given";
+const TILTED: &str = "inner_ring.support.tilt_x.given";
+
+/// A bearing whose inner ring another program carries.
+fn carried() -> Scene {
+    let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    let given = |place: f64| Some(Mount::given(place));
+    let support = &mut scene.inner_ring.support;
+    (support.x, support.y) = (given(0.0), given(-2e-5));
+    support.tilt_x = given(1e-4);
+    scene
+}
+
+/// Where the other program has it.
+fn course(t: f64) -> [(&'static str, [f64; 2]); 2] {
+    let (sin, cos) = (900.0 * t).sin_cos();
+    [
+        (PUSHED, [-2e-5 - 1e-5 * sin, -9e-3 * cos]),
+        (TILTED, [1e-4 + 1e-4 * sin, 9e-2 * cos]),
+    ]
+}
+
+/// A ring that is moved piece by piece takes the course of the spline through the same points.
+#[test]
+fn motions_that_are_set_are_those_of_the_scene() {
+    let run = Run {
+        duration: DURATION,
+        settle: Some(5e-3),
+        rtol: Some(1e-9),
+        ..Run::default()
+    };
+    let times: Vec<f64> = (0..=20_u8).map(|i| 1e-4 * f64::from(i)).collect();
+    let mut whole = carried();
+    // From rest, as a ring does that is not moved yet.
+    let rest = [course(0.0)[0].1[0], course(0.0)[1].1[0]];
+    let spline = |which: usize| {
+        let points = times[1..].iter().map(|t| course(*t)[which].1);
+        let all: Vec<[f64; 2]> = std::iter::once([rest[which], 0.0]).chain(points).collect();
+        Some(Mount::given(TimeFunction::Profile(Profile::Spline {
+            times: times.clone(),
+            values: all.iter().map(|point| point[0]).collect(),
+            rates: all.iter().map(|point| point[1]).collect(),
+        })))
+    };
+    (whole.inner_ring.support.y, whole.inner_ring.support.tilt_x) = (spline(0), spline(1));
+    let mut truth = Simulation::begin(&whole, &run).unwrap();
+    let mut moved = Simulation::begin(&carried(), &run).unwrap();
+    for t in &times[1..] {
+        moved.set_motions(&course(*t), *t).unwrap();
+        moved.advance_to(*t).unwrap();
+        truth.advance_to(*t).unwrap();
+        let at = |name: &str| {
+            truth
+                .model()
+                .names()
+                .iter()
+                .position(|of| of == name)
+                .unwrap()
+        };
+        for (name, place) in [("inner.y", 0), ("inner.tilt_x", 1)] {
+            let error = moved.state()[at(name)] - course(*t)[place].1[0];
+            assert!(error.abs() < 1e-14, "{name} {error:e}");
+        }
+        for ring in [RingName::Outer, RingName::Inner] {
+            let [one, other] = [&moved, &truth].map(|of| of.wrench(ring)[1]);
+            assert!(
+                (one - other).abs() < 1e-5 * other.abs(),
+                "{t} {one} {other}"
+            );
+        }
+    }
+}
+
+/// Snapshots have the motions that were set, also of a scene that was compiled anew while a ring moved.
+#[test]
+fn motions_that_are_set_go_on_bit_by_bit() {
+    let go = |takes_up: bool| {
+        let mut simulation = Simulation::begin(&carried(), &run()).unwrap();
+        for piece in 1..=20 {
+            let t = 5e-5 * f64::from(piece);
+            simulation.set_motions(&course(t), t).unwrap();
+            simulation.advance_to(t).unwrap();
+            if piece == 10 {
+                // Rings are moved on from where they are.
+                simulation.change(&[("friction", "none".into())]).unwrap();
+            }
+            if takes_up {
+                let words = simulation.snapshot().to_json();
+                simulation = Simulation::restore(&Snapshot::from_json(&words).unwrap()).unwrap();
+            }
+        }
+        simulation.finish().unwrap()
+    };
+    let (whole, taken_up) = (go(false), go(true));
+    assert_eq!(bits(&whole.columns), bits(&taken_up.columns));
+    assert_eq!(whole.end_state, taken_up.end_state);
+}
+
+/// Past the end of its course a ring goes straight on; set anew it goes on from there, and a motion of the scene replaces it.
+#[test]
+fn a_moved_ring_goes_straight_on() {
+    let mut simulation = Simulation::begin(&carried(), &run()).unwrap();
+    let at = simulation.model().names();
+    let at = at.iter().position(|of| of == "inner.y").unwrap();
+    simulation
+        .set_motions(&[(PUSHED, [-2.2e-5, -2e-3])], 1e-3)
+        .unwrap();
+    simulation.advance_to(2e-3).unwrap();
+    assert!((simulation.state()[at] - -2.4e-5).abs() < 1e-14);
+    simulation.change(&[(PUSHED, (-3e-5).into())]).unwrap();
+    assert_eq!(simulation.state()[at], -3e-5);
+    simulation.advance_to(2.1e-3).unwrap();
+    assert!((simulation.state()[at] - -3e-5).abs() < 1e-14);
+}
+
+#[test]
+fn motions_that_cannot_be_set_are_refused_by_name() {
+    let mut simulation = Simulation::begin(&carried(), &run()).unwrap();
+    simulation.advance_to(1e-3).unwrap();
+    let before = simulation.scene().clone();
+    for (path, [place, speed], until, named) in [
+        (
+            "inner_ring.support.z.given",
+            [0.0, 0.0],
+            2e-3,
+            "inner_ring.support.z.given",
+        ),
+        (
+            "outer_ring.support.x",
+            [0.0, 0.0],
+            2e-3,
+            "outer_ring.support.x",
+        ),
+        ("loads.radial.force", [0.0, 0.0], 2e-3, "loads.radial.force"),
+        (
+            PUSHED,
+            [0.2, 0.0],
+            2e-3,
+            "inner_ring.support.y.given.spline.values[1]",
+        ),
+        (
+            PUSHED,
+            [0.0, f64::NAN],
+            2e-3,
+            "inner_ring.support.y.given.spline.rates[1]",
+        ),
+        (PUSHED, [0.0, 0.0], 1e-3, "until"),
+        (PUSHED, [0.0, 0.0], f64::INFINITY, "until"),
+    ] {
+        let motions = [(TILTED, [0.0, 0.0]), (path, [place, speed])];
+        let refused = simulation.set_motions(&motions, until);
+        let Err(Error::Scene { path: found, .. }) = refused else {
+            panic!("{path}: {refused:?}")
+        };
+        assert_eq!(found, named);
+        assert_eq!(simulation.scene(), &before);
+    }
+    let refused = simulation.set_loads(&[(PUSHED, 0.0)]);
+    assert!(matches!(refused, Err(Error::Scene { path, .. }) if path == PUSHED));
+    let refused = simulation.change(&[("inner_ring.support.y", "fixed".into())]);
+    assert!(matches!(refused, Err(Error::Scene { path, .. }) if path == "changes"));
+}
+
 #[test]
 fn loads_that_cannot_be_set_are_refused_by_name() {
     let mut scene = unloaded();

@@ -123,7 +123,7 @@ fn contacts_feel_only_how_the_rings_turn_against_each_other() {
             stiffness: 1e8,
             damping: 0.0,
         });
-        scene.outer_ring.support = Support::new([spring, spring, spring, None]);
+        scene.outer_ring.support = Support::new([spring.clone(), spring.clone(), spring, None]);
         scene.inner_ring.support = Support::default();
         // Nor the loads of the equilibrium, which centrifugal forces change: contacts average waves and have films by them.
         scene.rows[0].texture.as_mut().unwrap().reference_load = Some(50.0);
@@ -171,7 +171,7 @@ fn a_given_speed_is_that_of_a_free_ring_that_nothing_turns() {
         damping: 0.1,
     });
     let support = &mut free.outer_ring.support;
-    (support.tilt_x, support.tilt_y) = (mount, mount);
+    (support.tilt_x, support.tilt_y) = (mount.clone(), mount);
     let mut given = free.clone();
     given.outer_speed = Some(speed.into());
     free.outer_ring.support.theta = Some(Mount::Free);

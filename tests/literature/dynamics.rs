@@ -183,7 +183,7 @@ fn thrown(law: &NormalLaw, outer: bool, damping: f64, speed: f64, fs: f64) -> (V
     row.clearance = 1e-3;
     row.start_angle = 0.0;
     let fixed = Some(Mount::Fixed);
-    let held = Support::new([fixed, fixed, fixed, None]);
+    let held = Support::new([fixed.clone(), fixed.clone(), fixed, None]);
     (scene.outer_ring.support, scene.inner_ring.support) = (held.clone(), held);
     (scene.cage, scene.friction, scene.gravity) = (None, Friction::None, [0.0; 3]);
     scene.contact = Contact::default();

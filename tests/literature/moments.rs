@@ -72,7 +72,12 @@ fn a_run_tells_the_moments_of_its_state() {
         stiffness: 0.0,
         damping: 1e3,
     };
-    scene.inner_ring.support = Support::new([Some(damped), Some(damped), Some(damped), None]);
+    scene.inner_ring.support = Support::new([
+        Some(damped.clone()),
+        Some(damped.clone()),
+        Some(damped),
+        None,
+    ]);
     scene.probes = [("m".to_owned(), Probe::Moments {})].into();
     let told = equilibrium(&scene).unwrap();
     let out = simulate(&scene, &short(1e-4)).unwrap();

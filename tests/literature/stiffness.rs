@@ -134,11 +134,11 @@ fn stiffness_is_the_slope_of_the_equilibrium() {
             .into_iter()
             .enumerate()
         {
-            let mounts = [ring.support.x, ring.support.y, ring.support.z];
+            let mounts = [&ring.support.x, &ring.support.y, &ring.support.z];
             for (j, mount) in mounts.into_iter().enumerate() {
                 let absent = if i == 0 { Mount::Fixed } else { Mount::Free };
-                held[(3 * i + j, 3 * i + j)] += match mount.unwrap_or(absent) {
-                    Mount::Spring { stiffness, .. } => stiffness,
+                held[(3 * i + j, 3 * i + j)] += match mount.as_ref().unwrap_or(&absent) {
+                    Mount::Spring { stiffness, .. } => *stiffness,
                     Mount::Fixed => 1e30,
                     _ => 0.0,
                 };

@@ -242,6 +242,78 @@ def test_a_ring_mass_outside_converges_to_the_run_with_it(pack: Pack) -> None:
     assert (np.abs(orders - 1.0) < 0.05).all(), (errors, orders)
 
 
+def led(packed: Path, step: float, duration: float) -> np.ndarray:
+    """The wrench on the inner ring every 40 µs, led along a sine from outside."""
+    found = []
+    with driven(packed) as (bearing,):
+        bearing.begin()
+        for k in range(round(duration / step) + 1):
+            if k % round(40e-6 / step) == 0:
+                found.append(bearing.get("inner.wrench.fy")[0])
+            phase = 2.0 * np.pi * SINE.frequency * bearing.time
+            bearing.set({
+                "inner_ring.support.y.given": SINE.mean + SINE.amplitude * np.sin(phase),
+                "inner_ring.support.y.given.rate": (
+                    SINE.amplitude * 2.0 * np.pi * SINE.frequency * np.cos(phase)
+                ),
+            })  # fmt: skip
+            bearing.step(step)
+    return np.array(found)
+
+
+SINE = br.scene.Sine(mean=-2e-5, amplitude=5e-6, frequency=200.0, phase=0.0)
+
+
+@pytest.mark.long
+def test_a_ring_that_is_led_converges_to_the_run_that_leads_it(pack: Pack) -> None:
+    """Limits: of second order or better in the communication step, once the first has passed."""
+    support = "inner_ring.support"
+    held = scene().replace({f"{support}.x": br.scene.Given(0.0), "solver.rtol": 1e-9})
+    whole = br.Simulation(held.replace({f"{support}.y": br.scene.Given(SINE)}), duration=1.0)
+    truth = []
+    for k in range(51):
+        whole.advance_to(k * 40e-6)
+        truth.append(whole.wrench("inner")[1])
+    packed = pack(held.replace({f"{support}.y": br.scene.Given(SINE.mean)}))
+    errors = [
+        float(np.abs(led(packed, step, 2e-3) - truth)[10:].max() / np.abs(truth).max())
+        for step in (40e-6, 20e-6, 10e-6)
+    ]
+    print(errors)
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert errors[-1] < 1e-3, errors
+    assert (orders > 1.5).all(), (errors, orders)
+
+
+@pytest.mark.long
+def test_a_ring_that_is_led_goes_on_from_its_state(pack: Pack) -> None:
+    """Limits: bit by bit, with the speed of the step before; an input that stays leaves the run's bits."""
+    place = "inner_ring.support.y.given"
+    of = scene().replace({"inner_ring.support.y": br.scene.Given(-2e-5)})
+
+    def moved(bearing: Driven, steps: range) -> list[bytes]:
+        found = []
+        for k in steps:
+            bearing.set({place: -2e-5 - 1e-8 * k * k, f"{place}.rate": -2e-3 * k})
+            bearing.step()
+            found.append(bearing.everything())
+        return found
+
+    simulation = br.Simulation(of, duration=1.0)
+    with driven(pack(of), 2) as (bearing, other):
+        bearing.begin().step()
+        simulation.advance_to(STEP)
+        assert bearing.get("inner.wrench.fy")[0] == simulation.wrench("inner")[1]
+        moved(bearing, range(10))
+        time, state = bearing.time, bearing.fmu.getFMUState()
+        first = moved(bearing, range(10, 20))
+        words = bearing.fmu.serializeFMUState(state)
+        other.fmu.setFMUState(other.fmu.deserializeFMUState(words))
+        other.time = time
+        assert moved(other, range(10, 20)) == first
+        bearing.fmu.freeFMUState(state)
+
+
 def shaken(bearing: Driven, steps: range) -> list[bytes]:
     """Steps under inputs of every kind, a parameter among them; all outputs after each."""
     found = []

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import dataclasses
 import json
+import math
 import pickle
 import re
 import types
@@ -88,7 +89,16 @@ def every_field() -> s.Scene:
         name="every field",
         rows=(row, dataclasses.replace(row, side=1, axial_position=-2e-3)),
         outer_ring=s.Ring(mass=0.5, inertia=1e-3, diameter=52e-3, width=15e-3, support=support),
-        inner_ring=s.Ring(mass=0.3, inertia=1e-4, diameter=25e-3, width=15e-3),
+        inner_ring=s.Ring(
+            mass=0.3,
+            inertia=1e-4,
+            diameter=25e-3,
+            width=15e-3,
+            support=s.Support(
+                x=s.Given(1e-6),
+                y=s.Given(s.Spline(times=(0.0, 0.1), values=(-1e-5, 0.0), rates=(0.0, 1e-4))),
+            ),
+        ),
         materials=s.Materials(
             rings=s.Material(density=7800.0, youngs_modulus=2.1e11, poisson_ratio=0.29),
             balls=s.Material(density=3200.0, youngs_modulus=3.1e11, poisson_ratio=0.26),
@@ -436,7 +446,7 @@ def test_fields_and_variants_have_the_same_names_in_the_core() -> None:
                 assert expected_by_core(scene, f"{inner}.stranger", 1) == names, inner
                 compared.add(type(value).__name__)
     assert {part.__name__ for part in parts()}.difference(compared) == {
-        "AccurateSlices", "FittedSlices", "FixedSlices", "SpeedDrive"
+        "AccurateSlices", "FittedSlices", "FixedSlices", "Given", "SpeedDrive"
     }  # fmt: skip
 
 
@@ -512,6 +522,25 @@ def test_replace_reaches_every_field(wheel: s.Scene) -> None:
         ("rows[0].outer_conformity", 0.5, "rows[0].outer_conformity"),
         ("rows[2].clearance", 0.0, "rows[2].clearance"),
         ("loads.sideways.force", 1.0, "loads.sideways.force"),
+        *[
+            ("loads.axial.force", s.Spline(**spline), f"loads.axial.force.spline{field}")
+            for spline, field in [
+                ({"times": (0.0, 1.0), "values": (1.0, 2.0), "rates": (0.0,)}, ""),
+                ({"times": (0.0, 0.0), "values": (1.0, 2.0), "rates": (0.0, 0.0)}, ".times[1]"),
+                ({"times": (0.0,), "values": (1.0,), "rates": (math.inf,)}, ".rates[0]"),
+            ]
+        ],
+        *[
+            (path, s.Given(motion), f"{path}.given")
+            for path, motion in [
+                ("inner_ring.support.x", s.Ramp(from_=0.0, to=1e-5, start=0.0, end=1.0)),
+                ("outer_ring.support.y", s.Table(times=(0.0, 1.0), values=(0.0, 1e-5))),
+                ("inner_ring.support.z", 0.2),
+                ("outer_ring.support.tilt_x", 0.6),
+                ("outer_ring.support.theta", 0.0),
+            ]
+        ],
+        ("rows[0].ball_support.x", s.Given(0.0), "rows[0].ball_support"),
         ("defects.spall.length", 0.1, "defects.spall.length"),
         ("contact.slices", s.FittedSlices(1), "contact.slices.fitted"),
         ("drive", "full speed ahead", "drive"),

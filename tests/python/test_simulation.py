@@ -10,11 +10,14 @@ import polars as pl
 import pytest
 
 import ballrace as br
+from ballrace.duty import duty_cycle
+from ballrace.scene.time import values_at
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 DURATION = 0.004
+GIVEN = "inner_ring.support.y.given"
 
 
 def scene(force: Any = 500.0) -> br.Scene:
@@ -125,6 +128,38 @@ def test_a_load_that_is_changed_is_a_load_with_a_course(call: str) -> None:
     assert out.scene.loads["radial"].force == 800.0
 
 
+def test_a_ring_that_is_led_takes_its_course() -> None:
+    """Truth: the sine itself, and the run of a scene that has it."""
+    sine = br.scene.Sine(mean=-2e-5, amplitude=4e-6, frequency=200.0, phase=0.0)
+    held = scene().replace({"inner_ring.support.x": br.scene.Given(0.0)})
+    whole = br.Simulation(held.replace({"inner_ring.support.y": br.scene.Given(sine)}))
+    led = br.Simulation(held.replace({"inner_ring.support.y": br.scene.Given(-2e-5)}))
+    turn = 2.0 * np.pi * 200.0
+    for t in np.arange(1, 101) * 2e-5:
+        place, speed = -2e-5 + 4e-6 * np.sin(turn * t), 4e-6 * turn * np.cos(turn * t)
+        led.set_motions({"inner_ring.support.y.given": (place, speed)}, until=t)
+        led.advance_to(t)
+    whole.advance_to(t)
+    assert abs(led.state[led.names.index("inner.y")] - place) < 1e-14
+    forces = [simulation.wrench("inner")[1] for simulation in (led, whole)]
+    # It began at rest, the other did not.
+    assert forces[1] > 100.0
+    assert abs(forces[0] - forces[1]) < 0.02 * forces[1]
+
+
+def test_a_spline_through_points_is_smooth() -> None:
+    """Analytic: a cubic, and straight on beyond; the loads of a life are those of its period."""
+    times = np.linspace(0.0, 1.0, 5)
+    spline = br.scene.Spline.through(times, 500.0 + 300.0 * times**3)
+    found = values_at(spline, [0.3, 1.5, -0.5])
+    np.testing.assert_allclose(
+        found, [500.0 + 300.0 * 0.3**3, 800.0 + 900.0 * 0.5, 500.0], rtol=1e-12
+    )
+    cycle = duty_cycle(scene().replace({"loads.radial.force": spline}))
+    mean = sum(share * float(part.loads["radial"].force) for share, part in cycle)
+    assert mean == pytest.approx(500.0 + 300.0 / 4.0, rel=1e-9)
+
+
 def test_changes_act_on_what_is_read() -> None:
     """Truth: at rest the balls put the load on the outer ring, whose support bears it."""
     simulation = br.Simulation(scene())
@@ -168,6 +203,11 @@ def test_bad_input_is_refused_by_name() -> None:
         (lambda: simulation.change(3), "^changes = "),  # type: ignore[arg-type]
         (lambda: simulation.set_loads(3), "^loads = "),  # type: ignore[arg-type]
         (lambda: simulation.set_loads({"loads.other.force": 1.0}), r"^loads\.other\.force = "),
+        (lambda: simulation.set_motions(3, until=1.0), "^motions = "),  # type: ignore[arg-type]
+        (lambda: simulation.set_motions({GIVEN: (0.0, 0.0)}, until=2e-3), f"^{GIVEN} = not there"),
+        (lambda: simulation.set_motions({GIVEN: (0.0, np.nan)}, until=2e-3), f"^{GIVEN} = "),
+        (lambda: simulation.set_motions({GIVEN: (0.0,)}, until=2e-3), f"^{GIVEN} = "),
+        (lambda: simulation.set_motions({}, until=1e-3), "^until = 0.001"),
         (lambda: simulation.set_loads({"loads.radial.force": "big"}), r"^loads\.radial\.force = "),  # type: ignore[dict-item]
     ]
     for call, match in calls:

@@ -116,7 +116,7 @@ fn without_probes_what_can_move_is_recorded() {
     // Both rings held: what the balls carry.
     let fixed = Some(Mount::Fixed);
     scene.outer_ring.support = Support::default();
-    scene.inner_ring.support = Support::new([fixed, fixed, fixed, None]);
+    scene.inner_ring.support = Support::new([fixed.clone(), fixed.clone(), fixed, None]);
     scene.rows[0].clearance = -4e-6;
     let loads = columns(&scene);
     assert_eq!(loads.len(), 18);
@@ -516,7 +516,7 @@ fn machines_drawn_at_random_raise_no_doubt() {
             // A shaft that bends may tilt.
             let tilts = Some(Mount::Free);
             let support = &mut scene.inner_ring.support;
-            (support.tilt_x, support.tilt_y) = (tilts, tilts);
+            (support.tilt_x, support.tilt_y) = (tilts.clone(), tilts);
             scene.loads.get_mut("radial").unwrap().at = Some([0.0, 0.0, -60e-3]);
         }
         if case % 5 == 0 {

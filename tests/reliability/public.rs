@@ -24,7 +24,7 @@ fn bearing() -> Scene {
         damping: 300.0,
     });
     scene.outer_ring.mass = Some(0.2);
-    scene.outer_ring.support = Support::new([spring, spring, spring, None]);
+    scene.outer_ring.support = Support::new([spring.clone(), spring.clone(), spring, None]);
     scene.inner_ring.mass = Some(1.0);
     scene.inner_ring.support.x = Some(Mount::Spring {
         stiffness: 0.0,

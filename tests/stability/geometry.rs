@@ -286,7 +286,7 @@ fn one_ball_and_sixty() {
         stiffness: 1e6,
         damping: 300.0,
     };
-    (scene.inner_ring.support.x, scene.inner_ring.support.z) = (Some(side), Some(side));
+    (scene.inner_ring.support.x, scene.inner_ring.support.z) = (Some(side.clone()), Some(side));
     carried(&scene, 1e-3);
     let mut scene = bearing("sixty balls", 5000.0, 0.0);
     let row = &mut scene.rows[0];

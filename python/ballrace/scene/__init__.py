@@ -46,9 +46,9 @@ from .probe import (
 )
 from .scene import Scene, Spin
 from .solver import Method, Solver
-from .support import CoupledSupport, Mount, Spring, Support
+from .support import CoupledSupport, Given, Mount, Spring, Support
 from .texture import Texture
-from .time import Ramp, Sine, Table, TimeFunction
+from .time import Ramp, Sine, Spline, Table, TimeFunction
 
 __all__ = [
     "AccurateSlices",
@@ -73,6 +73,7 @@ __all__ = [
     "Floor",
     "ForcesProbe",
     "Friction",
+    "Given",
     "GothicArch",
     "Iso16281",
     "Load",
@@ -102,6 +103,7 @@ __all__ = [
     "Solver",
     "SpeedDrive",
     "Spin",
+    "Spline",
     "Spring",
     "Stribeck",
     "Support",

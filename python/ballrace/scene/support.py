@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from .._document import LEFT_OUT, Part, Variant
+from .time import TimeFunction
 
-__all__ = ["CoupledSupport", "Mount", "Spring", "Support"]
+__all__ = ["CoupledSupport", "Given", "Mount", "Spring", "Support"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +27,20 @@ class Spring(Variant, tag="spring"):
     damping: float = 0.0
 
 
-Mount = Literal["free", "fixed"] | Spring
+@dataclass(frozen=True)
+class Given(Variant, tag="given", wraps=True):
+    """A ring follows a given motion, in a direction along an axis or a tilt; about z a speed prescribes it.
+
+    Attributes
+    ----------
+    motion : TimeFunction
+        Its place in time [m], of tilts [rad]: a number, a sine or a spline.
+    """
+
+    motion: TimeFunction
+
+
+Mount = Literal["free", "fixed"] | Spring | Given
 """One direction of a support."""
 
 

@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from .._document import Variant
 
-__all__ = ["Ramp", "Sine", "Table", "TimeFunction"]
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["Ramp", "Sine", "Spline", "Table", "TimeFunction"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,5 +71,75 @@ class Table(Variant, tag="table"):
     values: tuple[float, ...]
 
 
-TimeFunction = float | Ramp | Sine | Table
+@dataclass(frozen=True, kw_only=True)
+class Spline(Variant, tag="spline"):
+    """A cubic between points that has their rates there (Hermite's interpolation), beyond them a straight line.
+
+    Attributes
+    ----------
+    times : tuple of float
+        Times, strictly increasing [s].
+    values : tuple of float
+        A value a time [unit of the field].
+    rates : tuple of float
+        Its rate of change, a value a time [unit of the field / s].
+    """
+
+    times: tuple[float, ...]
+    values: tuple[float, ...]
+    rates: tuple[float, ...]
+
+    @classmethod
+    def through(cls, times: ArrayLike, values: ArrayLike) -> Spline:
+        """Return the smooth curve through points: the cubic spline whose ends are "not a knot".
+
+        Parameters
+        ----------
+        times, values : array-like of float, shape (n,)
+            Times, strictly increasing [s], and a value a time; two or more.
+
+        Raises
+        ------
+        ValueError
+            They are no such points.
+
+        Examples
+        --------
+        >>> from ballrace.scene import Spline
+        >>> cubes = Spline.through([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 8.0, 27.0])
+        >>> [round(rate, 9) for rate in cubes.rates]
+        [0.0, 3.0, 12.0, 27.0]
+        """
+        from scipy.interpolate import CubicSpline
+
+        curve = CubicSpline(times, values)
+        points = (curve.x, np.asarray(values, float), curve(curve.x, 1))
+        at, of, rate = (tuple(map(float, each)) for each in points)
+        return cls(times=at, values=of, rates=rate)
+
+
+def values_at(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]:
+    """Return the values of a function at times [s]; at a jump the one after it."""
+    t = np.asarray(times, float)
+    match function:
+        case Ramp(from_=before, to=after, start=start, end=end):
+            share = (t >= end) if start == end else np.clip((t - start) / (end - start), 0.0, 1.0)
+            return before + share * (after - before)
+        case Sine(mean=mean, amplitude=amplitude, frequency=frequency, phase=phase):
+            return mean + amplitude * np.sin(2.0 * math.pi * frequency * t + phase)
+        case Table(times=points, values=values):
+            return np.asarray(np.interp(t, points, values))
+        case Spline(times=points, values=values, rates=rates):
+            from scipy.interpolate import CubicHermiteSpline
+
+            if len(points) == 1:
+                return values[0] + rates[0] * (t - points[0])
+            within = np.clip(t, points[0], points[-1])
+            beyond = np.where(t < points[0], rates[0], rates[-1]) * (t - within)
+            return np.asarray(CubicHermiteSpline(points, values, rates)(within)) + beyond
+        case _:
+            return np.full(t.shape, float(function))
+
+
+TimeFunction = float | Ramp | Sine | Table | Spline
 """A value that may change in time; a plain number is constant."""

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from .drive import SpeedDrive
-from .time import Ramp, Sine, Table
+from .time import values_at
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -43,15 +40,4 @@ def relative_speed(scene: Scene, t: float | None = None) -> float | None:
 
 def value_at(function: TimeFunction, t: float) -> float:
     """Return the value of a function of time; at a jump the one after it."""
-    match function:
-        case Ramp(from_=before, to=after, start=start, end=end):
-            share = (
-                float(t >= end) if start == end else min(max((t - start) / (end - start), 0.0), 1.0)
-            )
-            return before + share * (after - before)
-        case Sine(mean=mean, amplitude=amplitude, frequency=frequency, phase=phase):
-            return mean + amplitude * math.sin(2.0 * math.pi * frequency * t + phase)
-        case Table(times=times, values=values):
-            return float(np.interp(t, times, values))
-        case _:
-            return float(function)
+    return float(values_at(function, t))

@@ -78,6 +78,7 @@ impl Planar {
             |force: &dyn Force| force.has_planar_form() || force.used(model) != Use::Evaluated;
         let is_timed = !forces::ALL.into_iter().all(is_known)
             || matches!(model.scene.drive, Drive::Torque { .. })
+            || model.has_given_motions()
             || !reduction.felt().is_empty();
         let is_plane = reduction
             .degrees()

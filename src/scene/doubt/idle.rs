@@ -104,7 +104,7 @@ fn is_loose(scene: &Scene, name: RingName) -> bool {
     let [_, _, z, _] = support.mounts(absent);
     let gives = match z {
         Mount::Free => true,
-        Mount::Fixed => false,
+        Mount::Fixed | Mount::Given(_) => false,
         Mount::Spring { stiffness, .. } => stiffness == 0.0,
     };
     gives

@@ -25,6 +25,11 @@ pub(super) fn row(path: &str, row: &Row) -> Result<()> {
         let given = "a tilt or a coupled support";
         return Err(Error::scene(at("ball_support"), given, allowed));
     }
+    let mounts = row.ball_support.mounts(Mount::Free);
+    if mounts.iter().any(|mount| matches!(mount, Mount::Given(_))) {
+        let allowed = "free, fixed or sprung directions: motions are given of rings";
+        return Err(Error::scene(at("ball_support"), "a given motion", allowed));
+    }
     support(&at("ball_support"), &row.ball_support)
 }
 
@@ -172,7 +177,7 @@ pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
         let mounts = ring.support.mounts(absent);
         let tilts = ring.support.tilt_mounts();
         let mut all = mounts[..3].iter().chain(&tilts);
-        if all.any(|mount| *mount != Mount::Fixed) {
+        if all.any(Mount::gives) {
             return Err(Error::scene(
                 at("mass"),
                 "absent",
@@ -185,13 +190,13 @@ pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
 
 fn support(path: &str, support: &Support) -> Result<()> {
     for (direction, mount) in [
-        ("x", support.x),
-        ("y", support.y),
-        ("z", support.z),
-        ("theta", support.theta),
+        ("x", &support.x),
+        ("y", &support.y),
+        ("z", &support.z),
+        ("theta", &support.theta),
     ] {
         let turns = direction == "theta";
-        check::mount(&format!("{path}.{direction}"), mount, turns)?;
+        check::mount(&format!("{path}.{direction}"), mount.as_ref(), turns)?;
     }
     Ok(())
 }

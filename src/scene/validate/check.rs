@@ -58,7 +58,7 @@ pub(super) fn below(path: &str, value: f64, limit: f64, what: &str) -> Result<()
 }
 
 /// Of a direction along an axis, or one that turns.
-pub(super) fn mount(path: &str, mount: Option<Mount>, turns: bool) -> Result<()> {
+pub(super) fn mount(path: &str, mount: Option<&Mount>, turns: bool) -> Result<()> {
     let Some(Mount::Spring { stiffness, damping }) = mount else {
         return Ok(());
     };
@@ -68,8 +68,8 @@ pub(super) fn mount(path: &str, mount: Option<Mount>, turns: bool) -> Result<()>
         ["N/m", "N s/m"]
     };
     let at = |field: &str| format!("{path}.spring.{field}");
-    within(&at("stiffness"), stiffness, 0.0..=1e15, units[0])?;
-    within(&at("damping"), damping, 0.0..=1e12, units[1])
+    within(&at("stiffness"), *stiffness, 0.0..=1e15, units[0])?;
+    within(&at("damping"), *damping, 0.0..=1e12, units[1])
 }
 
 pub(super) fn entry_name(collection: &str, name: &str) -> Result<()> {

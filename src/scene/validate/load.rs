@@ -194,5 +194,36 @@ pub(super) fn time_function(
                 None => Ok(()),
             }
         }
+        TimeFunction::Profile(Profile::Spline {
+            times,
+            values,
+            rates,
+        }) => {
+            let counts = [times.len(), values.len(), rates.len()];
+            if times.is_empty() || counts != [times.len(); 3] {
+                let [times, values, rates] = counts;
+                return Err(Error::scene(
+                    format!("{path}.spline"),
+                    format!("{times} times, {values} values, {rates} rates"),
+                    "as many values and rates as times, at least one",
+                ));
+            }
+            for (i, t) in times.iter().enumerate() {
+                finite(&format!("{path}.spline.times[{i}]"), *t)?;
+                each(&format!(".spline.values[{i}]"), values[i])?;
+                finite(&format!("{path}.spline.rates[{i}]"), rates[i])?;
+            }
+            match times.windows(2).position(|pair| pair[1] <= pair[0]) {
+                Some(i) => Err(Error::scene(
+                    format!("{path}.spline.times[{}]", i + 1),
+                    times[i + 1],
+                    format!(
+                        "later than the time before it, {}",
+                        quantities::duration(times[i])
+                    ),
+                )),
+                None => Ok(()),
+            }
+        }
     }
 }

@@ -6,10 +6,12 @@ use super::check::{self, entry_name, place, positive, within};
 use super::load::{direction, time_function};
 use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
-use crate::scene::{CoupledSupport, Mount, RingName, Scene};
+use crate::scene::{CoupledSupport, Mount, Profile, RingName, Scene, Support, TimeFunction};
 
 /// The furthest that a ring may tilt \[rad\].
 const FURTHEST: f64 = 0.5;
+/// The furthest place that a ring may be given along an axis \[m\].
+const FURTHEST_PLACE: f64 = 0.1;
 /// How far a coupled support may miss being symmetric and positive semidefinite, over its largest entry: rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -34,11 +36,12 @@ pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
         return Err(Error::scene(at("tilt"), format!("{:?}", [x, y]), allowed));
     }
     for (field, mount) in [
-        ("tilt_x", ring.support.tilt_x),
-        ("tilt_y", ring.support.tilt_y),
+        ("tilt_x", &ring.support.tilt_x),
+        ("tilt_y", &ring.support.tilt_y),
     ] {
-        check::mount(&at(&format!("support.{field}")), mount, true)?;
+        check::mount(&at(&format!("support.{field}")), mount.as_ref(), true)?;
     }
+    given(&at("support"), &ring.support)?;
     if let Some(coupled) = &ring.support.coupled {
         support(&at("support.coupled"), coupled, turned_by)?;
     }
@@ -50,6 +53,41 @@ pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
         )),
         _ => Ok(()),
     }
+}
+
+/// Directions whose motion is given, which has to be smooth: accelerations follow from it.
+fn given(path: &str, support: &Support) -> Result<()> {
+    for (field, mount) in [
+        ("x", &support.x),
+        ("y", &support.y),
+        ("z", &support.z),
+        ("theta", &support.theta),
+        ("tilt_x", &support.tilt_x),
+        ("tilt_y", &support.tilt_y),
+    ] {
+        let Some(Mount::Given(motion)) = mount else {
+            continue;
+        };
+        let path = format!("{path}.{field}.given");
+        let limit = match field {
+            "theta" => {
+                let allowed =
+                    "a speed instead: drive.speed of the inner ring, outer_speed of the outer";
+                return Err(Error::scene(path, "a motion about z", allowed));
+            }
+            "tilt_x" | "tilt_y" => (FURTHEST, "rad"),
+            _ => (FURTHEST_PLACE, "m"),
+        };
+        time_function(&path, motion, limit)?;
+        let shape = match **motion {
+            TimeFunction::Profile(Profile::Ramp { .. }) => "ramp",
+            TimeFunction::Profile(Profile::Table { .. }) => "table",
+            _ => continue,
+        };
+        let allowed = "a number, a sine or a spline: a ring's velocity does not jump";
+        return Err(Error::scene(path, shape, allowed));
+    }
+    Ok(())
 }
 
 /// A coupled support, of a ring whose rotation a speed may prescribe.

@@ -1,0 +1,42 @@
+//! What bodies make of the forces on them, and rings of motions that they are given.
+
+use super::Dynamics;
+use crate::forces::drive;
+use crate::model::{BodyId, BodyKind, DOFS, Dof, Layout, Race};
+
+impl Dynamics<'_> {
+    /// M⁻¹ F of all bodies.
+    pub(crate) fn accelerate(&self, t: f64, accelerations: &mut [f64]) {
+        let bodies = Layout::each_mut(accelerations).iter_mut();
+        for (acceleration, body) in bodies.zip(self.model.layout().bodies()) {
+            *acceleration = self.acceleration(t, body);
+        }
+        if let Some(leaning) = &self.leaning {
+            leaning.accelerate(self.model, t, &self.state, accelerations);
+        }
+    }
+
+    /// Acceleration of a ring along an axis where its motion is given.
+    pub(super) fn given_acceleration(&self, t: f64, race: Race, dof: Dof) -> Option<f64> {
+        let state = [&self.state.q, &self.state.v].map(|half| half.get(race.ring(), dof));
+        self.model.given_acceleration((race, dof), t, state)
+    }
+
+    /// M⁻¹ F of a body. Directions that are fixed do not accelerate; a ring accelerates as prescribed where its motion or speed
+    /// is given.
+    fn acceleration(&self, t: f64, body: BodyId) -> [f64; DOFS] {
+        let (force, mobility) = (self.forces.of(body), &self.model.mobility[body]);
+        let mut acceleration = std::array::from_fn(|i| force[i] * mobility[i]);
+        if let BodyKind::Ring(race) = body.kind() {
+            if let Some(prescribed) = drive::acceleration(self.model, race, t) {
+                acceleration[Dof::Theta] = prescribed;
+            }
+            for dof in Dof::TRANSLATIONS {
+                if let Some(given) = self.given_acceleration(t, race, dof) {
+                    acceleration[dof] = given;
+                }
+            }
+        }
+        acceleration
+    }
+}
