@@ -24,23 +24,47 @@ def hub(**changes: object) -> br.Scene:
     return scene.replace(changes) if changes else scene
 
 
-def test_of_a_name_the_orders_are_those_of_two_rings_that_turn() -> None:
-    """Analytic, f_c = ½ [f_i (1 − γ) + f_o (1 + γ)] and what follows from it (Harris & Kotzalas)."""
+ROLLING = [(0.0, 1800.0), (600.0, -900.0), (1800.0, 600.0), (0.0, -1800.0), (-1800.0, None)]
+"""Speeds of inner and outer ring: a hub, opposite ways, the same way, and backwards."""
+
+
+@pytest.mark.parametrize(("inner", "outer"), ROLLING)
+def test_the_rates_are_those_of_two_rings_that_turn(inner: float, outer: float | None) -> None:
+    """Analytic, f_c = ½ [f_i (1 − γ) + f_o (1 + γ)] and what follows (Harris & Kotzalas), without signs."""
     gamma = 7.94 / 39.04
-    for inner, outer in [(0.0, 1800.0), (600.0, -900.0), (1800.0, 600.0)]:
-        found = br.fault_frequencies("6205", inner, outer_rpm=outer)
-        cage = 0.5 * (inner * (1.0 - gamma) + outer * (1.0 + gamma)) / 60.0
-        assert found.ftf == pytest.approx(cage)
-        assert (found.inner, found.outer) == pytest.approx((inner / 60.0, outer / 60.0))
-        assert found.bpfo == pytest.approx(9.0 * (cage - outer / 60.0))
-        assert found.bpfi == pytest.approx(9.0 * (inner / 60.0 - cage))
-        relative = abs(inner - outer) / 60.0
-        orders = found.orders
-        assert orders.bpfo == pytest.approx(3.5848, abs=5e-5)
-        assert orders.bpfi == pytest.approx(5.4152, abs=5e-5)
-        assert orders.ftf == pytest.approx(abs(cage) / relative)
-        assert orders.inner == pytest.approx(abs(inner) / 60.0 / relative)
-        assert orders.outer == pytest.approx(abs(outer) / 60.0 / relative)
+    f_i, f_o = inner / 60.0, (outer or 0.0) / 60.0
+    cage = 0.5 * (f_i * (1.0 - gamma) + f_o * (1.0 + gamma))
+    relative = abs(f_i - f_o)
+    wanted = {
+        "shaft": relative,
+        "inner": abs(f_i),
+        "outer": abs(f_o),
+        "ftf": abs(cage),
+        "bpfo": 4.5 * (1.0 - gamma) * relative,
+        "bpfi": 4.5 * (1.0 + gamma) * relative,
+        "bsf": (1.0 - gamma**2) / (2.0 * gamma) * relative,
+    }
+    found = br.fault_frequencies("6205", inner, outer_rpm=outer)
+    assert {name: getattr(found, name) for name in wanted} == pytest.approx(wanted)
+    orders = vars(found.orders)
+    assert orders == pytest.approx({name: wanted[name] / relative for name in orders})
+    # Of a scene without load or friction the balls roll as well.
+    scene = br.bearing("6205", speed_rpm=inner, outer_rpm=outer)
+    nominal = br.fault_frequencies(scene, operating=False)
+    assert {name: getattr(nominal, name) for name in wanted} == pytest.approx(wanted, rel=1e-3)
+    loaded = br.fault_frequencies(scene)
+    assert {name: getattr(loaded, name) for name in wanted} == pytest.approx(wanted, rel=2e-2)
+
+
+def test_a_planet_is_a_hub_to_one_who_turns_with_the_carrier() -> None:
+    """Analytic: the pin turns with the carrier, the load with the pin; places of the races are met as in space."""
+    planet, carrier = -1100.0, 400.0
+    in_space = br.fault_frequencies("6205", carrier, outer_rpm=planet)
+    on_it = br.fault_frequencies("6205", outer_rpm=planet - carrier)
+    for name in ("shaft", "bpfo", "bpfi", "bsf"):
+        assert getattr(in_space, name) == pytest.approx(getattr(on_it, name))
+    assert on_it.orders.turning == (1.0,)
+    assert in_space.orders.turning == pytest.approx((4.0 / 15.0, 11.0 / 15.0))
 
 
 def test_sidebands_stand_where_a_race_turns_past_the_load() -> None:
@@ -58,12 +82,15 @@ def test_a_hub_runs_and_tells_its_frequencies() -> None:
     scene = hub()
     assert relative_speed(scene) == -1800.0 * TURN
     expected = br.fault_frequencies(scene)
-    assert expected.shaft == pytest.approx(-30.0)
+    assert (expected.shaft, expected.inner, expected.outer) == pytest.approx((30.0, 0.0, 30.0))
     out = br.simulate(scene, duration=0.05)
     measured = br.fault_frequencies(out)
     assert measured.outer == pytest.approx(30.0)
     assert measured.ftf == pytest.approx(expected.ftf, rel=5e-3)
     assert measured.bpfo == pytest.approx(expected.bpfo, rel=1e-2)
+    assert measured.slip == pytest.approx(0.0, abs=0.02)
+    # A place of the outer race meets a ball as often as balls fall behind the ring.
+    assert 30.0 - measured.ftf == pytest.approx(measured.bpfo / 9.0)
     assert out["outer.theta"][-1] == pytest.approx(1800.0 * TURN * out.t[-1], rel=1e-3)
     assert out.defects["defect"].passes >= 4
     told = out.features(columns=["outer.ay"])

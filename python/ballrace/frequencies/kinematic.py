@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Orders", "bpfi", "bpfo", "bsf", "ftf", "of_row", "orders"]
 
+_STANDS = 1e-6
+"""Turns of a ring, as a part of those of the rings against each other, up to which it stands but for round-off."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Orders:
@@ -37,6 +40,8 @@ class Orders:
     inner, outer : float
         Turns of the rings past the loads, at which hits on their races swell: those of the shaft are 1, and 0 of
         an outer ring that stands.
+
+    All are rates, from 0 up, whichever way rings, cage and balls turn.
     """
 
     ftf: float
@@ -47,15 +52,13 @@ class Orders:
     outer: float = 0.0
 
     def at(self, shaft: float) -> Orders:
-        """Return the frequencies [Hz] for a shaft frequency [Hz]."""
-        return Orders(
-            ftf=self.ftf * shaft,
-            bpfo=self.bpfo * shaft,
-            bpfi=self.bpfi * shaft,
-            bsf=self.bsf * shaft,
-            inner=self.inner * shaft,
-            outer=self.outer * shaft,
-        )
+        """Return the frequencies [Hz] for a shaft frequency [Hz], of either sign."""
+        return Orders(**{name: order * abs(shaft) for name, order in vars(self).items()})
+
+    @property
+    def turning(self) -> tuple[float, ...]:
+        """Turns of the rings that turn past the loads: the lines of the machine stand at their multiples."""
+        return tuple(order for order in (self.inner, self.outer) if order > _STANDS)
 
     def turned(self, outer: float) -> Orders:
         """Return the orders where the outer ring turns too.

@@ -10,7 +10,7 @@ races, the oil's drag and gyroscopic moments balance; of a run they are measured
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -39,10 +39,13 @@ _Speeds: TypeAlias = tuple[float, float]
 class FaultFrequencies:
     """Frequencies of a row of balls at a speed.
 
+    All are rates, from 0 up, whichever way rings, cage and balls turn: lines of a spectrum have no sign.
+
     Attributes
     ----------
     shaft : float
-        Frequency of the inner ring against the outer [Hz], the shaft's where the outer ring stands.
+        Turns of the rings against each other, |f_i − f_o| [Hz]: the shaft's where the outer ring stands, those of
+        a hub where the inner one does, and of rings that turn in opposite ways the sum of both.
     ftf, bpfo, bpfi, bsf : float
         Cage in space, ball passes on the outer and the inner race, spin of a ball in the cage [Hz]. A defect on a
         ball meets the races at twice ``bsf``; in a run, whose balls spin about the axis only, at BSF/cos α or
@@ -52,8 +55,8 @@ class FaultFrequencies:
     slip : float or None
         How far the cage stays behind rolling at this angle, as a share of it; negative where it is ahead, None
         where it was not measured.
-    outer : float
-        Frequency of the outer ring f_o [Hz].
+    inner, outer : float
+        Turns of the inner and of the outer ring in space, f_r and f_o [Hz].
     """
 
     shaft: float
@@ -62,26 +65,15 @@ class FaultFrequencies:
     bpfi: float
     bsf: float
     contact_angle: float
-    slip: float | None = None
+    inner: float
     outer: float = 0.0
-
-    @property
-    def inner(self) -> float:
-        """Frequency of the inner ring f_r [Hz]."""
-        return self.shaft + self.outer
+    slip: float | None = None
 
     @property
     def orders(self) -> frequencies.Orders:
-        """The same in multiples of the shaft's frequency."""
-        turned = self.outer / self.shaft
-        hertz = frequencies.Orders(
-            ftf=self.ftf - self.outer,
-            bpfo=self.bpfo,
-            bpfi=self.bpfi,
-            bsf=self.bsf,
-            inner=self.shaft,
-        )
-        return replace(hertz.at(1.0 / self.shaft), inner=1.0).turned(turned)
+        """The same in multiples of :attr:`shaft`."""
+        rates = {field.name: getattr(self, field.name) for field in fields(frequencies.Orders)}
+        return frequencies.Orders(**{name: rate / self.shaft for name, rate in rates.items()})
 
 
 def fault_frequencies(
@@ -104,9 +96,11 @@ def fault_frequencies(
         Signals of a run of a turn and more: the means that the run measured, of the cage by all balls of the row,
         and of the spin where balls spin freely. Of older files by a probe that records the motion of a ball.
     speed_rpm : float, optional
-        Speed of the inner ring [rev/min]; by default that of the scene, if it is given and constant.
+        Speed of the inner ring [rev/min]; by default that of the scene, if it is given and constant. Of a bearing
+        without a scene it is 0 where an ``outer_rpm`` is given.
     outer_rpm : float, optional
-        Speed of the outer ring [rev/min]; by default that of the scene, or 0.
+        Speed of the outer ring [rev/min], of the other sign where the rings turn in opposite ways; by default that
+        of the scene, or 0.
     row : int
         Row of balls, from 0.
     operating : bool
@@ -136,44 +130,51 @@ def fault_frequencies(
     >>> bool(loaded.bpfo > found.bpfo), bool(loaded.bpfi < found.bpfi)
     (True, True)
 
-    A hub: the inner ring stands.
+    A hub: the inner ring stands, and hits on the outer race swell with its turns.
 
-    >>> hub = br.fault_frequencies("6205", 0.0, outer_rpm=1797.0)
-    >>> round(abs(hub.bpfo), 2), round(hub.ftf, 2), hub.orders.outer
-    (107.36, 18.02, 1.0)
+    >>> hub = br.fault_frequencies("6205", outer_rpm=1797.0)
+    >>> round(hub.bpfo, 2), round(hub.ftf, 2), hub.inner, hub.outer
+    (107.36, 18.02, 0.0, 29.95)
     """
     if isinstance(of, str):
         of = catalogue[of]
     if isinstance(of, Bearing):
-        if speed_rpm is None:
+        if speed_rpm is None and outer_rpm is None:
             raise SceneError("speed_rpm", "None", "the speed of the inner ring [rev/min]")
-        return _rolling(of, of.contact_angle, _speeds(speed_rpm, outer_rpm or 0.0))
+        return _rolling(of, of.contact_angle, ring_rates(speed_rpm or 0.0, outer_rpm or 0.0))
     scene = of.scene if isinstance(of, Signals) else of
     if not isinstance(scene, Scene):
         raise SceneError("of", f"a {type(of).__name__}", "a designation, Bearing, Scene or Signals")
     if not 0 <= row < len(scene.rows):
         raise SceneError("row", str(row), f"a row, 0 to {len(scene.rows) - 1}")
     did = _measured(of, row) if isinstance(of, Signals) else None
-    speeds = _speeds_of(scene, did, speed_rpm, outer_rpm)
+    if did is not None and speed_rpm is None and outer_rpm is None:
+        speeds = did["outer"], did["inner"]
+    else:
+        speeds = scene_rates(scene, speed_rpm, outer_rpm)
     if not operating:
         return _rolling(scene.rows[row], scene.rows[row].contact_angle, speeds)
     found = _under_load(scene, row, speeds, race_control)
     if not isinstance(of, Signals):
         return found
     if did is not None:
-        return _as_measured(found, did, scene, row)
+        return _as_measured(found, did, scene, row, speeds)
     cage = cage_frequency(of, row)
-    return found if cage is None else _slipping(found, cage, scene.rows[row].ball_count)
+    return found if cage is None else _with_cage(found, cage, scene.rows[row].ball_count, speeds)
 
 
-def rates_at_a_turn(scene: Scene, row: int = 0, *, operating: bool = True) -> FaultFrequencies:
+def rates_at_a_turn(
+    scene: Scene, row: int = 0, *, speeds: _Speeds | None = None, operating: bool = True
+) -> FaultFrequencies:
     """Return the fault frequencies of a scene at a turn a second of the rings against each other, for its orders.
 
-    The rings share it as their speeds do, where these are given and constant; else the outer ring stands.
+    The rings share it as some speeds of outer and inner ring do, by default those of the scene where they are
+    given and constant; else the outer ring stands.
     """
-    outer, inner = constant_speeds(scene) or (0.0, 0.0)
+    turns = scene.outer_speed is not None or speeds is not None
+    outer, inner = speeds or constant_speeds(scene) or (0.0, 0.0)
     relative = abs(inner - outer)
-    if scene.outer_speed is None or relative == 0.0:
+    if not turns or relative == 0.0:
         return fault_frequencies(scene, 60.0, outer_rpm=0.0, row=row, operating=operating)
     inner_rpm, outer_rpm = 60.0 * inner / relative, 60.0 * outer / relative
     return fault_frequencies(scene, inner_rpm, outer_rpm=outer_rpm, row=row, operating=operating)
@@ -200,17 +201,8 @@ def _under_load(
     if found is None:
         return _rolling(scene.rows[row], scene.rows[row].contact_angle, speeds)
     angle, cage, spin = found
-    balls = scene.rows[row].ball_count
-    shaft = inner - outer
-    return FaultFrequencies(
-        shaft=shaft,
-        ftf=cage,
-        bpfo=balls * (cage - outer),
-        bpfi=balls * (inner - cage),
-        bsf=math.copysign(spin if scene.spin == "free" else spin * math.cos(angle), shaft),
-        contact_angle=angle,
-        outer=outer,
-    )
+    own = spin if scene.spin == "free" else spin * math.cos(angle)
+    return _rates(cage, own, scene.rows[row].ball_count, speeds, angle)
 
 
 def cage_frequency(out: Signals, row: int = 0) -> float | None:
@@ -270,12 +262,30 @@ def spin_of(scene: Scene, rates: FaultFrequencies, row: int = 0) -> tuple[float,
 
 def _rolling(of: Bearing | Row, angle: float, speeds: _Speeds) -> FaultFrequencies:
     outer, inner = speeds
+    orders = frequencies.orders(of.ball_count, of.ball_diameter, of.pitch_diameter, angle)
     shaft = inner - outer
-    hertz = frequencies.orders(of.ball_count, of.ball_diameter, of.pitch_diameter, angle).at(shaft)
+    return _rates(outer + orders.ftf * shaft, orders.bsf * shaft, of.ball_count, speeds, angle)
+
+
+def _rates(
+    cage: float, spin: float, balls: float, speeds: _Speeds, angle: float
+) -> FaultFrequencies:
+    """Return the rates of a cage and balls with signs, as they turn in space and in the cage [Hz].
+
+    f_c = f_o + ½ (1 − γ)(f_i − f_o), f_BPFO = Z |f_c − f_o|, f_BPFI = Z |f_i − f_c| where balls roll (Harris &
+    Kotzalas, Essential Concepts of Bearing Technology, both rings turning).
+    """
+    outer, inner = speeds
     return FaultFrequencies(
-        shaft=shaft, contact_angle=angle, ftf=hertz.ftf + outer, bpfo=hertz.bpfo, bpfi=hertz.bpfi,
-        bsf=hertz.bsf, outer=outer,
-    )  # fmt: skip
+        shaft=abs(inner - outer),
+        ftf=abs(cage),
+        bpfo=balls * abs(cage - outer),
+        bpfi=balls * abs(inner - cage),
+        bsf=abs(spin),
+        contact_angle=angle,
+        inner=abs(inner),
+        outer=abs(outer),
+    )
 
 
 def _measured(out: Signals, row: int) -> Mapping[str, float] | None:
@@ -284,35 +294,31 @@ def _measured(out: Signals, row: int) -> Mapping[str, float] | None:
 
 
 def _as_measured(
-    rolling: FaultFrequencies, did: Mapping[str, float], scene: Scene, row: int
+    rolling: FaultFrequencies, did: Mapping[str, float], scene: Scene, row: int, speeds: _Speeds
 ) -> FaultFrequencies:
-    """Return the frequencies of a run for a shaft's; BSF of balls that spin about z only is that of rolling."""
-    scale = rolling.shaft / (did["inner"] - did["outer"])
-    balls = scene.rows[row].ball_count
+    """Return the frequencies of a run for some speeds; BSF of balls that spin about z only is that of rolling."""
+    outer, inner = speeds
+    scale = (inner - outer) / (did["inner"] - did["outer"])
+    found = _with_cage(
+        rolling, outer + scale * (did["cage"] - did["outer"]), scene.rows[row].ball_count, speeds
+    )
     spin = did["spin"] if scene.spin == "free" else None
-    return replace(
-        rolling,
-        ftf=scale * (did["cage"] - did["outer"]) + rolling.outer,
-        bpfo=scale * balls * (did["cage"] - did["outer"]),
-        bpfi=scale * balls * (did["inner"] - did["cage"]),
-        bsf=rolling.bsf if spin is None else abs(scale) * spin,
-        slip=1.0 - scale * (did["cage"] - did["outer"]) / (rolling.ftf - rolling.outer),
-    )
+    return found if spin is None else replace(found, bsf=abs(scale) * spin)
 
 
-def _slipping(rolling: FaultFrequencies, cage: float, balls: int) -> FaultFrequencies:
+def _with_cage(
+    rolling: FaultFrequencies, cage: float, balls: int, speeds: _Speeds
+) -> FaultFrequencies:
     """Return the frequencies with a measured cage; the spin of the balls stays that of rolling."""
-    return replace(
-        rolling,
-        ftf=cage,
-        bpfo=balls * (cage - rolling.outer),
-        bpfi=balls * (rolling.inner - cage),
-        slip=1.0 - (cage - rolling.outer) / (rolling.ftf - rolling.outer),
-    )
+    outer, inner = speeds
+    found = _rates(cage, rolling.bsf, balls, speeds, rolling.contact_angle)
+    # Seen from the outer ring, over what it would be by rolling; both go the way of the inner ring.
+    advance = balls * (cage - outer) / math.copysign(rolling.bpfo, inner - outer)
+    return replace(found, slip=1.0 - advance)
 
 
-def _speeds(inner_rpm: float, outer_rpm: float) -> _Speeds:
-    """Return the speeds [Hz], which are not the same.
+def ring_rates(inner_rpm: float, outer_rpm: float) -> _Speeds:
+    """Return the rates of outer and inner ring with their signs [Hz], which are not the same.
 
     Raises
     ------
@@ -328,15 +334,14 @@ def _speeds(inner_rpm: float, outer_rpm: float) -> _Speeds:
     return outer_rpm / 60.0, inner_rpm / 60.0
 
 
-def _speeds_of(
-    scene: Scene,
-    did: Mapping[str, float] | None,
-    speed_rpm: float | None,
-    outer_rpm: float | None,
-) -> _Speeds:
-    """Return the speeds that are given, else those that a run measured, or of the scene [Hz]."""
-    if did is not None and speed_rpm is None and outer_rpm is None:
-        return did["outer"], did["inner"]
+def scene_rates(scene: Scene, speed_rpm: float | None, outer_rpm: float | None) -> _Speeds:
+    """Return the rates of outer and inner ring that are given, else those of the scene, with their signs [Hz].
+
+    Raises
+    ------
+    SceneError
+        One has to be given, or is not usable.
+    """
     known = constant_speeds(scene)
     turns = scene.outer_speed is not None
     if known is None and (speed_rpm is None or (outer_rpm is None and turns)):
@@ -346,6 +351,6 @@ def _speeds_of(
             "the speed [rev/min]: that of the scene is not given, or changes",
         )
     outer, inner = (speed * 30.0 / math.pi for speed in known or (0.0, 0.0))
-    return _speeds(
+    return ring_rates(
         inner if speed_rpm is None else speed_rpm, outer if outer_rpm is None else outer_rpm
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from ..spectra.bands import fault_bands
@@ -29,7 +30,7 @@ def bands_of(
     spin: tuple[float, int] | None = None,
 ) -> list[FaultBand]:
     """Return the lines of some faults below a limit, in hertz or in orders."""
-    shaft = 1.0 if orders else abs(rates.shaft)
+    shaft = 1.0 if orders else rates.shaft
     found = fault_bands(rates.orders, shaft, harmonics=harmonics, sidebands=sidebands, spin=spin)
     return [band for band in found if band.fault in faults and band.centre <= limit]
 
@@ -69,5 +70,5 @@ def _label(fig: go.Figure, band: FaultBand, colour: str) -> None:
     size = 10 if band.sideband else 11
     fig.add_annotation(
         x=band.centre, y=1.0, xref="x", yref="y domain", yanchor="bottom", textangle=-90, showarrow=False,
-        text=band.label.replace("f_r", "f<sub>r</sub>"), font={"size": size, "color": colour},
+        text=re.sub("f_([ro])", r"f<sub>\1</sub>", band.label), font={"size": size, "color": colour},
     )  # fmt: skip

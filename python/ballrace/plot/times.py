@@ -189,13 +189,13 @@ def fault_rate(
 ) -> float:
     """Return the frequency at which a defect is hit [Hz]: a ball's twice a turn of its spin, or as a run's are."""
     order, hits = (rates.orders.bsf, 2) if spin is None else spin
-    of = {
+    of: dict[Fault, float] = {
         "outer_race": rates.bpfo,
         "inner_race": rates.bpfi,
         "ball": hits * order * rates.shaft,
         "cage": rates.ftf,
     }
-    return abs(of[fault])
+    return of[fault]
 
 
 def _hits(

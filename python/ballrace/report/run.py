@@ -55,10 +55,8 @@ def _add_frequencies(page: Page, out: Signals) -> None:
             page.text("No constant speed: fault frequencies stand at their orders.")
             return
         ball = fault_rate(found, "ball", spin_of(out.scene, found, row))
-        hertz = [found.shaft, found.ftf, found.bpfo, found.bpfi, ball]
-        if found.outer != 0.0:
-            # Passed the other way round where the outer ring is the faster one.
-            hertz = [abs(f) for f in hertz]
+        rings = [found.shaft] if out.scene.outer_speed is None else [found.inner, found.outer]
+        hertz = [*rings, found.ftf, found.bpfo, found.bpfi, ball]
         rows.append(
             [f"{row}", words.degrees(found.contact_angle), *(words.number(f) for f in hertz)]
         )
@@ -66,8 +64,9 @@ def _add_frequencies(page: Page, out: Signals) -> None:
         "Fault frequencies at the contact angle under load. A ball's defect is hit twice a turn, at 2·BSF; one "
         "of a ball whose axis the model holds at BSF/cos α, or twice that where it reaches both races."
     )
-    header = ["row", "contact angle", "shaft, Hz", "FTF, Hz", "BPFO, Hz", "BPFI, Hz", "ball, Hz"]
-    page.table(header, rows)
+    turning = ["shaft"] if out.scene.outer_speed is None else ["inner ring", "outer ring"]
+    names = [f"{name}, Hz" for name in (*turning, "FTF", "BPFO", "BPFI", "ball")]
+    page.table(["row", "contact angle", *names], rows)
 
 
 def _add_defects(page: Page, out: Signals) -> None:
