@@ -67,6 +67,27 @@ def test_a_planet_is_a_hub_to_one_who_turns_with_the_carrier() -> None:
     assert in_space.orders.turning == pytest.approx((4.0 / 15.0, 11.0 / 15.0))
 
 
+def test_by_default_the_shaft_of_a_hub_stands() -> None:
+    found = br.fault_frequencies("6205", outer_rpm=1800.0)
+    assert found == br.fault_frequencies("6205", 0.0, outer_rpm=1800.0)
+    made = br.shaft([("6204", 0.0), ("6204", 0.05)], outer_rpm=600.0)
+    pair = br.pair("7205B", outer_rpm=-600.0)
+    one = br.bearing("6204", outer_rpm=600.0)
+    assert [scene.drive for scene in (made, pair, one)] == [SpeedDrive(0.0)] * 3
+    assert [scene.outer_speed for scene in (made, pair, one)] == [
+        600.0 * TURN,
+        -600.0 * TURN,
+        600.0 * TURN,
+    ]
+    assert br.shaft([("6204", 0.0), ("6204", 0.05)]).drive == SpeedDrive(1500.0 * TURN)
+    both = br.pair("7205B", speed_rpm=300.0, outer_rpm=-600.0)
+    assert both.drive == SpeedDrive(300.0 * TURN)
+    with pytest.raises(
+        br.SceneError, match=r"^outer_speed = 9.0: outer_rpm, the speed of the outer ring"
+    ):
+        br.shaft([("6204", 0.0), ("6204", 0.05)], outer_speed=9.0)  # type: ignore[call-arg]
+
+
 def test_sidebands_stand_where_a_race_turns_past_the_load() -> None:
     orders = br.fault_frequencies("6205", 0.0, outer_rpm=1800.0).orders
     labels = {band.label for band in fault_bands(orders, harmonics=1)}

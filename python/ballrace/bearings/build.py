@@ -19,7 +19,7 @@ from .rows import catalogue
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["bearing", "metal", "rows_of", "said_clearance"]
+__all__ = ["OUTER", "bearing", "metal", "rows_of", "said_clearance"]
 
 _HALF_THE_BALLS = 1.22
 """Thrust over Fr tan α with which half of the balls carry (Sjövall's integrals at ε = 0.5)."""
@@ -31,7 +31,9 @@ _ROW_DISTANCE = 1.08
 """Distance of two rows over the ball diameter: 1.03 to 1.18, by the load centres that NSK prints of 52 and 53."""
 
 _SPEED = "speed_rpm, the speed of the inner ring [rev/min]"
-_OUTER = "outer_rpm, the speed of the outer ring [rev/min]"
+OUTER = dict.fromkeys(
+    ("outer_speed", "outer_speed_rpm"), "outer_rpm, the speed of the outer ring [rev/min]"
+)
 _SIZE = (
     'a designation or a Bearing as the first argument, such as br.bearing("6205"); br.catalogue.find(bore=25e-3) '
     "looks by size [m]"
@@ -39,7 +41,7 @@ _SIZE = (
 _LOADS = "radial_load and axial_load [N]"
 _MEANT = {
     **dict.fromkeys(("speed", "rpm", "n", "speed_hz"), _SPEED),
-    **dict.fromkeys(("outer_speed", "outer_speed_rpm"), _OUTER),
+    **OUTER,
     **dict.fromkeys(("d", "D", "B", "bore", "outside_diameter", "width", "ball_count"), _SIZE),
     **dict.fromkeys(("load", "force", "Fr", "Fa"), _LOADS),
 }
@@ -132,8 +134,6 @@ def bearing(
     radial = 0.1 * made.static_rating if radial_load is None else _load("radial_load", radial_load)
     axial = _thrust(made, radial, axial_load)
     size = metal(made)
-    if speed_rpm is None:
-        speed_rpm = 1800.0 if outer_rpm is None else 0.0
     return filled(
         name=made.designation,
         rows=rows,
@@ -145,6 +145,7 @@ def bearing(
             "axial": Load(ring="inner", direction=(0.0, 0.0, 1.0), force=axial),
         },
         speed_rpm=speed_rpm,
+        usual_rpm=1800.0,
         outer_rpm=outer_rpm,
         defects=defects,
         lubricant=lubricant,

@@ -45,8 +45,9 @@ def filled(
     rows: tuple[Row, ...],
     outer_ring: Ring,
     inner_ring: Ring,
-    speed_rpm: float,
-    outer_rpm: float | None = None,
+    speed_rpm: float | None,
+    usual_rpm: float,
+    outer_rpm: float | None,
     loads: Mapping[str, Load] | None,
     unbalances: Mapping[str, Unbalance] | None = None,
     defects: Defect | Mapping[str, Defect] | None,
@@ -55,11 +56,15 @@ def filled(
 ) -> Scene:
     """Return the checked scene; the fields are those of :class:`ballrace.Scene`, the arguments of ``bearing``.
 
+    Without a speed the inner ring has the usual one [rev/min], and stands where the outer ring turns.
+
     Raises
     ------
     SceneError
         An argument is not usable.
     """
+    if speed_rpm is None:
+        speed_rpm = usual_rpm if outer_rpm is None else 0.0
     if not math.isfinite(real(speed_rpm)):
         raise SceneError("speed_rpm", repr(speed_rpm), "a speed [rev/min]")
     if outer_rpm is not None and not math.isfinite(real(outer_rpm)):

@@ -16,7 +16,7 @@ from ..frequencies.operating import fault_frequencies
 from ..presets import deep_groove_6205
 from ..run import simulate
 from ..scene.schema import schema
-from .arguments import Commands, added
+from .arguments import Commands, add_speeds, added
 from .text import print_table
 
 if TYPE_CHECKING:
@@ -38,9 +38,7 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
         "ballrace frequencies 6205 --rpm 1797", _frequencies,
     )  # fmt: skip
     found.add_argument("bearing", metavar="NAME", help="designation, such as 6205 or 7205B")
-    found.add_argument(
-        "--rpm", type=float, help="speed of the inner ring, rev/min (default: orders of the shaft)"
-    )
+    add_speeds(found, "orders of the shaft")
     found.add_argument("--json", action="store_true", help="print them as JSON")
     added(
         commands, "schema", "print the JSON Schema of scenes, for editors and other programs",
@@ -56,14 +54,21 @@ def version() -> str:
 
 def _frequencies(options: argparse.Namespace) -> None:
     row = catalogue[options.bearing]
-    rates = fault_frequencies(row, 60.0 if options.rpm is None else options.rpm)
-    unit = "per turn" if options.rpm is None else "Hz"
+    known = options.rpm is not None or options.outer_rpm is not None
+    rates = fault_frequencies(row, options.rpm if known else 60.0, outer_rpm=options.outer_rpm)
+    unit = "Hz" if known else "per turn"
+    rings = {"shaft": rates.shaft}
+    if options.outer_rpm is not None:
+        rings = {"inner ring": rates.inner, "outer ring": rates.outer}
     values = {
-        "shaft": rates.shaft, "FTF": rates.ftf, "BPFO": rates.bpfo, "BPFI": rates.bpfi, "BSF": rates.bsf,
+        **rings, "FTF": rates.ftf, "BPFO": rates.bpfo, "BPFI": rates.bpfi, "BSF": rates.bsf,
         "2·BSF": 2.0 * rates.bsf,
     }  # fmt: skip
     if options.json:
-        told = {"bearing": row.designation, "speed_rpm": options.rpm, "unit": unit, **values}
+        speeds = {"speed_rpm": options.rpm}
+        if options.outer_rpm is not None:
+            speeds["outer_rpm"] = options.outer_rpm
+        told = {"bearing": row.designation, **speeds, "unit": unit, **values}
         print(json.dumps(told, indent=2, ensure_ascii=False))
         return
     ball, pitch = 1e3 * row.ball_diameter, 1e3 * row.pitch_diameter

@@ -13,7 +13,7 @@ from ..scene import Scene
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["Commands", "add_scene", "added", "read_scene"]
+__all__ = ["Commands", "add_scene", "add_speeds", "added", "read_scene"]
 
 Commands = argparse._SubParsersAction
 
@@ -45,6 +45,19 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
         metavar="SCENE",
         help="scene, a .toml or .json file; - reads standard input",
     )
+
+
+def add_speeds(parser: argparse.ArgumentParser, default: str, of: str = "") -> None:
+    """Add the speeds of both rings, with what is taken without the inner one's, and what they are of."""
+    what = f"; of {of}" if of else ""
+    parser.add_argument(
+        "--rpm", type=float, metavar="REV/MIN",
+        help=f"speed of the inner ring (default: {default}, or 0 with --outer-rpm){what}",
+    )  # fmt: skip
+    parser.add_argument(
+        "--outer-rpm", type=float, metavar="REV/MIN",
+        help=f"speed of the outer ring, of hubs, idlers and planets (default: it stands){what}",
+    )  # fmt: skip
 
 
 def read_scene(path: Path) -> Scene:

@@ -17,7 +17,7 @@ from ..errors import SceneError
 from ..options import ARGUMENTS, Run
 from ..run import simulate
 from ..scene import Method
-from .arguments import Commands, add_scene, added, read_scene
+from .arguments import Commands, add_scene, add_speeds, added, read_scene
 
 if TYPE_CHECKING:
     import argparse
@@ -54,9 +54,10 @@ _PRESETS = ", ".join(name.replace("_", "-") for name in presets.names())
 _OPERATION = {
     "radial-load": ("N", "load of the inner ring along -y (default: a tenth of the static rating)"),
     "axial-load": ("N", "load of the inner ring along +z (default: what the bearing needs)"),
-    "rpm": ("REV/MIN", "speed of the inner ring (default: 1800)"),
 }
-"""Loads and speed of a bearing of the catalogue: metavar and help."""
+"""Loads of a bearing of the catalogue: metavar and help."""
+
+_OF_CATALOGUE = "a bearing of the catalogue"
 
 
 def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
@@ -80,8 +81,9 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     scene.add_argument("name", metavar="NAME", help=f"a designation, such as 6205, or {_PRESETS}")
     for name, (unit, told) in _OPERATION.items():
         scene.add_argument(
-            f"--{name}", type=float, metavar=unit, help=f"{told}; of a bearing of the catalogue"
+            f"--{name}", type=float, metavar=unit, help=f"{told}; of {_OF_CATALOGUE}"
         )
+    add_speeds(scene, "1800", _OF_CATALOGUE)
     scene.add_argument(
         "--housing", choices=("pedestal", "none"),
         help="what the outer ring of a bearing of the catalogue sits in: a pillow block of its size on a mount of "
@@ -112,7 +114,7 @@ def _run(options: argparse.Namespace) -> None:
 def _scene(options: argparse.Namespace) -> None:
     asked: dict[str, Any] = {
         "radial_load": options.radial_load, "axial_load": options.axial_load, "speed_rpm": options.rpm,
-        "housing": options.housing,
+        "outer_rpm": options.outer_rpm, "housing": options.housing,
     }  # fmt: skip
     given = {name: value for name, value in asked.items() if value is not None}
     name = options.name.replace("-", "_")

@@ -20,7 +20,7 @@ from ..errors import SceneError
 from ..frequencies.operating import fault_frequencies, spin_of
 from ..recordings import read
 from ..signals import Signals
-from .arguments import Commands, added
+from .arguments import Commands, add_speeds, added
 from .text import print_table
 
 if TYPE_CHECKING:
@@ -86,9 +86,7 @@ def _add_spectrum(commands: Commands[argparse.ArgumentParser]) -> None:
     spectrum.add_argument(
         "--bearing", metavar="NAME", help="of the catalogue, for fault lines of a measured signal"
     )
-    spectrum.add_argument(
-        "--rpm", type=float, help="speed, for fault lines of a measured signal, rev/min"
-    )
+    add_speeds(spectrum, "what the file knows", "fault lines")
     spectrum.add_argument(
         "-o",
         "--output",
@@ -132,7 +130,7 @@ def _spectrum(options: argparse.Namespace) -> None:
         check_writable(options.output)
     with local(options.file) as path:
         out = read_columns(path)
-        rates = _rates(out, options.bearing, options.rpm)
+        rates = _rates(out, options.bearing, options.rpm, options.outer_rpm)
         name = options.column or ("outer.ay" if "outer.ay" in out else next(iter(out)))
         if name not in out:
             raise SceneError("column", repr(name), f"one of {', '.join(out)}")
@@ -165,13 +163,17 @@ def read_columns(path: Path, fs: float | None = None) -> Columns:
     return read(path, fs)
 
 
-def _rates(out: Columns, bearing: str | None, rpm: float | None) -> FaultFrequencies | None:
+def _rates(
+    out: Columns, bearing: str | None, rpm: float | None, outer_rpm: float | None
+) -> FaultFrequencies | None:
     if bearing is not None:
         shaft = getattr(out, "shaft", None)
-        return fault_frequencies(bearing, rpm if rpm is not None or shaft is None else 60.0 * shaft)
+        if rpm is None and outer_rpm is None and shaft is not None:
+            rpm = 60.0 * shaft
+        return fault_frequencies(bearing, rpm, outer_rpm=outer_rpm)
     if isinstance(out, Signals):
         try:
-            return fault_frequencies(out, rpm)
+            return fault_frequencies(out, rpm, outer_rpm=outer_rpm)
         except SceneError:
             return None  # the speed changes
     return None
@@ -209,9 +211,9 @@ def _print_strongest(
 def _known_lines(
     rates: FaultFrequencies, spin: tuple[float, int] | None, width: float
 ) -> Iterator[tuple[float, float, float, str]]:
-    """Yield lowest frequency, centre, highest [Hz] and label of lines of defects and of the shaft."""
-    shaft = abs(rates.shaft)
-    for band in spectra.fault_bands(rates.orders, shaft, harmonics=_HARMONICS, spin=spin):
+    """Yield lowest frequency, centre, highest [Hz] and label of lines of defects and of the rings that turn."""
+    for band in spectra.fault_bands(rates.orders, rates.shaft, harmonics=_HARMONICS, spin=spin):
         yield band.low - width, band.centre, band.high + width, band.label
-    for k in range(1, _HARMONICS + 1):
-        yield k * shaft - width, k * shaft, k * shaft + width, "f_r" if k == 1 else f"{k}·f_r"
+    for ring, name in ((rates.inner, "f_r"), (rates.outer, "f_o")):
+        for k in range(1, _HARMONICS + 1) if ring else ():
+            yield k * ring - width, k * ring, k * ring + width, name if k == 1 else f"{k}·{name}"

@@ -31,7 +31,8 @@ def pair(
     radial_load: float | None = None,
     axial_load: float | None = None,
     at: float = 0.0,
-    speed_rpm: float = 1500.0,
+    speed_rpm: float | None = None,
+    outer_rpm: float | None = None,
     housing: Literal["pedestal"] | Pedestal = "pedestal",
 ) -> Scene:
     """Return a pair of equal angular contact bearings side by side, their middle at z = 0; the shaft tilts.
@@ -51,7 +52,7 @@ def pair(
         Load on the shaft along +z [N]; by default none, in tandem 1.22 times what holds them together.
     at : float
         Axial place of the radial load [m].
-    speed_rpm, housing
+    speed_rpm, outer_rpm, housing
         As of :func:`ballrace.shaft`.
 
     Raises
@@ -83,6 +84,7 @@ def pair(
     scene = shaft(
         [(made, -aside, first), (made, aside, second)],
         speed_rpm=speed_rpm,
+        outer_rpm=outer_rpm,
         loads={
             "radial": Load(
                 ring="inner",

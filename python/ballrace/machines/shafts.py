@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Literal
 from .._arguments import knows
 from .._numbers import real
 from ..bearings import Bearing, Pedestal, catalogue
-from ..bearings.build import rows_of, said_clearance
+from ..bearings.build import OUTER, rows_of, said_clearance
 from ..bearings.filled import filled
 from ..bearings.pedestal import pillow_block
 from ..errors import SceneError
@@ -22,7 +22,10 @@ if TYPE_CHECKING:
 
 __all__ = ["SPEEDS", "shaft"]
 
-SPEEDS = dict.fromkeys(("speed", "rpm", "n"), "speed_rpm, the speed of the shaft [rev/min]")
+SPEEDS = {
+    **dict.fromkeys(("speed", "rpm", "n"), "speed_rpm, the speed of the shaft [rev/min]"),
+    **OUTER,
+}
 _MEANT = {
     **SPEEDS,
     **dict.fromkeys(
@@ -58,7 +61,8 @@ class _Place:
 def shaft(
     bearings: Sequence[tuple[str | Bearing, float] | tuple[str | Bearing, float, int]],
     *,
-    speed_rpm: float = 1500.0,
+    speed_rpm: float | None = None,
+    outer_rpm: float | None = None,
     masses: Sequence[tuple[float, float] | tuple[float, float, float]] = (),
     unbalances: Sequence[tuple[float, float] | tuple[float, float, float]] = (),
     loads: Mapping[str, Load] | None = None,
@@ -81,8 +85,11 @@ def shaft(
         Names as of :func:`ballrace.bearing`, and axial places of their middles [m]; by their widths they may touch
         and not overlap. Of angular contact bearings of one row also
         the side: +1 takes thrust on the shaft towards +z, -1 towards -z.
-    speed_rpm : float
-        Speed of the shaft [rev/min].
+    speed_rpm : float, optional
+        Speed of the shaft [rev/min]; by default 1500, and 0 where the outer rings turn.
+    outer_rpm : float, optional
+        Speed of all outer rings with their housing [rev/min], as in wheel hubs, idlers and sheaves on an axle; by
+        default they stand. Its mount stays where it is.
     masses : sequence of (float, float) or (float, float, float)
         What sits on the shaft: mass [kg], axial place [m], and the diameter of a disc [m] (without: a point).
     unbalances : sequence of (float, float) or (float, float, float)
@@ -125,6 +132,8 @@ def shaft(
         outer_ring=_outer(places, housing),
         inner_ring=_inner(places, masses),
         speed_rpm=speed_rpm,
+        usual_rpm=1500.0,
+        outer_rpm=outer_rpm,
         loads=loads,
         unbalances=_unbalances(unbalances),
         defects=defects,
