@@ -6,16 +6,18 @@ import math
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 import ballrace as br
 from ballrace.diagnosis.combs import comb_of
 from ballrace.diagnosis.kinematics import kinematics_of
 from ballrace.report.words import operation
-from ballrace.scene import Ramp, SpeedDrive, TorqueDrive
+from ballrace.scene import Ramp, SpeedDrive, Surface, TorqueDrive
 from ballrace.scene.turning import relative_speed
 from ballrace.spectra import fault_bands
 
 TURN = math.pi / 30.0
+Array = NDArray[np.float64]
 
 
 def hub(**changes: object) -> br.Scene:
@@ -134,6 +136,108 @@ def test_a_measured_hub_has_a_comb_with_the_rings_turns() -> None:
     assert (outer.sideband, inner.sideband) == (1.0, 0.0)
     assert (1, -1) in outer.lines
     assert (1, -1) not in inner.lines
+
+
+CHAIN = br.measuring.Chain(
+    housing=br.measuring.random_housing(3),
+    machine=br.measuring.Machine(),
+    logger=br.measuring.Logger(fs=12_800.0, bits=16),
+)
+"""A sensor on a housing, in the noise of a measured motor."""
+
+
+@pytest.mark.filterwarnings("ignore:row 0. its balls:ballrace.SceneWarning")
+@pytest.mark.parametrize("part", [None, "outer_race", "inner_race"])
+def test_hubs_are_judged_by_the_ring_that_turns(part: Surface | None) -> None:
+    """Limits: 24 turns of a run of this package, as it is and measured; what is damaged is named, nothing else is.
+
+    Balls pass the load on the inner ring, which stands: a healthy hub has lines of that race.
+    """
+    damaged = {} if part is None else {"d": br.defects.spall(on=part, width_mm=1.0)}
+    out = br.simulate(hub(defects=damaged), duration=24.0 / 30.0, fs=25_600.0)
+    for record in (out, br.measure(out, CHAIN, seed=1)):
+        found = br.diagnose(record)
+        assert found.parts == (() if part is None else (part,))
+        assert (found.verdict == "damaged") is (part is not None)
+        roles = {one: found.evidence[one].role for one in ("outer_race", "inner_race")}
+        assert roles == {"outer_race": "inner_race", "inner_race": "outer_race"}
+        lines = {line.label for each in found.evidence.values() for line in each.lines}
+        assert not {"BPFI − f_r", "BPFI + f_r"} & lines
+    if part is None:
+        assert br.diagnose(out).evidence["inner_race"].z > 5.0
+
+
+def blows(order: float, beside: float, relative: float, turns: tuple[float, ...]) -> Array:
+    """Return blows in noise at an order of turns against each other, which swell at a rate, and lines of rings."""
+    fs, rng = 16_000.0, np.random.default_rng(3)
+    t = np.arange(int(80.0 / relative * fs)) / fs
+    x: Array = 0.3 * rng.normal(size=t.size)
+    x = x + 0.3 * sum(np.cos(2.0 * math.pi * k * f * t) for f in turns for k in (1, 2, 3))
+    hits = np.arange(int(0.98 * order * relative * t[-1]))
+    at = (hits + 0.005 * rng.normal(size=hits.size)) / (order * relative)
+    at = at[at >= 0.0]
+    x[np.rint(fs * at).astype(int)] += 3.0 + 3.0 * np.cos(2.0 * math.pi * beside * at)
+    return x
+
+
+@pytest.mark.parametrize(("inner", "outer"), [(0.0, 1800.0), (600.0, -1200.0), (2700.0, 900.0)])
+def test_a_measured_hub_is_judged_by_both_speeds(inner: float, outer: float) -> None:
+    """Synthetic: the race that turns through the load at the rate of the sidebands is named."""
+    rates = br.fault_frequencies("6205", inner, outer_rpm=outer)
+    turns = tuple(f for f in (rates.inner, rates.outer) if f)
+    x = blows(rates.orders.bpfo, rates.outer, rates.shaft, turns)
+    options = {"fs": 16_000.0, "speed_within": 1e-3}
+    found = br.diagnose(x, "6205", inner, outer_rpm=outer, **options)  # type: ignore[arg-type]
+    assert found.parts == ("outer_race",)
+    assert found.shaft.rate == pytest.approx(30.0, rel=1e-3)
+    lines = {line.label for line in found.evidence["outer_race"].lines}
+    assert "BPFO" in lines
+    assert {"BPFO − f_o", "BPFO + f_o"} & lines
+    # The same by rates that know the speeds, and by a scene whose speeds are others.
+    by_rates = br.diagnose(x, rates, **options)  # type: ignore[arg-type]
+    assert by_rates.evidence["outer_race"].z == pytest.approx(found.evidence["outer_race"].z)
+    other = br.bearing("6205", outer_rpm=100.0)
+    assert br.diagnose(x, other, inner, outer_rpm=outer, fs=16_000.0).parts == ("outer_race",)
+    trended = br.trend([x] * 5, "6205", inner, outer_rpm=outer, fs=16_000.0, baseline=3)
+    assert trended.table["parts"].to_list() == ["outer_race"] * 5
+
+
+def test_a_cage_that_stands_has_no_lines() -> None:
+    """Analytic: f_c = 0 where f_i (1 − γ) = −f_o (1 + γ); the races' lines are then those of the rings."""
+    gamma = 7.94 / 39.04
+    still = -1000.0 * (1.0 - gamma) / (1.0 + gamma)
+    for outer, verdict in ((still, "undecided"), (1.1 * still, "damaged")):
+        rates = br.fault_frequencies("6205", 1000.0, outer_rpm=outer)
+        assert rates.ftf < 0.05 * rates.shaft
+        x = blows(rates.orders.bpfi, rates.inner, rates.shaft, (rates.inner, rates.outer))
+        found = br.diagnose(x, rates, fs=16_000.0)
+        assert (found.verdict, "cage" in found.evidence) == (verdict, False)
+        if outer == still:
+            assert rates.bpfi == pytest.approx(9.0 * rates.inner)
+            assert "lie on the shaft's" in found.why
+
+
+def test_speeds_of_a_record_that_do_not_fit_are_refused_by_name() -> None:
+    x = np.random.default_rng(0).normal(size=16_000)
+    rates = br.fault_frequencies("6205", outer_rpm=1800.0)
+    bad: list[tuple[tuple[object, ...], dict[str, float], str]] = [
+        (("6205", 0.0), {}, r"^speed_rpm = 0.0: not 0, or 0 beside the outer_rpm"),
+        (
+            ("6205", 600.0),
+            {"outer_rpm": 600.0},
+            r"^speed_rpm = 600.0: .* not that of the outer ring",
+        ),
+        (("6205",), {"outer_rpm": math.inf}, r"^outer_rpm = inf"),
+        ((rates,), {"outer_rpm": 1800.0}, r"^outer_rpm = 1800: left out"),
+        (
+            (hub(outer_speed=Ramp(from_=0.0, to=9.0, start=0.0, end=1.0)), 0.0),
+            {},
+            r"^outer_rpm = None",
+        ),
+    ]
+    for arguments, named, told in bad:
+        with pytest.raises(br.SceneError, match=told):
+            br.diagnose(x, *arguments, fs=16_000.0, **named)  # type: ignore[arg-type]
 
 
 def test_pictures_turn_the_damage_of_the_outer_race() -> None:

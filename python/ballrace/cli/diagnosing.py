@@ -12,7 +12,7 @@ from ..diagnosis.severity import Machine
 from ..errors import SceneError
 from ..report.writing import check_page
 from ..scene import Scene
-from .arguments import Commands, added
+from .arguments import Commands, add_speeds, added
 from .signals import local, read_columns
 from .text import print_table
 
@@ -37,7 +37,7 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     found.add_argument(
         "--bearing", metavar="NAME", help="designation, as 6205, or scene, .toml or .json (default: the run's)"
     )  # fmt: skip
-    found.add_argument("--rpm", type=float, help="speed, rev/min (default: what the file knows)")
+    add_speeds(found, "what the file knows")
     found.add_argument(
         "--speed-within", type=float, metavar="SHARE",
         help="how far the speed may be off, 0 to 0.01 (default: 0.01, of a run 0)",
@@ -76,9 +76,9 @@ def _diagnose(options: argparse.Namespace) -> None:
         if options.channel is not None and options.channel not in record:
             raise SceneError("channel", repr(options.channel), f"one of {', '.join(record)}")
         found = diagnose(
-            record, _bearing(options.bearing), options.rpm, column=options.channel, unit=options.unit,
-            speed_within=options.speed_within, false_alarm=options.false_alarm, exclude=options.exclude,
-            mains=options.mains, machine=options.machine,
+            record, _bearing(options.bearing), options.rpm, outer_rpm=options.outer_rpm, column=options.channel,
+            unit=options.unit, speed_within=options.speed_within, false_alarm=options.false_alarm,
+            exclude=options.exclude, mains=options.mains, machine=options.machine,
         )  # fmt: skip
     parts = "".join(f", {part.replace('_', ' ')}" for part in found.parts)
     print(printable(f"{found.bearing}: {found.verdict}{parts}\n{reason(found)}"))

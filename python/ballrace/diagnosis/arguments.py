@@ -12,6 +12,8 @@ import numpy as np
 from .._numbers import real
 from .._units import ACCELERATIONS, VELOCITIES
 from ..errors import SceneError
+from ..frequencies.operating import FaultFrequencies, ring_rates, scene_rates
+from ..scene import Scene
 from ..spectra.checks import checked_signal
 from .kinematics import kinematics_of
 from .shaft import WITHIN
@@ -51,12 +53,46 @@ def _checked_unit(unit: str, known: str) -> str:
     return unit
 
 
-def known_bearing(channel: Channel, bearing: AnyBearing | None, row: int) -> Kinematics:
-    """Return the bearing that was given, or that of the record."""
+def known_bearing(
+    channel: Channel,
+    bearing: AnyBearing | None,
+    row: int,
+    speed_rpm: float | None = None,
+    outer_rpm: float | None = None,
+) -> tuple[Kinematics, float]:
+    """Return the bearing that was given, or that of the record, and the rate of its rings against each other [Hz].
+
+    Raises
+    ------
+    SceneError
+        There is none, or no speed, or one that is not usable.
+    """
     bearing = channel.scene if bearing is None else bearing
     if bearing is None:
         raise SceneError("bearing", "None", "a bearing: the record does not know its own")
-    return kinematics_of(bearing, row)
+    speeds = _given_speeds(bearing, speed_rpm, outer_rpm)
+    kinematics = kinematics_of(bearing, row, speeds)
+    if speeds is not None:
+        return kinematics, abs(speeds[1] - speeds[0])
+    if speed_rpm is None and not channel.shaft and isinstance(bearing, FaultFrequencies):
+        return kinematics, bearing.shaft
+    return kinematics, nominal_rate(channel, speed_rpm)
+
+
+def _given_speeds(
+    bearing: AnyBearing, speed_rpm: float | None, outer_rpm: float | None
+) -> tuple[float, float] | None:
+    """Return the rates of outer and inner ring with their signs [Hz] where the outer ring turns; None as known."""
+    turns = isinstance(bearing, Scene) and bearing.outer_speed is not None
+    if speed_rpm == 0.0 and outer_rpm is None and not turns:
+        allowed = "not 0, or 0 beside the outer_rpm of a hub [rev/min]"
+        raise SceneError("speed_rpm", repr(speed_rpm), allowed)
+    if outer_rpm is None and (speed_rpm is None or not turns):
+        return None
+    if not turns:
+        return ring_rates(0.0 if speed_rpm is None else speed_rpm, outer_rpm or 0.0)
+    assert isinstance(bearing, Scene)
+    return scene_rates(bearing, speed_rpm, outer_rpm)
 
 
 def nominal_rate(channel: Channel, speed_rpm: float | None) -> float:
@@ -72,10 +108,10 @@ def nominal_rate(channel: Channel, speed_rpm: float | None) -> float:
     return abs(real(speed_rpm)) / 60.0
 
 
-def known_within(channel: Channel, speed_rpm: float | None, speed_within: float | None) -> float:
+def known_within(channel: Channel, *, given: bool, speed_within: float | None) -> float:
     """Return how far the speed may be off, as a part of it; by default not at all where a run's own is taken."""
     if speed_within is None:
-        return 0.0 if speed_rpm is None and channel.scene is not None else WITHIN
+        return 0.0 if not given and channel.scene is not None else WITHIN
     if not 0.0 <= real(speed_within) <= WITHIN:
         allowed = f"a part of the speed, 0 to {WITHIN:g}, or None"
         raise SceneError("speed_within", repr(speed_within), allowed)

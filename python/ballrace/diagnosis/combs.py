@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ..frequencies.kinematic import Orders
     from .envelopes import Levels
 
-__all__ = ["PARTS", "REACH", "WIDTH", "Comb", "Part", "comb_of"]
+__all__ = ["PARTS", "REACH", "WIDTH", "Comb", "Part", "comb_of", "role_of"]
 
 Part = Literal["outer_race", "inner_race", "ball", "cage"]
 """A part of a bearing."""
@@ -98,6 +98,18 @@ class Comb:
         head = self.name if harmonic == 1 else f"{harmonic}·{self.name}"
         tail = self.sideband_name if abs(side) == 1 else f"{abs(side)}·{self.sideband_name}"
         return head if side == 0 else f"{head} {'+' if side > 0 else '−'} {tail}"
+
+
+def role_of(part: Part, orders: Orders) -> Part:
+    """Return the part of a bearing with a shaft that turns whose role in the load this one has.
+
+    Balls pass the load at the rate of the race that stands, in a healthy bearing as well, and its lines have
+    no sidebands. That is the outer race as a rule, and the inner one of a hub.
+    """
+    if part not in ("outer_race", "inner_race"):
+        return part
+    turns = orders.outer if part == "outer_race" else orders.inner
+    return "inner_race" if turns else "outer_race"
 
 
 def comb_of(part: Part, orders: Orders) -> Comb:

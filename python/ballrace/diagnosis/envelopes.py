@@ -14,6 +14,8 @@ from ..spectra.whitening import flattened
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from ..frequencies.kinematic import Orders
+
 __all__ = [
     "FLOOR",
     "Levels",
@@ -23,6 +25,7 @@ __all__ = [
     "half_spectrum",
     "levels_of",
     "line_spectrum",
+    "without_rings",
 ]
 
 FLOOR, CEILING = -3.0, 35.0
@@ -33,6 +36,9 @@ _EDGES = np.geomspace(0.03, 0.95, 7)
 
 _AROUND = 0.6
 """Width of the running median under a line, in parts of the shaft's rate: no two lines of one kind within it."""
+
+_FEWEST = 20.0
+"""Turns of a slower ring in a record below which its multiples are too close to be taken out."""
 
 _LINE = 3.0
 """Half of the width of a line under a Hann window, with some slip of the shaft [bins]."""
@@ -191,3 +197,22 @@ def levels_of(value: NDArray[np.float64], duration: float, shaft: float) -> Leve
         row[:] = 20.0 * np.log10(np.maximum(spectrum / floor, 1e-9))
     hidden = np.zeros(value.shape[1], dtype=bool)
     return Levels(db=np.clip(db, FLOOR, CEILING), duration=duration, hidden=hidden)
+
+
+def without_rings(levels: Levels, orders: Orders, shaft: float) -> Levels:
+    """Return the levels with nothing above its surroundings at the multiples of the rings' own turns.
+
+    Those of a slower ring that turns less than 20 times in a record lie so close that too little would be left.
+
+    Parameters
+    ----------
+    levels : Levels
+        Levels.
+    orders : Orders
+        Those of the bearing.
+    shaft : float
+        Rate of the rings against each other [Hz].
+    """
+    faster, *slower = sorted(orders.turning, reverse=True)
+    counted = [order for order in slower if order * shaft * levels.duration >= _FEWEST]
+    return levels.without(order * shaft for order in (faster, *counted))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from .combs import WIDTH, Part, comb_of
+from .combs import WIDTH, Part, comb_of, role_of
 from .null import ACCUSED, found_of, levels_by_chance, null_orders, probability
 from .strength import Strength, strength_at
 
@@ -55,6 +55,9 @@ class Evidence:
     ----------
     part : {"outer_race", "inner_race", "ball", "cage"}
         The part.
+    role : {"outer_race", "inner_race", "ball", "cage"}
+        The part of a bearing whose outer ring stands that it is judged as. In a hub the inner race stands: like an
+        outer race elsewhere it has lines of balls that pass the load.
     order : float
         Order of its fault that was expected, of a ball 2·BSF.
     factor : float
@@ -85,6 +88,7 @@ class Evidence:
     """
 
     part: Part
+    role: Part
     order: float
     factor: float
     contact_angle: float | None
@@ -118,6 +122,7 @@ def evidence_of(
     at = np.clip(np.rint(lines * levels.duration).astype(int), 0, levels.hidden.size - 1)
     return Evidence(
         part=part,
+        role=role_of(part, kinematics.orders),
         order=comb.order,
         factor=found.factor,
         contact_angle=_angle(part, comb.order * found.factor, kinematics),

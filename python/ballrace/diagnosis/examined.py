@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from .combs import PARTS, Part, comb_of
-from .envelopes import Levels, bands_of, envelope_spectra, levels_of
+from .envelopes import Levels, bands_of, envelope_spectra, levels_of, without_rings
 from .evidence import Evidence, evidence_of
+from .kinematics import LEAST
 from .lacking import HELD
 from .null import ACCUSED
 from .shaft import WITHIN, ShaftRate, shaft_rate
@@ -65,15 +66,21 @@ def examined(
     """
     bands = bands_for(channel, kinematics, nominal)
     spectra = _spectra(channel, bands, kinematics, nominal)
-    shaft = shaft_rate(channel.x, channel.fs, nominal, spectra, within)
+    if len(kinematics.orders.turning) == 1:
+        shaft = shaft_rate(channel.x, channel.fs, nominal, spectra, within)
+    else:
+        # Each of two rings may be off by another part, and lines of faults are near those of the one or the other.
+        shaft = ShaftRate(rate=nominal, nominal=nominal, by="nominal", z=0.0)
     levels = levels_of(spectra, channel.n_samples / channel.fs, shaft.rate)
-    levels = levels.without([shaft.rate, *(order * shaft.rate for order in orders), *rates])
+    levels = levels.without([order * shaft.rate for order in orders] + [*rates])
+    levels = without_rings(levels, kinematics.orders, shaft.rate)
     envelopes = Envelopes(channel.x, channel.fs, bands)
     evidence = {
         part: evidence_of(
             part, envelopes, levels=levels, kinematics=kinematics, shaft=shaft.rate, seed=seed
         )
         for part in PARTS
+        if comb_of(part, kinematics.orders).order >= LEAST
     }
     return Examined(shaft=shaft, levels=levels, envelopes=envelopes, evidence=evidence)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import TypeAlias
 
 from .._numbers import real
@@ -14,7 +14,7 @@ from ..frequencies.kinematic import Orders, of_row
 from ..frequencies.operating import FaultFrequencies, rates_at_a_turn
 from ..scene import Row, Scene
 
-__all__ = ["AnyBearing", "Kinematics", "kinematics_of"]
+__all__ = ["LEAST", "AnyBearing", "Kinematics", "kinematics_of"]
 
 AnyBearing: TypeAlias = (
     "str | Bearing | Scene | Row | Orders | FaultFrequencies | Mapping[str, float]"
@@ -22,6 +22,9 @@ AnyBearing: TypeAlias = (
 """What names a bearing: a designation, a bearing of the catalogue, a scene or a row of one, or its orders."""
 
 _NEEDED = ("ftf", "bpfo", "bpfi", "bsf")
+
+LEAST = 0.05
+"""Least order that is looked for: a cage may all but stand where the rings turn in opposite ways."""
 
 _WANTED = "a designation, a Bearing, a Scene, a Row, or orders: a mapping of ftf, bpfo, bpfi, bsf"
 
@@ -53,22 +56,46 @@ class Kinematics:
         return math.acos(cosine) if 0.0 < cosine <= 1.0 else None
 
 
-def kinematics_of(bearing: AnyBearing, row: int = 0) -> Kinematics:
+def kinematics_of(
+    bearing: AnyBearing, row: int = 0, speeds: tuple[float, float] | None = None
+) -> Kinematics:
     """Return the orders of what names a bearing.
+
+    Parameters
+    ----------
+    bearing : str, Bearing, Scene, Row, Orders, FaultFrequencies or mapping
+        What names it.
+    row : int
+        Row of balls of a scene, from 0.
+    speeds : tuple of two floats, optional
+        Rates of outer and inner ring with their signs [Hz]; by default those of the scene or of the orders, else
+        the outer ring stands.
 
     Raises
     ------
     SceneError
-        It names none.
+        It names none, or has an outer ring of its own that turns where speeds are given.
     """
     if isinstance(bearing, str):
         bearing = catalogue[bearing]
+    if isinstance(bearing, Scene):
+        return _of_scene(bearing, row, speeds)
+    found = _at_rest(bearing)
+    if speeds is None:
+        return found
+    if found.orders.outer:
+        allowed = "left out: the orders of the bearing tell how its outer ring turns"
+        raise SceneError("outer_rpm", f"{60.0 * speeds[0]:g}", allowed)
+    outer, inner = speeds
+    return replace(found, orders=found.orders.turned(outer / (inner - outer)))
+
+
+def _at_rest(bearing: AnyBearing) -> Kinematics:
+    """Return the orders of what is no scene, whose outer ring stands if they do not tell."""
     if isinstance(bearing, Bearing):
         return Kinematics(name=bearing.designation, orders=bearing.orders, row=bearing)
     if isinstance(bearing, Row):
         return Kinematics(name="a row of a scene", orders=of_row(bearing), row=bearing)
-    if isinstance(bearing, Scene):
-        return _of_scene(bearing, row)
     if isinstance(bearing, FaultFrequencies):
         bearing = bearing.orders
     if isinstance(bearing, Mapping):
@@ -78,14 +105,14 @@ def kinematics_of(bearing: AnyBearing, row: int = 0) -> Kinematics:
     return Kinematics(name="orders that were given", orders=_checked(bearing))
 
 
-def _of_scene(scene: Scene, row: int) -> Kinematics:
+def _of_scene(scene: Scene, row: int, speeds: tuple[float, float] | None) -> Kinematics:
     if isinstance(row, bool) or not isinstance(row, int) or not 0 <= row < len(scene.rows):
         raise SceneError("row", repr(row), f"a row, 0 to {len(scene.rows) - 1}")
     of = scene.rows[row]
     try:
-        found = rates_at_a_turn(scene, row).orders
+        found = rates_at_a_turn(scene, row, speeds=speeds).orders
     except EquilibriumError:
-        found = rates_at_a_turn(scene, row, operating=False).orders
+        found = rates_at_a_turn(scene, row, speeds=speeds, operating=False).orders
     return Kinematics(name=scene.name or "the scene's bearing", orders=found, row=of)
 
 
@@ -97,7 +124,8 @@ def _of_mapping(given: Mapping[str, float]) -> Orders:
 
 def _checked(given: Orders) -> Orders:
     for name, order in vars(given).items():
-        least = 0.05 if name in _NEEDED else 0.0
+        turns = name in ("inner", "outer") or (name == "ftf" and given.outer > 0.0)
+        least = 0.0 if turns else LEAST
         if not least <= real(order) <= 100.0:
             allowed = f"an order of the shaft, {least:g} to 100"
             raise SceneError(f"bearing.{name}", repr(order), allowed)

@@ -73,18 +73,22 @@ def _long_enough(
 ) -> list[str]:
     """Ask for more turns where an order of a race lies so near a whole one that the shaft's lines hide its own."""
     orders = kinematics.orders
-    part, order = min(
-        (("outer", orders.bpfo), ("inner", orders.bpfi)),
-        key=lambda one: abs(one[1] - round(one[1])),
+    part, order, near = min(
+        (
+            (part, order, turns * round(order / turns))
+            for part, order in (("outer", orders.bpfo), ("inner", orders.bpfi))
+            for turns in orders.turning
+        ),
+        key=lambda one: abs(one[1] - one[2]),
     )
-    apart = abs(order - round(order))
+    apart = abs(order - near)
     if channel.n_samples / channel.fs * shaft * apart >= _APART:
         return []
     longer = f", at least {_APART / apart / shaft:.3g} s" if apart > 1e-3 else ""
     exact = ", or for damage to show the exact speed (speed_within)" if within > _EXACT else ""
     return [
         f"a longer record{longer}{exact}: the {part} race's order {order:.3f} is too near "
-        f"the shaft's {round(order)}"
+        f"the shaft's {near:g}"
     ]
 
 

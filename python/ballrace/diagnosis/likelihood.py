@@ -51,14 +51,15 @@ def with_ratios(evidence: Mapping[Part, Evidence], circle: float | None) -> dict
         Speed of the pitch circle [m/s]; None where the unit of the record or the bearing's size is not known.
     """
     told = _told(evidence, circle)
-    ratios = {part: _ratio(part, told, circle is not None) for part in ACCUSED}
+    ratios = {part: _ratio(part, evidence[part].role, told, circle is not None) for part in ACCUSED}
     return {part: replace(one, ratio=ratios.get(part)) for part, one in evidence.items()}
 
 
-def _ratio(part: Part, told: NDArray[Any], sized: bool) -> float:
+def _ratio(part: Part, role: Part, told: NDArray[Any], sized: bool) -> float:
+    """Return the ratio of a part by the records of the library with the part that has its role."""
     rows = judged()
-    model = fitted(part, sized)
-    prior = np.count_nonzero(rows["part"] == part) / np.count_nonzero(rows["part"] != part)
+    model = fitted(role, sized)
+    prior = np.count_nonzero(rows["part"] == role) / np.count_nonzero(rows["part"] != role)
     ratio = prior / odds_of(model, rows_of(part, told, sized))[0]
     return float(np.clip(ratio, 1.0 / _LARGEST, _LARGEST))
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .combs import PARTS, WIDTH, comb_of
+from .kinematics import LEAST
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -56,7 +57,7 @@ seed 45, the lines of 9, 8 and 11 stood out so at 20, 10 and 0 dB, and those of 
 """
 
 _OF_SHAFT = 0.03
-"""Nearest that it comes to a whole order."""
+"""Nearest that it comes to a multiple of a ring's turns, over these if they are below 1."""
 
 _SPREAD = 1.4826
 """Standard deviation of normal numbers over the median of their distances from their median."""
@@ -95,16 +96,23 @@ def null_orders(orders: Orders, part: str, rng: np.random.Generator) -> NDArray[
     faults = [comb_of(each, orders).order for each in ACCUSED]
     near = [orders.ftf] if part == "cage" else faults
     ratios = [p / q for p in range(1, 5) for q in range(1, 5)]
-    shared = [fault * ratio for fault in (*faults, orders.ftf) for ratio in ratios]
+    cage = [orders.ftf] if orders.ftf >= LEAST else []
+    shared = [fault * ratio for fault in (*faults, *cage) for ratio in ratios]
     if part == "ball":
         shared += [2.0 * orders.bsf + k * orders.ftf for k in range(-_SIDEBANDS, _SIDEBANDS + 1)]
     apart = _APART_OF_BALLS if part == "ball" else _APART
     drawn = rng.uniform(0.6 * min(near), 1.55 * max(near), 6 * _COUNT)
     own = np.abs(drawn[:, np.newaxis] / np.array(shared) - 1.0).min(axis=1) < apart
-    whole = np.abs(drawn - np.rint(drawn)) < _OF_SHAFT
+    whole: NDArray[np.bool_] = np.any([_is_near(drawn, turns) for turns in orders.turning], axis=0)
     free = drawn[~(own | whole)]
     # Of a bearing whose faults lie so densely that next to nothing is left, nearer ones have to do.
     return free[:_COUNT] if free.size >= _COUNT // 4 else drawn[~whole][:_COUNT]
+
+
+def _is_near(orders: NDArray[np.float64], turns: float) -> NDArray[np.bool_]:
+    """Whether orders are near multiples of a ring's turns."""
+    apart = np.abs(orders - turns * np.rint(orders / turns))
+    return np.asarray(apart < _OF_SHAFT * min(turns, 1.0))
 
 
 def found_of(comb: Comb, levels: Levels, shaft: float, null: NDArray[np.float64]) -> Found:

@@ -14,7 +14,6 @@ from .arguments import (
     checked_channel,
     known_bearing,
     known_within,
-    nominal_rate,
     other_rates,
 )
 from .examined import bands_for, examined
@@ -45,6 +44,7 @@ def diagnose(
     bearing: AnyBearing | None = None,
     speed_rpm: float | None = None,
     *,
+    outer_rpm: float | None = None,
     fs: float | None = None,
     column: str | None = None,
     unit: str | None = None,
@@ -76,7 +76,13 @@ def diagnose(
         A designation such as ``"6205-2RS/C3"``, a bearing of the catalogue, a scene, a row of one, or orders, as a
         mapping of ``ftf``, ``bpfo``, ``bpfi`` and ``bsf``. By default the scene of the record.
     speed_rpm : float, optional
-        Nominal speed of the inner ring, within ``speed_within`` [rev/min]; by default what the record knows.
+        Nominal speed of the inner ring, within ``speed_within`` [rev/min]; by default what the record knows, or 0
+        where an ``outer_rpm`` is given. Where orders or rates of a hub name the bearing, that of its rings against
+        each other, by default that of the rates.
+    outer_rpm : float, optional
+        Nominal speed of the outer ring [rev/min], as in hubs, idlers and planets; of the other sign where the
+        rings turn in opposite ways. By default that of the scene, else the outer ring stands. Where both rings
+        turn, their speeds are not looked for in the record.
     fs : float, optional
         Sampling rate of an array [Hz].
     column : str, optional
@@ -138,6 +144,7 @@ def diagnose(
             channel,
             scene,
             speed_rpm,
+            outer_rpm=outer_rpm,
             speed_within=speed_within,
             exclude=exclude,
             mains=mains,
@@ -145,9 +152,9 @@ def diagnose(
             seed=seed,
         )
         return judged_by_rows(scene, false_alarm, lambda k, share: again(row=k, false_alarm=share))
-    kinematics = known_bearing(channel, bearing, row or 0)
-    nominal = nominal_rate(channel, speed_rpm)
-    within = known_within(channel, speed_rpm, speed_within)
+    kinematics, nominal = known_bearing(channel, bearing, row or 0, speed_rpm, outer_rpm)
+    given = speed_rpm is not None or outer_rpm is not None
+    within = known_within(channel, given=given, speed_within=speed_within)
     orders, rates = other_rates(exclude, mains)
     machine = checked_machine(machine)
     shaft = ShaftRate(rate=nominal, nominal=nominal, by="nominal", z=0.0)

@@ -29,7 +29,7 @@ _COUNT = 200
 
 @dataclass(frozen=True, kw_only=True)
 class ShaftRate:
-    """Rate of the inner ring.
+    """Rate of the inner ring against the outer, the shaft's where the outer ring stands.
 
     Attributes
     ----------

@@ -38,7 +38,7 @@ balls: a piece of 2 s of a damaged outer race of ``hit-sm`` has 0.43 for its inn
 """
 
 _UNLIKELY: dict[Part, float] = {"outer_race": 0.05, "inner_race": 0.1, "ball": 0.1}
-"""Likelihood ratios of sound to damaged below which lines that are not strong are damage.
+"""Likelihood ratios of sound to damaged below which lines that are not strong are damage, by the part's role.
 
 Healthy bearings have lines of the outer race: of 648 simulated records of them (``benches/verdict_set.py``, three
 sets) 8 have significant ones with less than 0.1, and 1 of the 216 of seed 46 with less than 0.05, where 1 % is
@@ -139,13 +139,13 @@ def _not_sure(one: Evidence, limits: Limits | None, silent: bool) -> str | None:
 
 def _looks_sound(one: Evidence, limits: Limits) -> bool:
     """Whether lines are not strong, and simulated bearings with the part sound have such lines as well."""
-    likely = one.ratio is None or one.ratio >= _UNLIKELY[one.part]
+    likely = one.ratio is None or one.ratio >= _UNLIKELY[one.role]
     return likely and one.strength.acceleration < limits.plain
 
 
 def _of_damaged_ball(one: Evidence) -> bool:
     """Whether there are blows of a ball, however faint: neither the load zone nor waves of races have its rate."""
-    likely = one.ratio is not None and one.ratio < _UNLIKELY[one.part]
+    likely = one.ratio is not None and one.ratio < _UNLIKELY[one.role]
     return one.part == "ball" and likely and not one.strength.is_smooth
 
 
@@ -160,7 +160,8 @@ def own_lines(
 ) -> list[Part]:
     """Return the parts whose lines stand out and are not those of the part with the highest ones, which is first.
 
-    The first part's lines with two sidebands of the shaft are taken away, and what is left has to stand out still.
+    The first part's lines with two sidebands of each ring that turns are taken away, and what is left has to stand
+    out still.
     """  # fmt: skip
     sure = [one for one in map(evidence.__getitem__, ACCUSED) if one.probability < false_alarm]
     least = _BESIDE * max((one.z for one in sure), default=0.0)
@@ -170,7 +171,8 @@ def own_lines(
     first = ranked[0]
     rate = first.order * first.factor * shaft
     count = int(levels.hidden.size / levels.duration / rate) + 3
-    lines = [k * rate + m * shaft for k in range(1, count) for m in _MODULATED]
+    turns = {m * each * shaft for each in kinematics.orders.turning for m in _MODULATED}
+    lines = [k * rate + beside for k in range(1, count) for beside in turns]
     rest = levels.without_lines(np.array(lines), WIDTH)
     own = [first.part]
     for other in ranked[1:]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..diagnosis.combs import PARTS, comb_of
-from ..diagnosis.envelopes import bands_of, envelope_spectra, levels_of
+from ..diagnosis.envelopes import bands_of, envelope_spectra, levels_of, without_rings
 from ..diagnosis.lacking import HELD
 from ..diagnosis.strength import Envelopes
 
@@ -57,7 +57,7 @@ def features_of(
         4.1 * 2.0 * kinematic.bsf, 4.1 * kinematic.bpfi + 2.0, float(orders.max(initial=0.0)) + 1.0
     )
     spectra = envelope_spectra(x, fs, bands, highest * shaft, shaft)
-    levels = levels_of(spectra, x.size / fs, shaft).without([shaft])
+    levels = without_rings(levels_of(spectra, x.size / fs, shaft), kinematic, shaft)
     envelopes = Envelopes(x, fs, bands)
     heights, depths = [], []
     for part in PARTS:

@@ -35,6 +35,7 @@ def trend(
     bearing: AnyBearing | None = None,
     speed_rpm: float | None = None,
     *,
+    outer_rpm: float | None = None,
     times: ArrayLike | None = None,
     baseline: int = 10,
     fs: float | None = None,
@@ -59,7 +60,7 @@ def trend(
     ----------
     records : iterable of Signals, Measurement, Recording, Channel or array_like
         In the order of time, one after the other, all at one sampling rate; a generator that reads files will do.
-    bearing, speed_rpm, fs, column, unit, row, speed_within, false_alarm, machine, seed
+    bearing, speed_rpm, outer_rpm, fs, column, unit, row, speed_within, false_alarm, machine, seed
         As of :func:`ballrace.diagnose`.
     times : array_like, shape (n,), optional
         When they were taken, rising, in any unit; by default 0, 1, 2, …
@@ -97,7 +98,8 @@ def trend(
     if isinstance(baseline, bool) or not isinstance(baseline, int | np.integer) or baseline < 3:
         raise SceneError("baseline", repr(baseline), "a whole number of records, 3 and more")
     options: Any = {
-        "row": row, "speed_within": speed_within, "false_alarm": false_alarm, "machine": machine, "seed": seed,
+        "outer_rpm": outer_rpm, "row": row, "speed_within": speed_within, "false_alarm": false_alarm,
+        "machine": machine, "seed": seed,
     }  # fmt: skip
     taken: list[_Taken] = []
     for number, record in enumerate(records):
