@@ -33,7 +33,7 @@ def begun() -> Settings:
 
 
 def answered(settings: Settings) -> Live:
-    return solved(settings.scene(), steady=settings.speed_rpm is not None)
+    return solved(settings.scene())
 
 
 def drawings(live: Live) -> list[ET.Element]:

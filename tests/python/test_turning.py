@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,6 +12,9 @@ from numpy.typing import NDArray
 import ballrace as br
 from ballrace.diagnosis.combs import comb_of
 from ballrace.diagnosis.kinematics import kinematics_of
+from ballrace.explore.controls import controls
+from ballrace.explore.live import solved
+from ballrace.explore.settings import Settings
 from ballrace.report.words import operation
 from ballrace.scene import Ramp, SpeedDrive, Surface, TorqueDrive
 from ballrace.scene.turning import relative_speed
@@ -238,6 +242,46 @@ def test_speeds_of_a_record_that_do_not_fit_are_refused_by_name() -> None:
     for arguments, named, told in bad:
         with pytest.raises(br.SceneError, match=told):
             br.diagnose(x, *arguments, fs=16_000.0, **named)  # type: ignore[arg-type]
+
+
+def test_a_chain_goes_by_the_ring_that_turns() -> None:
+    """Analytic: harmonics and pulses of the shaft, or of a hub; records know the turns against each other."""
+    tone = br.measuring.Chain(
+        machine=br.measuring.Machine(shaft=(1.0,), noise_density=0.0), tacho=br.measuring.Tacho()
+    )
+    for inner, outer, turns in [(0.0, -1800.0, 30.0), (600.0, -1200.0, 10.0)]:
+        scene = br.bearing("6205", speed_rpm=inner, outer_rpm=outer)
+        out = br.simulate(scene, duration=0.2)
+        still, found = (br.measure(out, chain) for chain in (br.measuring.Chain(), tone))
+        f, value = br.spectra.spectrum(found.x - still.x, found.fs)
+        assert f[np.argmax(value)] == pytest.approx(turns)
+        assert found.pulses.size == pytest.approx(0.2 * turns, abs=1.0)
+        assert found.shaft == pytest.approx(30.0)
+
+
+def test_the_page_of_explore_has_both_speeds() -> None:
+    begun = Settings.of(br.bearing("6205", radial_load=800.0, outer_rpm=1800.0))
+    assert (begun.speed_rpm, begun.outer_rpm) == pytest.approx((0.0, 1800.0))
+    assert {"speed_rpm", "outer_rpm"} <= {each.field for each in controls(begun)}
+    assert Settings.of(br.bearing("6205")).outer_rpm is None
+    moved = begun.moved(outer_rpm=900.0).scene()
+    assert moved.drive == SpeedDrive(0.0)
+    assert moved.outer_speed == pytest.approx(900.0 * TURN)
+    live = solved(moved)
+    assert live.steady
+    assert live.rates[0].outer == pytest.approx(15.0)
+    rising = hub(outer_speed=Ramp(from_=0.0, to=190.0, start=0.0, end=0.1), defects={})
+    assert not solved(rising).steady
+    assert solved(rising).rates[0].shaft == 1.0
+
+
+def test_a_report_tells_the_turns_of_both_rings(tmp_path: Path) -> None:
+    out = br.simulate(hub(), duration=0.05)
+    out.report(tmp_path / "hub.html")
+    page = (tmp_path / "hub.html").read_text()
+    assert "inner ring, Hz" in page
+    assert "outer ring, Hz" in page
+    assert br.plot.order_map(out).layout.xaxis.title.text == "turns of the rings against each other"
 
 
 def test_pictures_turn_the_damage_of_the_outer_race() -> None:

@@ -189,7 +189,7 @@ def panel(how, knob_elements, mo, name_elements, run_elements, size_elements, tr
     by = {"name": name_elements, "size": size_elements, "file": []}
     mo.vstack([
         mo.md("# ballrace explore"), how, *by[how.value], mo.md(what) if trouble is None else trouble,
-        *of("radial_load", "axial_load", "moment", "speed_rpm", "clearance", "oil", "temperature_c"),
+        *of("radial_load", "axial_load", "moment", "speed_rpm", "outer_rpm", "clearance", "oil", "temperature_c"),
         mo.hstack(of("damage", "on"), justify="start", wrap=True),
         *of("width_mm", "angle_deg", "housing_mass", "housing_frequency", "noise"),
         *run_elements,
@@ -215,7 +215,7 @@ def solving(
         settings = taken(begun, knobs, shown).moved(**picked)
         try:
             scene = settings.scene()
-            solution = live.solved(scene, steady=settings.speed_rpm is not None)
+            solution = live.solved(scene)
         except BallraceError as error:
             unsolved = refused(error)
         if settings.noise != get_noise():

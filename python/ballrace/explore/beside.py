@@ -12,7 +12,7 @@ from ..diagnosis import diagnose
 from ..errors import FileError
 from ..recordings import Recording, read
 from .heard import envelope
-from .settings import speed_of
+from .settings import outer_speed_of, speed_of
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -109,6 +109,9 @@ def judged(
     if channel.unit == "g":
         channel = channel.to("m/s^2")
     healthy = scene.replace({"defects": {}})
+    if speed_rpm is not None and outer_speed_of(scene) is not None and speed_of(scene) == 0.0:
+        # That of the ring which alone turns.
+        return channel, diagnose(channel, healthy, 0.0, outer_rpm=speed_rpm)
     speed = speed_rpm if speed_rpm is not None or channel.shaft is not None else speed_of(scene)
     return channel, diagnose(channel, healthy, speed)
 

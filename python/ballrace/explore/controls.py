@@ -46,7 +46,8 @@ def controls(begun: Settings) -> tuple[Control, ...]:
     """Return the controls of a scene's settings; what is not one number in the scene has none."""
     made = (
         *_forces(begun),
-        _speed(begun),
+        _speed("speed_rpm", "speed / rev/min", begun.speed_rpm, turns=begun.outer_rpm is None),
+        _speed("outer_rpm", "speed of the outer ring / rev/min", begun.outer_rpm),
         _clearance(begun),
         _plain("temperature_c", "oil temperature / °C", (0.0, 120.0, 1.0), begun.temperature_c),
         _plain("width_mm", "damage: size / mm", (0.1, 8.0, 0.1), begun.width_mm),
@@ -78,9 +79,10 @@ def _forces(begun: Settings) -> tuple[Control | None, ...]:
     )
 
 
-def _speed(begun: Settings) -> Control | None:
-    stop = _round_up(max(6000.0, 2.0 * abs(begun.speed_rpm or 0.0)))
-    return _given("speed_rpm", "speed / rev/min", (60.0, stop, 10.0), begun.speed_rpm)
+def _speed(field: str, label: str, begun: float | None, *, turns: bool = False) -> Control | None:
+    """Return the control of a ring's speed, which begins above 0 where it alone turns."""
+    stop = _round_up(max(6000.0, 2.0 * abs(begun or 0.0)))
+    return _given(field, label, (60.0 if turns else -stop, stop, 10.0), begun)
 
 
 def _clearance(begun: Settings) -> Control | None:

@@ -8,18 +8,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..errors import BallraceError, SceneWarning
-from ..frequencies.operating import FaultFrequencies, fault_frequencies, spin_of
+from ..frequencies.operating import FaultFrequencies, fault_frequencies, rates_at_a_turn, spin_of
 from ..ratings.life import RatingLife, rating_life
 from ..scene import Scene
+from ..scene.turning import constant_speeds
 from ..statics import Equilibrium, LoadDistribution, Stiffness, load_distribution, stiffness
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
 __all__ = ["Live", "solved"]
-
-_ONE_HERTZ = 60.0
-"""A speed at which frequencies are orders [rev/min]."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -64,15 +62,13 @@ class Live:
         return self.stiffness.equilibrium
 
 
-def solved(scene: Scene, *, steady: bool = True) -> Live:
+def solved(scene: Scene) -> Live:
     """Solve a scene at rest.
 
     Parameters
     ----------
     scene : Scene
-        The scene.
-    steady : bool
-        Whether its speed is one number; if not, rates are orders.
+        The scene. Where its speeds are not given, or change, rates are orders.
 
     Raises
     ------
@@ -86,8 +82,9 @@ def solved(scene: Scene, *, steady: bool = True) -> Live:
         warnings.simplefilter("always", SceneWarning)
         tangent = stiffness(healthy)
         around = load_distribution(healthy)
-        speed = None if steady else _ONE_HERTZ
-        rates = tuple(fault_frequencies(healthy, speed, row=k) for k in range(len(scene.rows)))
+        steady = constant_speeds(scene) is not None
+        of_row = fault_frequencies if steady else rates_at_a_turn
+        rates = tuple(of_row(healthy, row=k) for k in range(len(scene.rows)))
         life, why = _life(healthy, around)
         warned = (str(each.message) for each in told)
         doubts = dict.fromkeys([*_apart(healthy, rates), *scene.doubts(), *warned])

@@ -14,7 +14,7 @@ from ..scene.lubricant import chosen
 if TYPE_CHECKING:
     from ..scene import Defect, Ring, Support
 
-__all__ = ["DAMAGE", "SURFACES", "Settings", "speed_of"]
+__all__ = ["DAMAGE", "SURFACES", "Settings", "outer_speed_of", "speed_of"]
 
 Damage = Literal["none", "spall", "dent", "line", "pit"]
 DAMAGE = get_args(Damage)
@@ -46,6 +46,8 @@ class Settings:
         Moment on the inner ring about x [N m]; one that is not 0 sets the ring free to tilt.
     speed_rpm : float or None
         Speed of the inner ring [rev/min]; None: it changes, or a torque drives.
+    outer_rpm : float or None
+        Speed of the outer ring [rev/min]; None: it stands, or its speed changes.
     clearance : float or None
         Diametral clearance of all rows [m]; None: the contact angle says it.
     oil : str or None
@@ -71,6 +73,7 @@ class Settings:
     axial_load: float | None = None
     moment: float = 0.0
     speed_rpm: float | None = None
+    outer_rpm: float | None = None
     clearance: float | None = None
     oil: str | None = None
     temperature_c: float = 60.0
@@ -93,6 +96,7 @@ class Settings:
             radial_load=_force(scene, along=False),
             axial_load=_force(scene, along=True),
             speed_rpm=speed_of(scene),
+            outer_rpm=outer_speed_of(scene),
             clearance=scene.rows[0].clearance if _has_clearance(scene) else None,
             oil=None if oil is None else oil.oil,
             housing_mass=mass,
@@ -145,9 +149,12 @@ def _tilts(support: Support) -> dict[str, Spring]:
 
 
 def _drive(of: Settings, moved: set[str]) -> dict[str, Any]:
-    if "speed_rpm" not in moved or of.speed_rpm is None:
-        return {}
-    return {"drive": SpeedDrive(of.speed_rpm * math.pi / 30.0)}
+    changes: dict[str, Any] = {}
+    if "speed_rpm" in moved and of.speed_rpm is not None:
+        changes["drive"] = SpeedDrive(of.speed_rpm * math.pi / 30.0)
+    if "outer_rpm" in moved and of.outer_rpm is not None:
+        changes["outer_speed"] = of.outer_rpm * math.pi / 30.0
+    return changes
 
 
 def _clearances(of: Settings, moved: set[str]) -> dict[str, Any]:
@@ -238,6 +245,12 @@ def speed_of(scene: Scene) -> float | None:
     drive = scene.drive
     constant = isinstance(drive, SpeedDrive) and isinstance(drive.speed, int | float)
     return drive.speed * 30.0 / math.pi if constant else None  # type: ignore[operator,union-attr]
+
+
+def outer_speed_of(scene: Scene) -> float | None:
+    """Return the speed of the outer ring [rev/min]; None where it stands, or its speed changes."""
+    speed = scene.outer_speed
+    return speed * 30.0 / math.pi if isinstance(speed, int | float) else None
 
 
 def _has_clearance(scene: Scene) -> bool:

@@ -12,32 +12,37 @@ from numpy.typing import NDArray
 from .._numbers import LARGEST, real, real_row
 from ..errors import SceneError
 from ..scene import MotionProbe
-from ..scene.turning import relative_speed
+from ..scene.turning import constant_speeds
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from ..scene import Scene
+    from ..scene import RingName, Scene
     from ..signals import Signals
 
-__all__ = ["Source", "of_array", "of_signals", "shaft_rate"]
+__all__ = ["Source", "of_array", "of_signals"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Source:
-    """An acceleration [m/s²] at even times [s], and the angle of the shaft [rad] if it is known."""
+    """An acceleration [m/s²] at even times [s], and angles [rad] if they are known.
+
+    ``angle`` is that of the shaft, by which the machine and a tachometer go: of the inner ring, or of the outer
+    where that one alone turns. ``against`` is that of the inner ring against the outer.
+    """
 
     x: NDArray[np.float64]
     t: NDArray[np.float64]
     fs: float
     angle: NDArray[np.float64] | None
+    against: NDArray[np.float64] | None
 
     @property
     def rate(self) -> float | None:
-        """Mean rate of the shaft [Hz], if its angle is known."""
-        if self.angle is None or self.t.size < 2:
+        """Mean rate of the inner ring against the outer [Hz], if it is known."""
+        if self.against is None or self.t.size < 2:
             return None
-        turns = float(self.angle[-1] - self.angle[0]) / (2.0 * math.pi)
+        turns = abs(float(self.against[-1] - self.against[0])) / (2.0 * math.pi)
         return turns / float(self.t[-1] - self.t[0])
 
     def needed_angle(self) -> NDArray[np.float64]:
@@ -84,7 +89,8 @@ def of_array(
     if np.abs(signal).max() > LARGEST:
         raise SceneError("x", f"up to {np.abs(signal).max():g}", f"magnitudes up to {LARGEST:g}")
     t = np.arange(signal.size) / fs
-    return Source(x=signal.copy(), t=t, fs=float(fs), angle=_angle(shaft, t))
+    angle = _angle(shaft, t)
+    return Source(x=signal.copy(), t=t, fs=float(fs), angle=angle, against=angle)
 
 
 def of_signals(
@@ -109,8 +115,11 @@ def of_signals(
                 wanted = f'a probe MotionProbe(body="{body}") with the component a{axis}'
                 raise SceneError("direction", repr(direction), wanted)
             x += part * out[f"{name}.a{axis}"]
-    angle = _angle(shaft, out.t) if shaft is not None else _shaft_angle(out)
-    return Source(x=x, t=out.t, fs=out.fs, angle=angle)
+    given = _angle(shaft, out.t)
+    inner, against = (_ring_angle(out, "inner"), _against(out)) if given is None else (given, given)
+    stands = inner is None or inner[-1] == inner[0]
+    angle = against if stands else inner
+    return Source(x=x, t=out.t, fs=out.fs, angle=angle, against=against)
 
 
 def probe_of(scene: Scene, body: str) -> str:
@@ -137,20 +146,22 @@ def unit(direction: tuple[float, float, float]) -> tuple[float, ...]:
     return tuple((vector / length).tolist())
 
 
-def shaft_rate(scene: Scene) -> float | None:
-    """Return the frequency of the inner ring against the outer [Hz], if it is given and constant."""
-    speed = relative_speed(scene)
-    return None if speed is None else speed / (2.0 * math.pi)
+def _ring_angle(out: Signals, ring: RingName) -> NDArray[np.float64] | None:
+    """Return the angle of a ring [rad], as recorded or by a speed that is given and constant."""
+    name = f"{probe_of(out.scene, ring)}.theta"
+    if name in out:
+        return out[name]
+    speeds = constant_speeds(out.scene)
+    return None if speeds is None else speeds[ring == "inner"] * out.t
 
 
-def _shaft_angle(out: Signals) -> NDArray[np.float64] | None:
-    inner, outer = (f"{probe_of(out.scene, ring)}.theta" for ring in ("inner", "outer"))
-    if inner in out and out.scene.outer_speed is None:
-        return out[inner]
-    if inner in out and outer in out:
-        return out[inner] - out[outer]
-    rate = shaft_rate(out.scene)
-    return None if rate is None else 2.0 * np.pi * rate * out.t
+def _against(out: Signals) -> NDArray[np.float64] | None:
+    """Return the angle of the inner ring against the outer [rad]."""
+    inner = _ring_angle(out, "inner")
+    if inner is None or out.scene.outer_speed is None:
+        return inner
+    outer = _ring_angle(out, "outer")
+    return None if outer is None else inner - outer
 
 
 def _angle(shaft: ArrayLike | None, t: NDArray[np.float64]) -> NDArray[np.float64] | None:

@@ -171,7 +171,12 @@ def order_map(
     _fault_orders(fig, of, faults=faults, rates=rates, row=row, highest=highest)
     what = "the squared envelope" if envelope else "the signal"
     since = "" if turning.start == 0 else _since(turning.start, signal, rate)
-    fig.update_xaxes(title_text=f"turns of the shaft{since}")
+    what_turns = (
+        "turns of the shaft"
+        if _against(of, angle) is None
+        else "turns of the rings against each other"
+    )
+    fig.update_xaxes(title_text=f"{what_turns}{since}")
     fig.update_yaxes(title_text=f"order of {what} / per turn")
     return finished(fig, layout, height=440)
 
@@ -221,11 +226,25 @@ def _angle(of: object, column: str) -> ArrayLike:
             "angle", repr(column), "the shaft's angle [rad]: the signal has no columns"
         )
     found: ArrayLike = of[column]
-    scene = scene_of(of)
-    if scene is None or scene.outer_speed is None or column != "inner.theta":
+    against = _against(of, column)
+    if against is None:
         return found
-    against: NDArray[np.float64] = np.asarray(found) - np.asarray(of["outer.theta"])
     return against if against[-1] >= against[0] else -against
+
+
+def _against(of: object, angle: str | ArrayLike) -> NDArray[np.float64] | None:
+    """Return the angle of the inner ring against the outer [rad]; None where that of the shaft alone is meant."""
+    scene = scene_of(of)
+    if (
+        scene is None
+        or scene.outer_speed is None
+        or not isinstance(angle, str)
+        or angle != "inner.theta"
+    ):
+        return None
+    assert isinstance(of, Mapping)
+    found: NDArray[np.float64] = np.asarray(of["inner.theta"]) - np.asarray(of["outer.theta"])
+    return found
 
 
 def kurtogram(

@@ -49,7 +49,9 @@ def by_order(
     x : array_like, shape (n,)
         Signal, at equal steps of time.
     angle : array_like, shape (n,)
-        Angle of the shaft at the same times, rising throughout [rad], such as ``out["inner.theta"]``.
+        Angle of the shaft at the same times, rising throughout [rad], such as ``out["inner.theta"]``; of a hub
+        that of the ring that turns, ``out["outer.theta"]``. Where both turn, fault lines stand at their orders
+        over the angle of one against the other, their difference.
     per_turn : int, optional
         Samples a turn; the signal then holds orders up to half of it. By default as many as the slowest turn has,
         so that nothing is lost. With fewer, what lies above is filtered off first.
@@ -162,7 +164,11 @@ def _checked_turns(angle: ArrayLike, samples: int) -> NDArray[np.float64]:
             "angle", f"an array of shape {turns.shape}", f"one angle a sample, ({samples},)"
         )
     if not np.isfinite(turns).all() or not (np.diff(turns) > 0.0).all():
-        raise SceneError("angle", "not rising", "finite, and rising from each sample to the next")
+        raise SceneError(
+            "angle",
+            "not rising",
+            "finite, and rising from each sample to the next, as that of a ring that turns",
+        )
     found: NDArray[np.float64] = turns - turns[0]
     return found
 
