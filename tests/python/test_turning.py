@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 import ballrace as br
 from ballrace.diagnosis.combs import comb_of
 from ballrace.diagnosis.kinematics import kinematics_of
+from ballrace.diagnosis.null import null_orders
 from ballrace.explore.controls import controls
 from ballrace.explore.live import solved
 from ballrace.explore.settings import Settings
@@ -204,6 +205,19 @@ def test_a_measured_hub_is_judged_by_both_speeds(inner: float, outer: float) -> 
     assert br.diagnose(x, other, inner, outer_rpm=outer, fs=16_000.0).parts == ("outer_race",)
     trended = br.trend([x] * 5, "6205", inner, outer_rpm=outer, fs=16_000.0, baseline=3)
     assert trended.table["parts"].to_list() == ["outer_race"] * 5
+
+
+def test_nothing_is_judged_on_the_lines_of_a_ring() -> None:
+    """Reliability: orders of the null keep off the multiples of both rings' turns, and so must the races' own."""
+    orders = br.fault_frequencies("6205", 600.0, outer_rpm=-1200.0).orders
+    drawn = null_orders(orders, "outer_race", np.random.default_rng(0))
+    assert drawn.size == 1000
+    for turns in orders.turning:
+        assert np.abs(drawn / turns - np.rint(drawn / turns)).min() >= 0.03
+    noise = np.random.default_rng(0).normal(size=24_000)
+    found = br.diagnose(noise, "6205", 900.0, outer_rpm=-900.0, fs=16_000.0)
+    # BPFO 3.585 beside 7 half turns, BPFI 5.415 beside 11.
+    assert "is too near the shaft's" in found.why
 
 
 def test_a_cage_that_stands_has_no_lines() -> None:

@@ -54,7 +54,8 @@ class EnvelopeLines(_base.TransformerMixin, _base.BaseEstimator):  # type: ignor
     fs : float, optional
         Sampling rate of arrays [Hz]; records know theirs.
     speed_rpm : float, optional
-        Speed of the inner ring in arrays, and in records that do not know theirs [rev/min].
+        Speed of the inner ring in arrays, and in records that do not know theirs [rev/min]; where orders or rates
+        of a hub name the bearing, that of its rings against each other.
     highest : float, optional
         Highest order of the envelope's spectrum that is a feature; by default there are none of it.
     step : float
