@@ -44,8 +44,8 @@ class FaultFrequencies:
     Attributes
     ----------
     shaft : float
-        Turns of the rings against each other, |f_i − f_o| [Hz]: the shaft's where the outer ring stands, those of
-        a hub where the inner one does, and of rings that turn in opposite ways the sum of both.
+        Turns of the rings against each other, ``|f_i − f_o|`` [Hz]: the shaft's where the outer ring stands, those
+        of a hub where the inner one does, and of rings that turn in opposite ways the sum of both.
     ftf, bpfo, bpfi, bsf : float
         Cage in space, ball passes on the outer and the inner race, spin of a ball in the cage [Hz]. A defect on a
         ball meets the races at twice ``bsf``; in a run, whose balls spin about the axis only, at BSF/cos α or
