@@ -354,6 +354,47 @@ def test_bad_arguments_are_named(faulty: br.Signals, animated: br.Signals, wheel
         plot.psd(faulty, "outer.aq")
 
 
+@pytest.mark.parametrize(
+    ("picture", "field", "allowed"),
+    [
+        (plot.orbit, "out", "a run, as ballrace.simulate returns it, or a record"),
+        (plot.ball_path, "out", "a run, as ballrace.simulate returns it"),
+        (plot.animation, "out", "a run, as ballrace.simulate returns it"),
+        (plot.animation3d, "out", "a run, as ballrace.simulate returns it"),
+        (partial(plot.signals, names="DE"), "out", "a run, as ballrace.simulate returns it, or a record"),
+        (plot.load_cases, "cases", "runs by the titles of panels"),
+        (plot.slice_forces, "cases", "a run, as ballrace.simulate returns it, or tables of slices"),
+        (plot.section, "scene", "a Scene"),
+        (plot.unrolled, "scene", "a Scene"),
+        (plot.load_distribution, "loads", "what ballrace.equilibrium"),
+    ],
+)  # fmt: skip
+def test_what_is_no_run_is_refused_by_name(
+    faulty: br.Signals, tmp_path: Path, picture: Callable[..., object], field: str, allowed: str
+) -> None:
+    """A measurement of a run, its signal, a record that was read, an array: told is which, and what may be."""
+    path = tmp_path / "record.csv"
+    path.write_text("DE\n" + "0.0\n1.0\n" * 50, encoding="utf-8")
+    measured, read = br.measure(faulty), br.read(path, fs=1e4)
+    takes_records = field == "out" and allowed.endswith("or a record")
+    for given in (measured, measured.channel(), np.zeros(100), *([] if takes_records else [read])):
+        with pytest.raises(br.SceneError) as caught:
+            picture(given)
+        assert str(caught.value).startswith(f"{field} = a {type(given).__name__}: {allowed}")
+    if picture is plot.orbit:
+        with pytest.raises(br.SceneError, match=r"no column inner\.x"):
+            picture(read)
+
+
+def test_cases_that_are_no_runs_are_refused_by_title(faulty: br.Signals) -> None:
+    measured = br.measure(faulty)
+    for draw in (plot.load_cases, plot.slice_forces):
+        with pytest.raises(br.SceneError) as caught:
+            draw({"worn": measured})  # type: ignore[dict-item]
+        assert caught.value.path == "cases['worn']"
+        assert "a Measurement: a " in str(caught.value)
+
+
 def test_defects_are_drawn_where_a_run_has_them() -> None:
     """Truth: the scene that a run gives back, whose defects are placed."""
     spall = br.defects.spall(on="outer_race", width_mm=1.0)

@@ -11,7 +11,7 @@ from ..scene import ContactsProbe, MotionProbe
 from .decimation import min_max
 from .moving import Moving
 from .outlines import outlines
-from .sources import source
+from .sources import check_run, source
 from .style import COLOURS, finished, title
 
 if TYPE_CHECKING:
@@ -117,7 +117,8 @@ def animation(
 
 
 def check(out: Signals, column: str, row: int, frames: int) -> None:
-    """Refuse a row that there is not, too few or too many frames, and a run without the columns that are drawn."""
+    """Refuse what is no run, a row that there is not, too few or many frames, and a run without the columns."""
+    check_run(out)
     if not 0 <= row < len(out.scene.rows):
         raise SceneError("row", str(row), f"a row, 0 to {len(out.scene.rows) - 1}")
     if isinstance(frames, bool) or not 2 <= frames <= 500:

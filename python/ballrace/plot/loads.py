@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import SceneError
 from ..recordings.columns import Columns
+from ..signals import Signals
 from ..statics import Equilibrium, LoadDistribution
 from .style import COLOURS, DASHES, MARKERS, finished
 from .times import finish_stack, share_scale, stack
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..paper.case import Balls
-    from ..signals import Signals
 
     Loads = Equilibrium | LoadDistribution
 
@@ -60,8 +60,8 @@ def load_distribution(
     >>> [trace.name for trace in br.plot.load_distribution(eq).data]
     ['row 0', 'row 1']
     """
+    _check_solutions(loads)
     cases = dict(loads) if isinstance(loads, Mapping) else {"": loads}
-    _check_solutions(cases)
     largest = max((float(found.outer_load.max()) for found in cases.values()), default=0.0)
     if row is not None:
         return _finish_polars(_one_row(cases, row, fig), largest, layout)
@@ -76,8 +76,11 @@ def load_distribution(
     return _finish_polars(fig, largest, layout)
 
 
-def _check_solutions(cases: Mapping[str, object]) -> None:
-    for found in cases.values():
+def _check_solutions(loads: object) -> None:
+    given: tuple[object, ...] = (loads,)
+    if isinstance(loads, Mapping) and not isinstance(loads, Columns):
+        given = tuple(loads.values())
+    for found in given:
         if not isinstance(found, Equilibrium | LoadDistribution):
             allowed = "what ballrace.equilibrium or ballrace.load_distribution finds of a scene"
             raise SceneError("loads", f"a {type(found).__name__}", allowed)
@@ -137,7 +140,7 @@ def slice_forces(
     Raises
     ------
     SceneError
-        The run has no slices recorded.
+        The run has no slices recorded, or it is neither a run nor such a mapping.
 
     Examples
     --------
@@ -148,7 +151,7 @@ def slice_forces(
     """
     from .._plotly import Bar
 
-    tables = _slices(cases) if isinstance(cases, Columns) else cases
+    tables = _tables(cases)
     fig = fig if fig is not None else stack(tuple(tables))
     for place, (label, table) in enumerate(tables.items(), start=1):
         bars = Bar(
@@ -167,7 +170,20 @@ def slice_forces(
     return finish_stack(fig, len(tables), layout, "axial place on the ring / mm")
 
 
-def _slices(out: Columns) -> dict[str, dict[str, NDArray[np.float64]]]:
+def _tables(cases: object) -> Mapping[str, Mapping[str, NDArray[np.float64]]]:
+    if isinstance(cases, Signals):
+        return _slices(cases)
+    if isinstance(cases, Columns) or not isinstance(cases, Mapping):
+        allowed = "a run, as ballrace.simulate returns it, or tables of slices by titles of panels"
+        raise SceneError("cases", f"a {type(cases).__name__}", allowed)
+    for label, table in cases.items():
+        if not isinstance(table, Mapping) or not {"z", "width", "force"} <= set(table):
+            allowed = "a table of slices, with z, width and force"
+            raise SceneError(f"cases[{label!r}]", f"a {type(table).__name__}", allowed)
+    return cases
+
+
+def _slices(out: Signals) -> dict[str, dict[str, NDArray[np.float64]]]:
     table = getattr(out, "slices", None)
     if table is None or table.is_empty():
         raise SceneError("cases", "a run without slices", "one with a SlicesProbe among its probes")

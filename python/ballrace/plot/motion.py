@@ -9,12 +9,14 @@ import numpy as np
 from ..errors import SceneError
 from ..scene import MotionProbe
 from .decimation import min_max
+from .sources import check_columns, check_run
 from .style import COLOURS, DASHES, finished
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
     from numpy.typing import NDArray
 
+    from ..recordings.columns import Columns
     from ..signals import Signals
 
     Array = NDArray[np.float64]
@@ -23,7 +25,7 @@ __all__ = ["ball_path", "orbit"]
 
 
 def orbit(
-    out: Signals,
+    out: Columns,
     *,
     relative: bool = True,
     skip: float = 0.0,
@@ -34,8 +36,8 @@ def orbit(
 
     Parameters
     ----------
-    out : Signals
-        A run with the columns ``inner.x`` and ``inner.y``.
+    out : Signals or Recording
+        A run, or a record, with the columns ``inner.x`` and ``inner.y``.
     relative : bool
         Whether it is seen from the outer ring's centre, if that was recorded.
     skip : float
@@ -48,7 +50,7 @@ def orbit(
     Raises
     ------
     SceneError
-        A column was not recorded, or nothing is left after ``skip``.
+        ``out`` is neither a run nor a record, a column was not recorded, or nothing is left after ``skip``.
 
     Examples
     --------
@@ -57,6 +59,7 @@ def orbit(
     """
     from .._plotly import Figure, Scatter
 
+    check_columns(out, "out")
     kept = out.t >= skip
     if not kept.any():
         raise SceneError("skip", str(skip), f"less than the run's {out.t[-1]:g} s")
@@ -108,7 +111,7 @@ def ball_path(
     Raises
     ------
     SceneError
-        There is no such defect on a race, no ball was recorded, or none passed it.
+        ``out`` is no run, there is no such defect on a race, no ball was recorded, or none passed it.
 
     Examples
     --------
@@ -120,6 +123,7 @@ def ball_path(
     """
     from .._plotly import Figure
 
+    check_run(out)
     name, race, width, radius = _chosen(out, defect)
     fig = fig if fig is not None else Figure()
     for ball, (arc, height) in _relative(out, name, race, radius).items():
@@ -201,7 +205,7 @@ def _passes(arc: Array, reach: float) -> list[tuple[int, int]]:
     return [(int(a), int(b)) for a, b in whole]
 
 
-def _recorded(out: Signals, body: str, axis: str) -> Array:
+def _recorded(out: Columns, body: str, axis: str) -> Array:
     if f"{body}.{axis}" not in out:
         raise SceneError(
             "out", f"no column {body}.{axis}", f'a run with MotionProbe(body="{body}")'

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..frequencies.operating import operating_angle
 from ..scene.defect import extent
+from ..scene.scene import checked_scene
 from .outlines import circle, on_groove, outlines
 from .style import COLOURS, finished
 
@@ -49,6 +50,8 @@ def section(
 
     Raises
     ------
+    SceneError
+        ``scene`` is none.
     EquilibriumError
         ``operating`` of a scene that cannot carry its load.
 
@@ -61,6 +64,7 @@ def section(
     """
     from .._plotly import Figure
 
+    scene = checked_scene(scene)
     fig = fig if fig is not None else Figure()
     shapes = outlines(scene)
     for half in (1.0, -1.0):

@@ -12,6 +12,7 @@ from ..channel import channel_of
 from ..errors import EquilibriumError, SceneError
 from ..frequencies import operating
 from ..frequencies.operating import FaultFrequencies, fault_frequencies
+from ..recordings.columns import Columns
 from ..scene import SpeedDrive
 from ..scene.turning import relative_speed
 from ..signals import Signals
@@ -25,7 +26,16 @@ if TYPE_CHECKING:
     from ..spectra.bands import Fault
     from ..spectra.checks import Given
 
-__all__ = ["Source", "faults_of", "rates_of", "scene_of", "source", "spin_of"]
+__all__ = [
+    "Source",
+    "check_columns",
+    "check_run",
+    "faults_of",
+    "rates_of",
+    "scene_of",
+    "source",
+    "spin_of",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +78,34 @@ def source(of: Given, column: str | None, fs: float | None) -> Source:
     return Source(
         x, found.fs, found.start, unit(found.unit), words(found.name) if found.name else "signal"
     )
+
+
+def check_run(of: object, name: str = "out") -> None:
+    """Refuse what is no run, such as what was measured: it has no scene whose bodies could be drawn.
+
+    Raises
+    ------
+    SceneError
+        It is none.
+    """
+    _check(of, Signals, name, "a run, as ballrace.simulate returns it")
+
+
+def check_columns(of: object, name: str) -> None:
+    """Refuse what has no columns over a time.
+
+    Raises
+    ------
+    SceneError
+        It has none.
+    """
+    allowed = "a run, as ballrace.simulate returns it, or a record, as ballrace.read does"
+    _check(of, Columns, name, allowed)
+
+
+def _check(of: object, kind: type, name: str, allowed: str) -> None:
+    if not isinstance(of, kind):
+        raise SceneError(name, f"a {type(of).__name__}", allowed)
 
 
 def scene_of(of: object) -> Scene | None:

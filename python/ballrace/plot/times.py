@@ -3,25 +3,25 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import SceneError
+from ..recordings.columns import Columns
 from ..spectra import squared_envelope
 from .decimation import min_max
-from .sources import faults_of, rates_of, row_of, source, spin_of
+from .sources import check_columns, faults_of, rates_of, row_of, source, spin_of
 from .style import COLOURS, DASHES, SYMBOLS, finished, title, unit, words
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable
 
     import plotly.graph_objects as go
     from numpy.typing import NDArray
 
     from ..frequencies.operating import FaultFrequencies
-    from ..recordings.columns import Columns
-    from ..signals import Signals
     from ..spectra.bands import Fault
     from ..spectra.checks import Given
 
@@ -52,7 +52,15 @@ def signals(
     >>> import ballrace as br
     >>> out = br.simulate(br.bearing("6205"), duration=0.002)
     >>> fig = br.plot.signals(out, ["outer.ax", "outer.ay"], title="A run")
+
+    Raises
+    ------
+    SceneError
+        ``out`` is neither a run nor a record.
+    KeyError
+        There is no such column.
     """
+    check_columns(out, "out")
     names = (names,) if isinstance(names, str) else tuple(names)
     fig = fig if fig is not None else stack(tuple(words(name) for name in names))
     for place, name in enumerate(names, start=1):
@@ -62,19 +70,19 @@ def signals(
 
 
 def load_cases(
-    cases: Mapping[str, Signals],
+    cases: Mapping[str, Columns],
     name: str = "outer.ay",
     *,
     bpfo: float | None = None,
     fig: go.Figure | None = None,
     **layout: Any,
 ) -> go.Figure:
-    """Draw one column of several runs one below the other, with common scales.
+    """Draw one column of several runs or records one below the other, with common scales.
 
     Parameters
     ----------
-    cases : mapping of str to Signals
-        Runs by the title of their panel.
+    cases : mapping of str to Signals or Recording
+        Runs or records by the title of their panel.
     name : str
         Column.
     bpfo : float, optional
@@ -83,7 +91,15 @@ def load_cases(
         A figure of ``make_subplots`` with as many rows as there are cases.
     **layout
         For ``fig.update_layout``.
+
+    Raises
+    ------
+    SceneError
+        ``cases`` holds anything else.
+    KeyError
+        There is no such column.
     """
+    _check_cases(cases)
     fig = fig if fig is not None else stack(tuple(cases))
     for place, (label, out) in enumerate(cases.items(), start=1):
         fig.add_trace(_line(out.t, out[name], label, place - 1), row=place, col=1)
@@ -98,6 +114,14 @@ def load_cases(
         }
         fig.update_xaxes(minor=passage)
     return finish_stack(fig, len(cases), layout)
+
+
+def _check_cases(cases: object) -> None:
+    if isinstance(cases, Columns) or not isinstance(cases, Mapping):
+        allowed = "runs by the titles of panels, a dict"
+        raise SceneError("cases", f"a {type(cases).__name__}", allowed)
+    for label, out in cases.items():
+        check_columns(out, f"cases[{label!r}]")
 
 
 _MARKS = 100
