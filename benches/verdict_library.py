@@ -2,10 +2,11 @@
 
     python benches/verdict_library.py [--runs FOLDER]
 
-writes ``python/ballrace/diagnosis/library.csv``: 210 runs of 25 turns, healthy and damaged. Each is heard three
-times without its first turn, and one with a damaged race three more times for its width alone: through a housing
-by chance or none, in white noise of 0.05 to 2 m/s², logged at 12.8, 25.6 or 51.2 kHz. With a folder the runs are
-kept there, and those that are there are not simulated anew: a change of what is *found* in records needs none.
+writes ``python/ballrace/diagnosis/library.csv``: 480 runs of 25 turns, healthy and damaged, half of them with
+waves of the races, half with textures. Each is heard three times without its first turn, and one with a damaged
+race three more times for its width alone: through a housing by chance or none, in white noise of 0.05 to 2 m/s²,
+logged at 12.8, 25.6 or 51.2 kHz. With a folder the runs are kept there, and those that are there are not simulated
+anew: a change of what is *found* in records needs none.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ import numpy as np
 import ballrace as br
 from ballrace.diagnosis.examined import examined
 from ballrace.diagnosis.kinematics import kinematics_of
+from ballrace.diagnosis.likelihood import at_any_size
 from ballrace.diagnosis.passes import passes_of
 from ballrace.diagnosis.width import along
 
@@ -34,9 +36,10 @@ if TYPE_CHECKING:
 TABLE = Path(br.__file__).parent / "diagnosis" / "library.csv"
 JUDGED, SIZED = 3, 6
 FS, TURNS = 51_200.0, 24
-BEARINGS = ("6004", "6203", "6205", "6207", "6306", "6309", "6310")
-# An eighth, 7208B, is left out: its contact runs beside the shoulder, and a spall takes it over.
-NUMBERS = [number for number in range(240) if number // 10 % 8 < len(BEARINGS)]
+BEARINGS = ("6004", "6203", "6205", "6207", "6306", "6309", "6310", "6000")
+COUNT = 480
+TEXTURED = 240
+"""Number from which on races are textured; before, they have waves."""
 # Of ten runs.
 PARTS = (*[None] * 3, *["outer_race"] * 3, *["inner_race"] * 3, "ball")
 ACCUSED = ("outer_race", "inner_race", "ball")
@@ -65,24 +68,24 @@ def log_uniform(rng: np.random.Generator, low: float, high: float) -> float:
 def case(number: int) -> Case:
     """Draw a run."""
     rng = np.random.default_rng([42, number])
-    bearing = br.catalogue[BEARINGS[number // 10 % 8]]
+    bearing = br.catalogue[BEARINGS[number // 10 % len(BEARINGS)]]
     part = PARTS[number % 10]
     rpm, load = log_uniform(rng, 600.0, 3600.0), log_uniform(rng, 0.005, 0.08)
     thrust, width = rng.uniform(0.0, 0.4), rng.uniform(0.03, 0.45)
     edge = log_uniform(rng, 0.0025, 0.04)
     length, clearance = rng.uniform(0.25, 0.8), str(rng.choice(["C2", "CN", "C3"]))
     outer, inner = (waves(rng) for _ in range(2))
+    start = float(rng.uniform(0.0, 6.28))
     radial = load * bearing.static_rating
     scene = br.bearing(
         bearing, radial_load=radial, axial_load=thrust * radial, speed_rpm=rpm, clearance=clearance,
         defects=defect(part, bearing, width, edge, length),
     )  # fmt: skip
-    row = replace(
-        scene.rows[0],
-        outer_waviness=outer,
-        inner_waviness=inner,
-        start_angle=float(rng.uniform(0.0, 6.28)),
-    )
+    row = replace(scene.rows[0], start_angle=start)
+    if number < TEXTURED:
+        row = replace(row, outer_waviness=outer, inner_waviness=inner)
+    else:
+        row = replace(row, texture=texture(rng))
     width = 0.0 if part is None else width
     return Case(number, bearing, part, rpm, load, width, edge, replace(scene, rows=(row,)))
 
@@ -93,6 +96,14 @@ def waves(rng: np.random.Generator) -> tuple[br.scene.Waviness, ...]:
     heights = 1e-6 * np.exp(rng.uniform(math.log(0.005), math.log(0.2), 6))
     drawn = zip(orders.tolist(), heights.tolist(), rng.uniform(0.0, 6.28, 6).tolist(), strict=True)
     return tuple(br.scene.Waviness(order=o, amplitude=a, phase=p) for o, a, p in drawn)
+
+
+def texture(rng: np.random.Generator) -> br.scene.Texture:
+    """Draw a texture of the races, of quiet to loud bearings."""
+    outer, inner = (log_uniform(rng, 2e-10, 5e-9) for _ in range(2))
+    return br.scene.Texture(
+        outer=outer, inner=inner, slope=rng.uniform(1.5, 2.5), seed=int(rng.integers(1 << 30))
+    )
 
 
 def defect(
@@ -162,11 +173,11 @@ def nominal(of: Case) -> float:
 def evidence_of(of: Case, record: br.Channel) -> dict[str, float]:
     """Return the evidence for all parts."""
     found = examined(record, kinematics_of(of.bearing), of.rpm / 60.0)
-    circle = math.pi * of.bearing.pitch_diameter * found.shaft.rate
     told: list[float] = []
     for part in ACCUSED:
         one = found.evidence[part]
-        told += [one.z, one.strength.depth, one.strength.acceleration / circle]
+        size = at_any_size(one.strength.acceleration, of.bearing.pitch_diameter, found.shaft.rate)
+        told += [one.z, one.strength.depth, size]
     return dict(zip(EVIDENCE, [*told, one.strength.kurtosis], strict=True))
 
 
@@ -174,9 +185,7 @@ def main() -> None:
     """Write the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=Path, metavar="FOLDER", help="where runs are kept")
-    parser.add_argument(
-        "--count", type=int, default=len(NUMBERS), help="runs (default: %(default)s)"
-    )
+    parser.add_argument("--count", type=int, default=COUNT, help="runs (default: %(default)s)")
     parser.add_argument("-o", "--output", type=Path, default=TABLE)
     options = parser.parse_args()
     warnings.simplefilter("ignore", br.SceneWarning)
@@ -185,12 +194,12 @@ def main() -> None:
         folder = options.runs or Path(temporary)
         folder.mkdir(parents=True, exist_ok=True)
         rows = []
-        for done, number in enumerate(NUMBERS[: options.count], start=1):
+        for number in range(options.count):
             of = case(number)
             x = run(of, folder)
             count = SIZED if of.part in ACCUSED[:2] else JUDGED
             rows += [row_of(of, *hear(of, x, k), judged=k < JUDGED) for k in range(count)]
-            print(f"{done} of {len(NUMBERS)}, {time.process_time() - begun:.0f} s", end="\r")
+            print(f"{number + 1} of {options.count}, {time.process_time() - begun:.0f} s", end="\r")
     with options.output.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(rows[0])

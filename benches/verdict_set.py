@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from verdict_library import ACCUSED, defect, log_uniform, waves
+from verdict_library import ACCUSED, defect, log_uniform, texture, waves
 
 import ballrace as br
 
@@ -104,14 +104,6 @@ def case(number: int, seed: int, name: str) -> Case:
     scene = replace(scene, rows=(row,), spin="free" if part == "ball" else "axial")
     width = 0.0 if part is None else width
     return Case(number, seed, bearing, part, surface, rpm, load, width, scene)
-
-
-def texture(rng: np.random.Generator) -> br.scene.Texture:
-    """Draw a texture of the races, of quiet to loud bearings."""
-    outer, inner = (log_uniform(rng, 2e-10, 5e-9) for _ in range(2))
-    return br.scene.Texture(
-        outer=outer, inner=inner, slope=rng.uniform(1.5, 2.5), seed=int(rng.integers(1 << 30))
-    )
 
 
 def run(of: Case, folder: Path) -> NDArray[np.float64]:

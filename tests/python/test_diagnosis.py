@@ -18,6 +18,7 @@ import pytest
 import ballrace as br
 from ballrace.diagnosis.null import largest_z, null_orders, probability
 from ballrace.diagnosis.severity import zone_of
+from ballrace.diagnosis.strength import limits_of
 from ballrace.diagnosis.verdict import Verdict, decided
 
 if TYPE_CHECKING:
@@ -251,17 +252,34 @@ def test_waves_without_blows_need_a_unit() -> None:
 
 
 def test_lines_that_are_not_strong_need_blows() -> None:
-    """Tones at multiples of BPFO, as of a waved race, and blows: 1 m/s² of both, as healthy ones have, and 9."""
+    """Tones at multiples of BPFO, as of a waved race, and blows: 2 m/s² of both, as healthy ones have, and 9."""
     t = np.arange(round(4.0 * FS)) / FS
     tones = [np.cos(2 * np.pi * k * ORDERS.bpfo * SHAFT * t + k * k) for k in range(4, 12)]
     waves = noise(np.sum(tones, axis=0), 1.0)
     struck = noise(blows(ORDERS.bpfo, duration=4.0), 0.05)
     for x, told in ((waves, "undecided"), (struck, "damaged")):
         scale = 1.0 / judged(x, unit="m/s^2").evidence["outer_race"].strength.acceleration
-        found, strong = (judged(size * scale * x, unit="m/s^2") for size in (1.0, 9.0))
-        assert found.evidence["outer_race"].strength.acceleration == pytest.approx(1.0)
+        found, strong = (judged(size * scale * x, unit="m/s^2") for size in (2.0, 9.0))
+        assert found.evidence["outer_race"].strength.acceleration == pytest.approx(2.0)
         assert (found.verdict, strong.verdict) == (told, "damaged")
         assert ("sound bearings may have" in found.why) == (told == "undecided")
+
+
+def test_no_strength_alone_accuses() -> None:
+    """A healthy 6000 under a light load has 11 m/s² a m/s of its pitch circle: the library is asked always."""
+    x = noise(blows(ORDERS.bpfo, duration=4.0), 0.05)
+    evidence = judged(100.0 * x / x.std(), unit="m/s^2").evidence
+    limits = limits_of(math.pi * br.catalogue["6205"].pitch_diameter * SHAFT)
+
+    def told(ratio: float) -> Verdict:
+        given = dict(evidence) | {"outer_race": replace(evidence["outer_race"], ratio=ratio)}
+        return decided(
+            given, ("outer_race",), 0.01, limits=limits, silent=False, blows=None, wanting=()
+        )
+
+    assert told(0.04).parts == ("outer_race",)
+    assert told(0.06).verdict == "undecided"
+    assert "17 times likelier with it damaged, and 20 times are asked for" in told(0.06).why
 
 
 def test_blows_at_no_rate_of_the_bearing_leave_it_open() -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -18,12 +19,23 @@ import pytest
 
 import ballrace as br
 from ballrace.diagnosis.library import library
-from ballrace.diagnosis.likelihood import fitted, judged, odds_of, rows_of
-from ballrace.diagnosis.null import ACCUSED
+from ballrace.diagnosis.likelihood import (
+    at_any_size,
+    fitted,
+    judged,
+    odds_of,
+    rows_of,
+    with_ratios,
+)
+from ballrace.diagnosis.null import ACCUSED, probability
+from ballrace.diagnosis.strength import limits_of
+from ballrace.diagnosis.verdict import UNLIKELY
 from ballrace.diagnosis.width import are_clear, bridged
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from ballrace.diagnosis.evidence import Evidence
 
 ROOT = Path(__file__).parents[2]
 FS, RPM = 51_200.0, 900.0
@@ -163,6 +175,56 @@ def test_a_likelihood_ratio_is_calibrated(sized: bool) -> None:
     assert off < 0.03
     # As good as chance would be 0.25 for halves; a fit that knows the shares alone has 0.17.
     assert float(np.mean((told - damaged) ** 2)) < 0.08
+
+
+def test_strength_is_judged_alike_at_any_size() -> None:
+    """Truth: analytic. Waves of one height cause accelerations as 1/D², also in healthy ones of the library."""
+    rows = judged()
+    rows = rows[rows["part"] == "none"]
+    diameter = np.array([br.catalogue[name].pitch_diameter for name in rows["bearing"]])
+    speed = np.log(np.pi * diameter * rows["speed_rpm"] / 60.0)
+    known = np.column_stack([np.ones(len(rows)), np.log(diameter), speed])
+    left = np.linalg.lstsq(known, np.log(rows["accel_outer_race"]), rcond=None)[0][1]
+    print(f"\n[verdict] simulated, acceleration of healthy bearings over their pitch diameter | "
+          f"to the power {left - 2.0:.1f} | by theory −2")  # fmt: skip
+    assert abs(left) < 0.4
+    # Half the size, at the same speed of the pitch circle and with four times the acceleration: the same ratio.
+    evidence = br.diagnose(passes("outer_race", 0.3), "6205", RPM, fs=FS, unit="m/s^2").evidence
+    here, larger = ({p: _times(one, by) for p, one in evidence.items()} for by in (1.0, 4.0))
+    ratio = with_ratios(here, 0.04, 15.0)["outer_race"].ratio
+    assert ratio is not None
+    assert 0.02 < ratio < 50.0
+    assert with_ratios(larger, 0.02, 30.0)["outer_race"].ratio == pytest.approx(ratio)
+    assert with_ratios(larger, 0.04, 15.0)["outer_race"].ratio < 0.9 * ratio  # type: ignore[operator]
+
+
+def _times(one: Evidence, scale: float) -> Evidence:
+    """Return evidence of a signal that is so many times as large."""
+    strength = replace(one.strength, acceleration=scale * one.strength.acceleration)
+    return replace(one, strength=strength)
+
+
+def test_healthy_bearings_of_the_library_are_accused_at_the_rate_asked_for() -> None:
+    """Each bearing judged by all others, also the smallest, which no other is like."""
+    rows = judged()
+    rows, accused = rows[rows["part"] == "none"], 0
+    for bearing in np.unique(rows["bearing"]):
+        own = rows[rows["bearing"] == bearing]
+        row, rate = br.catalogue[str(bearing)], own["speed_rpm"] / 60.0
+        limits = limits_of(math.pi * row.pitch_diameter)
+        named = np.zeros(len(own), dtype=bool)
+        for part in ACCUSED:
+            damaged = judged()["part"] == part
+            prior = np.count_nonzero(damaged) / np.count_nonzero(~damaged)
+            ratio = prior / odds_of(fitted(part, True, str(bearing)), rows_of(part, own, True))
+            chance = np.array([probability(z, len(ACCUSED)) for z in own[f"z_{part}"]])
+            size = own[f"accel_{part}"] / at_any_size(1.0, row.pitch_diameter, 1.0) * rate
+            loud = size >= np.maximum(limits.faint * rate, limits.slow)
+            named |= (chance < 0.01) & loud & (ratio < UNLIKELY[part])
+        accused += int(np.count_nonzero(named))
+    print(f"\n[verdict] simulated, {len(rows)} healthy of the library, each bearing judged by all others | "
+          f"{accused / len(rows):.1%} accused | 1 % asked for")  # fmt: skip
+    assert accused <= 1.5 * 0.01 * len(rows)
 
 
 def test_a_ratio_speaks_for_what_is_there() -> None:

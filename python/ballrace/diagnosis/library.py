@@ -1,10 +1,10 @@
 """Simulated records whose damage is known, and what is found in them.
 
-``library.csv`` has a record a row: bearings of the catalogue under loads, clearances, waves of the races and
-spalls by chance, heard through random housings in noise. It is made anew by ``python benches/verdict_library.py``;
-the likelihood of damage and the width of a spall are read from it.
+``library.csv`` has a record a row: bearings of the catalogue under loads, clearances, waves or textures of the
+races and spalls by chance, heard through random housings in noise. It is made anew by
+``python benches/verdict_library.py``; the likelihood of damage and the width of a spall are read from it.
 
-=====================  =====================================================================================
+=====================  ==========================================================================================
 ``bearing``            designation
 ``part``               what is damaged, or ``none``
 ``speed_rpm``, ``fs``  speed [rev/min], sampling rate [Hz]
@@ -12,10 +12,10 @@ the likelihood of damage and the width of a spall are read from it.
 ``width``, ``edge``    width of the spall and radius of its edges [ball diameters]
 ``snr_db``             vibration over noise [dB]
 ``z_…``, ``depth_…``   of the evidence for the outer race, the inner race, a ball; nan where not judged
-``accel_…``            its acceleration over the speed of the pitch circle [m/s² per m/s]
+``accel_…``            its acceleration, at any size and speed: :func:`ballrace.diagnosis.likelihood.at_any_size`
 ``kurtosis``           largest of a band
 ``spacing`` and so on  of the passes of the damaged race: see :class:`ballrace.diagnosis.passes.Passes`
-=====================  =====================================================================================
+=====================  ==========================================================================================
 """
 
 from __future__ import annotations

@@ -166,12 +166,12 @@ def diagnose(
         channel, kinematics, nominal, within=within, orders=orders, rates=rates, seed=seed
     )
     shaft, bands = found.shaft, found.envelopes.bands
-    circle = _circle(channel, kinematics, shaft.rate)
-    evidence = with_ratios(found.evidence, circle)
+    diameter = _diameter(channel, kinematics)
+    evidence = with_ratios(found.evidence, diameter, shaft.rate)
     own = own_lines(
         evidence, found.levels, kinematics, shaft.rate, false_alarm=false_alarm, seed=seed
     )
-    limits = None if circle is None else limits_of(circle)
+    limits = None if diameter is None else limits_of(math.pi * diameter * shaft.rate)
     verdict = decided(
         evidence, own, false_alarm, limits=limits, silent=not has_background(channel.x),
         blows=found.envelopes.blows(limits.faint if limits else 0.0),
@@ -187,11 +187,11 @@ def diagnose(
     )  # fmt: skip
 
 
-def _circle(channel: Channel, kinematics: Kinematics, shaft: float) -> float | None:
-    """Return the speed of the pitch circle [m/s]; None where how strong lines are says nothing."""
+def _diameter(channel: Channel, kinematics: Kinematics) -> float | None:
+    """Return the pitch diameter [m]; None where how strong lines are says nothing."""
     if channel.unit != "m/s^2" or kinematics.row is None:
         return None
-    return math.pi * kinematics.row.pitch_diameter * shaft
+    return kinematics.row.pitch_diameter
 
 
 def _undecided(

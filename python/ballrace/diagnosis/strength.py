@@ -43,13 +43,6 @@ twentieth of their static rating, a 6205 at 600 1/min has 0.32 and a 6004 0.27 w
 the limit above.
 """
 
-_PLAIN = 2.0
-"""Acceleration over the speed of the pitch circle from which on no library has to be asked [m/s² per m/s].
-
-Below it, healthy bearings have lines of the outer race, too: lightly loaded ones with waves up to 0.54, one with
-texture through a housing that rings up to 1.8 (``benches/verdict_set.py``, seeds 44 and 45).
-"""
-
 _SHALLOW = 0.4
 """Depth of modulation below which lines may come from waves of a race.
 
@@ -199,18 +192,15 @@ class Limits:
         Below it lines are no damage.
     slow : float
         Below it lines may be those of a slow healthy bearing.
-    plain : float
-        Below it lines are damage only if simulated bearings say so, from it on by themselves.
     """
 
     faint: float
     slow: float
-    plain: float
 
 
 def limits_of(circle: float) -> Limits:
     """Return the limits at a speed of the pitch circle [m/s]."""
-    return Limits(faint=_FAINT * circle, slow=_LOUD, plain=_PLAIN * circle)
+    return Limits(faint=_FAINT * circle, slow=_LOUD)
 
 
 def has_background(x: NDArray[np.float64]) -> bool:
