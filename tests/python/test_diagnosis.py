@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ballrace.diagnosis.combs import Part
     from ballrace.diagnosis.kinematics import AnyBearing
 
     Signal = NDArray[np.float64]
@@ -210,7 +211,9 @@ def test_what_is_likelier_of_damage_is_not_cleared() -> None:
 
     def told(ratio: float) -> Verdict:
         given = dict(evidence) | {"ball": replace(evidence["ball"], ratio=ratio)}
-        return decided(given, (), 0.01, limits=None, silent=False, blows=None, wanting=())
+        return decided(
+            given, (), 0.01, strong=(), limits=None, silent=False, blows=None, wanting=()
+        )
 
     assert told(0.5).verdict == "healthy"
     assert told(0.05).verdict == "undecided"
@@ -265,19 +268,20 @@ def test_lines_that_are_not_strong_need_blows() -> None:
         assert ("sound bearings may have" in found.why) == (told == "undecided")
 
 
-def test_no_strength_alone_accuses() -> None:
-    """A healthy 6000 under a light load has 11 m/s² a m/s of its pitch circle: the library is asked always."""
+def test_only_strength_that_no_healthy_bearing_has_accuses_by_itself() -> None:
+    """A healthy 6000 under a light load has 11 m/s² a m/s of its pitch circle: below that the ratio is asked."""
     x = noise(blows(ORDERS.bpfo, duration=4.0), 0.05)
     evidence = judged(100.0 * x / x.std(), unit="m/s^2").evidence
     limits = limits_of(math.pi * br.catalogue["6205"].pitch_diameter * SHAFT)
 
-    def told(ratio: float) -> Verdict:
+    def told(ratio: float, *strong: Part) -> Verdict:
         given = dict(evidence) | {"outer_race": replace(evidence["outer_race"], ratio=ratio)}
         return decided(
-            given, ("outer_race",), 0.01, limits=limits, silent=False, blows=None, wanting=()
-        )
+            given, ("outer_race",), 0.01, strong=strong, limits=limits, silent=False, blows=None,
+            wanting=(),
+        )  # fmt: skip
 
-    assert told(0.04).parts == ("outer_race",)
+    assert told(0.04).parts == told(0.06, "outer_race").parts == ("outer_race",)
     assert told(0.06).verdict == "undecided"
     assert "17 times likelier with it damaged, and 20 times are asked for" in told(0.06).why
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from .combs import Part
     from .evidence import Evidence
 
-__all__ = ["at_any_size", "fitted", "judged", "odds_of", "rows_of", "with_ratios"]
+__all__ = ["at_any_size", "fitted", "judged", "odds_of", "rows_of", "strongest", "with_ratios"]
 
 _LARGEST = 100.0
 _Z = 12.0
@@ -59,6 +59,17 @@ def at_any_size(acceleration: float, diameter: float, rate: float) -> float:
         Rate of the shaft [Hz].
     """
     return acceleration * diameter / (math.pi * rate)
+
+
+@functools.cache
+def strongest(part: Part) -> float:
+    """Return the largest number of :func:`at_any_size` of the lines of a part among healthy bearings [m²/s].
+
+    Lines that are stronger are rarer among n healthy bearings than 1/(n + 1), whatever a regression makes of them,
+    and n is 144.
+    """
+    rows = judged()
+    return float(rows[f"accel_{part}"][rows["part"] == "none"].max())
 
 
 def with_ratios(

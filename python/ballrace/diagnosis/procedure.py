@@ -18,7 +18,7 @@ from .arguments import (
 )
 from .examined import bands_for, examined
 from .lacking import lack_of, notes_of, wanting_of
-from .likelihood import with_ratios
+from .likelihood import at_any_size, strongest, with_ratios
 from .null import ACCUSED, largest_z
 from .result import Diagnosis
 from .rows import judged_by_rows
@@ -172,8 +172,15 @@ def diagnose(
         evidence, found.levels, kinematics, shaft.rate, false_alarm=false_alarm, seed=seed
     )
     limits = None if diameter is None else limits_of(math.pi * diameter * shaft.rate)
+    strong = [
+        part
+        for part in own
+        if diameter is not None
+        and at_any_size(evidence[part].strength.acceleration, diameter, shaft.rate)
+        > strongest(part)
+    ]
     verdict = decided(
-        evidence, own, false_alarm, limits=limits, silent=not has_background(channel.x),
+        evidence, own, false_alarm, strong=strong, limits=limits, silent=not has_background(channel.x),
         blows=found.envelopes.blows(limits.faint if limits else 0.0),
         wanting=wanting_of(channel, shaft.rate, kinematics, within),
     )  # fmt: skip

@@ -41,9 +41,9 @@ UNLIKELY: dict[Part, float] = {"outer_race": 0.05, "inner_race": 0.1, "ball": 0.
 """Likelihood ratios of sound to damaged below which lines that are not faint are damage, by the part's role.
 
 Healthy bearings have lines of the outer race: of 432 healthy records of the library, each bearing judged by all
-others, 3 are accused (0.7 %), all of one run of the smallest, a 6000 (``tests/python/test_diagnosis_size.py``); 5
-have significant lines with less than 0.1. No healthy one is accused by another part. Strength without a ratio
-accuses nobody: healthy ones have up to 11 m/s² by each m/s of the pitch circle.
+others, 3 are accused by it (0.7 %), all of one run of the smallest, a 6000, and 2 more by their strength
+(``tests/python/test_diagnosis_size.py``); 5 have significant lines with less than 0.1. No healthy one is accused by
+another part.
 """
 
 _CLEARED = 0.2
@@ -70,6 +70,7 @@ def decided(
     own: Sequence[Part],
     false_alarm: float,
     *,
+    strong: Sequence[Part],
     limits: Limits | None,
     silent: bool,
     blows: float | None,
@@ -85,6 +86,8 @@ def decided(
         Parts whose lines stand out and are their own, the highest first.
     false_alarm : float
         Share of healthy records that may be called damaged.
+    strong : sequence of str
+        Those of them whose lines are stronger than in any healthy bearing of the library.
     limits : Limits or None
         Accelerations by which lines are judged; None where their strength is not known.
     silent : bool
@@ -99,12 +102,12 @@ def decided(
     own_ones = [evidence[part] for part in own]
     loud = [one for one in own_ones if one.strength.acceleration >= faint or _of_damaged_ball(one)]
     open_ = {one.part: _not_sure(one, limits, silent) for one in loud}
-    if limits is not None and all(map(_looks_sound, loud)):
+    if limits is not None and all(_looks_sound(one) and one.part not in strong for one in loud):
         open_ = {one.part: open_[one.part] or _like_sound(one) for one in loud}
-    strong = [one for one in loud if open_[one.part] is None]
-    if strong:
-        parts = tuple(one.part for one in strong)
-        return Verdict(verdict="damaged", parts=parts, why=_lines_of(strong[0]))
+    named = [one for one in loud if open_[one.part] is None]
+    if named:
+        parts = tuple(one.part for one in named)
+        return Verdict(verdict="damaged", parts=parts, why=_lines_of(named[0]))
     doubted = [
         one
         for one in ranked
