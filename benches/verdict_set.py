@@ -7,8 +7,8 @@ nine healthy runs (smooth, waved and textured races) and nine damaged ones (oute
 spins freely; spalls of 0.02 to 0.45 ball diameters, evenly by their logarithm), heard through housings by chance
 in white noise 20, 10 and 0 dB below the vibration. Runs are of 41 turns, the first of which is not heard, and are
 kept in a folder. Each is judged with the speed known within 1 %, and within 0.1 %. Other seeds make other sets, of
-other bearings; 47 is for a forecast, and half of its inner races have an order that 40 turns tell from the shaft's
-(23 of 49 sizes from 6000 to 6412 have one).
+other bearings. 48 is a forecast; half of its inner races, as of those of 47, have an order that 40 turns tell from
+the shaft's (23 of 49 sizes from 6000 to 6412 have one).
 """
 
 from __future__ import annotations
@@ -42,14 +42,19 @@ RATES = (0.01, 0.05, 0.1)
 EXACT = 1e-3
 """How far the speed may be off, as a part of it, where it is known exactly."""
 
-SEED = 46
+SEED = 48
 SETS = {
+    SEED: ("6002", "6007", "6012", "6200", "6212", "6301", "6406", "6409"),
     47: ("6001", "6009", "6010", "6201", "6211", "6302", "6311", "6405"),
-    SEED: ("6003", "6204", "6208", "6210", "6303", "6305", "6312", "6404"),
+    46: ("6003", "6204", "6208", "6210", "6303", "6305", "6312", "6404"),
     45: ("6004", "6203", "6205", "6207", "6306", "6309", "6310", "6008"),
     44: ("6005", "6202", "6206", "6209", "6304", "6307", "6308", "6407"),
 }
-"""Bearings by the seed of a set. Limits were chosen on the others than 47, which is judged once."""
+"""Bearings by the seed of a set.
+
+Limits were chosen on 44 to 46; three healthy records of 47 that were accused showed that small bearings need a
+library that holds some. 48 was judged once, after that.
+"""
 
 SURFACES = ("smooth", "waved", "textured")
 KINDS: tuple[tuple[str | None, str], ...] = tuple(

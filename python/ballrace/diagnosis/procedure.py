@@ -62,8 +62,8 @@ def diagnose(
     for the combs of lines that faults of each part have. How high they stand is compared with a thousand combs
     at orders of the same record that no part has, so that chance has a known rate, without training and without
     a threshold in decibels. Lines that stand out accuse a part only where they are deep or blows stand out,
-    and, where the unit of the record is known, where they carry more than those of a healthy bearing do, or where
-    among simulated bearings such lines mean damage at odds of twenty to one. A record with blows at no rate of the
+    and, where the unit of the record is known, only where among simulated bearings such lines mean damage at odds
+    of twenty to one, or are stronger than in any healthy one of these. A record with blows at no rate of the
     bearing, or too few turns to tell a race from the shaft, is not called healthy.
 
     Parameters

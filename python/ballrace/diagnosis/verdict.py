@@ -42,8 +42,8 @@ UNLIKELY: dict[Part, float] = {"outer_race": 0.05, "inner_race": 0.1, "ball": 0.
 
 Healthy bearings have lines of the outer race: of 432 healthy records of the library, each bearing judged by all
 others, 3 are accused by it (0.7 %), all of one run of the smallest, a 6000, and 2 more by their strength
-(``tests/python/test_diagnosis_size.py``); 5 have significant lines with less than 0.1. No healthy one is accused by
-another part.
+(``tests/python/test_diagnosis_size.py``); 5 have significant lines with less than 0.1. No healthy one is accused
+by another part.
 """
 
 _CLEARED = 0.2
