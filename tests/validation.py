@@ -267,23 +267,24 @@ were chosen with the measured records at hand: 21 of 21 is no forecast for other
 record, whose inner race has significant but shallow lines.
 """
 
-SET = """The *set* is 432 records of eight bearings that are not in the library, healthy (smooth, waved, textured
-races) and damaged (spalls of 0.02 to 0.45 ball diameters; damaged balls spin freely), of 40 turns, through
-housings by chance (`python benches/verdict_set.py`; `python tests/validation.py --set`). It is a forecast: its
-bearings are in no other set, and it was judged once, after all limits were chosen. More than lines is asked for, so
-fewer are accused at 5 and 10 % than may be. z alone, which loaded healthy bearings have too, tells nothing of a
-run; the likelihood ratio knows the record's unit. What is not named is left open, by far most of it inner races
-whose order 40 turns do not tell from the shaft's as long as its speed is known within 1 % only, and balls; but five
-damaged ones are called healthy, with spalls of 0.03 to 0.06 ball diameters: three because their lines are faint, two
-because they have none. Half of the balls are named at 20 dB, where more than half was aimed at.
+SET = """The *set* is 432 records of eight bearings that are not in the library, healthy (smooth, waved,
+textured races) and damaged (spalls of 0.02 to 0.45 ball diameters; damaged balls spin freely), of 40 turns,
+through housings by chance (`python benches/verdict_set.py`; `python tests/validation.py --set`). It is a
+forecast: its bearings are in no other set, and it was judged once, after all limits were chosen. More than
+lines is asked for, so fewer are accused at 5 and 10 % than may be. z alone, which loaded healthy bearings have
+too, tells nothing of a run; the likelihood ratio knows the record's unit. What is not named is left open, by
+far most of it inner races whose order 40 turns do not tell from the shaft's as long as its speed is known
+within 1 % only, and balls; but five damaged ones are called healthy, with spalls of 0.03 to 0.06 ball
+diameters: three because their lines are faint, two because they have none. Half of the balls are named at 20
+dB, where more than half was aimed at.
 
-Before, another set (`--seed 47`) had shown that small bearings were accused: of 108 of its healthy records, three of
-a 6001 and a 6201 under 0.7 % of their static rating, where 1.1 were asked for. Both were smaller than any bearing of
-the library, and strength was compared over speed alone, over which a small healthy bearing is like a damaged large
-one. The library has held a 6000, and textures, since, and strength is compared over sizes. The present set's
-evidence judged as before would have 7 of 216 healthy ones accused (8 with the speed known within 0.1 %), and 57
-outer races, 22 inner races and 36 balls named; now it is 2, and 56, 21 and 37. Both are of a 6301 under 0.6 % of
-its static rating.
+Before, another set (`--seed 47`) had shown that small bearings were accused: of 108 of its healthy records,
+three of a 6001 and a 6201 under 0.7 % of their static rating, where 1.1 were asked for. Both were smaller than
+any bearing of the library, and strength was compared over speed alone, over which a small healthy bearing is
+like a damaged large one. The library has held a 6000, and textures, since, and strength is compared over sizes.
+The present set's evidence judged as before would have 7 of 216 healthy ones accused (8 with the speed known
+within 0.1 %), and 57 outer races, 22 inner races and 36 balls named; now it is 2, and 56, 21 and 37. Both are
+of a 6301 under 0.6 % of its static rating.
 
 ![detection over the width of the spall, and receiver operating characteristic](verdicts.svg)
 """
