@@ -16,7 +16,9 @@ _WIDTH = 30
 
 def is_watched(stream: TextIO) -> bool:
     """Return whether somebody sees a line change: at a terminal, or in a notebook."""
-    return stream.isatty() or "ipykernel" in sys.modules
+    ipython = sys.modules.get("IPython")
+    shell = None if ipython is None else ipython.get_ipython()
+    return stream.isatty() or hasattr(shell, "kernel")
 
 
 class Bar:

@@ -399,12 +399,12 @@ class Simulation:
         Another program carries the inner ring, and moves it down by 5 µm in 1 ms:
 
         >>> import ballrace as br
-        >>> held = {"inner_ring.support.x": br.scene.Given(0.0), "inner_ring.support.y": br.scene.Given(-5e-6)}
+        >>> held = {"inner_ring.support.x": br.scene.Given(0.0), "inner_ring.support.y": br.scene.Given(-2e-5)}
         >>> simulation = br.Simulation(br.presets.deep_groove_6205(radial_load=500.0).replace(held))
         >>> before = simulation.wrench("inner")[1]
         >>> for step in range(1, 11):
         ...     t = 1e-4 * step
-        ...     simulation.set_motions({"inner_ring.support.y.given": (-5e-6 - 5e-3 * t, -5e-3)}, until=t)
+        ...     simulation.set_motions({"inner_ring.support.y.given": (-2e-5 - 5e-3 * t, -5e-3)}, until=t)
         ...     piece = simulation.advance_to(t)
         >>> bool(simulation.wrench("inner")[1] > before + 100.0)
         True

@@ -275,13 +275,13 @@ impl Simulation {
     /// let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
     /// // The shaft of another program carries the inner ring.
     /// let support = &mut scene.inner_ring.support;
-    /// (support.x, support.y) = (Some(Mount::given(0.0)), Some(Mount::given(-5e-6)));
+    /// (support.x, support.y) = (Some(Mount::given(0.0)), Some(Mount::given(-2e-5)));
     /// let mut simulation = Simulation::begin(&scene, &Run { duration: Run::OPEN, ..Run::default() })?;
     /// let before = simulation.wrench(RingName::Inner)[1];
     /// for step in 1..=10 {
     ///     let t = 1e-4 * f64::from(step);
     ///     // Down by another 5 µm in 1 ms.
-    ///     simulation.set_motions(&[("inner_ring.support.y.given", [-5e-6 - 5e-3 * t, -5e-3])], t)?;
+    ///     simulation.set_motions(&[("inner_ring.support.y.given", [-2e-5 - 5e-3 * t, -5e-3])], t)?;
     ///     simulation.advance_to(t)?;
     /// }
     /// assert!(simulation.wrench(RingName::Inner)[1] > before + 100.0);

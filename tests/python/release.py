@@ -1,6 +1,6 @@
 """What a release asks for beside the packages themselves.
 
-python tests/python/release.py check v0.2.0    whether that tag may be published
+python tests/python/release.py check v0.3.0    whether that tag may be published
 python tests/python/release.py notes           the changelog of this version, for the release's page
 python tests/python/release.py readme          turns README.md into that of the packages, before they are built
 """

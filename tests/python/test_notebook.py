@@ -7,7 +7,7 @@ import re
 import sys
 import xml.etree.ElementTree as ET
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -120,7 +120,15 @@ def test_a_single_run_shows_its_progress_in_a_notebook(monkeypatch: pytest.Monke
     with Bar("run", silent) as bar:
         bar.show(0.5)
     assert silent.getvalue() == ""
-    monkeypatch.setitem(sys.modules, "ipykernel", ModuleType("ipykernel"))
+    # A library that only imports IPython makes no notebook of a program.
+    ipython = ModuleType("IPython")
+    shell = SimpleNamespace()
+    monkeypatch.setattr(ipython, "get_ipython", lambda: shell, raising=False)
+    monkeypatch.setitem(sys.modules, "IPython", ipython)
+    with Bar("run", silent) as bar:
+        bar.show(0.5)
+    assert silent.getvalue() == ""
+    shell.kernel = object()
     seen = io.StringIO()
     monkeypatch.setattr(sys, "stderr", seen)
     br.simulate(br.bearing("6205"), duration=0.02, progress=True)

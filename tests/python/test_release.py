@@ -152,5 +152,5 @@ def test_what_is_no_command_is_refused_and_changes_nothing(words: tuple[str, ...
     assert done.returncode == 1
     assert done.stdout == ""
     assert "no such command" in done.stderr
-    assert "release.py check v0.2.0" in done.stderr
+    assert "release.py check v0.3.0" in done.stderr
     assert text(ROOT, "README.md") == before

@@ -177,7 +177,7 @@ def diagnose(
         for part in own
         if diameter is not None
         and at_any_size(evidence[part].strength.acceleration, diameter, shaft.rate)
-        > strongest(part)
+        > strongest(evidence[part].role)
     ]
     verdict = decided(
         evidence, own, false_alarm, strong=strong, limits=limits, silent=not has_background(channel.x),
