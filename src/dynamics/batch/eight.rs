@@ -312,12 +312,15 @@ impl EvaluateEight<'_> {
     /// One of them, as `LEAN` says before a ring that may tilt.
     pub fn run<const LEAN: bool>(&self, group: &mut Group) {
         let curve = self.model.rows[group.class].pairs[group.race(0)].hollow_curve();
-        let eight = Eight::<LEAN> { group, of: self };
+        let (instructions, of) = (self.model.instructions, self);
         match curve {
             // Rings that tilt have no symmetry.
-            None if self.symmetric => self.model.instructions.run(SymmetricEight(eight)),
-            None => self.model.instructions.run(eight),
-            Some(contour) => self.model.instructions.run(EightOnCurve(eight, contour)),
+            None if self.symmetric => instructions.run(SymmetricEight(Eight { group, of })),
+            None => instructions.run(Eight::<LEAN> { group, of }),
+            Some(contour) => {
+                let eight = Eight::<LEAN> { group, of };
+                instructions.run(EightOnCurve(eight, contour));
+            }
         }
     }
 }
@@ -418,16 +421,15 @@ impl<const LEAN: bool> Task for Eight<'_, LEAN> {
 }
 
 /// Evaluates groups of balls in the middle of their grooves.
-struct SymmetricEight<'a, const LEAN: bool>(Eight<'a, LEAN>);
+struct SymmetricEight<'a>(Eight<'a, false>);
 
-impl<const LEAN: bool> Task for SymmetricEight<'_, LEAN> {
+impl Task for SymmetricEight<'_> {
     type Output = ();
 
     // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
-        debug_assert!(!LEAN, "rings that tilt have no symmetry");
         self.0.parallel::<FMA, true>();
     }
 }
