@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::body::{Body, Degree, ball_mass, conformity, groove_radius, ring_mass};
+use super::faults::{ball_fault, race_fault};
 use super::loads::{loads, moments};
 use super::race::{RaceGeometry, geometry};
 use super::ring::layout_of;
@@ -14,8 +15,8 @@ use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
 use crate::contact::hertz::Hertz;
 use crate::contact::{
-    BallSide, Damping, Elastic, Fault, Law, MOST_PITS, Pair, PittedContact, Rules, Shape, Torus,
-    Traction, Waves, ZoneSlices, pits_at_once,
+    BallSide, Damping, Elastic, Fault, Law, MOST_PITS, Pair, Rules, Shape, Torus, Traction, Waves,
+    ZoneSlices, pits_at_once,
 };
 use crate::scene::{self, Approximations, Defect, Mount, Row, Scene, Surface};
 use crate::simd::InstructionSet;
@@ -318,36 +319,6 @@ fn ball_faults(
         .filter(|d| d.on == Surface::Ball && d.row == row && d.ball == Some(ball))
         .map(|defect| ball_fault(defect, radius, hertz))
         .collect()
-}
-
-/// A defect of a race, compiled.
-pub(crate) fn race_fault(defect: &Defect, row: &Row, (race, hertz): (&Pair, &Hertz)) -> Fault {
-    let middle = row.axial_position + offset(defect);
-    // Validation keeps the defect inside the groove.
-    let radius = race.radius_at(middle).unwrap_or(race.race.a);
-    if defect.is_pit() {
-        return Fault::pit(defect, middle, radius, [PittedContact::of(hertz); 2]);
-    }
-    Fault::new(defect, middle, radius)
-}
-
-/// A defect of a ball of this radius, compiled, with its contacts with both races.
-pub(crate) fn ball_fault(defect: &Defect, radius: f64, hertz: &[Hertz; 2]) -> Fault {
-    if defect.is_pit() {
-        let contacts = hertz.each_ref().map(PittedContact::of);
-        return Fault::pit(defect, offset(defect), radius, contacts);
-    }
-    if defect.is_cap() {
-        return Fault::cap(defect, offset(defect), radius);
-    }
-    let reach = offset(defect).abs() + defect.length / 2.0;
-    let slice = (radius * radius - reach * reach).max(0.0).sqrt();
-    Fault::new(defect, offset(defect), slice)
-}
-
-fn offset(defect: &Defect) -> f64 {
-    let number = defect.axial_offset.number();
-    number.expect("defects are placed before a scene is compiled")
 }
 
 fn springs(bodies: &[Body]) -> Vec<Spring> {

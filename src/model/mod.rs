@@ -7,6 +7,7 @@ mod body;
 mod compile;
 mod demand;
 mod dof;
+mod faults;
 mod given;
 mod layout;
 mod loads;
@@ -26,8 +27,9 @@ use crate::scene::{Component, Scene};
 use crate::simd::{InstructionSet, LANES};
 
 pub use body::{Body, Degree};
-pub(crate) use compile::{ball_fault, compile_placed, race_fault};
+pub(crate) use compile::compile_placed;
 pub use dof::{DOFS, Dof};
+pub(crate) use faults::{ball_fault, race_fault};
 pub(crate) use given::GivenMotions;
 pub(crate) use layout::RINGS;
 pub use layout::{BodyId, BodyKind, Layout, Race};

@@ -22,6 +22,9 @@ use cap::{Cap, Lost, Rim};
 /// How rotations of a ball move what is not its own along a slice: only about the ring's axis.
 pub(super) const WITH_RING_AXIS: Vector3<f64> = Vector3::new(0.0, 0.0, 1.0);
 
+/// Over the largest half-angle, how far a defect is looked for: a race's radius changes by films, by some ten-thousandths.
+const MARGIN: f64 = 1.01;
+
 /// A defect of a surface, compiled: places in the frame of its body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
@@ -37,7 +40,7 @@ pub struct Fault {
     pub coat: f64,
     /// Depth and number of the recessed circles.
     pub floor: Option<(f64, usize)>,
-    /// Twice the largest half-angle: a contact further away never sees the fault \[rad\]. Of a cap while its ball is as at
+    /// The largest half-angle, and a little more: a contact further away never sees the fault \[rad\]. Of a cap while its ball is as at
     /// the start.
     pub reach: f64,
     width: Width,
@@ -64,7 +67,7 @@ impl Fault {
                 .floor
                 .as_ref()
                 .map(|floor| (floor.depth, floor.elements)),
-            reach: defect.width.largest() / radius,
+            reach: MARGIN * defect.width.largest() / (2.0 * radius),
             width: defect.width.clone(),
             cap: None,
             pit: None,
@@ -76,7 +79,7 @@ impl Fault {
         let cap = Cap::new(defect.width.largest(), radius);
         Self {
             length: 0.0,
-            reach: 2.0 * cap.widest(&cap.pole(defect.angle, middle)),
+            reach: MARGIN * cap.widest(&cap.pole(defect.angle, middle)),
             cap: Some(cap),
             ..Self::new(defect, middle, radius)
         }
@@ -287,20 +290,23 @@ impl Arc {
 pub fn absent(faults: &[Fault], at: &Station, toward: &Toward) -> Option<Arc> {
     let mut around: Option<Arc> = None;
     loop {
-        let before = around;
+        let mut grows = false;
         for arc in faults.iter().filter_map(|fault| fault.arc(at, toward)) {
             let (low, high) = around.map_or((0.0, 0.0), |a| (a.low.angle, a.high.angle));
-            if arc.low.angle <= high && arc.high.angle >= low {
-                let whole = around.get_or_insert(arc);
-                if arc.low.angle < whole.low.angle {
-                    whole.low = arc.low;
-                }
-                if arc.high.angle > whole.high.angle {
-                    whole.high = arc.high;
-                }
+            if arc.low.angle > high || arc.high.angle < low {
+                continue;
+            }
+            grows |= around.is_none();
+            let whole = around.get_or_insert(arc);
+            if arc.low.angle < whole.low.angle {
+                (whole.low, grows) = (arc.low, true);
+            }
+            if arc.high.angle > whole.high.angle {
+                (whole.high, grows) = (arc.high, true);
             }
         }
-        if around == before {
+        // What has grown may have reached others.
+        if !grows || faults.len() == 1 {
             return around;
         }
     }
@@ -314,12 +320,14 @@ pub fn floors<'a>(
     whole: &Arc,
 ) -> impl Iterator<Item = (Edge, f64)> + use<'a> {
     let (low, high) = (whole.low.angle, whole.high.angle);
-    faults.iter().flat_map(move |fault| {
+    let floored = faults
+        .iter()
+        .filter_map(|fault| Some((fault, fault.floor?)));
+    floored.flat_map(move |(fault, (depth, count))| {
         let arc = fault
             .arc(&at, &toward)
             .filter(|arc| arc.low.angle >= low && arc.high.angle <= high);
-        let floor = fault.floor.zip(arc);
-        floor.into_iter().flat_map(|((depth, count), arc)| {
+        arc.into_iter().flat_map(move |arc| {
             (1..=count).map(move |k| {
                 let share = 2.0 * k as f64 / (count + 1) as f64 - 1.0;
                 let half = (arc.high.angle - arc.low.angle) / 2.0;

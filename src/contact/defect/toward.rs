@@ -65,7 +65,7 @@ impl<'a> Toward<'a> {
         match (self.pole(fault), &fault.pit) {
             (Some((cap, e)), _) => cap.widest(&e),
             (None, Some(pit)) => pit.span,
-            (None, None) => fault.reach / 2.0,
+            (None, None) => fault.reach / super::MARGIN,
         }
     }
 

@@ -91,11 +91,13 @@ impl Halves {
             }
             _ => None,
         };
+        // Filled in place: as a result of the function apart they would be copied.
+        let mut peaks = [[half; 2]; PART];
         for (part, fine) in self.fine.chunks(PART).enumerate() {
             let smooth = needles.as_ref().map(|(_, needles, _)| needles);
-            let peaks = half.outlined(
+            half.outlined(
                 #[inline(always)]
-                || peaks::<T, FMA, FILM>(slip, smooth, half, fine),
+                || fill_peaks::<T, FMA, FILM>(slip, smooth, half, fine, &mut peaks),
             );
             let shares = self.shares.chunks_exact(self.fine.len());
             for (i, (x, shares)) in self.nodes.iter().zip(shares).enumerate() {
@@ -122,13 +124,13 @@ impl Halves {
 
 /// Even and odd parts at places of the finer rule, less the needles.
 #[inline(always)]
-fn peaks<T: Number, const FMA: bool, const FILM: bool>(
+fn fill_peaks<T: Number, const FMA: bool, const FILM: bool>(
     slip: &Slip<T>,
     needles: Option<&Needles<T>>,
     half: T,
     fine: &[f64],
-) -> [[T; 2]; PART] {
-    let mut peaks = [[half; 2]; PART];
+    peaks: &mut [[T; 2]; PART],
+) {
     for (peak, t) in peaks.iter_mut().zip(fine) {
         let u = half * *t;
         let (plus, minus) = slip.squares::<FMA>(u);
@@ -142,7 +144,6 @@ fn peaks<T: Number, const FMA: bool, const FILM: bool>(
         let [plus, minus] = sides;
         *peak = [plus + minus, plus - minus];
     }
-    peaks
 }
 
 /// Even and odd part at a node.

@@ -105,7 +105,7 @@ impl Rules {
     fn compute(m: usize, exponent: f64, finer: usize, films: bool) -> Self {
         let rules = Self::nodes(m, exponent);
         let products = ((LEAST..=MOST).contains(&m) && finer > 0).then(|| {
-            let mut products = products(&rules, m + finer, exponent);
+            let mut products = products(&rules, finer, exponent);
             if films {
                 let low = [exponent, exponent, 0.0, 0.0];
                 let high = [exponent, 0.0, exponent, 0.0];
@@ -143,7 +143,7 @@ impl Rules {
             one_sided,
             high,
             // Inside a defect the forces of its elements vanish at ends of their own, with no weight for them.
-            jacobi(2 * m, 0.0, 0.0, 2.0),
+            gauss(2 * m),
         ]
     }
 
@@ -179,9 +179,11 @@ impl Rules {
     }
 }
 
-/// What the nodes of all rules weigh for friction, by rules of m nodes.
-fn products([both, low, high, neither]: &[Rule; 4], m: usize, exponent: f64) -> [Product; 4] {
-    let finer = Rules::nodes(m, exponent);
+/// What the nodes of all rules weigh for friction, by rules of so many nodes more.
+fn products(rules: &[Rule; 4], more: usize, exponent: f64) -> [Product; 4] {
+    let [both, low, high, neither] = rules;
+    let finer = Rules::nodes(both.len() + more, exponent);
+    let finer_inside = gauss(neither.len() + more);
     let (rising, falling) = (
         |x: f64| (1.0 + x).powf(exponent),
         |x: f64| (1.0 - x).powf(exponent),
@@ -190,8 +192,13 @@ fn products([both, low, high, neither]: &[Rule; 4], m: usize, exponent: f64) -> 
         Product::new(both, &finer[0], |x| rising(x) * falling(x)),
         Product::new(low, &finer[1], rising),
         Product::new(high, &finer[2], falling),
-        Product::new(neither, &finer[3], |_| 1.0),
+        Product::new(neither, &finer_inside, |_| 1.0),
     ]
+}
+
+/// The rule of m nodes for smooth forces.
+fn gauss(m: usize) -> Rule {
+    jacobi(m, 0.0, 0.0, 2.0)
 }
 
 /// ∫ (1 − x²)^β dx = 2 ∫₀¹ … by the one-sided rule, on which (1 + x)^β is smooth.

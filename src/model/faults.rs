@@ -1,0 +1,83 @@
+//! Defects of a scene as contacts meet them.
+
+use crate::contact::hertz::Hertz;
+use crate::contact::{Fault, Pair, PittedContact};
+use crate::scene::{Defect, Row};
+
+/// A defect of a race, compiled.
+pub(crate) fn race_fault(defect: &Defect, row: &Row, (race, hertz): (&Pair, &Hertz)) -> Fault {
+    let middle = row.axial_position + offset(defect);
+    // Validation keeps the defect's middle inside the groove.
+    let radius = race.radius_at(middle).unwrap_or(race.race.a);
+    if defect.is_pit() {
+        return Fault::pit(defect, middle, radius, [PittedContact::of(hertz); 2]);
+    }
+    Fault::new(defect, middle, least_radius(race, middle, defect.length))
+}
+
+/// The least radius of a race over a length about a place \[m\], to the step of a fine grid: one groove has it at an end or in its middle, a
+/// curve through points anywhere.
+fn least_radius(race: &Pair, middle: f64, length: f64) -> f64 {
+    const PLACES: u32 = 64;
+    let place = |k: u32| middle + length * (f64::from(k) / f64::from(PLACES) - 0.5);
+    let radii = (0..=PLACES).filter_map(|k| race.radius_at(place(k)));
+    radii.fold(race.radius_at(middle).unwrap_or(race.race.a), f64::min)
+}
+
+/// A defect of a ball of this radius, compiled, with its contacts with both races.
+pub(crate) fn ball_fault(defect: &Defect, radius: f64, hertz: &[Hertz; 2]) -> Fault {
+    if defect.is_pit() {
+        let contacts = hertz.each_ref().map(PittedContact::of);
+        return Fault::pit(defect, offset(defect), radius, contacts);
+    }
+    if defect.is_cap() {
+        return Fault::cap(defect, offset(defect), radius);
+    }
+    let reach = offset(defect).abs() + defect.length / 2.0;
+    let slice = (radius * radius - reach * reach).max(0.0).sqrt();
+    Fault::new(defect, offset(defect), slice)
+}
+
+fn offset(defect: &Defect) -> f64 {
+    let number = defect.axial_offset.number();
+    number.expect("defects are placed before a scene is compiled")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::race_fault;
+    use crate::contact::Motion;
+    use crate::model::Race;
+    use crate::scene::{Defect, Surface, presets};
+
+    /// Analytic: a spall as long as the groove is wide is seen wherever a slice may meet it, and hardly further, though the race is not
+    /// equally wide along it.
+    #[test]
+    fn a_defect_reaches_as_far_as_its_widest_slice() {
+        let (width, length) = (3e-3, 5e-3);
+        for (race, on) in [
+            (Race::Outer, Surface::OuterRace),
+            (Race::Inner, Surface::InnerRace),
+        ] {
+            for offset in [-0.5e-3, 0.0, 1e-3] {
+                let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+                let model = crate::compile(&scene).unwrap();
+                let row = &model.rows[0];
+                let defect = Defect::new(on, 0.0, length, width, 0.3e-3).at_offset(offset);
+                let pair = &row.pairs[race];
+                let fault = race_fault(&defect, &scene.rows[0], (pair, &row.hertz[race]));
+                let mut widest = 0.0_f64;
+                for k in 0..=1000 {
+                    let z = offset + length * (f64::from(k) / 1000.0 - 0.5) * 0.999;
+                    let radius = pair.radius_at(z).unwrap();
+                    let half = width / (2.0 * radius);
+                    let covers = |aside| fault.covers(z, radius, aside, &Motion::default());
+                    assert!(covers(0.999 * half) && !covers(1.001 * half), "{z}");
+                    widest = widest.max(half);
+                }
+                let over = fault.reach / widest;
+                assert!((1.0..1.02).contains(&over), "{on:?}, {offset}: {over}");
+            }
+        }
+    }
+}
