@@ -203,17 +203,29 @@ fn a_time_may_be_asked_for() {
     };
     for start in [Start::Equilibrium, Start::Rolling] {
         let off = with(Some(0.0), start.clone());
-        let on = with(Some(4e-3), start);
-        assert_eq!(on.provenance.settled, 4e-3);
+        let on = with(Some(6e-3), start);
+        assert_eq!(on.provenance.settled, 6e-3);
         assert_eq!(on.t[0], 0.0);
         // What was left of a rolling start cost steps.
         let share = on.stats.nfev as f64 / off.stats.nfev as f64;
         assert!((0.5..1.4).contains(&share), "{share}");
         let before = on.stats.settling_nfev as f64 / off.stats.nfev as f64;
-        // Twice the time, if not the effort.
+        // Three times the time, half of it by coarse steps.
         assert!((1.3..4.0).contains(&before), "{before}");
         assert!(on.stats.settling_accepted < on.stats.settling_nfev);
     }
+}
+
+/// Effort: before t = 0 steps are as long as a loose tolerance lets them be, until the last 3 ms. The tests above tell that nothing of it is
+/// left at t = 0.
+#[test]
+fn settling_takes_half_the_evaluations_of_its_time() {
+    let out = settled(4, &presets::deep_groove_6205(500.0, 0.0, 1800.0));
+    let stats = &out.stats;
+    let before = stats.settling_nfev as f64 / out.provenance.settled;
+    let share = before / (stats.nfev as f64 / out.t[out.t.len() - 1]);
+    println!("{share:.3}");
+    assert!((0.4..0.6).contains(&share), "{share}");
 }
 
 #[test]
