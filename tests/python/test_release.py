@@ -136,7 +136,7 @@ def test_notes_are_those_of_the_version(copy: Path) -> None:
     with (copy / "CHANGELOG.md").open("a", encoding="utf-8") as file:
         file.write("\n## 0.0.1\n\n- Long ago.\n")
     version = manifest(copy)["version"]
-    replaced(copy, "CHANGELOG.md", rf"^## {version}.*$", rf"\g<0>\n\nOf this version.")
+    replaced(copy, "CHANGELOG.md", rf"^## {version}.*$", r"\g<0>\n\nOf this version.")
     told = notes(copy)
     assert told.startswith("Of this version.")
     assert "Not yet." not in told
