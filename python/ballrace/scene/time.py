@@ -106,9 +106,9 @@ class Spline(Variant, tag="spline"):
         Examples
         --------
         >>> from ballrace.scene import Spline
-        >>> cubes = Spline.through([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 8.0, 27.0])
-        >>> [round(rate, 9) for rate in cubes.rates]
-        [0.0, 3.0, 12.0, 27.0]
+        >>> cubic = Spline.through([0.0, 1.0, 2.0, 3.0], [0.0, 2.0, 10.0, 30.0])  # t³ + t
+        >>> [round(rate, 9) for rate in cubic.rates]
+        [1.0, 4.0, 13.0, 28.0]
         """
         from scipy.interpolate import CubicSpline
 
