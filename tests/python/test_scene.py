@@ -514,6 +514,16 @@ def test_replace_reaches_every_field(wheel: s.Scene) -> None:
     assert wheel.rows[1].clearance == 0.0
 
 
+LED: list[tuple[str, s.TimeFunction]] = [
+    ("inner_ring.support.x", s.Ramp(from_=0.0, to=1e-5, start=0.0, end=1.0)),
+    ("outer_ring.support.y", s.Table(times=(0.0, 1.0), values=(0.0, 1e-5))),
+    ("inner_ring.support.z", 0.2),
+    ("outer_ring.support.tilt_x", 0.6),
+    ("outer_ring.support.theta", 0.0),
+]
+"""Motions that no ring can be given."""
+
+
 @pytest.mark.parametrize(
     ("path", "value", "named"),
     [
@@ -523,23 +533,18 @@ def test_replace_reaches_every_field(wheel: s.Scene) -> None:
         ("rows[2].clearance", 0.0, "rows[2].clearance"),
         ("loads.sideways.force", 1.0, "loads.sideways.force"),
         *[
-            ("loads.axial.force", s.Spline(**spline), f"loads.axial.force.spline{field}")
-            for spline, field in [
-                ({"times": (0.0, 1.0), "values": (1.0, 2.0), "rates": (0.0,)}, ""),
-                ({"times": (0.0, 0.0), "values": (1.0, 2.0), "rates": (0.0, 0.0)}, ".times[1]"),
-                ({"times": (0.0,), "values": (1.0,), "rates": (math.inf,)}, ".rates[0]"),
+            (
+                "loads.axial.force",
+                s.Spline(times=times, values=(1.0, 2.0)[: len(times)], rates=rates),
+                f"loads.axial.force.spline{field}",
+            )
+            for times, rates, field in [
+                ((0.0, 1.0), (0.0,), ""),
+                ((0.0, 0.0), (0.0, 0.0), ".times[1]"),
+                ((0.0,), (math.inf,), ".rates[0]"),
             ]
         ],
-        *[
-            (path, s.Given(motion), f"{path}.given")
-            for path, motion in [
-                ("inner_ring.support.x", s.Ramp(from_=0.0, to=1e-5, start=0.0, end=1.0)),
-                ("outer_ring.support.y", s.Table(times=(0.0, 1.0), values=(0.0, 1e-5))),
-                ("inner_ring.support.z", 0.2),
-                ("outer_ring.support.tilt_x", 0.6),
-                ("outer_ring.support.theta", 0.0),
-            ]
-        ],
+        *[(place, s.Given(motion), f"{place}.given") for place, motion in LED],
         ("rows[0].ball_support.x", s.Given(0.0), "rows[0].ball_support"),
         ("defects.spall.length", 0.1, "defects.spall.length"),
         ("contact.slices", s.FittedSlices(1), "contact.slices.fitted"),

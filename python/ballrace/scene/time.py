@@ -124,21 +124,22 @@ def values_at(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]:
     match function:
         case Ramp(from_=before, to=after, start=start, end=end):
             share = (t >= end) if start == end else np.clip((t - start) / (end - start), 0.0, 1.0)
-            return before + share * (after - before)
+            found = before + share * (after - before)
         case Sine(mean=mean, amplitude=amplitude, frequency=frequency, phase=phase):
-            return mean + amplitude * np.sin(2.0 * math.pi * frequency * t + phase)
+            found = mean + amplitude * np.sin(2.0 * math.pi * frequency * t + phase)
         case Table(times=points, values=values):
-            return np.asarray(np.interp(t, points, values))
+            found = np.interp(t, points, values)
         case Spline(times=points, values=values, rates=rates):
             from scipy.interpolate import CubicHermiteSpline
 
-            if len(points) == 1:
-                return values[0] + rates[0] * (t - points[0])
             within = np.clip(t, points[0], points[-1])
-            beyond = np.where(t < points[0], rates[0], rates[-1]) * (t - within)
-            return np.asarray(CubicHermiteSpline(points, values, rates)(within)) + beyond
+            inside = values[0]
+            if len(points) > 1:
+                inside = CubicHermiteSpline(points, values, rates)(within)
+            found = inside + np.where(t < points[0], rates[0], rates[-1]) * (t - within)
         case _:
-            return np.full(t.shape, float(function))
+            found = np.full(t.shape, float(function))
+    return np.asarray(found, np.float64)
 
 
 TimeFunction = float | Ramp | Sine | Table | Spline
