@@ -12,7 +12,7 @@ from ._features import feature_options
 from ._html import paragraph, points, waveform
 from ._interrupt import heard_once
 from ._io.files import PARQUET, as_path
-from ._io.parquet import read_sealed, scan_sealed, seal, writing_to
+from ._io.parquet import read_sealed, scan_sealed, sealing
 from ._io.record import Scanned, described, metadata, samples, unless_damaged
 from ._io.whole import whole
 from ._text import printable
@@ -338,12 +338,9 @@ class Signals(Columns):
         OSError
             The folder does not exist or is not writable, or the disk is full.
         """
-        with whole(path) as temporary:
-            with writing_to(path):
-                table, told = self.to_polars(), metadata(self)
-                heard_once(lambda: table.write_parquet(temporary, metadata=told))
-            with temporary.open("r+b") as file:
-                seal(file)
+        with whole(path) as temporary, sealing(temporary, path):
+            table, told = self.to_polars(), metadata(self)
+            heard_once(lambda: table.write_parquet(temporary, metadata=told))
 
     @classmethod
     def read_parquet(cls, path: str | os.PathLike[str]) -> Signals:

@@ -12,7 +12,7 @@ from . import _core
 from ._document import encode
 from ._interrupt import heard_once
 from ._io.files import as_path
-from ._io.parquet import read_sealed, seal, writing_to
+from ._io.parquet import read_sealed, sealing
 from ._io.record import samples, unless_damaged
 from ._io.whole import whole
 from ._numbers import real, real_row
@@ -75,12 +75,9 @@ class Snapshot:
         from ._polars import pl
 
         told = {"ballrace": f"snapshot {_FORMAT}", _ENTRY: self._document}
-        with whole(path) as temporary:
-            with writing_to(path):
-                table = pl.DataFrame(_joined(self._pieces))
-                heard_once(lambda: table.write_parquet(temporary, metadata=told))
-            with temporary.open("r+b") as file:
-                seal(file)
+        with whole(path) as temporary, sealing(temporary, path):
+            table = pl.DataFrame(_joined(self._pieces))
+            heard_once(lambda: table.write_parquet(temporary, metadata=told))
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Snapshot:

@@ -46,7 +46,16 @@ def writing_to(path: str | os.PathLike[str]) -> Iterator[None]:
         raise OSError(errno.EIO, f"cannot be written ({error})", os.fspath(path)) from error
 
 
-def seal(file: BinaryIO) -> None:
+@contextmanager
+def sealing(file: Path, path: str | os.PathLike[str]) -> Iterator[None]:
+    """Put a hash into the Parquet file that is written within; errors are as of :func:`writing_to` ``path``."""
+    with writing_to(path):
+        yield
+    with file.open("r+b") as written:
+        _seal(written)
+
+
+def _seal(file: BinaryIO) -> None:
     """Put the hash into a Parquet file that has just been written, open for reading and writing."""
     size = file.seek(0, io.SEEK_END)
     start = size - _TAIL - _footer(file, size)
@@ -146,7 +155,7 @@ def to_bytes(
     buffer = io.BytesIO()
     heard_once(lambda: table.write_parquet(buffer, metadata=metadata))
     if sealed:
-        seal(buffer)
+        _seal(buffer)
     return buffer.getvalue()
 
 

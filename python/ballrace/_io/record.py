@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from .._interrupt import heard_once
 from ..errors import BallraceError, FileError, SceneError
 from ..scene import Scene
-from .parquet import columns_and_rows, read_bytes, read_columns, seal, to_bytes, writing_to
+from .parquet import columns_and_rows, read_bytes, read_columns, sealing, to_bytes, writing_to
 from .whole import whole
 
 if TYPE_CHECKING:
@@ -58,10 +58,8 @@ class Writer:
 
     def finish(self, metadata: dict[str, str]) -> None:
         """Write the one file, sealed."""
-        with writing_to(self._target):
+        with sealing(self._path, self._target):
             heard_once(lambda: self._join(metadata))
-        with self._path.open("r+b") as file:
-            seal(file)
 
     def _join(self, metadata: dict[str, str]) -> None:
         from .._polars import pl

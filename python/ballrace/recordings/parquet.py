@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._interrupt import heard_once
-from .._io.parquet import columns_and_rows, read_sealed, seal, writing_to
+from .._io.parquet import columns_and_rows, read_sealed, sealing
 from .._io.record import described, unless_damaged
 from .._io.record import samples as column_of
 from ..scene import Scene
@@ -32,10 +32,8 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
     times = np.arange(count) / (samples.fs or 1.0)
     table = pl.DataFrame({"t": times, **samples.columns})
     told = {_TOLD: samples.told()}
-    with writing_to(path):
+    with sealing(temporary, path):
         heard_once(lambda: table.write_parquet(temporary, metadata=told))
-    with temporary.open("r+b") as file:
-        seal(file)
 
 
 def read(path: Path) -> Samples:
