@@ -10,7 +10,7 @@ import numpy as np
 
 from .._ellipse import semi_axes
 from ..plot.outlines import circle, outlines
-from ..scene.defect import extent
+from ..scene.defect import extent, widest
 from ..scene.drawing import seen_along_axis
 
 if TYPE_CHECKING:
@@ -162,15 +162,11 @@ def _lies_on(defect: Defect, number: int, race: Race) -> bool:
 def _extents(live: Live, number: int) -> list[float]:
     """Return half of the larger extent of each defect of a row [mm]."""
     own = [each for each in live.scene.defects.values() if each.row == number]
-    return [0.5e3 * max(_width(each), extent(each)) for each in own] or [0.0]
-
-
-def _width(defect: Defect) -> float:
-    return defect.width if isinstance(defect.width, float) else max(defect.width.widths)
+    return [0.5e3 * max(widest(each), extent(each)) for each in own] or [0.0]
 
 
 def _spot(defect: Defect, x: float) -> str:
-    wide, long = 1e3 * _width(defect), 1e3 * extent(defect)
+    wide, long = 1e3 * widest(defect), 1e3 * extent(defect)
     return (
         f'<rect class="damage" x="{x - 0.5 * wide:.5g}" y="{-0.5 * long:.5g}" width="{wide:.5g}" '
         f'height="{long:.5g}" fill="{_DAMAGE}" fill-opacity="0.3" stroke="{_DAMAGE}"/>'

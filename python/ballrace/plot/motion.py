@@ -8,6 +8,7 @@ import numpy as np
 
 from ..errors import SceneError
 from ..scene import MotionProbe
+from ..scene.defect import widest
 from .decimation import min_max
 from .sources import check_columns, check_run
 from .style import COLOURS, DASHES, finished
@@ -167,10 +168,9 @@ def _chosen(
     found = races[name]
     row = scene.rows[found.row]
     outward = 1.0 if found.on == "outer_race" else -1.0
-    width = found.width if isinstance(found.width, float) else max(found.width.widths)
     race: Literal["outer", "inner"] = "outer" if found.on == "outer_race" else "inner"
     radius = row.pitch_diameter + outward * row.ball_diameter * np.cos(row.contact_angle)
-    return name, race, width, float(0.5 * radius)
+    return name, race, widest(found), float(0.5 * radius)
 
 
 def _relative(

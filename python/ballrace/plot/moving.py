@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..scene.defect import widest
 from .maps import SHADES
 from .outlines import circle, outlines
 from .style import COLOURS
@@ -167,13 +168,13 @@ class Moving:
         x, y, _ = self._place(self._row, int(defect.ball or 0), k)
         turned = defect.angle + float(self._out[f"row{self._row}_ball{defect.ball}.theta"][k])
         radius = 0.5e3 * self._of_row.ball_diameter
-        half = 0.5 * _width(defect) * 1e3 / radius
+        half = 0.5 * widest(defect) * 1e3 / radius
         return _mark((x, y), radius, turned, half, name)
 
     def _on_race(self, defect: Defect, name: str, turned: float) -> Any:
         outward = 1.0 if defect.on == "outer_race" else -1.0
         radius = 0.5e3 * (self._of_row.pitch_diameter + outward * self._of_row.ball_diameter)
-        half = 0.5e3 * _width(defect) / radius
+        half = 0.5e3 * widest(defect) / radius
         return _mark((0.0, 0.0), radius, defect.angle + turned, half, name)
 
     def _cut(self, row: int, half: float, k: int) -> Any:
@@ -187,10 +188,6 @@ class Moving:
             return _filled(np.zeros(1), np.zeros(1), "#ffffff")
         ring = circle(places[ball, 2], places[ball, 1], math.sqrt(square))[::3]
         return _filled(ring[:, 0], ring[:, 1], self._shade(self._load(row, ball)[k]))
-
-
-def _width(defect: Defect) -> float:
-    return defect.width if isinstance(defect.width, float) else max(defect.width.widths)
 
 
 def _mark(centre: tuple[float, float], radius: float, angle: float, half: float, name: str) -> Any:

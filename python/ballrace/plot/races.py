@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from .._ellipse import semi_axes
+from ..scene.defect import widest
 from ..statics import Equilibrium, equilibrium
 from .maps import SHADES
 from .style import COLOURS, finished
@@ -135,7 +136,7 @@ def _defect(fig: go.Figure, row: Row, name: str, defect: Defect, place: int) -> 
     from .._plotly import Scatter
 
     race = _RACES[place - 1]
-    width = defect.width if isinstance(defect.width, float) else max(defect.width.widths)
+    width = widest(defect)
     half = math.degrees(0.5 * width / _radius(row, race))
     middle = math.degrees(float(_wrapped(np.array(defect.angle))))
     assert not isinstance(defect.axial_offset, str)
