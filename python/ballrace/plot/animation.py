@@ -163,10 +163,10 @@ def _signal(fig: go.Figure, out: Signals, column: str, samples: list[int]) -> No
     part = slice(samples[0], samples[-1] + 1)
     t, x = min_max(1e3 * out.t[part], signal.x[part])
     line = {"color": COLOURS[0], "width": 1}
-    fig.add_trace(Scatter(x=t, y=x, mode="lines", line=line, name=signal.words), row=2, col=1)
+    fig.add_trace(Scatter(x=t, y=x, mode="lines", line=line, name=signal.name), row=2, col=1)
     rim = 1.1 * float(np.abs(x).max(initial=0.0)) or 1.0
     fig.update_yaxes(
-        title_text=title(signal.words.split(",")[0], signal.unit), range=[-rim, rim], row=2, col=1
+        title_text=title(signal.name.split(",")[0], signal.unit), range=[-rim, rim], row=2, col=1
     )
     fig.update_xaxes(title_text="time / ms", row=2, col=1)
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from ..spectra.bands import fault_bands
 from .style import SYMBOLS
 
 if TYPE_CHECKING:
@@ -13,29 +12,12 @@ if TYPE_CHECKING:
 
     import plotly.graph_objects as go
 
-    from ..frequencies.operating import FaultFrequencies
-    from ..spectra.bands import Fault, FaultBand
+    from ..spectra.bands import FaultBand
 
-__all__ = ["add_lines", "bands_of"]
-
-
-def bands_of(
-    rates: FaultFrequencies,
-    faults: Sequence[Fault],
-    harmonics: int,
-    sidebands: int,
-    limit: float,
-    *,
-    orders: bool = False,
-    spin: tuple[float, int] | None = None,
-) -> list[FaultBand]:
-    """Return the lines of some faults below a limit, in hertz or in orders."""
-    shaft = 1.0 if orders else rates.shaft
-    found = fault_bands(rates.orders, shaft, harmonics=harmonics, sidebands=sidebands, spin=spin)
-    return [band for band in found if band.fault in faults and band.centre <= limit]
+__all__ = ["add_lines"]
 
 
-def add_lines(fig: go.Figure, bands: Sequence[FaultBand], top: float, *, unit: str = "Hz") -> None:
+def add_lines(fig: go.Figure, bands: Sequence[FaultBand], top: float) -> None:
     """Draw lines from 0 to ``top`` where bands have their middle, with a marker and a label on top.
 
     The labels are upright, so that those of neighbours do not meet. With several faults in one picture only the
@@ -56,8 +38,8 @@ def add_lines(fig: go.Figure, bands: Sequence[FaultBand], top: float, *, unit: s
             line={"color": colour, "width": 1.3, "dash": dash},
             marker={"symbol": marker, "size": [part for _ in own for part in (0, 8, 0)]},
             text=text,
-            name=f"{name}, {first.centre:.4g} {unit}",
-            hovertemplate="%{text}: %{x:.5g} " + unit + "<extra></extra>",
+            name=f"{name}, {first.centre:.4g} Hz",
+            hovertemplate="%{text}: %{x:.5g} Hz<extra></extra>",
             opacity=0.85,
         )
         fig.add_trace(trace)

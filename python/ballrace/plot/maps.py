@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     import plotly.graph_objects as go
     from numpy.typing import ArrayLike, NDArray
 
+    from ..channel import Channel
     from ..frequencies.operating import FaultFrequencies
     from ..spectra import Kurtogram
     from ..spectra.bands import Fault
     from ..spectra.checks import Given
-    from .sources import Source
 
 __all__ = ["kurtogram", "order_map", "spectrogram"]
 
@@ -181,7 +181,7 @@ def order_map(
     return finished(fig, layout, height=440)
 
 
-def _since(first: int, signal: Source, rate: float | None) -> str:
+def _since(first: int, signal: Channel, rate: float | None) -> str:
     """Say from when on the shaft turns: time, or a sample of an array without a rate."""
     if rate is not None:
         return f" from sample {first} on, where it has a twentieth of its highest speed"

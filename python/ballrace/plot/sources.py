@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ..channel import channel_of
+from ..channel import Channel, channel_of
 from ..errors import EquilibriumError, SceneError
 from ..frequencies import operating
 from ..frequencies.operating import FaultFrequencies, fault_frequencies
@@ -26,36 +23,11 @@ if TYPE_CHECKING:
     from ..spectra.bands import Fault
     from ..spectra.checks import Given
 
-__all__ = [
-    "Source",
-    "check_columns",
-    "check_run",
-    "faults_of",
-    "rates_of",
-    "scene_of",
-    "source",
-    "spin_of",
-]
+__all__ = ["check_columns", "check_run", "faults_of", "rates_of", "scene_of", "source", "spin_of"]
 
 
-@dataclass(frozen=True, eq=False)
-class Source:
-    """A signal, and what is known of it."""
-
-    x: NDArray[np.float64]
-    fs: float
-    start: float
-    unit: str
-    words: str
-
-    @property
-    def t(self) -> NDArray[np.float64]:
-        """Times [s]."""
-        return self.start + np.arange(self.x.size) / self.fs
-
-
-def source(of: Given, column: str | None, fs: float | None) -> Source:
-    """Return the signal that is meant.
+def source(of: Given, column: str | None, fs: float | None) -> Channel:
+    """Return the signal that is meant, checked, with name and unit as a picture shows them.
 
     Parameters
     ----------
@@ -75,9 +47,8 @@ def source(of: Given, column: str | None, fs: float | None) -> Source:
     """
     found = channel_of(of, fs, column)
     x = checked_signal(found.x, found.fs)
-    return Source(
-        x, found.fs, found.start, unit(found.unit), words(found.name) if found.name else "signal"
-    )
+    name = words(found.name) if found.name else "signal"
+    return replace(found, x=x, name=name, unit=unit(found.unit))
 
 
 def check_run(of: object, name: str = "out") -> None:

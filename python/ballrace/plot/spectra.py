@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from .. import spectra
 from ..errors import SceneError
-from .lines import add_lines, bands_of
+from .lines import add_lines
 from .sources import faults_of, rates_of, row_of, source, spin_of
 from .style import COLOURS, DASHES, finished, title
 from .times import fault_rate
@@ -108,7 +108,10 @@ def envelope_spectrum(
     fig.add_trace(Scatter(x=f[shown], y=value[shown], name=name or what, mode="lines", line=style))
     if found is not None:
         top = 1.05 * float(value[shown].max(initial=0.0)) or 1.0
-        add_lines(fig, bands_of(found, chosen, harmonics, sidebands, end, spin=spin), top)
+        lines = spectra.fault_bands(
+            found.orders, found.shaft, harmonics=harmonics, sidebands=sidebands, spin=spin
+        )
+        add_lines(fig, [one for one in lines if one.fault in chosen and one.centre <= end], top)
     square = {True: f"({signal.unit})²", False: signal.unit}[squared] if signal.unit else ""
     fig.update_xaxes(title_text="frequency / Hz", range=[0.0, end])
     fig.update_yaxes(title_text=title(f"line of the {what}", square), rangemode="tozero")
@@ -172,7 +175,7 @@ def psd(
     f, value = spectra.psd(signal.x, signal.fs, length)
     fig = fig if fig is not None else Figure()
     style = {"color": COLOURS[0], "width": 1.2}
-    fig.add_trace(Scatter(x=f[1:], y=value[1:], name=signal.words, mode="lines", line=style))
+    fig.add_trace(Scatter(x=f[1:], y=value[1:], name=signal.name, mode="lines", line=style))
     if band is not None:
         fig.add_vrect(x0=band[0], x1=band[1], fillcolor=COLOURS[1], opacity=0.12, line_width=0,
                       annotation_text="band of the envelope", annotation_position="top left")  # fmt: skip

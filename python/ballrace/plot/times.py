@@ -187,7 +187,7 @@ def impacts(
     if found is None and (rates is not None or faults is not None):
         raise SceneError("rates", "None", "fault frequencies, from ballrace.fault_frequencies")
     fig = fig if fig is not None else Figure()
-    fig.add_trace(_line(signal.t, signal.x, signal.words, 0))
+    fig.add_trace(_line(signal.t, signal.x, signal.name, 0))
     top = 1.12 * float(np.abs(signal.x).max(initial=0.0)) or 1.0
     for fault in faults_of(of, faults, row) if found is not None else ():
         name, colour, _, marker = SYMBOLS[fault]
@@ -204,7 +204,7 @@ def impacts(
         )  # fmt: skip
         fig.add_trace(trace)
     fig.update_xaxes(title_text="time / s")
-    fig.update_yaxes(title_text=title(signal.words, signal.unit))
+    fig.update_yaxes(title_text=title(signal.name, signal.unit))
     return finished(fig, layout, height=380, showlegend=True)
 
 
