@@ -161,11 +161,9 @@ _FAULTS = {
 
 
 def _named(key: object) -> str:
-    return (
-        {True: "yes", False: "no", None: "not known"}.get(key, str(key))
-        if key is None or isinstance(key, bool)
-        else str(key)
-    )
+    if isinstance(key, bool):
+        return "yes" if key else "no"
+    return "not known" if key is None else str(key)
 
 
 def _table(done: Campaign | pl.DataFrame, names: tuple[str, ...]) -> pl.DataFrame:

@@ -54,25 +54,28 @@ class Outlines:
 def outlines(scene: Scene) -> Outlines:
     """Return the outlines of a bearing's rings."""
     rows = sorted(scene.rows, key=lambda row: row.axial_position)
-    balls = [1e3 * row.ball_diameter for row in rows]
-    tops = [
-        1e3 * row.pitch_diameter / 2 + (0.5 + _WALL) * D for row, D in zip(rows, balls, strict=True)
+    sizes = [
+        (1e3 * row.axial_position, 1e3 * row.pitch_diameter / 2, 1e3 * row.ball_diameter)
+        for row in rows
     ]
-    floors = [
-        1e3 * row.pitch_diameter / 2 - (0.5 + _WALL) * D for row, D in zip(rows, balls, strict=True)
-    ]
-    rings = (scene.outer_ring, scene.inner_ring)
-    outside = 0.5e3 * rings[0].diameter if rings[0].diameter else max(tops)
-    bore = 0.5e3 * rings[1].diameter if rings[1].diameter else max(min(floors), 0.0)
-    left = min(1e3 * row.axial_position - _SIDE * D for row, D in zip(rows, balls, strict=True))
-    right = max(1e3 * row.axial_position + _SIDE * D for row, D in zip(rows, balls, strict=True))
-    if rings[0].width:
+    top = max(r + (0.5 + _WALL) * D for _, r, D in sizes)
+    floor = min(r - (0.5 + _WALL) * D for _, r, D in sizes)
+    outer, inner = scene.outer_ring, scene.inner_ring
+    outside = 0.5e3 * outer.diameter if outer.diameter else top
+    bore = 0.5e3 * inner.diameter if inner.diameter else max(floor, 0.0)
+    left, right = min(z - _SIDE * D for z, _, D in sizes), max(z + _SIDE * D for z, _, D in sizes)
+    if outer.width:
         middle = 0.5 * (left + right)
-        left, right = middle - 0.5e3 * rings[0].width, middle + 0.5e3 * rings[0].width
-    assumed = not all((rings[0].diameter, rings[1].diameter, rings[0].width))
-    outer = _ring(rows, "outer", outside, left, right)
-    inner = _ring(rows, "inner", bore, left, right)
-    return Outlines(outer, inner, left, right, outside, bore, assumed)
+        left, right = middle - 0.5e3 * outer.width, middle + 0.5e3 * outer.width
+    return Outlines(
+        outer=_ring(rows, "outer", outside, left, right),
+        inner=_ring(rows, "inner", bore, left, right),
+        left=left,
+        right=right,
+        outside=outside,
+        bore=bore,
+        assumed=not all((outer.diameter, inner.diameter, outer.width)),
+    )
 
 
 def groove(row: Row, race: Literal["outer", "inner"], angles: Array) -> Array:
@@ -112,11 +115,10 @@ def _ring(
     rows: list[Row], race: Literal["outer", "inner"], edge: float, left: float, right: float
 ) -> Array:
     """Return a ring: its grooves from left to right, joined by its shoulders, and closed around its edge."""
-    side: Literal["outer", "inner"] = "outer" if race == "outer" else "inner"
     line = []
     for row in rows:
-        low, high = getattr(row, f"{side}_shoulders") or _ends(row, side)
-        line.append(groove(row, side, np.linspace(low, high, 41)))
+        low, high = getattr(row, f"{race}_shoulders") or _ends(row, race)
+        line.append(groove(row, race, np.linspace(low, high, 41)))
     running = np.vstack(line)
     running = running[(running[:, 0] >= left) & (running[:, 0] <= right)]
     ends = [[left, running[0, 1]], *running.tolist(), [right, running[-1, 1]]]

@@ -77,10 +77,10 @@ def ball() -> Mesh:
     return Mesh(made, turned)
 
 
-def patch(corners: int = 6) -> Mesh:
-    """Return a disc of radius 1 in the plane of y and z."""
-    turn = np.linspace(0.0, 2.0 * math.pi, corners, endpoint=False)
-    k = np.arange(1, corners - 1)
+def patch() -> Mesh:
+    """Return a hexagon, of corners 1 from its middle, in the plane of y and z."""
+    turn = np.linspace(0.0, 2.0 * math.pi, 6, endpoint=False)
+    k = np.arange(1, 5)
     rim = np.stack([0.0 * turn, np.cos(turn), np.sin(turn)], axis=-1)
     return Mesh(rim, np.stack([0 * k, k, k + 1], axis=-1))
 
