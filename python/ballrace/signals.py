@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -17,8 +17,7 @@ from ._io.record import Scanned, described, metadata, samples, unless_damaged
 from ._io.whole import whole
 from ._text import printable
 from ._told import Record, Touched
-from .recordings.columns import Columns, no_column
-from .recordings.samples import Samples
+from .recordings.columns import Columns
 from .recordings.scenes import origin_of, shaft_of
 from .scene import Scene
 
@@ -53,6 +52,8 @@ class Signals(Columns):
     >>> out.units["outer.ay"]
     'm/s^2'
     """
+
+    _columns: Mapping[str, NDArray[np.float64]]
 
     def __init__(
         self,
@@ -94,21 +95,6 @@ class Signals(Columns):
             slices=raw["slices"],
             end_state=raw["end_state"],
         )
-
-    def __getitem__(self, name: str) -> NDArray[np.float64]:
-        try:
-            return self._columns[name]
-        except KeyError:
-            raise no_column(name, self._columns) from None
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._columns)
-
-    def __len__(self) -> int:
-        return len(self._columns)
-
-    def __contains__(self, name: object) -> bool:
-        return name in self._columns
 
     def __repr__(self) -> str:
         size = f"{len(self)} columns, {self.n_samples} samples at {self._fs:g} Hz"
@@ -279,15 +265,9 @@ class Signals(Columns):
         else:
             super().write(path, columns)
 
-    def _samples(self, names: Iterable[str] | None = None) -> Samples:
-        chosen = list(self if names is None else names)
-        return Samples(
-            columns={name: self[name] for name in chosen},
-            fs=float(self._fs),
-            units={name: self._units.get(name, "") for name in chosen},
-            shaft=shaft_of(self.scene),
-            metadata={"scene": self.scene.to_dict(), "provenance": self._provenance.to_dict()},
-        )
+    def _told(self) -> dict[str, Any]:
+        told = {"scene": self.scene.to_dict(), "provenance": self._provenance.to_dict()}
+        return {"shaft": shaft_of(self.scene), "metadata": told}
 
     def _known(self) -> dict[str, Any]:
         return {"shaft": shaft_of(self.scene), "scene": self.scene, "warnings": self.warnings}

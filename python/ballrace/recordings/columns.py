@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 from abc import abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from .._libraries import needed
 from ..channel import Channel
 from ..errors import SceneError
+from .samples import Samples
 from .windows import Origin, windows
 
 if TYPE_CHECKING:
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
     import pandas as pd
     import polars as pl
     import xarray as xr
-
-    from .samples import Samples
 
 __all__ = ["Columns", "no_column"]
 
@@ -43,6 +42,24 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         @property
         def units(self) -> Mapping[str, str]:
             """Unit of each column."""
+
+        @property
+        def _columns(self) -> Mapping[str, NDArray[np.float64]]: ...
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        try:
+            return self._columns[name]
+        except KeyError:
+            raise no_column(name, self._columns) from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._columns
 
     def __eq__(self, other: object) -> bool:
         return self is other
@@ -223,6 +240,16 @@ class Columns(Mapping[str, NDArray[np.float64]]):
             samples = self._samples(None if columns is None else self._chosen(columns))
         write(samples, path)
 
+    def _samples(self, names: Iterable[str] | None = None) -> Samples:
+        """Return some of the columns, or all, with what files tell of them."""
+        chosen = list(self if names is None else names)
+        return Samples(
+            columns={name: self[name] for name in chosen},
+            fs=float(self.fs),
+            units={name: self.units.get(name, "") for name in chosen},
+            **self._told(),
+        )
+
     def _chosen(self, columns: str | Iterable[str] | None) -> list[str]:
         if columns is None:
             accelerations = [name for name in self if self.units.get(name) in ("m/s^2", "g")]
@@ -242,8 +269,8 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         """Return what is known of all columns, by the fields of a channel."""
 
     @abstractmethod
-    def _samples(self, names: Iterable[str] | None = None) -> Samples:
-        """Return some of the columns, or all, with what files tell of them."""
+    def _told(self) -> dict[str, Any]:
+        """Return what files tell of all columns: the fields ``shaft`` and ``metadata`` of :class:`Samples`."""
 
     @abstractmethod
     def _origin(self) -> Origin:

@@ -5,8 +5,6 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from .._interrupt import heard_once
 from .._io.parquet import columns_and_rows, read_sealed, sealing
 from .._io.record import described, unless_damaged
@@ -28,9 +26,7 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
     """Write times and columns, what is told of them in the metadata, and a hash of it all."""
     from .._polars import pl
 
-    count = len(next(iter(samples.columns.values())))
-    times = np.arange(count) / (samples.fs or 1.0)
-    table = pl.DataFrame({"t": times, **samples.columns})
+    table = pl.DataFrame({"t": samples.t, **samples.columns})
     told = {_TOLD: samples.told()}
     with sealing(temporary, path):
         heard_once(lambda: table.write_parquet(temporary, metadata=told))

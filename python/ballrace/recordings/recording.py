@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from .._numbers import real, real_row, sampling_rate
 from ..errors import SceneError
-from .columns import Columns, no_column
-from .samples import Samples
+from .columns import Columns
 from .windows import Origin
 
 __all__ = ["Recording"]
@@ -86,17 +85,9 @@ class Recording(Columns):
         }
         return _remade, (told | rest,)
 
-    def __getitem__(self, name: str) -> NDArray[np.float64]:
-        try:
-            return self.columns[name]
-        except KeyError:
-            raise no_column(name, self.columns) from None
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.columns)
-
-    def __len__(self) -> int:
-        return len(self.columns)
+    @property
+    def _columns(self) -> Mapping[str, NDArray[np.float64]]:
+        return self.columns
 
     def __repr__(self) -> str:
         size = f"{len(self)} columns, {self.n_samples} samples at {self.fs:g} Hz"
@@ -113,15 +104,9 @@ class Recording(Columns):
         """Times from the first sample, shape (n_samples,) [s]."""
         return np.arange(self.n_samples) / self.fs
 
-    def _samples(self, names: Iterable[str] | None = None) -> Samples:
-        chosen = list(self if names is None else names)
-        return Samples(
-            columns={name: self.columns[name] for name in chosen},
-            fs=float(self.fs),
-            units={name: self.units[name] for name in chosen},
-            shaft=None if self.shaft is None else float(self.shaft),
-            metadata=dict(self.metadata),
-        )
+    def _told(self) -> dict[str, Any]:
+        shaft = None if self.shaft is None else float(self.shaft)
+        return {"shaft": shaft, "metadata": dict(self.metadata)}
 
     def _known(self) -> dict[str, Any]:
         return {"shaft": self.shaft or None}

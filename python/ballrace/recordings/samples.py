@@ -54,6 +54,16 @@ class Samples:
     metadata: dict[str, Any] = field(default_factory=dict)
     others: list[Samples] = field(default_factory=list)
 
+    @property
+    def n_samples(self) -> int:
+        """Number of samples of each column."""
+        return next(iter(self.columns.values())).size
+
+    @property
+    def t(self) -> NDArray[np.float64]:
+        """Times from the first sample [s]; numbers of samples where the rate is not known."""
+        return np.arange(self.n_samples) / (self.fs or 1.0)
+
     def told(self) -> str:
         """Return as JSON all but the samples: ``columns`` in their order with their units, ``fs`` and so on."""
         units = {name: self.units.get(name, "") for name in self.columns}

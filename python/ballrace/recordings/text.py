@@ -32,8 +32,7 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
     """Write times and columns with commas between them, all digits, and units in the header."""
     from .._polars import pl
 
-    count = len(next(iter(samples.columns.values())))
-    columns = {"t [s]": np.arange(count) / (samples.fs or 1.0)}
+    columns = {"t [s]": samples.t}
     for name, x in samples.columns.items():
         unit = samples.units.get(name)
         told = f"{name} [{unit}]" if unit else name

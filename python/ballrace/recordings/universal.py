@@ -48,11 +48,10 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
     pyuff = needed("pyuff", path.name)
     shaft = "" if samples.shaft is None else f", shaft {samples.shaft!r} Hz"
     exact = f"sampling rate {samples.fs!r} Hz{shaft}"
-    times = np.arange(len(next(iter(samples.columns.values())))) / (samples.fs or 1.0)
     sets = [
         _AXES
         | _ordinate(name, samples.units.get(name, ""), x)
-        | {"id5": exact, "rsp_node": place, "x": times}
+        | {"id5": exact, "rsp_node": place, "x": samples.t}
         for place, (name, x) in enumerate(samples.columns.items(), start=1)
     ]
     try:
@@ -120,7 +119,7 @@ def _take(path: Path, data: dict[str, Any], samples: Samples) -> None:
     exact = _EXACT.search(data["id5"])
     fs = float(exact["fs"]) if exact else _rate(path, data)
     rest = samples
-    if samples.columns and (fs, x.size) != (samples.fs, next(iter(samples.columns.values())).size):
+    if samples.columns and (fs, x.size) != (samples.fs, samples.n_samples):
         rest = Samples(columns={})
         samples.others.append(rest)
     name = data["id1"].strip()

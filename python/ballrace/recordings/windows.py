@@ -73,7 +73,7 @@ def windows(
     """Return the table that :meth:`Columns.to_windows` describes."""
     from .._polars import pl
 
-    count = len(next(iter(samples.columns.values())))
+    count = samples.n_samples
     hop = length if hop is None else hop
     _check("length", length, count)
     _check("hop", hop, None)
