@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..errors import SceneError
+from ..scene.defect import SURFACES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -13,11 +14,7 @@ if TYPE_CHECKING:
 
 __all__ = ["classes_of"]
 
-_KNOWN = (
-    ("fault_type",),
-    ("label",),
-    ("fault_outer_race", "fault_inner_race", "fault_ball"),
-)
+_KNOWN = (("fault_type",), ("label",), tuple(f"fault_{on}" for on in SURFACES))
 """Columns that tell classes: of data sets, of windows of a run, of campaigns and their windows."""
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 from .. import defects
 from ..errors import SceneError
 from ..scene import Component, Load, Moment, MotionProbe, Scene, SpeedDrive, Spring, Surface
+from ..scene.defect import SURFACES
 from ..scene.lubricant import chosen
 
 if TYPE_CHECKING:
@@ -19,8 +20,6 @@ __all__ = ["DAMAGE", "SURFACES", "Settings", "outer_speed_of", "speed_of"]
 Damage = Literal["none", "spall", "dent", "line", "pit"]
 DAMAGE = get_args(Damage)
 """Kinds of damage, as :mod:`ballrace.defects` makes them."""
-
-SURFACES = get_args(Surface)
 
 _SHOWN: dict[str, Component] = {"outer": "ay", "inner": "theta"}
 """What the page shows of a run: bodies, which are names of probes as well, and their components."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import SceneError
+from ..scene.defect import SURFACES
 from .maps import SHADES
 from .names import feature, parameter
 from .style import COLOURS, MARKERS, finished, wrapped
@@ -154,10 +155,7 @@ _LINE = 40
 """Characters of a line of words beside a picture as wide as a phone."""
 
 
-_FAULTS = {
-    f"fault_{on}": f"contact met a defect of the {on.replace('_', ' ')}"
-    for on in ("outer_race", "inner_race", "ball")
-}
+_FAULTS = {f"fault_{on}": f"contact met a defect of the {on.replace('_', ' ')}" for on in SURFACES}
 
 
 def _named(key: object) -> str:

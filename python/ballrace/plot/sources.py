@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from ..channel import Channel, channel_of
 from ..errors import EquilibriumError, SceneError
@@ -11,6 +11,7 @@ from ..frequencies import operating
 from ..frequencies.operating import FaultFrequencies, fault_frequencies
 from ..recordings.columns import Columns
 from ..scene import SpeedDrive
+from ..scene.defect import SURFACES
 from ..scene.turning import relative_speed
 from ..signals import Signals
 from ..spectra.checks import checked_signal
@@ -101,9 +102,6 @@ def rates_of(of: object, rates: FaultFrequencies | None, row: int) -> FaultFrequ
         return fault_frequencies(known, row=row, operating=False)
 
 
-_ALL: tuple[Literal["outer_race", "inner_race", "ball"], ...] = ("outer_race", "inner_race", "ball")
-
-
 def spin_of(of: object, rates: FaultFrequencies | None, row: int) -> tuple[float, int] | None:
     """Return order and hits a turn of the balls of a run; None of what was measured, where balls tumble."""
     scene = scene_of(of)
@@ -121,12 +119,12 @@ def faults_of(of: object, faults: Iterable[Fault] | None, row: int) -> tuple[Fau
     if faults is not None:
         chosen = tuple(faults)
         for fault in chosen:
-            if fault not in (*_ALL, "cage"):
-                raise SceneError("faults", repr(fault), f"some of {', '.join(_ALL)}, cage")
+            if fault not in (*SURFACES, "cage"):
+                raise SceneError("faults", repr(fault), f"some of {', '.join(SURFACES)}, cage")
         return chosen
     scene = scene_of(of)
     own = {d.on for d in scene.defects.values() if d.row == row} if scene is not None else set()
-    return tuple(fault for fault in _ALL if fault in own) or _ALL
+    return tuple(fault for fault in SURFACES if fault in own) or SURFACES
 
 
 def row_of(of: object) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..errors import SceneError
+from ..scene.defect import SURFACES
 from . import words
 from .page import Page
 
@@ -116,8 +117,7 @@ def _add_distributions(page: Page, table: pl.DataFrame, names: list[str]) -> Non
 
 def _fault(table: pl.DataFrame) -> str | None:
     """Return the column of faults, if there is one, that tells damaged cases from others."""
-    faults = ("fault_outer_race", "fault_inner_race", "fault_ball")
-    told = (name for name in faults if name in table.columns)
+    told = (f"fault_{on}" for on in SURFACES if f"fault_{on}" in table.columns)
     return next((name for name in told if table[name].drop_nulls().n_unique() > 1), None)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, get_args
 
 from .._document import LEFT_OUT, Part
 
@@ -21,6 +21,8 @@ __all__ = [
 
 Surface = Literal["outer_race", "inner_race", "ball"]
 """The surface that carries a defect."""
+
+SURFACES: tuple[Surface, ...] = get_args(Surface)
 
 
 DefectShape = Literal["cap", "pit"]
