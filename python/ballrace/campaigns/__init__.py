@@ -8,7 +8,9 @@
 ===============  =====================================================================
 ``cases``        a table and its scenes: what each row means, and its case id
 ``frames``       tables of any kind, and suggestions for unknown columns
-``store``        the folder: shards are checked, and set aside if damaged
+``store``        the folder of a campaign
+``shards``       its files of results and signals, checked, and set aside if damaged
+``columns``      what every row of results has
 ``description``  makes a folder that of one campaign, sealed, in two copies
 ``verify``       every byte of a folder checked
 ``disk``         files that are complete or absent

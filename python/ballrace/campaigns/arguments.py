@@ -18,7 +18,7 @@ from ..scene.scene import checked_scene
 from .cases import Cases
 from .executors import Executor
 from .frames import resembling
-from .store import names
+from .shards import names
 from .work import Job, version
 
 if TYPE_CHECKING:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 import re
@@ -15,8 +14,9 @@ from .._document import encode
 from ..errors import SceneError
 from ..options import BUDGET, DECIDING, EMPTY, document
 from ..scene import Scene
+from .columns import BASE
+from .disk import hash_of
 from .frames import rows_of
-from .store import BASE
 
 if TYPE_CHECKING:
     import polars as pl
@@ -210,8 +210,7 @@ def _made_whole(row: dict[str, Any], names: list[str]) -> dict[str, Any]:
 
 
 def _digest(scene: str, run: str) -> str:
-    text = json.dumps(["ballrace case 1", scene, run])
-    return hashlib.blake2b(text.encode(), digest_size=16).hexdigest()
+    return hash_of(json.dumps(["ballrace case 1", scene, run]).encode())
 
 
 def _plain(value: Any) -> Any:

@@ -6,12 +6,11 @@ features, with a hash of these. A flipped digit would otherwise give every case 
 
 from __future__ import annotations
 
-import hashlib
 import json
 from typing import TYPE_CHECKING, Any
 
 from ..errors import CampaignError
-from .disk import put, refuse_link
+from .disk import hash_of, put, refuse_link
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -32,7 +31,7 @@ def described(identity: Mapping[str, Any]) -> dict[str, Any]:
 
 def digest(description: Mapping[str, Any]) -> str:
     """Return the hash of a description."""
-    return hashlib.blake2b(json.dumps(description).encode(), digest_size=16).hexdigest()
+    return hash_of(json.dumps(description).encode())
 
 
 def write(root: Path, name: str, description: Mapping[str, Any], *, new: bool = False) -> None:

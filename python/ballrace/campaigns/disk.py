@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import hashlib
 import os
 import re
 import uuid
@@ -21,6 +22,11 @@ _NAME = re.compile(r"[0-9a-f]{32}")
 """A file that is being written, or was when its process was killed."""
 
 _NO_LINKS = (errno.EPERM, errno.ENOSYS, errno.EOPNOTSUPP, errno.EMLINK, errno.EXDEV)
+
+
+def hash_of(data: bytes) -> str:
+    """Return the hash by which files, campaigns and cases are known."""
+    return hashlib.blake2b(data, digest_size=16).hexdigest()
 
 
 def refuse_link(path: Path) -> None:

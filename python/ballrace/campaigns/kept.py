@@ -10,8 +10,8 @@ from .._io.parquet import collected
 from .._text import printable
 from ..scene import Scene
 from .cases import apply
+from .columns import BASE, BUDGET, without_empty_errors
 from .measured import as_signals
-from .store import BASE, BUDGET, Store, without_empty_errors
 from .verify import verify
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import polars as pl
 
     from ..signals import Signals
+    from .store import Store
 
 __all__ = ["Kept"]
 

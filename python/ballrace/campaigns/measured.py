@@ -19,7 +19,7 @@ from ..measuring.checks import positive
 from ..measuring.named import Chains, named_chains
 from ..scene import Scene
 from ..signals import Signals
-from .store import without_empty_errors
+from .columns import without_empty_errors
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

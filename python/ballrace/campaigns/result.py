@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 from .._html import paragraph
 from .._io.files import as_path
 from ..errors import SceneError
+from .columns import FAULTS
 from .kept import Kept
 from .measured import Measured, features_table, measured, windows_table
-from .store import FAULTS, Store
+from .store import Store
 
 if TYPE_CHECKING:
     import os

@@ -30,7 +30,8 @@ from .handout import Handout
 from .locks import hold, in_turn
 from .progress import Counts, Progress, Teller
 from .result import Campaign
-from .store import Store, set_aside
+from .shards import set_aside
+from .store import Store
 from .work import Job, check_process, record_failed, run_here
 
 if TYPE_CHECKING:

@@ -22,53 +22,30 @@ from __future__ import annotations
 
 import hashlib
 import json
-import re
 import uuid
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 from warnings import warn
 
-from .._io.parquet import read_bytes, read_sealed, to_bytes
+from .._io.parquet import read_sealed, to_bytes
 from ..errors import CampaignError, CampaignWarning
 from . import description
-from .disk import put, refuse_link, sweep
+from .columns import schema
+from .disk import hash_of, put, refuse_link, sweep
+from .shards import FEATURES, SHARD, check_shard, names, reading, set_aside, shard_of_results
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Mapping
     from pathlib import Path
 
     import polars as pl
 
-_SHARD = re.compile(r"[0-9a-f]{32}\.parquet")
 _FOLDERS = ("locks", "results", "signals", "tmp")
 _AT_ONCE = 200
 _TABLES = ("cases.parquet", "manifest.parquet")
-_FEATURES = "ballrace.features"
-"""Entry of a shard's metadata: options of the features, which do not decide the ids of cases."""
 
 DIGEST = "ballrace.digest"
 """Entry of a table's metadata: see :func:`digest_of`."""
-
-_NOT_WRITTEN = "its content is not what was written"
-
-SURFACES = ("outer_race", "inner_race", "ball")
-"""Surfaces that may have a defect."""
-
-FAULTS = tuple(f"fault_{surface}" for surface in SURFACES)
-
-STATISTICS = {
-    "accepted": "Int64", "rejected": "Int64", "nfev": "Int64", "wall_time": "Float64",
-    "acceleration_residual": "Float64", "truncated_contacts": "Int64", "simd": "String",
-}  # fmt: skip
-"""Results of the core for every run besides its features, by the name there, with the type of the column."""
-
-BASE = (
-    "case_id", *FAULTS, "status", "error", "message", "warnings", "version", *STATISTICS, "signals",
-)  # fmt: skip
-"""Columns of every row of results; features follow."""
-
-BUDGET = {"budget": "String", "budget_limit": "Float64"}
-"""Which limit a case has spent, and what it was: columns of results that the manifest leaves out."""
 
 
 class Store:
@@ -181,8 +158,8 @@ class Store:
 
     def write(self, folder: str, frame: pl.DataFrame) -> str:
         """Write a shard and return its name."""
-        data = to_bytes(frame, metadata={_FEATURES: json.dumps(self.identity.get("features"))})
-        name = f"{hashlib.blake2b(data, digest_size=16).hexdigest()}.parquet"
+        data = to_bytes(frame, metadata={FEATURES: json.dumps(self.identity.get("features"))})
+        name = f"{hash_of(data)}.parquet"
         put(self.root, f"{folder}/{name}", data)
         return name
 
@@ -218,7 +195,7 @@ class Store:
         CampaignError
             It cannot be read.
         """
-        with _reading(self.root / name):
+        with reading(self.root / name):
             return read_sealed(self.root / name)[0]
 
     def results(self, damaged: list[Path] | None = None) -> pl.DataFrame:
@@ -260,7 +237,7 @@ class Store:
         CampaignError
             It is missing or damaged, cannot be read, or the name is none of a shard.
         """
-        if not _SHARD.fullmatch(name):
+        if not SHARD.fullmatch(name):
             # It could lead anywhere.
             text = f"{self.root}: not written by ballrace, rows name {name!r} as their signals"
             raise CampaignError(text)
@@ -275,7 +252,7 @@ class Store:
 
     def _check_signals(self, path: Path) -> None:
         """Check a shard of signals as :func:`check_shard` does, unless that has been done."""
-        with _reading(path):
+        with reading(path):
             status = path.stat()
         known = (path.name, status.st_size, status.st_mtime_ns)
         if known not in self._verified:
@@ -294,25 +271,6 @@ class Store:
             except ValueError:
                 damaged.append(path)
         return damaged
-
-
-def names(root: Path, folder: str) -> set[str]:
-    """Return the names of the shards of a folder; files of other names are none of ours.
-
-    Raises
-    ------
-    CampaignError
-        The folder cannot be read, or has a link.
-    """
-    refuse_link(root / folder)
-    try:
-        paths = [path for path in (root / folder).iterdir() if _SHARD.fullmatch(path.name)]
-    except OSError as error:
-        text = f"{root / folder}: cannot be read ({error.strerror or error})"
-        raise CampaignError(f"{text}; nothing is known of the finished cases") from None
-    for path in paths:
-        refuse_link(path)
-    return {path.name for path in paths}
 
 
 def _is_ours(name: str) -> bool:
@@ -341,79 +299,12 @@ def _readmit(root: Path, wrong: Mapping[str, str], wanted: Mapping[str, Any]) ->
     warn(text, CampaignWarning, 6)
 
 
-def shard_of_results(path: Path) -> tuple[pl.DataFrame, str | None]:
-    """Return the rows of a shard, and the options of the features that they were computed by, as JSON.
-
-    Raises
-    ------
-    FileNotFoundError
-        It is not there.
-    ValueError
-        It is damaged.
-    CampaignError
-        It cannot be read, or is a link.
-    """
-    refuse_link(path)
-    with _reading(path):
-        data = path.read_bytes()
-    if hashlib.blake2b(data, digest_size=16).hexdigest() != path.stem:
-        raise ValueError(_NOT_WRITTEN)
-    frame, metadata = read_bytes(data)
-    _check_results(frame)
-    return frame, metadata.get(_FEATURES)
-
-
-def check_shard(path: Path) -> None:
-    """Check a shard against the hash that it is named by; raises as :func:`shard_of_results` does."""
-    refuse_link(path)
-    with _reading(path), path.open("rb") as file:
-        found = hashlib.file_digest(file, lambda: hashlib.blake2b(digest_size=16))
-    if found.hexdigest() != path.stem:
-        raise ValueError(_NOT_WRITTEN)
-
-
-@contextmanager
-def _reading(path: Path) -> Iterator[None]:
-    """Tell what cannot be read from what is damaged, or not there."""
-    try:
-        yield
-    except FileNotFoundError:
-        raise
-    except OSError as error:
-        why = error.strerror or str(error)
-        text = "it may be whole, and is left as it is: make it readable, and call again"
-        raise CampaignError(f"{path}: cannot be read ({why}); {text}") from error
-
-
-def set_aside(damaged: Iterable[Path]) -> None:
-    """Give damaged files a name by which they are not read; another process may have done so."""
-    for path in damaged:
-        with suppress(FileNotFoundError):
-            path.replace(path.with_name(f"{path.name}.damaged"))
-
-
 def digest_of(frame: pl.DataFrame) -> str:
     """Return a hash of a table's names and cells that anyone can compute of it, with Python alone."""
     found = hashlib.sha256()
     for name in frame.columns:
         found.update(repr((name, frame[name].to_list())).encode())
     return found.hexdigest()
-
-
-def schema() -> dict[str, Any]:
-    """Return the types of the columns that every row of results has."""
-    from .._polars import pl
-
-    types = {**STATISTICS, **BUDGET, **dict.fromkeys(FAULTS, "Boolean")}
-    return {name: getattr(pl, types.get(name, "String")) for name in (*BASE, *BUDGET)}
-
-
-def without_empty_errors(table: pl.DataFrame) -> pl.DataFrame:
-    """Leave out standard errors of features where no record is long enough for any."""
-    if "batches" not in table.columns or table["batches"].max():
-        return table
-    features = {name for name in table.columns if f"{name}_se" in table.columns}
-    return table.drop(f"{name}_se" for name in features)
 
 
 def _joined(frames: list[pl.DataFrame]) -> pl.DataFrame:
@@ -424,18 +315,6 @@ def _joined(frames: list[pl.DataFrame]) -> pl.DataFrame:
         parts = range(0, len(frames), _AT_ONCE)
         frames = [pl.concat(frames[i : i + _AT_ONCE], how="diagonal") for i in parts]
     return frames[0]
-
-
-def _check_results(frame: pl.DataFrame) -> None:
-    """Refuse a table that has the right hash but was not written as rows of results."""
-    from .._polars import pl
-
-    base = schema()
-    if not {"case_id", "status"} <= set(frame.columns):
-        raise ValueError("it has no rows of results")
-    for name, found in frame.schema.items():
-        if found != base.get(name, pl.Float64):
-            raise ValueError(f"its column {name} is of type {found}")
 
 
 def _damaged(path: Path, why: str) -> str:

@@ -9,7 +9,7 @@ from .._io.files import as_path
 from .._io.parquet import scan_sealed
 from ..errors import CampaignError
 from . import description
-from .store import check_shard, names, shard_of_results
+from .shards import check_shard, names, shard_of_results
 
 if TYPE_CHECKING:
     import os

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from .. import _core
 from .._text import printable
 from ..errors import BallraceError, CampaignError, from_record
+from ..scene.defect import SURFACES
+from .columns import BUDGET, FAULTS, STATISTICS, schema
 from .progress import Counts
-from .store import BUDGET, FAULTS, STATISTICS, SURFACES, schema
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator

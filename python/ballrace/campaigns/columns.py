@@ -1,0 +1,54 @@
+"""Columns of results: those of every row, and features without errors."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ..scene.defect import SURFACES
+
+if TYPE_CHECKING:
+    import polars as pl
+
+FAULTS = tuple(f"fault_{surface}" for surface in SURFACES)
+
+STATISTICS = {
+    "accepted": "Int64", "rejected": "Int64", "nfev": "Int64", "wall_time": "Float64",
+    "acceleration_residual": "Float64", "truncated_contacts": "Int64", "simd": "String",
+}  # fmt: skip
+"""Results of the core for every run besides its features, by the name there, with the type of the column."""
+
+BASE = (
+    "case_id", *FAULTS, "status", "error", "message", "warnings", "version", *STATISTICS, "signals",
+)  # fmt: skip
+"""Columns of every row of results; features follow."""
+
+BUDGET = {"budget": "String", "budget_limit": "Float64"}
+"""Which limit a case has spent, and what it was: columns of results that the manifest leaves out."""
+
+
+def schema() -> dict[str, Any]:
+    """Return the types of the columns that every row of results has."""
+    from .._polars import pl
+
+    types = {**STATISTICS, **BUDGET, **dict.fromkeys(FAULTS, "Boolean")}
+    return {name: getattr(pl, types.get(name, "String")) for name in (*BASE, *BUDGET)}
+
+
+def without_empty_errors(table: pl.DataFrame) -> pl.DataFrame:
+    """Leave out standard errors of features where no record is long enough for any."""
+    if "batches" not in table.columns or table["batches"].max():
+        return table
+    features = {name for name in table.columns if f"{name}_se" in table.columns}
+    return table.drop(f"{name}_se" for name in features)
+
+
+def check_results(frame: pl.DataFrame) -> None:
+    """Refuse a table that has the right hash but was not written as rows of results."""
+    from .._polars import pl
+
+    base = schema()
+    if not {"case_id", "status"} <= set(frame.columns):
+        raise ValueError("it has no rows of results")
+    for name, found in frame.schema.items():
+        if found != base.get(name, pl.Float64):
+            raise ValueError(f"its column {name} is of type {found}")
