@@ -13,7 +13,7 @@ from ..scene import Scene
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["Commands", "add_scene", "add_speeds", "added", "read_scene"]
+__all__ = ["Commands", "add_scene", "add_signals", "add_speeds", "added", "read_scene"]
 
 Commands = argparse._SubParsersAction
 
@@ -45,6 +45,14 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
         metavar="SCENE",
         help="scene, a .toml or .json file; - reads standard input",
     )
+
+
+def add_signals(parser: argparse.ArgumentParser) -> None:
+    """Add the argument of a file of signals."""
+    parser.add_argument(
+        "file", type=Path, metavar="FILE",
+        help="signals: Parquet, CSV, WAV, MATLAB, UFF58, HDF5; - reads Parquet from standard input",
+    )  # fmt: skip
 
 
 def add_speeds(parser: argparse.ArgumentParser, default: str, of: str = "") -> None:

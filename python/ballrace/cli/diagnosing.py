@@ -12,9 +12,9 @@ from ..diagnosis.severity import Machine
 from ..errors import SceneError
 from ..report.writing import check_page
 from ..scene import Scene
-from .arguments import Commands, add_speeds, added
+from .arguments import Commands, add_signals, add_speeds, added
 from .signals import local, read_columns
-from .text import print_table
+from .text import print_size, print_table
 
 if TYPE_CHECKING:
     import argparse
@@ -30,10 +30,7 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
         commands, "diagnose", "say of a record whether its bearing is damaged: healthy, damaged or undecided",
         "ballrace diagnose 105.mat --fs 12000 --channel DE --bearing 6205 --rpm 1797 -o page.html", _diagnose,
     )  # fmt: skip
-    found.add_argument(
-        "file", type=Path, metavar="FILE",
-        help="signals: Parquet, CSV, WAV, MATLAB, UFF58, HDF5; - reads Parquet from standard input",
-    )  # fmt: skip
+    add_signals(found)
     found.add_argument(
         "--bearing", metavar="NAME", help="designation, as 6205, or scene, .toml or .json (default: the run's)"
     )  # fmt: skip
@@ -90,7 +87,7 @@ def _diagnose(options: argparse.Namespace) -> None:
         print(printable(note))
     if options.output is not None:
         found.report(options.output)
-        print(f"{printable(str(options.output))}: {options.output.stat().st_size / 1e6:.1f} MB")
+        print_size(options.output)
 
 
 def _bearing(name: str | None) -> AnyBearing | None:

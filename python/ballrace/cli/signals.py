@@ -14,14 +14,13 @@ from .. import spectra
 from .._io.files import PARQUET, check_writable
 from .._io.parquet import is_sealed
 from .._io.whole import whole
-from .._text import printable
 from ..campaigns import Campaign
 from ..errors import SceneError
 from ..frequencies.operating import fault_frequencies, spin_of
 from ..recordings import read
 from ..signals import Signals
-from .arguments import Commands, add_speeds, added
-from .text import print_table
+from .arguments import Commands, add_signals, add_speeds, added
+from .text import print_size, print_table
 
 if TYPE_CHECKING:
     import argparse
@@ -66,10 +65,7 @@ def _add_spectrum(commands: Commands[argparse.ArgumentParser]) -> None:
         commands, "spectrum", "print the strongest lines of a signal's envelope spectrum, or write it whole",
         "ballrace spectrum out.parquet --column outer.ay --band 2000 6000 -o spectrum.html", _spectrum,
     )  # fmt: skip
-    spectrum.add_argument(
-        "file", type=Path, metavar="FILE",
-        help="signals: Parquet, CSV, WAV, MATLAB, UFF58, HDF5; - reads Parquet from standard input",
-    )  # fmt: skip
+    add_signals(spectrum)
     spectrum.add_argument(
         "--column", help="column (default: outer.ay if there is one, else the first)"
     )
@@ -117,7 +113,7 @@ def _report(options: argparse.Namespace) -> None:
         else:
             out = Signals.read_parquet(path)
             out.report(options.output, columns=options.columns, title=options.title)
-    print(f"{printable(str(options.output))}: {options.output.stat().st_size / 1e6:.1f} MB")
+    print_size(options.output)
 
 
 def _spectrum(options: argparse.Namespace) -> None:
@@ -131,7 +127,7 @@ def _spectrum(options: argparse.Namespace) -> None:
     with local(options.file) as path:
         out = read_columns(path)
         rates = _rates(out, options.bearing, options.rpm, options.outer_rpm)
-        name = options.column or ("outer.ay" if "outer.ay" in out else next(iter(out)))
+        name = options.column or out.channel().name
         if name not in out:
             raise SceneError("column", repr(name), f"one of {', '.join(out)}")
         if options.output is not None and options.output.suffix.lower() == ".html":
@@ -188,7 +184,7 @@ def _write_page(
     if options.plain:
         raise SceneError("plain", "True", "a .csv file: the page shows the envelope with its lines")
     plot.write(plot.envelope_spectrum(out, name, band=band, rates=rates), options.output)
-    print(f"{printable(str(options.output))}: {options.output.stat().st_size / 1e6:.1f} MB")
+    print_size(options.output)
 
 
 def _print_strongest(

@@ -1,4 +1,4 @@
-"""Tables as text."""
+"""Tables and sizes of files as text."""
 
 from __future__ import annotations
 
@@ -6,15 +6,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._text import printable
+
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from numpy.typing import NDArray
 
-__all__ = ["numbers", "print_table"]
+__all__ = ["numbers", "print_size", "print_table"]
 
 
 def numbers(values: NDArray[np.float64], digits: int) -> list[str]:
     """Return numbers with some decimals, a dash for what is none."""
     return [f"{value:.{digits}f}" if np.isfinite(value) else "-" for value in values]
+
+
+def print_size(path: Path) -> None:
+    """Print the name and the size of a file that was written."""
+    print(f"{printable(str(path))}: {path.stat().st_size / 1e6:.1f} MB")
 
 
 def print_table(header: list[str], lines: list[list[str]]) -> None:
