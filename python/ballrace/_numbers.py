@@ -12,7 +12,7 @@ from .errors import SceneError
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["LARGEST", "RATES", "per_pitch", "real", "real_row", "sampling_rate"]
+__all__ = ["LARGEST", "RATES", "checked_seed", "per_pitch", "real", "real_row", "sampling_rate"]
 
 LARGEST = 1e60
 """Magnitude of a signal: sums of its fourth powers, which a kurtosis takes, are still numbers."""
@@ -49,6 +49,19 @@ def per_pitch(positions: object) -> int:
     if isinstance(positions, bool) or not isinstance(positions, int) or positions < 1:
         raise SceneError("positions", repr(positions), "a whole number, at least 1 per ball pitch")
     return positions
+
+
+def checked_seed(seed: object) -> int:
+    """Return a seed as numpy takes it.
+
+    Raises
+    ------
+    SceneError
+        It is none.
+    """
+    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
+        raise SceneError("seed", repr(seed), "a whole number from 0")
+    return int(seed)
 
 
 def sampling_rate(fs: object) -> float:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._numbers import real
+from .._numbers import checked_seed, real
 from ..errors import SceneError
 from .classes import classes_of
 
@@ -71,12 +71,11 @@ def bearing_split(
     """
     if not 0.0 < real(test) < 1.0:
         raise SceneError("test", repr(test), "a share of the rows, above 0 and below 1")
-    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
-        raise SceneError("seed", repr(seed), "a whole number from 0")
+    rng = np.random.default_rng(checked_seed(seed))
     bearing, names = _bearings(manifest, groups)
     kinds = classes_of(manifest, balance, "balance").fill_null("not known").rank("dense") - 1
     count = _counts(bearing, kinds.to_numpy().astype(np.intp), names)
-    chosen = _most_even(count, float(test), np.random.default_rng(seed))
+    chosen = _most_even(count, float(test), rng)
     tested = chosen[bearing]
     return manifest.filter(~tested), manifest.filter(tested)
 

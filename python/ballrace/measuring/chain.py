@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 import numpy as np
 from numpy.typing import NDArray
 
+from .._numbers import checked_seed
 from ..channel import Channel
 from ..errors import AccuracyWarning, SceneError
 from ..recordings.recording import Recording
@@ -333,7 +334,7 @@ def measured(
     else:
         source = of_array(of, fs, shaft, chain.direction)
     # A stream of its own for each stage.
-    streams = [np.random.default_rng([stage, *_words(seed)]) for stage in range(3)]
+    streams = [np.random.default_rng([stage, checked_seed(seed)]) for stage in range(3)]
     x, rate = _sensed(source, chain, streams[0]), source.fs
     clipped, reach = 0.0, None
     if chain.logger is not None:
@@ -359,16 +360,3 @@ def _sensed(source: Source, chain: Chain, rng: np.random.Generator) -> NDArray[n
         return passed(source.x, source.fs, (*housing, *sensor))
     shaken = passed(source.x, source.fs, housing) + chain.machine.added(source, rng)
     return passed(shaken, source.fs, sensor)
-
-
-def _words(seed: int) -> tuple[int, ...]:
-    """Return a seed as numpy takes it.
-
-    Raises
-    ------
-    SceneError
-        It is none.
-    """
-    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
-        raise SceneError("seed", repr(seed), "a whole number from 0")
-    return (int(seed),)
