@@ -186,6 +186,11 @@ class CampaignWarning(UserWarning):
     """Something about a campaign that one should know, and that did not stop it."""
 
 
+def record_of(error: BallraceError) -> dict[str, Any]:
+    """Return an exception as the core records one; :func:`from_record` makes it again."""
+    return {"class": type(error).__name__, "message": str(error), "arguments": list(error.args)}
+
+
 def from_record(record: Mapping[str, Any]) -> BallraceError:
     """Return the exception that a record of the core describes: its ``class`` here, and its ``arguments``."""
     made = globals()[record["class"]](*record["arguments"])

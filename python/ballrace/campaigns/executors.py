@@ -17,7 +17,7 @@ from urllib.parse import urlsplit
 
 from .._core import available_threads
 from .._text import printable
-from ..errors import BallraceError, CampaignError, CampaignWarning, from_record
+from ..errors import BallraceError, CampaignError, CampaignWarning, from_record, record_of
 from .handout import Handout, has_died, pool_like
 from .progress import Counts
 from .store import Store
@@ -281,7 +281,6 @@ def run_task(text: str) -> str:
     try:
         run_here(store, task["cases"], job, told)
     except BallraceError as error:
-        arguments = {"class": type(error).__name__, "arguments": list(error.args)}
-        return json.dumps({**result, "error": arguments})
+        return json.dumps({**result, "error": record_of(error)})
     result["wall_time"] = (time.monotonic() - began) * (job.threads or available_threads())
     return json.dumps(result)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from .. import _core
 from .._text import printable
-from ..errors import BallraceError, CampaignError, from_record
+from ..errors import BallraceError, CampaignError, from_record, record_of
 from ..scene.defect import SURFACES
 from .columns import BUDGET, FAULTS, STATISTICS, schema
 from .progress import Counts
@@ -223,18 +223,12 @@ def _touched(defects: Iterable[dict[str, Any]]) -> Iterator[tuple[str, float | N
         yield f"{name}.largest_load", defect["largest_load"]
 
 
-def record_of(error: BallraceError) -> dict[str, Any]:
-    """Return the record of a case that failed before it ran."""
-    told = {"class": type(error).__name__, "message": str(error), "arguments": list(error.args)}
-    return {"error": told, "wall_time": 0.0}
-
-
 def record_failed(store: Store, failed: Iterable[tuple[str, BallraceError]]) -> None:
     """Write rows of cases that failed without a run, by their ids."""
-    from .._polars import pl
-
-    rows = [row(case_id, record_of(error)) for case_id, error in failed]
-    store.write("results", pl.DataFrame(rows, schema=schema()).sort("case_id"))
+    records = (
+        (case_id, {"error": record_of(error), "wall_time": 0.0}) for case_id, error in failed
+    )
+    store.write("results", _results([row(case_id, record) for case_id, record in records]))
 
 
 def _results(rows: list[dict[str, Any]]) -> Any:
