@@ -37,6 +37,7 @@ from .scene.lubricant import lubricants
 if TYPE_CHECKING:
     from . import diagnosis, learn, machines, measuring, plot, spectra
     from ._features import features
+    from ._snapshot import Snapshot
     from ._told import Record, Touched
     from .bearings import Bearing, Catalogue, Pedestal, bearing, catalogue
     from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
@@ -58,7 +59,7 @@ if TYPE_CHECKING:
     from .rotor import StiffnessTable, stiffness_table
     from .run import simulate
     from .signals import Signals
-    from .simulation import Simulation, Snapshot
+    from .simulation import Simulation
     from .statics import (
         Equilibrium,
         LoadDistribution,
@@ -75,6 +76,7 @@ else:
         __name__,
         {
             "_features": ("features",),
+            "_snapshot": ("Snapshot",),
             "_told": ("Record", "Touched"),
             "bearings": ("Bearing", "Catalogue", "Pedestal", "bearing", "catalogue"),
             "campaigns": ("Campaign", "campaign", "grid", "latin_hypercube", "scatter", "sobol"),
@@ -102,7 +104,7 @@ else:
             "rotor": ("StiffnessTable", "stiffness_table"),
             "run": ("simulate",),
             "signals": ("Signals",),
-            "simulation": ("Simulation", "Snapshot"),
+            "simulation": ("Simulation",),
             "spectra": (),
             "statics": (
                 "Equilibrium",

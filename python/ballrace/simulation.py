@@ -10,13 +10,9 @@ import numpy as np
 
 from . import _core
 from ._document import encode
-from ._interrupt import heard_once
-from ._io.files import as_path
-from ._io.parquet import read_sealed, sealing
-from ._io.record import samples, unless_damaged
-from ._io.whole import whole
 from ._numbers import real, real_row
-from .errors import FileError, SceneError
+from ._snapshot import Snapshot, joined
+from .errors import SceneError
 from .ring_force import passed, told
 from .run import request, shown, warn
 from .scene.scene import Scene, checked_path, checked_scene
@@ -28,76 +24,14 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ._snapshot import Piece
     from .ring_force import RingForce
     from .scene import Method
 
-    Piece = dict[str, NDArray[np.float64]]
-
-__all__ = ["Simulation", "Snapshot"]
+__all__ = ["Simulation"]
 
 _OPEN = 1e6
 """The longest duration of a run, of one that ends when it is told to [s]."""
-
-_FORMAT = "1"
-_ENTRY = "ballrace_snapshot"
-"""What the metadata of a file has of a snapshot: the number of its form, and what the core needs."""
-
-
-class Snapshot:
-    """A :class:`Simulation` at a time: what it needs to go on from there, and its record until there.
-
-    Made by :meth:`Simulation.snapshot` or :meth:`read`; :meth:`Simulation.restore` goes on from it.
-    """
-
-    def __init__(self, document: str, pieces: tuple[Piece, ...]) -> None:
-        self._document = document
-        self._pieces = pieces
-
-    @property
-    def time(self) -> float:
-        """The time [s]."""
-        return float(json.loads(self._document)["time"])
-
-    def __repr__(self) -> str:
-        return f"<Snapshot at {self.time:g} s>"
-
-    def write(self, path: str | os.PathLike[str]) -> None:
-        """Write a Parquet file with the record, and in its metadata what the run needs to go on.
-
-        The file appears at once when it is whole, with a hash of all of it, as those of
-        :meth:`Signals.write_parquet`.
-
-        Raises
-        ------
-        OSError
-            The folder does not exist or is not writable, or the disk is full.
-        """
-        from ._polars import pl
-
-        told = {"ballrace": f"snapshot {_FORMAT}", _ENTRY: self._document}
-        with whole(path) as temporary, sealing(temporary, path):
-            table = pl.DataFrame(_joined(self._pieces))
-            heard_once(lambda: table.write_parquet(temporary, metadata=told))
-
-    @classmethod
-    def read(cls, path: str | os.PathLike[str]) -> Snapshot:
-        """Read a file that :meth:`write` wrote.
-
-        Raises
-        ------
-        FileError
-            The file is not such a file, or damaged.
-        OSError
-            The file cannot be read.
-        """
-        path = as_path(path)
-        table, told = unless_damaged(path, lambda: read_sealed(path))
-        if told.get("ballrace") != f"snapshot {_FORMAT}" or _ENTRY not in told:
-            raise FileError(
-                str(path), "a Parquet file, but no snapshot of this version of ballrace"
-            )
-        piece = {name: samples(path, table, name) for name in table.columns}
-        return cls(told[_ENTRY], (piece,) if piece else ())
 
 
 class Simulation:
@@ -431,17 +365,12 @@ class Simulation:
         self._end = end
         warn(raw, stacklevel=3)
         rest = {"t": raw["t"], **{name: values for name, _, values in raw["columns"]}}
-        record = _joined([*self._pieces, rest])
+        record = joined([*self._pieces, rest])
         self._pieces = []
         raw["warnings"] += told(self._forces)
         raw["t"] = record["t"]
         raw["columns"] = [(name, unit, record[name]) for name, unit, _ in raw["columns"]]
         return Signals._from_core(raw)
-
-
-def _joined(pieces: list[Piece] | tuple[Piece, ...]) -> Piece:
-    names = pieces[0] if pieces else ()
-    return {name: np.concatenate([piece[name] for piece in pieces]) for name in names}
 
 
 def _number(name: str, value: object) -> float:
