@@ -91,14 +91,12 @@ class Writer:
     files after hours, and little lost to a kill beside the cases that ran.
     """
 
-    def __init__(self, store: Store, *, keep_signals: bool) -> None:
+    def __init__(self, store: Store) -> None:
         self._store = store
-        self._keep = keep_signals
         self._rows: list[dict[str, Any]] = []
         self._signals: list[tuple[str, _Signals]] = []
         self._size = 0
         self._began = self._written = time.monotonic()
-        self.bytes = 0
 
     def add(self, case_id: str, record: dict[str, Any], signals: _Signals | None) -> None:
         """Take a finished case."""
@@ -149,7 +147,7 @@ def run_here(
     second.
     """
     ids: list[str] = []
-    writer = Writer(store, keep_signals=job.keep_signals)
+    writer = Writer(store)
     counts = Counts()
 
     def documents() -> Iterator[tuple[str, str]]:

@@ -6,7 +6,6 @@ import importlib.metadata
 import importlib.util
 import json
 import platform
-import sys
 from typing import TYPE_CHECKING
 
 from .. import _core
@@ -113,6 +112,6 @@ def _doctor(options: argparse.Namespace) -> None:
     distrust = out.provenance.distrust
     print(f"vector instructions: {out.provenance.simd}" + (f" ({distrust})" if distrust else ""))
     print(f"a run of 2 ms took {1e3 * out.stats.wall_time:.0f} ms, {out.stats.nfev} evaluations")
-    if sys.version_info < (3, 11) or distrust or unfit:
+    if distrust or unfit:
         raise BallraceError("something of the above is not as it should be")
     print("all is well")
