@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["grid", "latin_hypercube", "sobol"]
 
 MOST_CASES = 10_000_000
-"""Rows that a table is built with at most: a slip of the pen is refused before it takes the memory."""
+"""Most rows of a table: a mistyped number is refused before it takes the memory."""
 
 
 def grid(values: Mapping[str, Iterable[object]]) -> pl.DataFrame:

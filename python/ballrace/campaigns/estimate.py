@@ -53,7 +53,7 @@ class Estimate:
 
 
 def estimate(plan: Plan, out: Path) -> Estimate:
-    """Run the first missing case that does not fail into a folder that is thrown away.
+    """Run the first missing case that does not fail into a temporary folder.
 
     Raises
     ------

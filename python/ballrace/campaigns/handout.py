@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 class Handout:
     """Cases in chunks; those of a chunk whose worker died one by one; and those that did so again alone.
 
-    A pool that breaks loses all that its workers were at. Only a case that was the only one is to blame.
+    A pool that breaks loses the cases of all its workers. Which one broke it is known only if it ran alone.
     """
 
     def __init__(self, cases: Iterator[Document], count: int, retries: int) -> None:

@@ -57,7 +57,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"ballrace {about.version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for room in (studies, exploring, running, statics, signals, diagnosing, fmu, about):
-        room.add_commands(commands)
+    for module in (studies, exploring, running, statics, signals, diagnosing, fmu, about):
+        module.add_commands(commands)
     add_campaign(commands)
     return parser

@@ -149,7 +149,7 @@ def _spectrum(options: argparse.Namespace) -> None:
 def read_columns(path: Path, fs: float | None = None) -> Columns:
     """Read a run, which knows its scene, or a record, whose sampling rate may have to be told [Hz]."""
     try:
-        # One without a hash is a stranger's, and read apart.
+        # One without a hash was written by something else, and is read in a child process.
         if path.suffix.lower() in PARQUET and is_sealed(path):
             return Signals.read_parquet(path)
     except SceneError:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import CampaignWarning, SceneError
 from ..scene import MotionProbe
-from .rows import axis_of, row_of
+from .rows import AXES, axis_of, row_of
 from .writing import new_folder, write
 
 if TYPE_CHECKING:
@@ -106,15 +106,12 @@ def _of_rings(done: Campaign, cases: dict[str, dict[str, Any]], scenes: dict[str
 
 def _columns(scene: Scene) -> list[tuple[str, str]]:
     """Return the columns with accelerations of the outer ring, and their axes."""
-    directions = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
     rings = [
         name
         for name, probe in scene.probes.items()
         if isinstance(probe, MotionProbe) and probe.body == "outer"
     ]
-    return [
-        (f"{ring}.a{axis}", axis_of(along)) for ring in rings for axis, along in directions.items()
-    ]
+    return [(f"{ring}.a{x}", axis) for ring in rings for x, axis in zip("xyz", AXES, strict=True)]
 
 
 def _hash(scene: Scene) -> str:

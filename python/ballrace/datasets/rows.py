@@ -20,12 +20,13 @@ if TYPE_CHECKING:
 
     from ..scene import Scene
 
-__all__ = ["axis_of", "row_of"]
+__all__ = ["AXES", "axis_of", "row_of"]
 
 _FAULTS = {"outer_race": "outer", "inner_race": "inner", "ball": "rolling_element"}
 """Name in the layout by the surface of a defect."""
 
-_AXES = ("horizontal", "vertical", "axial")
+AXES = ("horizontal", "vertical", "axial")
+"""Names of x, y and z in the layout."""
 
 
 def row_of(scene: Scene, case: Mapping[str, Any], middle: float) -> dict[str, Any]:
@@ -60,7 +61,7 @@ def axis_of(direction: tuple[float, float, float] | None) -> str:
     ('vertical', 'axial', 'unknown')
     """
     along = np.flatnonzero((0.0, 1.0, 0.0) if direction is None else direction)
-    return _AXES[int(along[0])] if along.size == 1 else "unknown"
+    return AXES[int(along[0])] if along.size == 1 else "unknown"
 
 
 def _native(scene: Scene) -> str:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["bearing_split"]
 
 _TRIES = 200
-"""Orders in which bearings are dealt out; the most even result counts."""
+"""Random orders in which bearings are assigned; the most even result counts."""
 
 
 def bearing_split(
@@ -32,9 +32,9 @@ def bearing_split(
 ) -> tuple[pl.DataFrame, pl.DataFrame]:
     """Part a table for training and testing: no bearing is on both sides, and every class is on each.
 
-    Windows of a run, and runs of a bearing, resemble each other, so that a random split tests what was learnt by
-    heart. Bearings are dealt out by chance in 200 orders, each to the side that lacks most of its classes, and the
-    most even result is taken.
+    Windows of a run, and runs of a bearing, resemble each other, so that after a random split much of the test data
+    is as the training data. Bearings are assigned one by one in 200 random orders, each to the side that lacks most
+    of its classes, and the most even result is taken.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ def _most_even(
     share = count / count.sum(axis=0)
     best, chosen = np.inf, np.zeros(count.shape[0], dtype=bool)
     for _ in range(_TRIES):
-        tried = _dealt(share, test, rng)
+        tried = _assigned(share, test, rng)
         part = share[tried].sum(axis=0)
         # A class that one side lacks altogether weighs more than any unevenness.
         off = np.abs(part - test).max() + ((part < 1e-9) | (part > 1.0 - 1e-9)).sum()
@@ -126,8 +126,8 @@ def _most_even(
     return chosen
 
 
-def _dealt(share: NDArray[np.float64], test: float, rng: np.random.Generator) -> NDArray[np.bool_]:
-    """Deal bearings out in an order by chance, to testing where that brings the classes nearer to the share."""
+def _assigned(share: NDArray[np.float64], test: float, rng: np.random.Generator) -> NDArray[np.bool_]:
+    """Assign bearings in a random order, to testing where that brings the classes nearer to the share."""
     tried = np.zeros(share.shape[0], dtype=bool)
     part = np.zeros(share.shape[1])
     for one in rng.permutation(share.shape[0]):

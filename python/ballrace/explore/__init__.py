@@ -1,4 +1,4 @@
-"""A page on which the knobs of a bearing are turned while it answers: ``ballrace explore``.
+"""A page that solves and draws a bearing anew at every move of a control: ``ballrace explore``.
 
 ============  ==========================================================================================
 ``settings``  what the controls say, as values; the scene that follows from them

@@ -1,4 +1,4 @@
-"""Records of a recipe: simulated, heard by machines, balanced by what was met, grouped by bearing."""
+"""Records of a recipe: simulated, measured by several chains, as many of each class that was met."""
 
 from __future__ import annotations
 
@@ -59,15 +59,15 @@ class Simulated:
     cases : polars.DataFrame
         The runs that count, as many of each class: rows of the campaign's manifest with the column ``label``.
     chains : dict of str to Chain
-        The machines that they are heard by.
+        The machines: measuring chains of the records.
     fs : float
         Sampling rate of the records [Hz].
     window : float
         Length of a record [s].
     per_case : int
-        How many of the machines hear each run.
+        How many of the machines measure each run.
     seed : int
-        Seed of noise, and of who hears what.
+        Seed of the noise, and of which machines measure which run.
     """
 
     recipe: Recipe
@@ -172,13 +172,13 @@ def dataset(
     per_class : int
         Runs of each class.
     machines : Chain, mapping of str to Chain, or sequence of Chain
-        What hears them, such as :func:`ballrace.measuring.random_chains` makes.
+        Measuring chains, such as :func:`ballrace.measuring.random_chains` makes.
     fs : float
         Sampling rate of the records, 1000 to 200 000 [Hz].
     window : float
         Length of a record, at least five turns at the lowest speed [s].
     per_case : int
-        How many of the machines, drawn by chance, hear each run: so many records come of it.
+        How many of the machines, drawn by chance, measure each run: so many records come of it.
     seed : int
         What everything is drawn from.
     threads : int, optional

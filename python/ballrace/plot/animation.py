@@ -113,7 +113,7 @@ def animation(
         )
         for k in shown
     ]
-    return _finish(fig, out, row, layout)
+    return _finish(fig, out, layout)
 
 
 def check(out: Signals, column: str, row: int, frames: int) -> None:
@@ -180,7 +180,7 @@ def _cursor(fig: go.Figure, out: Signals, sample: int) -> Any:
     return Scatter(x=[now, now], y=[low, high], mode="lines", line=style, name="now")
 
 
-def _finish(fig: go.Figure, out: Signals, row: int, layout: dict[str, Any]) -> go.Figure:
+def _finish(fig: go.Figure, out: Signals, layout: dict[str, Any]) -> go.Figure:
     shapes = outlines(out.scene)
     reach = 1.45 * shapes.outside
     half = 0.5 * (shapes.right - shapes.left)

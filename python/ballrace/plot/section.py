@@ -81,7 +81,7 @@ def section(
     _axes(fig, shapes)
     _names(fig, scene, shapes)
     for name, defect in scene.placed().defects.items():
-        _defect(fig, scene.rows[defect.row], defect, name, shapes)
+        _defect(fig, scene.rows[defect.row], defect, name)
     _loads(fig, scene, shapes)
     room = 0.65 * (shapes.right - shapes.left)
     fig.update_xaxes(title_text="z, along the axis / mm", zeroline=False, showgrid=False,
@@ -155,7 +155,7 @@ def _names(fig: go.Figure, scene: Scene, shapes: Outlines) -> None:
             _text(fig, 1e3 * one.axial_position, 0.5e3 * one.pitch_diameter, f"row {number}")
 
 
-def _defect(fig: go.Figure, row: Row, defect: Defect, name: str, shapes: Outlines) -> None:
+def _defect(fig: go.Figure, row: Row, defect: Defect, name: str) -> None:
     """Draw a defect as a thick piece of its race; one of a ball on the ball at the top."""
     degrees = math.degrees(math.atan2(math.sin(defect.angle), math.cos(defect.angle)))
     half = 1.0 if math.sin(defect.angle) >= 0.0 else -1.0
@@ -163,16 +163,13 @@ def _defect(fig: go.Figure, row: Row, defect: Defect, name: str, shapes: Outline
     assert not isinstance(defect.axial_offset, str)
     along = np.linspace(-0.5, 0.5, 21) * extent(defect) + defect.axial_offset
     if defect.on == "ball":
-        half, points = 1.0, _on_ball(row, along)
+        half, points, where = 1.0, _on_ball(row, along), f"ball {defect.ball}"
     else:
         points = on_groove(row, race, along)
+        where = f"{race} race, at {degrees:.0f}°".replace("-", "−")
     _line(fig, points[:, 0].tolist(), (half * points[:, 1]).tolist(), color=COLOURS[1], width=6)
-    where = {"outer_race": "outer race", "inner_race": "inner race"}.get(
-        defect.on, f"ball {defect.ball}"
-    )
-    place = "" if defect.on == "ball" else f", at {degrees:.0f}°".replace("-", "−")
     fig.add_annotation(
-        x=float(points[10, 0]), y=float(half * points[10, 1]), text=f"{name} on the {where}{place}", ax=30,
+        x=float(points[10, 0]), y=float(half * points[10, 1]), text=f"{name} on the {where}", ax=30,
         ay=half * -(34 if race == "outer" else -34), font={"color": COLOURS[1]}, arrowcolor=COLOURS[1],
     )  # fmt: skip
 

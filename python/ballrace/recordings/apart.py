@@ -3,7 +3,7 @@
 The libraries that read these formats are written in C, C++ and Rust; one changed byte of a file can end the
 process. So one child, kept for the files that follow, reads them within limits. A request is a line of JSON, and
 so is the answer, which tells the columns and their lengths; the samples follow as they are in memory. Nothing is
-unpickled: what reads a file from a stranger may be under that file's control.
+unpickled: the process that reads a malicious file may be under its control.
 """
 
 from __future__ import annotations

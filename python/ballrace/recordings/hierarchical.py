@@ -79,7 +79,7 @@ def _vectors(path: Path, file: Any, h5py: Any) -> dict[str, Any]:
     Raises
     ------
     FileError
-        It leads to another file, from which a stranger's file could have anything read.
+        It leads to another file: a file from somebody else could have any file read.
     """
     found: dict[str, Any] = {}
 
