@@ -33,8 +33,8 @@ def bearing_split(
     """Part a table for training and testing: no bearing is on both sides, and every class is on each.
 
     Windows of a run, and runs of a bearing, resemble each other, so that after a random split much of the test
-    data is as the training data. Bearings are assigned one by one in 200 random orders, each to the side that lacks
-    most of its classes, and the most even result is taken.
+    data is as the training data. Bearings are assigned one by one in 200 random orders, each to the side that
+    lacks most of its classes, and the most even result is taken.
 
     Parameters
     ----------
