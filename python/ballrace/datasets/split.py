@@ -126,7 +126,9 @@ def _most_even(
     return chosen
 
 
-def _assigned(share: NDArray[np.float64], test: float, rng: np.random.Generator) -> NDArray[np.bool_]:
+def _assigned(
+    share: NDArray[np.float64], test: float, rng: np.random.Generator
+) -> NDArray[np.bool_]:
     """Assign bearings in a random order, to testing where that brings the classes nearer to the share."""
     tried = np.zeros(share.shape[0], dtype=bool)
     part = np.zeros(share.shape[1])
