@@ -16,8 +16,8 @@ import numpy as np
 from .._interrupt import answers_ctrl_c
 from .._numbers import real_row
 from ..errors import SceneError
-from .checks import checked_band, checked_length, given_signal
-from .pieces import transforms
+from .checks import checked_band, given_signal
+from .pieces import piece_length, transforms
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -28,9 +28,6 @@ __all__ = ["cyclic_coherence", "improved_envelope_spectrum"]
 
 _PIECES = 64
 """Pieces, each half over the next one, that a signal is cut into by default."""
-
-_SHORTEST = 8
-"""Samples of a piece, at least."""
 
 
 @answers_ctrl_c
@@ -75,12 +72,7 @@ def cyclic_coherence(
     """
     signal, fs = given_signal(x, fs)
     wanted = _checked_rates(rates, fs)
-    if signal.size < 4 * _SHORTEST:
-        raise SceneError("x", f"{signal.size} samples", f"at least {4 * _SHORTEST}")
-    default = max(signal.size // _PIECES, _SHORTEST)
-    samples = checked_length("length", length, default, signal.size // 4)
-    if samples < _SHORTEST:
-        raise SceneError("length", str(samples), f"at least {_SHORTEST} samples")
+    samples = piece_length(signal, length, _PIECES, 4)
     signal = signal - signal.mean()
     here = transforms(signal, samples)
     power = np.mean(np.abs(here) ** 2, axis=0)

@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from .._interrupt import answers_ctrl_c
 from .._numbers import real
 from ..errors import SceneError
-from .checks import checked_length, given_signal
-from .pieces import transforms
+from .checks import given_signal
+from .pieces import piece_length, transforms
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -38,9 +38,6 @@ _TAPS = 16
 
 _FEWEST = 64
 """Samples of an envelope, at least, by which its kurtosis is told."""
-
-_SHORTEST = 8
-"""Samples of a piece, at least."""
 
 _SILENT = 1e-24
 """Part of the largest power below which there is rounding alone."""
@@ -184,12 +181,7 @@ def spectral_kurtosis(
     (True, True)
     """
     signal, fs = given_signal(x, fs)
-    if signal.size < 16 * _SHORTEST:
-        raise SceneError("x", f"{signal.size} samples", f"at least {16 * _SHORTEST}")
-    default = max(signal.size // 64, _SHORTEST)
-    samples = checked_length("length", length, default, signal.size // 16)
-    if samples < _SHORTEST:
-        raise SceneError("length", str(samples), f"at least {_SHORTEST} samples")
+    samples = piece_length(signal, length, 64, 16)
     if not 1e-3 <= real(false_alarm) <= 0.2:
         raise SceneError("false_alarm", repr(false_alarm), "a share of frequencies, 0.001 to 0.2")
     value = _by_pieces(signal - signal.mean(), samples)

@@ -6,10 +6,33 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..errors import SceneError
+from .checks import checked_length
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["transforms"]
+__all__ = ["piece_length", "transforms"]
+
+_SHORTEST = 8
+"""Samples of a piece, at least."""
+
+
+def piece_length(signal: NDArray[np.float64], length: int | None, pieces: int, fewest: int) -> int:
+    """Return the samples of a piece: ``length``, or by default those of so many pieces along the signal.
+
+    Raises
+    ------
+    SceneError
+        The signal is too short for ``fewest`` pieces, or the length is not usable.
+    """
+    if signal.size < fewest * _SHORTEST:
+        raise SceneError("x", f"{signal.size} samples", f"at least {fewest * _SHORTEST}")
+    default = max(signal.size // pieces, _SHORTEST)
+    samples = checked_length("length", length, default, signal.size // fewest)
+    if samples < _SHORTEST:
+        raise SceneError("length", str(samples), f"at least {_SHORTEST} samples")
+    return samples
 
 
 def transforms(

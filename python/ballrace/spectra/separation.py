@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._interrupt import answers_ctrl_c
-from ..errors import SceneError
-from .checks import checked_length, given_signal
+from .checks import given_signal
+from .pieces import piece_length
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -19,9 +19,6 @@ __all__ = ["separated"]
 
 _PIECES = 32
 """Pieces that a signal is cut into by default."""
-
-_SHORTEST = 8
-"""Samples of a piece, at least."""
 
 
 @answers_ctrl_c
@@ -69,12 +66,7 @@ def separated(
     from scipy.signal.windows import hann
 
     signal, fs = given_signal(x, fs)
-    if signal.size < 4 * _SHORTEST:
-        raise SceneError("x", f"{signal.size} samples", f"at least {4 * _SHORTEST}")
-    default = max(signal.size // _PIECES, _SHORTEST)
-    samples = checked_length("length", length, default, signal.size // 4)
-    if samples < _SHORTEST:
-        raise SceneError("length", str(samples), f"at least {_SHORTEST} samples")
+    samples = piece_length(signal, length, _PIECES, 4)
     window = hann(samples, sym=False)
     step = max(samples // 4, 1)
     cut = np.lib.stride_tricks.sliding_window_view(signal, samples)[::step]
