@@ -30,16 +30,9 @@ AXES = ("horizontal", "vertical", "axial")
 
 
 def row_of(scene: Scene, case: Mapping[str, Any], middle: float) -> dict[str, Any]:
-    """Return the columns that all signals of a case share.
+    """Return the columns that all signals of a case share, by its row of the manifest.
 
-    Parameters
-    ----------
-    scene : Scene
-        Its scene.
-    case : mapping
-        Its row of the manifest: whether defects were met, and ``bearing_id`` where the table has one.
-    middle : float
-        Time of the middle of the record [s].
+    What changes is that of the middle of the record [s].
     """
     return {
         "native_label": _native(scene),

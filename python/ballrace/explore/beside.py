@@ -46,16 +46,7 @@ class Dropped:
 
 
 def received(name: str, contents: bytes, fs: float | None = None) -> Dropped:
-    """Read a dropped file in a child process, within limits.
-
-    Parameters
-    ----------
-    name : str
-        Its name, whose ending says the format.
-    contents : bytes
-        What is in it.
-    fs : float, optional
-        Sampling rate [Hz], where the file does not tell it.
+    """Read a dropped file in a child process, within limits; ``fs`` [Hz] where the file does not tell it.
 
     Raises
     ------
@@ -85,18 +76,8 @@ def judged(
 ) -> tuple[Channel, Diagnosis]:
     """Return the record's channel, and the verdict on it for the bearing of a scene.
 
-    Parameters
-    ----------
-    dropped : Dropped
-        The file.
-    column : str
-        Column of it.
-    scene : Scene
-        Whose bearing it is.
-    speed_rpm : float, optional
-        Speed during the record [rev/min]; by default what the file knows, or that of the scene.
-    unit : {"m/s^2", "g"}, optional
-        Unit, where the file does not tell it.
+    The speed is by default what the file knows, or that of the scene [rev/min]; the unit counts where the file
+    does not tell it.
 
     Raises
     ------

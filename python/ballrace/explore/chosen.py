@@ -50,20 +50,7 @@ def described(
 ) -> tuple[Scene, Bearing]:
     """Return a scene by boundary dimensions, and the bearing that was worked out from them.
 
-    Parameters
-    ----------
-    bore_mm, outside_mm, width_mm : float
-        Boundary dimensions [mm].
-    kind : {"deep_groove", "angular_contact", "double_row"}
-        Kind.
-    contact_angle_deg : float, optional
-        Contact angle [°], of angular contact.
-    ball_count : int, optional
-        Number of balls that were counted; by default an estimate.
-    ball_diameter_mm : float, optional
-        Diameter of the balls that was measured [mm]; by default an estimate.
-    housing : {"pedestal", "bare ring"}
-        What the outer ring sits in.
+    Number and diameter of the balls are estimated unless they are given.
 
     Raises
     ------

@@ -30,15 +30,7 @@ _PEAK = 0.9
 
 
 def sensed(out: Signals, noise: float = 0.0) -> Channel:
-    """Return the outer ring's acceleration with white noise of the sensor.
-
-    Parameters
-    ----------
-    out : Signals
-        A run.
-    noise : float
-        Root mean square of the noise [m/s²].
-    """
+    """Return the outer ring's acceleration with white noise of the sensor, by its root mean square [m/s²]."""
     density = noise**2 / (0.5 * out.fs)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

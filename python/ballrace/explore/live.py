@@ -63,12 +63,7 @@ class Live:
 
 
 def solved(scene: Scene) -> Live:
-    """Solve a scene at rest.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene. Where its speeds are not given, or change, rates are orders.
+    """Solve a scene at rest; where its speeds are not given, or change, rates are orders.
 
     Raises
     ------

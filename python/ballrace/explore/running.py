@@ -88,17 +88,7 @@ class Runner:
         self.newest: Running | None = None
 
     def start(self, scene: Scene, *, duration: float, delay: float = 0.0) -> Running:
-        """Start a run.
-
-        Parameters
-        ----------
-        scene : Scene
-            What to run.
-        duration : float
-            Simulated time [s].
-        delay : float
-            Time to wait for another one that replaces it [s].
-        """
+        """Start a run of a simulated time [s], after a delay in which another one may replace it [s]."""
         self.stop()
         run = Running(scene)
         self.newest = run

@@ -32,14 +32,7 @@ def report(out: Signals) -> bytes:
 def notebook(scene: Scene, duration: float, noise: float) -> bytes:
     """Return a notebook of Jupyter that has the scene in it and does again what the page does.
 
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-    duration : float
-        Simulated time [s].
-    noise : float
-        Root mean square of the sensor's noise [m/s²].
+    It has the simulated time [s] and the root mean square of the sensor's noise [m/s²] in it, too.
     """
     density = noise**2 / (0.5 * FS)
     name = scene.name or "A bearing"

@@ -30,15 +30,6 @@ __all__ = ["check_columns", "check_run", "faults_of", "rates_of", "scene_of", "s
 def source(of: Given, column: str | None, fs: float | None) -> Channel:
     """Return the signal that is meant, checked, with name and unit as a picture shows them.
 
-    Parameters
-    ----------
-    of : Signals, Measurement, Recording, Channel or array_like
-        Where it stands.
-    column : str, optional
-        Column; by default ``outer.ay`` if there is one, else the first.
-    fs : float, optional
-        Sampling rate [Hz], of an array.
-
     Raises
     ------
     SceneError
