@@ -13,7 +13,7 @@ import pytest
 from hypothesis.strategies import DrawFn
 
 import ballrace as br
-from ballrace.campaigns import cli
+from ballrace.cli import campaigns as cli
 from budget import decided, fuzzed
 from strategies import EDGES, damaged
 

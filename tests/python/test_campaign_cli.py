@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import ballrace as br
-from ballrace.campaigns.cli import _ARGUMENTS, _BUILDERS, read
 from ballrace.cli import main
+from ballrace.cli.campaigns import _ARGUMENTS, _BUILDERS, read
 
 SWEEP = """
 scene = "deep-groove-6205"

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import ballrace as br
-from ballrace.campaigns.cli import read
 from ballrace.cli import main
+from ballrace.cli.campaigns import read
 
 COLUMN = "outer.ay"
 

@@ -67,9 +67,6 @@ class Cases:
         self.labels = [name for name in self.names if name not in self._meant()]
         self.cases = [self._case(row) for row in self._rows]
 
-    def __len__(self) -> int:
-        return len(self.cases)
-
     def document(self, index: int) -> tuple[str, str]:
         """Return scene and run of a case as JSON, every field written out.
 

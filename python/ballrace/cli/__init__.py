@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING
 
 from .._libraries import MissingLibraryError
 from .._text import printable
-from ..campaigns.cli import add_command as add_campaign
 from ..errors import BallraceError, SceneError
-from . import about, diagnosing, exploring, fmu, running, signals, statics, studies
+from . import about, campaigns, diagnosing, exploring, fmu, running, signals, statics, studies
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -57,7 +56,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"ballrace {about.version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for module in (studies, exploring, running, statics, signals, diagnosing, fmu, about):
+    for module in (
+        studies, exploring, running, statics, signals, diagnosing, fmu, about, campaigns,
+    ):  # fmt: skip
         module.add_commands(commands)
-    add_campaign(commands)
     return parser

@@ -13,7 +13,15 @@ from ..scene import Scene
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["Commands", "add_scene", "add_signals", "add_speeds", "added", "read_scene"]
+__all__ = [
+    "Commands",
+    "add_budget",
+    "add_scene",
+    "add_signals",
+    "add_speeds",
+    "added",
+    "read_scene",
+]
 
 Commands = argparse._SubParsersAction
 
@@ -65,6 +73,18 @@ def add_speeds(parser: argparse.ArgumentParser, default: str, of: str = "") -> N
     parser.add_argument(
         "--outer-rpm", type=float, metavar="REV/MIN",
         help=f"speed of the outer ring, of hubs, idlers and planets (default: it stands){what}",
+    )  # fmt: skip
+
+
+def add_budget(parser: argparse.ArgumentParser, what: str) -> None:
+    """Add the options that limit what a run may cost."""
+    parser.add_argument(
+        "--time-limit", type=float, metavar="SECONDS",
+        help=f"wall time that {what} may take (default: any)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--max-steps", type=int, metavar="N",
+        help=f"steps that {what} may take, rejected ones included (default: any)",
     )  # fmt: skip
 
 

@@ -12,12 +12,11 @@ from .. import presets
 from .._io.files import check_output
 from .._text import printable
 from ..bearings import bearing
-from ..campaigns.cli import add_budget
 from ..errors import SceneError
 from ..options import ARGUMENTS, Run
 from ..run import simulate
 from ..scene import Method
-from .arguments import Commands, add_scene, add_speeds, added, read_scene
+from .arguments import Commands, add_budget, add_scene, add_speeds, added, read_scene
 
 if TYPE_CHECKING:
     import argparse

@@ -1,4 +1,4 @@
-"""The command ``ballrace campaign``."""
+"""``ballrace campaign``: a table of cases from a file, run into a folder."""
 
 from __future__ import annotations
 
@@ -11,17 +11,20 @@ from .. import presets
 from .._io.files import as_path
 from .._io.toml import loads
 from .._text import printable
+from ..campaigns.bearings import scatter
+from ..campaigns.designs import check_cases, grid, latin_hypercube, sobol
+from ..campaigns.result import Campaign
+from ..campaigns.run import campaign
+from ..campaigns.verify import verify
 from ..errors import CampaignError, SceneError
 from ..options import ARGUMENTS, BUDGET
 from ..scene import Scene
-from .bearings import scatter
-from .designs import check_cases, grid, latin_hypercube, sobol
-from .result import Campaign
-from .run import campaign
-from .verify import verify
+from .arguments import Commands, add_budget
 
 if TYPE_CHECKING:
     import polars as pl
+
+__all__ = ["add_commands", "read"]
 
 _ARGUMENTS = (
     *(name for name in ARGUMENTS if name != "threads"), "keep", "columns", "skip", "band", "contact_loads",
@@ -35,8 +38,8 @@ _PLAN = (
 )
 
 
-def add_command(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Add the command to a parser."""
+def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
+    """Add the subcommand."""
     parser = commands.add_parser(
         "campaign", help="run a table of cases into a folder, or go on with one", description=_PLAN
     )
@@ -72,18 +75,6 @@ def add_command(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     )  # fmt: skip
     add_budget(parser, "a case")
     parser.set_defaults(command=_command)
-
-
-def add_budget(parser: argparse.ArgumentParser, what: str) -> None:
-    """Add the options that limit what a run may cost."""
-    parser.add_argument(
-        "--time-limit", type=float, metavar="SECONDS",
-        help=f"wall time that {what} may take (default: any)",
-    )  # fmt: skip
-    parser.add_argument(
-        "--max-steps", type=int, metavar="N",
-        help=f"steps that {what} may take, rejected ones included (default: any)",
-    )  # fmt: skip
 
 
 def _command(options: argparse.Namespace) -> None:
