@@ -93,8 +93,7 @@ class Plan:
         rows = [row for row in results.iter_rows(named=True) if row["case_id"] in ids]
         shards = None
         if self.job.keep_signals:
-            shards = {row["signals"] for row in rows if row["signals"] is not None}
-            broken = store.damaged_signals(shards)
+            broken = store.damaged_signals(row["signals"] for row in rows)
             damaged += broken
             shards = names(store.root, "signals") - {path.name for path in broken}
         finished = {

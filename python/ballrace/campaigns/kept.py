@@ -64,10 +64,8 @@ class Kept:
         """
         from .._polars import pl
 
-        shares = pl.DataFrame(
-            {"case_id": list(self._clipped), "measured_clipped": list(self._clipped.values())},
-            schema={"case_id": pl.String, "measured_clipped": pl.Float64},
-        )
+        columns = {"case_id": pl.String, "measured_clipped": pl.Float64}
+        shares = pl.DataFrame(list(self._clipped.items()), schema=columns, orient="row")
         return self._finished.join(shares, on="case_id", how="left", maintain_order="left")
 
     @cached_property

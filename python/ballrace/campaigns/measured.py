@@ -127,11 +127,12 @@ def windows_table(
         x = line.measurement.x
         first = math.ceil(skip * line.measurement.fs - 1e-9)
         starts = np.arange(first, x.size - length + 1, hop)
-        cut = np.lib.stride_tricks.sliding_window_view(x, length)[starts] if starts.size else None
-        if cut is not None:
-            labels = {name: [value] * starts.size for name, value in line.labels().items()}
-            times = line.measurement.start + starts / line.measurement.fs
-            frames.append(pl.DataFrame(labels | {"start": times, "x": cut.astype(np.float32)}))
+        if not starts.size:
+            continue
+        cut = np.lib.stride_tricks.sliding_window_view(x, length)[starts].astype(np.float32)
+        labels = {name: [value] * starts.size for name, value in line.labels().items()}
+        times = line.measurement.start + starts / line.measurement.fs
+        frames.append(pl.DataFrame(labels | {"start": times, "x": cut}))
     if not frames:
         raise SceneError("length", str(length), "at most the samples of a measurement behind skip")
     return pl.concat(frames)

@@ -327,13 +327,12 @@ def _guarded(
 def _work(
     plan: Plan, store: Store, missing: list[int], in_flight: int | None, teller: Teller
 ) -> None:
-    unusable = [i for i in missing if plan.cases.cases[i].error is not None]
-    todo = [i for i in missing if plan.cases.cases[i].error is None]
-    if unusable:
-        failed = [(plan.cases.cases[i].id, plan.cases.cases[i].error) for i in unusable]
-        record_failed(store, [(case_id, error) for case_id, error in failed if error is not None])
-    refused = Counts(len(unusable), len(unusable))
-    if unusable:
+    cases = [(i, plan.cases.cases[i]) for i in missing]
+    todo = [i for i, case in cases if case.error is None]
+    failed = [(case.id, case.error) for _, case in cases if case.error is not None]
+    refused = Counts(len(failed), len(failed))
+    if failed:
+        record_failed(store, failed)
         teller.tell(refused)
 
     def told(counts: Counts) -> None:
