@@ -17,7 +17,7 @@ from ._numbers import per_pitch, real, real_row
 from .errors import BallraceError, SceneError
 from .scene import SpeedDrive
 from .scene.scene import checked_scene
-from .statics import _warned
+from .statics import warned
 
 if TYPE_CHECKING:
     import os
@@ -257,14 +257,13 @@ def stiffness_table(
             rpm = None if speeds is None else float(speeds[k]) * 30.0 / math.pi
             found.append(_coefficients(scene, changes, positions, _told(cases, case, rpm)))
     texts = dict.fromkeys(text for one in found for text in one["equilibrium"]["warnings"])
-    told = _warned({"warnings": texts}, stacklevel=4)
     return StiffnessTable(
         stiffness=np.stack([one["stiffness"] for one in found]).reshape(*shape, 5, 5),
         damping=np.stack([one["damping"] for one in found]).reshape(*shape, 5, 5),
         loads=cases,
         speeds=np.array([_own_speed(scene)]) if speeds is None else speeds,
         name=scene.name,
-        warnings=told["warnings"],
+        warnings=warned(texts, stacklevel=4),
     )
 
 

@@ -18,7 +18,7 @@ from .ring_force import passed
 from .scene.scene import checked_scene
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     import polars as pl
 
@@ -238,15 +238,16 @@ def equilibrium(
 def _equilibrium(told: Mapping[str, Any]) -> Equilibrium:
     """Return the equilibrium of the core's result; warn the caller of a public function."""
     films = tuple(RaceFilm(**film) for film in json.loads(told["films"]))
-    return Equilibrium(**{**_warned(dict(told), stacklevel=4), "films": films})
+    texts = warned(told["warnings"], stacklevel=4)
+    return Equilibrium(**{**told, "films": films, "warnings": texts})
 
 
-def _warned(found: dict[str, Any], *, stacklevel: int = 3) -> dict[str, Any]:
-    """Warn the caller of a public function of what the core doubts."""
-    found["warnings"] = tuple(found["warnings"])
-    for text in found["warnings"]:
+def warned(texts: Iterable[str], *, stacklevel: int) -> tuple[str, ...]:
+    """Warn the caller of a public function of what the core doubts, and return the texts."""
+    texts = tuple(texts)
+    for text in texts:
         warnings.warn(text, SceneWarning, stacklevel=stacklevel)
-    return found
+    return texts
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -446,5 +447,5 @@ def load_distribution(scene: Scene, *, positions: int = 16) -> LoadDistribution:
     >>> psi, load = loads.around(race="outer")
     """
     document = checked_scene(scene)._document()
-    found = _core.load_distribution(document, per_pitch(positions))
-    return LoadDistribution(**_warned(dict(found)))
+    found: Mapping[str, Any] = _core.load_distribution(document, per_pitch(positions))
+    return LoadDistribution(**{**found, "warnings": warned(found["warnings"], stacklevel=3)})
