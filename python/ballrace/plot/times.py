@@ -62,10 +62,7 @@ def signals(
     """
     check_columns(out, "out")
     names = (names,) if isinstance(names, str) else tuple(names)
-    fig = fig if fig is not None else stack(tuple(words(name) for name in names))
-    for place, name in enumerate(names, start=1):
-        fig.add_trace(_line(out.t, out[name], words(name), place - 1), row=place, col=1)
-        fig.update_yaxes(title_text=unit(out.units[name]), row=place, col=1)
+    fig = _stacked(fig, [(words(name), out, name) for name in names])
     return finish_stack(fig, len(names), layout)
 
 
@@ -100,10 +97,7 @@ def load_cases(
         There is no such column.
     """
     _check_cases(cases)
-    fig = fig if fig is not None else stack(tuple(cases))
-    for place, (label, out) in enumerate(cases.items(), start=1):
-        fig.add_trace(_line(out.t, out[name], label, place - 1), row=place, col=1)
-        fig.update_yaxes(title_text=unit(out.units[name]), row=place, col=1)
+    fig = _stacked(fig, [(label, out, name) for label, out in cases.items()])
     share_scale(fig, len(cases))
     if bpfo is not None:
         passage = {
@@ -245,6 +239,15 @@ def stack(titles: tuple[str, ...]) -> go.Figure:
         vertical_spacing=gap,
         subplot_titles=titles,
     )
+
+
+def _stacked(fig: go.Figure | None, panels: list[tuple[str, Columns, str]]) -> go.Figure:
+    """Draw a column of a record in each panel of a stack, under its title."""
+    fig = fig if fig is not None else stack(tuple(label for label, _, _ in panels))
+    for place, (label, out, name) in enumerate(panels, start=1):
+        fig.add_trace(_line(out.t, out[name], label, place - 1), row=place, col=1)
+        fig.update_yaxes(title_text=unit(out.units[name]), row=place, col=1)
+    return fig
 
 
 def share_scale(fig: go.Figure, rows: int) -> None:
