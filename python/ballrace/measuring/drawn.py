@@ -12,7 +12,7 @@ from .._document import counted
 from ..channel import Recorded
 from ..errors import SceneError
 from .chain import Chain
-from .housing import random_housing
+from .housing import log_uniform, random_housing
 from .logger import Logger
 from .machine import MEASURED_FLOOR, Machine
 from .sensor import Sensor
@@ -77,11 +77,11 @@ def random_machine(seed: int, *, background: Recorded | None = None) -> Machine:
     rng = np.random.default_rng(counted("seed", seed, 0))
     f, density = (np.asarray(part) for part in floor)
     levels = _LEVELS if background is None else _OWN_LEVELS
-    density = density * _drawn(rng, levels, 1) * (f / 1e3) ** rng.uniform(-_TILT, _TILT)
+    density = density * log_uniform(rng, levels, 1) * (f / 1e3) ** rng.uniform(-_TILT, _TILT)
     weak = math.sqrt(float(np.interp(1e3, f, density)))
     return Machine(
         shaft=_orders(rng, weak),
-        mains=tuple((_drawn(rng, _MAINS, 6) * rng.integers(0, 2, 6)).tolist()),
+        mains=tuple((log_uniform(rng, _MAINS, 6) * rng.integers(0, 2, 6)).tolist()),
         mains_frequency=float(rng.choice([50.0, 60.0])),
         noise_density=(f, density),
         modulation=tuple((np.array(_SWELLING) * rng.random(3)).tolist()),
@@ -128,22 +128,17 @@ def _chain(key: list[int], background: Recorded | None) -> Chain:
         direction=(math.sin(aside), math.cos(aside), 0.0),
         housing=random_housing(housing, band=_BAND),
         machine=random_machine(machine, background=background),
-        sensor=Sensor(resonance=float(_drawn(rng, _RESONANCE, 1)[0])),
+        sensor=Sensor(resonance=float(log_uniform(rng, _RESONANCE, 1)[0])),
         logger=Logger(bits=int(rng.choice([12, 16, 24]))),
     )
 
 
 def _orders(rng: np.random.Generator, weak: float) -> tuple[float, ...]:
     """Return the amplitudes of the shaft's orders: three strong ones, and weak ones here and there [m/s²]."""
-    lines = weak * _drawn(rng, _WEAK, _WEAK_ORDERS)
+    lines = weak * log_uniform(rng, _WEAK, _WEAK_ORDERS)
     lines *= rng.random(_WEAK_ORDERS) < _WEAK_SHARE
-    lines[:3] = _drawn(rng, _SHAFT, 3)
+    lines[:3] = log_uniform(rng, _SHAFT, 3)
     return tuple(lines.tolist())
-
-
-def _drawn(rng: np.random.Generator, ends: tuple[float, float], n: int) -> NDArray[np.float64]:
-    """Draw numbers whose logarithms are even."""
-    return np.exp(rng.uniform(math.log(ends[0]), math.log(ends[1]), n))
 
 
 def _floor_of(record: Recorded) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -209,14 +209,19 @@ def random_housing(
         if not 0.0 < pair[0] <= pair[1] < math.inf:
             raise SceneError(name, str(pair), "two rising numbers above 0")
     rng = np.random.default_rng(seed)
-    frequencies = np.sort(np.exp(rng.uniform(math.log(band[0]), math.log(band[1]), modes)))
-    ratios = np.exp(rng.uniform(math.log(damping[0]), math.log(damping[1]), modes))
+    frequencies = np.sort(log_uniform(rng, band, modes))
+    ratios = log_uniform(rng, damping, modes)
     residues = rng.standard_normal(modes)
     residues *= 0.5 / np.linalg.norm(residues)
     drawn = zip(frequencies.tolist(), ratios.tolist(), residues.tolist(), strict=True)
     return Housing(
         modes=tuple(Mode(frequency=f, damping=d, residue=r) for f, d, r in drawn), direct=0.5
     )
+
+
+def log_uniform(rng: np.random.Generator, ends: tuple[float, float], n: int) -> NDArray[np.float64]:
+    """Draw numbers whose logarithms are evenly distributed."""
+    return np.exp(rng.uniform(math.log(ends[0]), math.log(ends[1]), n))
 
 
 AnyHousing = Housing | MeasuredResponse | ImpulseResponse
