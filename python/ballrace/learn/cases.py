@@ -100,9 +100,8 @@ class Drawing:
         part = "healthy" if kind is None else SURFACES[kind]
         own = self._bearing(number) | self._operation(rng)
         if kind == "ball" and self.recipe.surfaces == "as_made":
-            own["rows[0].texture.ball"] = (
-                0.0  # which is around one axis, about which the ball does not turn
-            )
+            # Its texture is around one axis, about which such a ball does not turn.
+            own["rows[0].texture.ball"] = 0.0
         size, scene, shape = 0.0, "healthy", "none"
         fault: dict[str, Any] = {}
         if kind is not None:

@@ -306,9 +306,9 @@ class _Making:
 
 def _counting(manifest: pl.DataFrame) -> pl.DataFrame:
     """Return the cases that ran and met what they have, each with its class."""
-    met = [pl.col(f"fault_{on}").fill_null(value=False) for on in SURFACES.values()]
     only = [
-        is_met == (pl.col("part") == on) for is_met, on in zip(met, SURFACES.values(), strict=True)
+        pl.col(f"fault_{on}").fill_null(value=False) == (pl.col("part") == on)
+        for on in SURFACES.values()
     ]
     return manifest.filter(pl.col("status") == "ok", *only).with_columns(
         pl.col("part").alias("label")

@@ -140,9 +140,8 @@ class Recipe:
         """Lowest and highest clearance [m]; None where all have the same."""
         if self.clearance != "scatter":
             return None
-        return 0.0, clearance_limits(self.made.bore, str(said_clearance(self.bearing, self.made)))[
-            1
-        ]
+        said = str(said_clearance(self.bearing, self.made))
+        return 0.0, clearance_limits(self.made.bore, said)[1]
 
     def _check_clearance(self) -> None:
         if self.clearance != "scatter":
