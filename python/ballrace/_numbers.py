@@ -1,4 +1,4 @@
-"""Checks of numeric arguments."""
+"""Checks of numeric arguments; what they refuse is a :class:`ballrace.SceneError`."""
 
 from __future__ import annotations
 
@@ -39,39 +39,21 @@ def real(value: object) -> float:
 
 
 def per_pitch(positions: object) -> int:
-    """Return how many positions of the cage there are to be per ball pitch.
-
-    Raises
-    ------
-    SceneError
-        It is no whole number from 1.
-    """
+    """Return how many positions of the cage there are to be per ball pitch."""
     if isinstance(positions, bool) or not isinstance(positions, int) or positions < 1:
         raise SceneError("positions", repr(positions), "a whole number, at least 1 per ball pitch")
     return positions
 
 
 def checked_seed(seed: object) -> int:
-    """Return a seed as numpy takes it.
-
-    Raises
-    ------
-    SceneError
-        It is none.
-    """
+    """Return a seed as numpy takes it."""
     if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
         raise SceneError("seed", repr(seed), "a whole number from 0")
     return int(seed)
 
 
 def sampling_rate(fs: object) -> float:
-    """Return a sampling rate [Hz].
-
-    Raises
-    ------
-    SceneError
-        It is none that is taken.
-    """
+    """Return a sampling rate [Hz]."""
     rate = real(fs)
     if not RATES[0] <= rate <= RATES[1]:
         raise SceneError("fs", repr(fs), f"a rate [Hz], {RATES[0]:g} to {RATES[1]:g}")

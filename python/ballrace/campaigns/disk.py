@@ -30,13 +30,7 @@ def hash_of(data: bytes) -> str:
 
 
 def refuse_link(path: Path) -> None:
-    """Refuse a link: through one, a campaign's folder would lead to files that are not its own.
-
-    Raises
-    ------
-    CampaignError
-        It is one.
-    """
+    """Refuse a link: through one, a campaign's folder would lead to files that are not its own."""
     if path.is_symlink():
         raise CampaignError(
             f"{path}: a link, and nothing in the folder of a campaign is followed; put there what it leads to"

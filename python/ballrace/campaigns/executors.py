@@ -219,13 +219,7 @@ class Spread:
 
 
 def _check_scheduler(executor: Any) -> None:
-    """Refuse to wait for a scheduler of Dask that is gone: its client drops what it was asked for.
-
-    Raises
-    ------
-    CampaignError
-        The client has lost its scheduler.
-    """
+    """Refuse to wait for a scheduler of Dask that is gone: its client drops what it was asked for."""
     # The executor of a Dask client has it; other executors have it in their futures.
     status = getattr(getattr(executor, "_client", None), "status", "running")
     if status in ("connecting", "closing", "closed"):

@@ -65,13 +65,7 @@ _LARGE = 64 << 20
 
 
 def check_process() -> None:
-    """Refuse to work in a forked child, where locks of threads that are not there hang for ever.
-
-    Raises
-    ------
-    CampaignError
-        The process was forked after ballrace had been imported.
-    """
+    """Refuse to work in a forked child, where locks of threads that are not there hang for ever."""
     if os.getpid() != _PROCESS:
         raise CampaignError(
             "this process was forked from one that had imported ballrace, and would hang; start workers "

@@ -69,13 +69,7 @@ def _slower(channel: Channel, rate: float) -> Channel:
 
 
 def checked_turns(turns: float) -> float:
-    """Return the length of a piece.
-
-    Raises
-    ------
-    SceneError
-        It is not usable.
-    """
+    """Return the length of a piece, checked."""
     if not FEWEST_TURNS <= real(turns) < math.inf:
         raise SceneError("turns", repr(turns), f"turns of the shaft, {FEWEST_TURNS:g} and more")
     return float(turns)

@@ -1,4 +1,4 @@
-"""Arguments of the stages, checked as they are made."""
+"""Arguments of the stages, checked as they are made; what is refused is a :class:`ballrace.SceneError`."""
 
 from __future__ import annotations
 
@@ -19,26 +19,14 @@ __all__ = ["finite_row", "positive", "rising"]
 
 
 def positive(name: str, value: float, *, zero: bool = False, below: float = math.inf) -> None:
-    """Refuse what is not a number above 0, or from 0, and below a bound.
-
-    Raises
-    ------
-    SceneError
-        Names the field.
-    """
+    """Refuse what is not a number above 0, or from 0, and below a bound."""
     if not (0.0 < real(value) < below or (zero and real(value) == 0.0)):
         bound = "" if math.isinf(below) else f", below {below:g}"
         raise SceneError(name, repr(value), f"{'from' if zero else 'above'} 0{bound}")
 
 
 def finite_row(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    """Return numbers as an array of one dimension.
-
-    Raises
-    ------
-    SceneError
-        They are none, or not all finite.
-    """
+    """Return numbers, all finite, as an array of one dimension."""
     row = real_row(name, values)
     if row.ndim != 1 or row.size == 0 or not np.isfinite(row).all():
         raise SceneError(name, f"an array of shape {row.shape}", "finite numbers, shape (n,)")
@@ -46,12 +34,6 @@ def finite_row(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 
 def rising(name: str, values: Sequence[float] | NDArray[np.float64]) -> None:
-    """Refuse numbers that do not rise from 0 or above.
-
-    Raises
-    ------
-    SceneError
-        Names the field.
-    """
+    """Refuse numbers that do not rise from 0 or above."""
     if values[0] < 0.0 or not (np.diff(values) > 0.0).all():
         raise SceneError(name, "numbers that do not rise", "strictly rising, from 0")

@@ -21,13 +21,7 @@ Density = float | tuple["ArrayLike", "ArrayLike"]
 
 
 def checked_density(name: str, density: Density) -> Density:
-    """Return a density whose frequencies rise.
-
-    Raises
-    ------
-    SceneError
-        It is none.
-    """
+    """Return a density whose frequencies rise, checked."""
     if not isinstance(density, tuple):
         positive(name, density, zero=True)
         return density

@@ -18,13 +18,7 @@ most = math.inf
 
 
 def check_declared(path: Path, numbers: float) -> None:
-    """Refuse a file that declares more numbers than it may have.
-
-    Raises
-    ------
-    FileError
-        It declares more; 2 kB may declare 128 GiB.
-    """
+    """Refuse a file that declares more numbers than it may have: 2 kB may declare 128 GiB."""
     if numbers * _NUMBER > most:
         size = path.stat().st_size
         declared = (

@@ -57,13 +57,7 @@ def checked_signal(x: ArrayLike, fs: float, name: str = "x") -> NDArray[np.float
 
 
 def checked_band(band: tuple[float, float], fs: float) -> tuple[float, float]:
-    """Return a band within the frequencies that a sampling rate holds [Hz].
-
-    Raises
-    ------
-    SceneError
-        It is no such band.
-    """
+    """Return a band, which has to be within the frequencies that a sampling rate holds [Hz]."""
     low, high = map(real, band) if isinstance(band, Sequence) and len(band) == 2 else [math.nan] * 2
     if not 0.0 <= low < high <= fs / 2.0:
         raise SceneError("band", repr(band), f"two rising frequencies from 0 to fs/2, {fs / 2.0:g}")
