@@ -36,11 +36,16 @@ class Moving:
         self._out, self._row, self._scene = out, row, out.scene
         self._of_row = out.scene.rows[row]
         self._shapes = outlines(out.scene)
-        self._balls = self._of_row.ball_count
-        loads = [
-            self._load(r, b) for r, of in enumerate(out.scene.rows) for b in range(of.ball_count)
+        rows = [range(of_row.ball_count) for of_row in out.scene.rows]
+        self._loads = [
+            np.array([out[f"row{r}.ball{b}.outer.load"] for b in balls])
+            for r, balls in enumerate(rows)
         ]
-        self._largest = max(float(load.max()) for load in loads) or 1.0
+        self._places = [
+            1e3 * np.array([[out[f"row{r}_ball{b}.{axis}"] for axis in "xyz"] for b in balls])
+            for r, balls in enumerate(rows)
+        ]
+        self._largest = max(float(loads.max()) for loads in self._loads) or 1.0
 
     def still(self) -> Iterator[Any]:
         """Give what stands in the front view: circles of the races, outer defects unless they turn, a scale."""
@@ -85,11 +90,11 @@ class Moving:
 
     def at(self, k: int) -> Iterator[tuple[int, Any]]:
         """Give the traces of a sample with the panel, 1 or 2, that each belongs to."""
-        places = np.array([self._place(self._row, ball, k) for ball in range(self._balls)])
+        places, loads = self._places[self._row][:, :, k], self._loads[self._row][:, k]
         yield 1, self._cage(places)
-        for ball in range(self._balls):
-            yield 1, self._ball(places[ball], self._load(self._row, ball)[k])
-        yield 1, self._bars(places, k)
+        for place, load in zip(places, loads, strict=True):
+            yield 1, self._ball(place, load)
+        yield 1, self._bars(places, loads)
         yield 1, self._turned(k)
         for name, defect in self._scene.defects.items():
             if defect.row == self._row and self._is_carried(defect):
@@ -97,13 +102,6 @@ class Moving:
         for row in range(len(self._scene.rows)):
             for half in (1.0, -1.0):
                 yield 2, self._cut(row, half, k)
-
-    def _load(self, row: int, ball: int) -> Array:
-        return self._out[f"row{row}.ball{ball}.outer.load"]
-
-    def _place(self, row: int, ball: int, k: int) -> tuple[float, float, float]:
-        x, y, z = (1e3 * self._out[f"row{row}_ball{ball}.{axis}"][k] for axis in "xyz")
-        return x, y, z
 
     def _shade(self, load: float) -> str:
         from .._plotly import sample_colorscale
@@ -116,14 +114,13 @@ class Moving:
             place[0] + r * np.cos(_TURN), place[1] + r * np.sin(_TURN), self._shade(load)
         )
 
-    def _bars(self, places: Array, k: int) -> Any:
+    def _bars(self, places: Array, loads: Array) -> Any:
         """Bars from the outside, as long as the loads on the outer race are large."""
         from .._plotly import Scatter
 
         angle = np.arctan2(places[:, 1], places[:, 0])
-        load = np.array([self._load(self._row, ball)[k] for ball in range(self._balls)])
         inside = 1.04 * self._shapes.outside
-        outside = inside + _BAR * self._shapes.outside * load / self._largest
+        outside = inside + _BAR * self._shapes.outside * loads / self._largest
         gap = np.full(angle.size, np.nan)
         x = np.column_stack([inside * np.cos(angle), outside * np.cos(angle), gap]).ravel()
         y = np.column_stack([inside * np.sin(angle), outside * np.sin(angle), gap]).ravel()
@@ -138,9 +135,9 @@ class Moving:
 
         angle = np.arctan2(places[:, 1], places[:, 0])
         radius = 0.5e3 * self._of_row.pitch_diameter
-        pitch, free = 2.0 * math.pi / self._balls, 0.56e3 * self._of_row.ball_diameter / radius
+        pitch, free = 2.0 * math.pi / angle.size, 0.56e3 * self._of_row.ball_diameter / radius
         within = np.linspace(free, pitch - free, 5)
-        arcs = np.append(angle[:, None] + within, np.full((self._balls, 1), np.nan), axis=1).ravel()
+        arcs = np.append(angle[:, None] + within, np.full((angle.size, 1), np.nan), axis=1).ravel()
         line = {"color": "#8a6d3b", "width": 4}
         x, y = _short(radius * np.cos(arcs)), _short(radius * np.sin(arcs))
         return Scatter(x=x, y=y, mode="lines", line=line, name="cage", hoverinfo="skip")
@@ -165,7 +162,7 @@ class Moving:
         if defect.on != "ball":
             ring = "inner" if defect.on == "inner_race" else "outer"
             return self._on_race(defect, name, float(self._out[f"{ring}.theta"][k]))
-        x, y, _ = self._place(self._row, int(defect.ball or 0), k)
+        x, y, _ = self._places[self._row][int(defect.ball or 0), :, k]
         turned = defect.angle + float(self._out[f"row{self._row}_ball{defect.ball}.theta"][k])
         radius = 0.5e3 * self._of_row.ball_diameter
         half = 0.5 * widest(defect) * 1e3 / radius
@@ -179,15 +176,14 @@ class Moving:
 
     def _cut(self, row: int, half: float, k: int) -> Any:
         """Cut the ball that is nearest to the plane, at the top or at the bottom; between two there is none."""
-        of_row = self._scene.rows[row]
-        places = np.array([self._place(row, ball, k) for ball in range(of_row.ball_count)])
+        places = self._places[row][:, :, k]
         near = np.where(half * places[:, 1] > 0.0, np.abs(places[:, 0]), np.inf)
         ball = int(np.argmin(near))
-        square = (0.5e3 * of_row.ball_diameter) ** 2 - near[ball] ** 2
+        square = (0.5e3 * self._scene.rows[row].ball_diameter) ** 2 - near[ball] ** 2
         if not square > 0.0:
             return _filled(np.zeros(1), np.zeros(1), "#ffffff")
         ring = circle(places[ball, 2], places[ball, 1], math.sqrt(square))[::3]
-        return _filled(ring[:, 0], ring[:, 1], self._shade(self._load(row, ball)[k]))
+        return _filled(ring[:, 0], ring[:, 1], self._shade(self._loads[row][ball, k]))
 
 
 def _mark(centre: tuple[float, float], radius: float, angle: float, half: float, name: str) -> Any:
