@@ -93,6 +93,7 @@ def animation(
 
     check(out, column, row, frames)
     shown = samples(out, start, end, frames)
+    t = 1e3 * out.t
     moving = Moving(out, row)
     fig = fig if fig is not None else _panels()
     for trace in moving.still():
@@ -103,13 +104,13 @@ def animation(
     first = len(fig.data)
     for panel, trace in moving.at(shown[0]):
         fig.add_trace(trace, row=1, col=panel)
-    fig.add_trace(_cursor(fig, out, shown[0]), row=2, col=1)
+    fig.add_trace(_cursor(fig, t[shown[0]]), row=2, col=1)
     places = list(range(first, len(fig.data)))
     fig.frames = [
         Frame(
-            data=[*(trace for _, trace in moving.at(k)), _cursor(fig, out, k)],
+            data=[*(trace for _, trace in moving.at(k)), _cursor(fig, t[k])],
             traces=places,
-            name=f"{1e3 * out.t[k]:.2f}",
+            name=f"{t[k]:.2f}",
         )
         for k in shown
     ]
@@ -171,13 +172,12 @@ def _signal(fig: go.Figure, out: Signals, column: str, samples: list[int]) -> No
     fig.update_xaxes(title_text="time / ms", row=2, col=1)
 
 
-def _cursor(fig: go.Figure, out: Signals, sample: int) -> Any:
+def _cursor(fig: go.Figure, now: float) -> Any:
     from .._plotly import Scatter
 
     low, high = fig.layout.yaxis3.range or (-1.0, 1.0)
-    now = 1e3 * float(out.t[sample])
     style = {"color": COLOURS[1], "width": 2, "dash": "dash"}
-    return Scatter(x=[now, now], y=[low, high], mode="lines", line=style, name="now")
+    return Scatter(x=[float(now), float(now)], y=[low, high], mode="lines", line=style, name="now")
 
 
 def _finish(fig: go.Figure, out: Signals, layout: dict[str, Any]) -> go.Figure:

@@ -74,15 +74,14 @@ def animation3d(
     if not 1.0 <= real(enlarged) <= 20.0:
         raise SceneError("enlarged", repr(enlarged), "1 to 20")
     shown = samples(out, start, end, frames)
+    t = 1e3 * out.t
     turning = Turning(out, row, enlarged)
     fig = fig if fig is not None else Figure()
     fig.add_traces(list(turning.still()))
     first = len(fig.data)
     fig.add_traces(turning.first(shown[0]))
     places = list(range(first, len(fig.data)))
-    fig.frames = [
-        Frame(data=turning.at(k), traces=places, name=f"{1e3 * out.t[k]:.2f}") for k in shown
-    ]
+    fig.frames = [Frame(data=turning.at(k), traces=places, name=f"{t[k]:.2f}") for k in shown]
     hidden = {"visible": False}
     scene = {
         "xaxis": hidden, "yaxis": hidden, "zaxis": hidden, "aspectmode": "data", "uirevision": "kept",

@@ -45,6 +45,7 @@ class Moving:
             1e3 * np.array([[out[f"row{r}_ball{b}.{axis}"] for axis in "xyz"] for b in balls])
             for r, balls in enumerate(rows)
         ]
+        self._theta = out["inner.theta"]
         self._largest = max(float(loads.max()) for loads in self._loads) or 1.0
 
     def still(self) -> Iterator[Any]:
@@ -146,7 +147,7 @@ class Moving:
         """Mark the inner ring, which shows how far the shaft has turned."""
         from .._plotly import Scatter
 
-        angle = float(self._out["inner.theta"][k])
+        angle = float(self._theta[k])
         ends = np.array(
             [self._shapes.bore, 0.5e3 * (self._of_row.pitch_diameter - self._of_row.ball_diameter)]
         )
