@@ -46,8 +46,8 @@ def at_any_size(acceleration: float, diameter: float, rate: float) -> float:
     Waves of a height h on a race move a ring of a mass m on contacts of a stiffness k by an acceleration of h·k/m.
     Of bearings that differ in size alone, pressed alike, k goes with the pitch diameter D (Hertz) and m with its
     cube: waves of the same height, as grinding leaves them, cause accelerations as 1/D². Blows of spalls that are
-    the same part of a ball wide go as 1/D. Among the records of the library it is D to the power −2.1 without
-    damage, −1.5 with a damaged outer race. Over the speed v of the pitch circle, as both grow, it is a·D²/v.
+    the same part of a ball wide go as 1/D. Among the records of the library it is D to the power −2.2 without
+    damage, −1.4 with a damaged outer race. Over the speed v of the pitch circle, as both grow, it is a·D²/v.
 
     Parameters
     ----------

@@ -41,9 +41,9 @@ UNLIKELY: dict[Part, float] = {"outer_race": 0.05, "inner_race": 0.1, "ball": 0.
 """Likelihood ratios of sound to damaged below which lines that are not faint are damage, by the part's role.
 
 Healthy bearings have lines of the outer race: of 432 healthy records of the library, each bearing judged by all
-others, 3 are accused by it (0.7 %), all of one run of the smallest, a 6000, and 2 more by their strength
-(``tests/python/test_diagnosis_size.py``); 5 have significant lines with less than 0.1. No healthy one is accused
-by another part.
+others, 3 are accused by it (0.7 %), all of one run of the smallest, a 6000, and 3 more by their strength
+(``tests/python/test_diagnosis_size.py``); none else has significant lines with less than 0.1. No healthy one is
+accused by the ratio of another part.
 """
 
 _CLEARED = 0.2
