@@ -225,7 +225,7 @@ def test_lines_between_both_limits_leave_it_open() -> None:
     x = noise(blows(ORDERS.bpfo), 0.05)
     quiet, between, loud = (
         br.diagnose(scale * x / x.std(), "6205", RPM / 3, fs=FS / 3, unit="m/s^2")
-        for scale in (0.15, 0.4, 1.0)
+        for scale in (0.15, 0.4, 1.5)
     )
     assert (quiet.verdict, between.verdict, loud.verdict) == ("healthy", "undecided", "damaged")
     assert "from when it was new" in between.why
