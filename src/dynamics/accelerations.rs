@@ -16,8 +16,11 @@ impl Dynamics<'_> {
         }
     }
 
-    /// Acceleration of a ring along an axis where its motion is given.
-    pub(super) fn given_acceleration(&self, t: f64, race: Race, dof: Dof) -> Option<f64> {
+    /// Acceleration of a ring along the axes or about its own where its motion or speed is given.
+    pub(super) fn prescribed(&self, t: f64, race: Race, dof: Dof) -> Option<f64> {
+        if dof == Dof::Theta {
+            return drive::acceleration(self.model, race, t);
+        }
         let state = [&self.state.q, &self.state.v].map(|half| half.get(race.ring(), dof));
         self.model.given_acceleration((race, dof), t, state)
     }
@@ -28,12 +31,9 @@ impl Dynamics<'_> {
         let (force, mobility) = (self.forces.of(body), &self.model.mobility[body]);
         let mut acceleration = std::array::from_fn(|i| force[i] * mobility[i]);
         if let BodyKind::Ring(race) = body.kind() {
-            if let Some(prescribed) = drive::acceleration(self.model, race, t) {
-                acceleration[Dof::Theta] = prescribed;
-            }
-            for dof in Dof::TRANSLATIONS {
-                if let Some(given) = self.given_acceleration(t, race, dof) {
-                    acceleration[dof] = given;
+            for dof in Dof::ALL {
+                if let Some(prescribed) = self.prescribed(t, race, dof) {
+                    acceleration[dof] = prescribed;
                 }
             }
         }

@@ -11,10 +11,8 @@ use crate::simd::InstructionSet;
 #[derive(Debug)]
 pub(super) struct Kept {
     pub reduction: Reduction,
-    /// Places of the driven rotations of the rings, as far as they are among the states.
-    pub driven: [Option<usize>; 2],
-    /// The same of other directions of rings whose motion is given.
-    pub given: Vec<(usize, Race, Dof)>,
+    /// Places of the directions of rings whose motion or speed is given, as far as they are among the states.
+    pub driven: Vec<(usize, Race, Dof)>,
     pub rolling: RollingRows,
     /// The planar right-hand side, where the scene has one.
     pub planar: Option<(InstructionSet, Planar)>,
@@ -50,7 +48,7 @@ impl Kept {
         })
     }
 
-    /// M⁻¹ F of what is kept; the acceleration of a driven rotation is left to the caller.
+    /// M⁻¹ F of what is kept; the acceleration of driven directions is left to the caller.
     pub fn accelerate(&self, (forces, mobility): (&Table, &Table), accelerations: &mut [f64]) {
         for s in self.reduction.stretches() {
             let force = &forces.along(s.dof)[s.bodies()];

@@ -20,9 +20,9 @@ mod sums;
 
 use crate::base::pool::Pool;
 use crate::forces::cage::CageLinks;
-use crate::forces::{self, Force, ForceSums, Instant, State, Table, Use, drive};
+use crate::forces::{self, Force, ForceSums, Instant, State, Table, Use};
 use crate::integrate::System;
-use crate::model::{BodyId, DOFS, Degree, Dof, Model, Race, Spring};
+use crate::model::{BodyId, BodyKind, DOFS, Degree, Dof, Model, Race, Spring};
 use crate::reduction::Reduction;
 
 pub(crate) use batch::{Batch, Guarantees, RingView, SideConstants, Touching, View};
@@ -79,23 +79,21 @@ impl<'m> Dynamics<'m> {
             mirrored: reduction.mirrored,
             closed: reduction.closed,
         };
-        let driven = Race::BOTH.map(|race| {
-            let of_ring = reduction.place(race.ring(), Dof::Theta);
-            of_ring.filter(|_| model.degree(race, Dof::Theta) == Degree::Driven)
-        });
-        let given = Race::BOTH.into_iter().flat_map(|race| {
-            let given = model.rings[race].given.all();
-            let place = |dof| reduction.place(race.ring(), dof);
-            let kept = given.filter_map(move |(dof, _)| Some((place(dof)?, race, dof)));
-            kept.collect::<Vec<_>>()
-        });
-        let given = given.collect();
+        let driven = reduction
+            .degrees()
+            .enumerate()
+            .filter_map(|(at, (body, dof))| {
+                let BodyKind::Ring(race) = body.kind() else {
+                    return None;
+                };
+                (model.degree(race, dof) == Degree::Driven).then_some((at, race, dof))
+            });
+        let driven = driven.collect();
         let rolling = RollingRows::new(&reduction);
         let keeps_axial_places = kind.axial_places.is_some();
         let order = Order::Kept(Box::new(Kept {
             reduction,
             driven,
-            given,
             rolling,
             planar: None,
         }));
@@ -351,16 +349,9 @@ impl System for Dynamics<'_> {
             Order::Bodies => self.accelerate(t, accelerations),
             Order::Kept(kept) => {
                 kept.accelerate((&self.forces, &self.mobility), accelerations);
-                for (race, driven) in Race::BOTH.into_iter().zip(kept.driven) {
-                    if let (Some(i), Some(prescribed)) =
-                        (driven, drive::acceleration(self.model, race, t))
-                    {
-                        accelerations[i] = prescribed;
-                    }
-                }
-                for &(i, race, dof) in &kept.given {
-                    if let Some(given) = self.given_acceleration(t, race, dof) {
-                        accelerations[i] = given;
+                for &(at, race, dof) in &kept.driven {
+                    if let Some(prescribed) = self.prescribed(t, race, dof) {
+                        accelerations[at] = prescribed;
                     }
                 }
             }

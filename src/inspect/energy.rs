@@ -7,7 +7,7 @@ use crate::contact::{OilTouch, Sink, Touch};
 use crate::forces::{self, Account};
 use crate::model::{Dof, Model, Race};
 
-/// Energies \[J\] and dissipated powers \[W\]. Loads and drive do work on top of these.
+/// Energies \[J\] and dissipated powers \[W\]. Loads, drive and given motions do work on top of these.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Energy {

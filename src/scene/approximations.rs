@@ -75,6 +75,15 @@ impl Approximations {
         if self.one_row && scene.rows.len() != 2 {
             return refuse("one_row", "false unless there are two rows".to_owned());
         }
+        let rings = [&scene.outer_ring, &scene.inner_ring];
+        let led = |ring: &&super::Ring| matches!(ring.support.z, Some(Mount::Given(_)));
+        let kept = [("plane", self.plane), ("one_row", self.one_row)];
+        if let Some((name, _)) = kept.into_iter().find(|(_, asked)| *asked)
+            && rings.iter().any(led)
+        {
+            let allowed = "false where a ring's motion along z is given: axial places are kept";
+            return refuse(name, allowed.to_owned());
+        }
         Ok(())
     }
 }

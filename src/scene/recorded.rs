@@ -9,8 +9,8 @@ use super::{Component, ContactQuantity, Drive, Mount, Probe, Scene, Support};
 const RINGS: [&str; 2] = ["outer", "inner"];
 
 impl Scene {
-    /// The probes of a run: those of the scene. Where it has none, the motion of the outer ring if it can move along x,
-    /// y or z, else that of the inner ring, each in the directions that can move; and where both rings are held, the
+    /// The probes of a run: those of the scene. Where it has none, the motion of the outer ring if forces move it along x,
+    /// y or z, else that of the inner ring, each in the directions that can move; and where both rings are held or led, the
     /// loads of all contacts: `row0`, `row1`, …
     ///
     /// ```
@@ -25,7 +25,7 @@ impl Scene {
         if !self.probes.is_empty() {
             return Cow::Borrowed(&self.probes);
         }
-        let moving = (0..2).find(|ring| self.moves(*ring)[..3].contains(&true));
+        let moving = (0..2).find(|ring| self.is_moved(*ring));
         Cow::Owned(match moving {
             Some(ring) => [(RINGS[ring].to_owned(), self.motion(ring))].into(),
             None => (0..self.rows.len()).map(contact_loads).collect(),
@@ -62,6 +62,13 @@ impl Scene {
                 row.map_or([true; 8], |row| can(&row.ball_support, Mount::Free))
             }
         }
+    }
+
+    /// Whether forces move a ring along x, y or z.
+    fn is_moved(&self, ring: usize) -> bool {
+        let [outer, inner] = [&self.outer_ring, &self.inner_ring].map(|ring| &ring.support);
+        let mounts = [outer.mounts(Mount::Fixed), inner.mounts(Mount::Free)];
+        mounts[ring][..3].iter().any(Mount::gives)
     }
 
     /// The motion of a ring as far as it can move.

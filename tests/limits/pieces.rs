@@ -310,23 +310,16 @@ fn loads_that_are_set_are_loads_of_the_scene() {
     }
 }
 
-/// A snapshot has the loads that were set, and the tolerances of those that were compiled.
-#[test]
-fn loads_that_are_set_go_on_bit_by_bit() {
-    let scene = unloaded();
-    let run = run();
+/// Runs a scene in 20 pieces, without and with a snapshot after each, compiled anew after the tenth; `set` is called before each with its
+/// end. Bits are to be the same.
+fn goes_on_bit_by_bit(scene: &Scene, piece: f64, set: impl Fn(&mut Simulation, f64)) {
     let go = |takes_up: bool| {
-        let mut simulation = Simulation::begin(&scene, &run).unwrap();
-        for piece in 1..=20 {
-            let phase = 0.3 * f64::from(piece);
-            let sizes = [
-                ("loads.radial.force", 500.0 + 200.0 * phase.sin()),
-                ("loads.thrust.force", 50.0 * phase.cos()),
-            ];
-            simulation.set_loads(&sizes).unwrap();
-            simulation.advance_to(2e-5 * f64::from(piece)).unwrap();
-            if piece == 10 {
-                // Compiled anew with the loads of now.
+        let mut simulation = Simulation::begin(scene, &run()).unwrap();
+        for k in 1..=20 {
+            let t = piece * f64::from(k);
+            set(&mut simulation, t);
+            simulation.advance_to(t).unwrap();
+            if k == 10 {
                 simulation.change(&[("friction", "none".into())]).unwrap();
             }
             if takes_up {
@@ -339,6 +332,19 @@ fn loads_that_are_set_go_on_bit_by_bit() {
     let (whole, taken_up) = (go(false), go(true));
     assert_eq!(bits(&whole.columns), bits(&taken_up.columns));
     assert_eq!(whole.end_state, taken_up.end_state);
+}
+
+/// A snapshot has the loads that were set, and the tolerances of those that were compiled, also of a scene compiled anew with them.
+#[test]
+fn loads_that_are_set_go_on_bit_by_bit() {
+    goes_on_bit_by_bit(&unloaded(), 2e-5, |simulation, t| {
+        let phase = 0.3 * t / 2e-5;
+        let sizes = [
+            ("loads.radial.force", 500.0 + 200.0 * phase.sin()),
+            ("loads.thrust.force", 50.0 * phase.cos()),
+        ];
+        simulation.set_loads(&sizes).unwrap();
+    });
 }
 
 /// Sizes that are those before leave the motion of a run in one piece, bit by bit.
@@ -432,26 +438,9 @@ fn motions_that_are_set_are_those_of_the_scene() {
 /// Snapshots have the motions that were set, also of a scene that was compiled anew while a ring moved.
 #[test]
 fn motions_that_are_set_go_on_bit_by_bit() {
-    let go = |takes_up: bool| {
-        let mut simulation = Simulation::begin(&carried(), &run()).unwrap();
-        for piece in 1..=20 {
-            let t = 5e-5 * f64::from(piece);
-            simulation.set_motions(&course(t), t).unwrap();
-            simulation.advance_to(t).unwrap();
-            if piece == 10 {
-                // Rings are moved on from where they are.
-                simulation.change(&[("friction", "none".into())]).unwrap();
-            }
-            if takes_up {
-                let words = simulation.snapshot().to_json();
-                simulation = Simulation::restore(&Snapshot::from_json(&words).unwrap()).unwrap();
-            }
-        }
-        simulation.finish().unwrap()
-    };
-    let (whole, taken_up) = (go(false), go(true));
-    assert_eq!(bits(&whole.columns), bits(&taken_up.columns));
-    assert_eq!(whole.end_state, taken_up.end_state);
+    goes_on_bit_by_bit(&carried(), 5e-5, |simulation, t| {
+        simulation.set_motions(&course(t), t).unwrap();
+    });
 }
 
 /// Past the end of its course a ring goes straight on; set anew it goes on from there, and a motion of the scene replaces it.

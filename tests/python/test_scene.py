@@ -524,6 +524,22 @@ LED: list[tuple[str, s.TimeFunction]] = [
 """Motions that no ring can be given."""
 
 
+@pytest.mark.parametrize("asked", ["plane", "one_row"])
+def test_what_keeps_axial_places_is_refused_where_one_is_given(wheel: s.Scene, asked: str) -> None:
+    led = wheel.replace({"inner_ring.support.z": s.Given(0.0)})
+    with pytest.raises(
+        br.SceneError, match=rf"^approximations\.{asked} = true: false where a ring's"
+    ):
+        led.replace({f"approximations.{asked}": True})
+
+
+def test_rings_that_are_led_are_not_the_record() -> None:
+    """Their motion is known; the loads of the contacts are not."""
+    led = {f"inner_ring.support.{d}": s.Given(-2e-5 if d == "y" else 0.0) for d in "xyz"}
+    held = br.bearing("6205").replace({"probes": {}, "outer_ring.support": s.Support(), **led})
+    assert br.simulate(held, duration=1e-3, settle=0.0).names[0] == "row0.ball0.outer.load"
+
+
 @pytest.mark.parametrize(
     ("path", "value", "named"),
     [
@@ -542,6 +558,7 @@ LED: list[tuple[str, s.TimeFunction]] = [
                 ((0.0, 1.0), (0.0,), ""),
                 ((0.0, 0.0), (0.0, 0.0), ".times[1]"),
                 ((0.0,), (math.inf,), ".rates[0]"),
+                ((0.0, 1.0), (1e14, 1e14), ""),
             ]
         ],
         *[(place, s.Given(motion), f"{place}.given") for place, motion in LED],

@@ -222,7 +222,11 @@ pub(super) fn time_function(
                         quantities::duration(times[i])
                     ),
                 )),
-                None => Ok(()),
+                // Between points it may be further than at any of them.
+                None => value
+                    .range()
+                    .into_iter()
+                    .try_for_each(|x| each(".spline", x)),
             }
         }
     }
