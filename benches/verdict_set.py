@@ -16,9 +16,11 @@ from __future__ import annotations
 import argparse
 import csv
 import math
+import os
 import sys
 import time
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -155,17 +157,19 @@ def told(of: Case, record: br.Channel, snr_db: float) -> Row:
 
 
 def judged(seed: int = SEED, bearings: int = 8, runs: Path = RUNS) -> list[Row]:
-    """Return what is said of the records of the set, of the first so many bearings."""
+    """Return what is said of the records of the set, of the first so many bearings; one on each core at a time."""
     warnings.simplefilter("ignore", br.SceneWarning)
-    rows, begun = [], time.process_time()
-    for each in cases(seed, bearings):
+
+    def told_of(each: Case) -> list[Row]:
         x = run(each, runs)
-        rows += [told(each, hear(each, x, snr), snr) for snr in NOISES]
-        print(
-            f"{each.number + 1} runs, {time.process_time() - begun:.0f} s",
-            end="\r",
-            file=sys.stderr,
-        )
+        return [told(each, hear(each, x, snr), snr) for snr in NOISES]
+
+    rows, begun = [], time.process_time()
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        for number, found in enumerate(pool.map(told_of, cases(seed, bearings))):
+            rows += found
+            spent = time.process_time() - begun
+            print(f"{number + 1} runs, {spent:.0f} s of processor time", end="\r", file=sys.stderr)
     return rows
 
 
