@@ -286,6 +286,31 @@ def test_only_strength_that_no_healthy_bearing_has_accuses_by_itself() -> None:
     assert "17 times likelier with it damaged, and 20 times are asked for" in told(0.06).why
 
 
+def test_likelihood_decides_where_chance_leaves_doubt() -> None:
+    """Healthy records of the library with lines as likely by chance have ratios from 0.15 on."""
+    x = noise(blows(ORDERS.bpfi, duration=4.0), 0.05)
+    evidence = judged(100.0 * x / x.std(), unit="m/s^2").evidence
+    limits = limits_of(math.pi * br.catalogue["6205"].pitch_diameter * SHAFT)
+
+    def told(chance: float, ratio: float, own: Part | None = None) -> Verdict:
+        inner = replace(evidence["inner_race"], probability=chance, ratio=ratio)
+        return decided(
+            dict(evidence) | {"inner_race": inner}, () if own is None else (own,), 0.01, strong=(), limits=limits,
+            silent=False, blows=None, wanting=(),
+        )  # fmt: skip
+
+    assert told(0.02, 0.05).parts == ("inner_race",)
+    assert (
+        "chance does in 2.0 % of records, and among simulated bearings are 20 times likelier"
+        in told(0.02, 0.05).why
+    )
+    assert {
+        told(0.02, 0.2).verdict,
+        told(0.04, 0.05).verdict,
+        told(0.02, 0.05, "ball").verdict,
+    } == {"undecided"}
+
+
 def test_blows_at_no_rate_of_the_bearing_leave_it_open() -> None:
     """A speed that is 3 % off, and the rate of no part: neither accuses, neither clears."""
     for x, rpm in ((blows(ORDERS.bpfi, 1.0), 1.03 * RPM), (blows(4.31), RPM)):

@@ -63,8 +63,9 @@ def diagnose(
     at orders of the same record that no part has, so that chance has a known rate, without training and without
     a threshold in decibels. Lines that stand out accuse a part only where they are deep or blows stand out,
     and, where the unit of the record is known, only where among simulated bearings such lines mean damage at odds
-    of twenty to one, or are stronger than in any healthy one of these. A record with blows at no rate of the
-    bearing, or too few turns to tell a race from the shaft, is not called healthy.
+    of twenty to one, or are stronger than in any healthy one of these. Lines that chance has in up to three times
+    as many records as ``false_alarm`` allows accuse a part where these odds speak against it. A record with blows
+    at no rate of the bearing, or too few turns to tell a race from the shaft, is not called healthy.
 
     Parameters
     ----------
