@@ -1,4 +1,4 @@
-"""Writes tests/README.md: what was published beside what ballrace gives. Run from anywhere:
+"""Writes tests/README.md: published numbers compared with those of ballrace. Run from anywhere:
 
     python tests/validation.py [--verdicts | --set]
 
@@ -262,39 +262,37 @@ def main() -> None:
     )
 
 
-VERDICTS = """What `br.diagnose` says of records whose truth is known. The combs and the limits of strength
-were chosen with the measured records at hand: 21 of 21 is no forecast for others. Left open was one healthy
-record, whose inner race has significant but shallow lines.
+VERDICTS = """What `br.diagnose` says of records whose truth is known. The families of lines and the limits of strength were
+chosen with the measured records at hand, so 21 of 21 does not predict the result on others. Undecided was one
+healthy record, whose inner race has significant but shallow lines.
 """
 
-SET = """The *set* is 432 records of eight bearings that are not in the library, healthy (smooth, waved,
-textured races) and damaged (spalls of 0.02 to 0.45 ball diameters; damaged balls spin freely), of 40 turns,
-through housings by chance (`python benches/verdict_set.py`; `python tests/validation.py --set`). It is a
-forecast: its bearings are in no other set, and it was judged once, after all limits were chosen. More than
-lines is asked for, so fewer are accused at 5 and 10 % than may be. z alone, which loaded healthy bearings have
-too, tells nothing of a run; the likelihood ratio knows the record's unit. What is not named is left open, by
-far most of it inner races whose order 40 turns do not tell from the shaft's as long as its speed is known
-within 1 % only, and balls; but five damaged ones are called healthy, with spalls of 0.03 to 0.06 ball
-diameters: three because their lines are faint, two because they have none. Half of the balls are named at 20
-dB, where more than half was aimed at.
+SET = """The *set* is 432 records of eight bearings that are not in the library, healthy (smooth, wavy, textured races)
+and damaged (spalls of 0.02 to 0.45 ball diameters; damaged balls spin freely), of 40 turns, through random
+housings (`python benches/verdict_set.py`; `python tests/validation.py --set`). It predicts the result on other
+bearings: it was judged once, after all limits were chosen. Since strength is judged besides lines, fewer
+healthy records are called damaged at 5 and 10 % than allowed. z alone does not distinguish simulated records,
+since loaded healthy bearings have lines too; the likelihood ratio uses the record's unit. Records that are not
+named are undecided, most of them with balls or with inner races whose order 40 turns cannot separate from the
+shaft's unless the speed is known better than within 1 %; but five damaged ones are called healthy, with spalls
+of 0.03 to 0.06 ball diameters: three because their lines are weak, two because they have none. Half of the
+balls are named at 20 dB, where more than half was the aim.
 
-Before, another set (`--seed 47`) had shown that small bearings were accused: of 108 of its healthy records,
-three of a 6001 and a 6201 under 0.7 % of their static rating, where 1.1 were asked for. Both were smaller than
-any bearing of the library, and strength was compared over speed alone, over which a small healthy bearing is
-like a damaged large one. The library has held a 6000, and textures, since, and strength is compared over sizes.
-The present set's evidence judged as before would have 7 of 216 healthy ones accused (8 with the speed known
-within 0.1 %), and 57 outer races, 22 inner races and 36 balls named; now it is 2, and 56, 21 and 37. Both are
-of a 6301 under 0.6 % of its static rating. Of the 216 healthy records of the set that had shown it none is
-accused now (3 before).
+The library was recomputed afterwards with the present settling of runs. With it, 3 of 216 healthy records of
+the set are called damaged (1.4 %), all of a 6301 under 0.6 % of its static rating, and 56, 20 and 37 of 72
+outer races, inner races and balls named. By the library before, which had no bearing as small, and strength
+compared over speed alone, 7 would be (8 with the speed known within 0.1 %), and 57, 22 and 36 named: a small
+healthy bearing then resembles a damaged large one. An earlier set (`--seed 47`), by which this was found, had 3
+of 216 healthy records called damaged, and has none now.
 
 ![detection over the width of the spall, and receiver operating characteristic](verdicts.svg)
 """
 
-TRANSFER = """What models that are trained on simulated records alone are worth on the measured ones at hand, of
-a 6205 on two rigs: figures of `benches/transfer.md` (`python benches/transfer.py`), which has all classifiers,
-what each part of the realism is worth, and the features that betray the simulation. A forest still tells simulated
-from measured windows of two of three classes: measured blows of the outer race are more impulsive, and healthy
-machines swell less with the shaft, than simulated ones.
+TRANSFER = """How models that are trained on simulated records only do on the measured ones at hand, of a 6205 on two rigs:
+figures of `benches/transfer.md` (`python benches/transfer.py`), which has all classifiers, the effect of each
+part of the realism, and the features by which simulated records differ. A forest still separates simulated from
+measured windows of two of three classes: measured impacts of the outer race are more impulsive, and the
+vibration of healthy machines is modulated less by the shaft, than in simulated ones.
 """
 
 LIMITS = """## Deviations, explained
@@ -315,24 +313,22 @@ LIMITS = """## Deviations, explained
   this model without thrust do not. This does not prove the thrust: cage play and rolling diameter also raise
   BPFO, and the fitted thrust gives a contact angle of 7.4° at rest, where the records' orders, explained by an
   angle alone, give 9.6°.
-- *Paper*: "zone" is the middle of force. 0.1° of the start phase moves the dynamic zone shift by 0.06 mm,
-  0.01 mm of the defect's place the impacts by 1.3 points; pitch diameters from 54 to 70 mm are equally good
+- *Paper*: "zone" is the centre of force. 0.1° of the start phase moves the dynamic zone shift by 0.06 mm,
+  0.01 mm of the defect's position the impacts by 1.3 points; pitch diameters from 54 to 70 mm are equally good
   at rest. With 50, 100 and 200 fixed slices the impacts grow by 56, 23 and 32 %: fixed slices change the
   model.
-- *Paper, figure 11*: at -3 kN the preset vibrates as little as published, but not without structure: its impacts
-  are regular (scatter 5 %) and their line is some 30 dB above its surroundings. Tried, at -3 kN: 50 and 100
-  fixed slices (30 and 25 dB), clearance of -10, 10 and 30 µm (35, 33, 26 dB), no contact damping (24 dB), a
-  tenth of the support's damping (18 dB), no friction (15 dB, scatter 19 %). The structure disappears if the
-  lightly loaded balls can move: half a millimetre of play in the cage (6 dB, 34 %; impacts at +3 kN
-  still grow by 35 %), no cage (5 dB, 44 %), or an axial gap of 50 µm a row (8 dB, 49 %, but +125 % at +3 kN).
-  With play, though, the transient takes 38 ms instead of the published 20. The paper's cage has springs
-  without play; its gap is not published.
+- *Paper, figure 11*: at -3 kN the preset vibrates as little as published, but regularly: its impacts scatter by
+  3 % and their line is some 30 dB above its surroundings. Tried, at -3 kN: 50 and 100 fixed slices (30 and 25
+  dB), clearance of -10, 10 and 30 µm (35, 33, 26 dB), no contact damping (24 dB), a tenth of the support's
+  damping (18 dB), no friction (15 dB, scatter 19 %). The regularity disappears if the lightly loaded balls can
+  move: half a millimetre of play in the cage (6 dB, 34 %; impacts at +3 kN still grow by 35 %), no cage (5 dB,
+  44 %), or an axial gap of 50 µm a row (8 dB, 49 %, but +125 % at +3 kN). With play, though, the transient
+  takes 38 ms instead of the published 20. The paper's cage has springs without play; its gap is not published.
 - *Our own bounds*: where the paper gives no number ("about 0.02 s", "next to none") the bounds 0.01 to
   0.03 s and 2 % are ours, and the unknowns of the preset were fitted to the targets of this table: it
   shows that one set of plausible values meets them together, not that the model predicted them.
-- *Transient*: cold starts are chaotic. Its first measure, the last sample above a twentieth of the impact,
-  gave 0.033 s here and 0.020 to 0.033 s on 13 starts 1e-9 m or some nodes apart; the end of the moving rms,
-  which replaced it, gives 0.013 to 0.019 s on the same starts.
+- *Transient*: cold starts are chaotic. The end of the moving rms is 0.013 to 0.019 s on 13 starts 1e-9 m or
+  some nodes apart; the last sample above a twentieth of the impact, 0.020 to 0.033 s, would be less repeatable.
 - *Impacts over width* stop growing once the ball loses its load within the defect.
 
 ## Not validated

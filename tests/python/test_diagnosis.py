@@ -392,17 +392,17 @@ def shaken(kind: str, rng: np.random.Generator, duration: float = 2.0) -> Signal
         "coloured noise": lambda: np.convolve(white, ringing, "same"),
         "shaft": lambda: tones(1.004 * SHAFT) + 0.1 * white,
         "shaft without noise": lambda: tones(1.004 * SHAFT),
-        "noise that the shaft swells": lambda: white * (1.0 + 0.5 * np.cos(2 * np.pi * SHAFT * t)),
+        "noise modulated by the shaft": lambda: white * (1.0 + 0.5 * np.cos(2 * np.pi * SHAFT * t)),
         "mains": lambda: tones(50.0) + 0.3 * white,
-        "noise that the mains swell": lambda: white * (1.0 + 0.5 * np.cos(2 * np.pi * 100.0 * t)),
-        "blows at random": lambda: blow + white,
+        "noise modulated by the mains": lambda: white * (1.0 + 0.5 * np.cos(2 * np.pi * 100.0 * t)),
+        "random impacts": lambda: blow + white,
         "clipped": lambda: np.clip(white, -1.0, 1.0),
     }
     return made[kind]()
 
 
-KINDS = ["white noise", "coloured noise", "shaft", "shaft without noise", "noise that the shaft swells", "mains",
-         "noise that the mains swell", "blows at random", "clipped"]  # fmt: skip
+KINDS = ["white noise", "coloured noise", "shaft", "shaft without noise", "noise modulated by the shaft", "mains",
+         "noise modulated by the mains", "random impacts", "clipped"]  # fmt: skip
 
 
 def most(count: int, rate: float) -> int:
@@ -418,7 +418,7 @@ def test_nothing_of_the_kind_is_damaged(kind: str) -> None:
     assert told.count("damaged") <= most(8, 0.01)
     assert kind != "clipped" or set(told) == {"undecided"}
     # Noise that the shaft swells is no blows: 3 E[a⁴]/E[a²]² of a = 1 + cos(φ)/2 is 4.2.
-    if kind in ("white noise", "coloured noise", "noise that the shaft swells"):
+    if kind in ("white noise", "coloured noise", "noise modulated by the shaft"):
         assert told.count("healthy") >= 6
 
 

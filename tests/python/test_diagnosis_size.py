@@ -132,7 +132,7 @@ def test_an_interval_of_nine_in_ten_holds_nine_in_ten() -> None:
             held += int(np.count_nonzero((low <= bridge) & (bridge <= high)))
             errors += (np.abs(middle - bridge) / own["width"]).tolist()
             count += len(own)
-    print(f"\n[verdict] simulated, width told, {count} records | {held / count:.0%} within 90 % intervals | "
+    print(f"\n[verdict] simulated, width given, {count} records | {held / count:.0%} within 90 % intervals | "
           f"median error {np.median(errors):.0%}")  # fmt: skip
     assert count >= 100
     assert 0.85 <= held / count <= 0.95
@@ -146,7 +146,7 @@ def test_few_widths_are_told_of_spalls_that_are_too_narrow() -> None:
     for low, high in ((0.03, 0.1), (0.1, 0.2), (0.2, 0.45)):
         among = (low <= width) & (width < high)
         told[low] = float(clear[among].mean())
-        print(f"\n[verdict] simulated, spalls of {low:g} to {high:g} ball diameters | width told of "
+        print(f"\n[verdict] simulated, spalls of {low:g} to {high:g} ball diameters | width given for "
               f"{told[low]:.0%} of {np.count_nonzero(among)} | any speed, load, noise")  # fmt: skip
     assert told[0.03] < 0.03
     assert told[0.2] > told[0.1]
@@ -171,7 +171,7 @@ def test_a_likelihood_ratio_is_calibrated(sized: bool) -> None:
         off += abs(mean - share) * among.mean()
         unit = "with" if sized else "without"
         print(f"\n[verdict] simulated, chance of damage {low:g} to {min(high, 1.0):g}, {unit} unit | "
-              f"{share:.0%} of {np.count_nonzero(among)} damaged | {mean:.0%} told")  # fmt: skip
+              f"{share:.0%} of {np.count_nonzero(among)} damaged | {mean:.0%} predicted")  # fmt: skip
     assert off < 0.03
     # As good as chance would be 0.25 for halves; a fit that knows the shares alone has 0.17.
     assert float(np.mean((told - damaged) ** 2)) < 0.08
