@@ -262,37 +262,40 @@ def main() -> None:
     )
 
 
-VERDICTS = """What `br.diagnose` says of records whose truth is known. The families of lines and the limits of strength were
-chosen with the measured records at hand, so 21 of 21 does not predict the result on others. Undecided was one
-healthy record, whose inner race has significant but shallow lines.
+VERDICTS = """What `br.diagnose` says of records whose truth is known. The families of lines and the limits of
+strength were chosen with the measured records at hand, so 21 of 21 does not predict the result on
+others. Undecided was one healthy record, whose inner race has significant but shallow lines.
 """
 
-SET = """The *set* is 432 records of eight bearings that are not in the library, healthy (smooth, wavy, textured races)
-and damaged (spalls of 0.02 to 0.45 ball diameters; damaged balls spin freely), of 40 turns, through random
-housings (`python benches/verdict_set.py`; `python tests/validation.py --set`). It predicts the result on other
-bearings: it was judged once, after all limits were chosen. Since strength is judged besides lines, fewer
-healthy records are called damaged at 5 and 10 % than allowed. z alone does not distinguish simulated records,
-since loaded healthy bearings have lines too; the likelihood ratio uses the record's unit. Records that are not
-named are undecided, most of them with balls or with inner races whose order 40 turns cannot separate from the
-shaft's unless the speed is known better than within 1 %; but five damaged ones are called healthy, with spalls
-of 0.03 to 0.06 ball diameters: three because their lines are weak, two because they have none. Half of the
-balls are named at 20 dB, where more than half was the aim.
+SET = """The *set* is 432 records of eight bearings that are not in the library, healthy (smooth, wavy,
+textured races) and damaged (spalls of 0.02 to 0.45 ball diameters; damaged balls spin freely), of
+40 turns, through random housings (`python benches/verdict_set.py`; `python tests/validation.py
+--set`). It predicts the result on other bearings: it was judged once, after all limits were
+chosen. Since strength is judged besides lines, fewer healthy records are called damaged at 5 and
+10 % than allowed. z alone does not distinguish simulated records, since loaded healthy bearings
+have lines too; the likelihood ratio uses the record's unit. Records that are not named are
+undecided, most of them with balls or with inner races whose order 40 turns cannot separate from
+the shaft's unless the speed is known better than within 1 %; but five damaged ones are called
+healthy, with spalls of 0.03 to 0.06 ball diameters: three because their lines are weak, two
+because they have none. Half of the balls are named at 20 dB, where more than half was the aim.
 
-The library was recomputed afterwards with the present settling of runs. With it, 3 of 216 healthy records of
-the set are called damaged (1.4 %), all of a 6301 under 0.6 % of its static rating, and 56, 20 and 37 of 72
-outer races, inner races and balls named. By the library before, which had no bearing as small, and strength
-compared over speed alone, 7 would be (8 with the speed known within 0.1 %), and 57, 22 and 36 named: a small
-healthy bearing then resembles a damaged large one. An earlier set (`--seed 47`), by which this was found, had 3
-of 216 healthy records called damaged, and has none now.
+The library was recomputed afterwards with the present settling of runs. With it, 3 of 216 healthy
+records of the set are called damaged (1.4 %), all of a 6301 under 0.6 % of its static rating, and
+56, 20 and 37 of 72 outer races, inner races and balls named. By the library before, which had no
+bearing as small, and strength compared over speed alone, 7 would be (8 with the speed known
+within 0.1 %), and 57, 22 and 36 named: a small healthy bearing then resembles a damaged large
+one. An earlier set (`--seed 47`), by which this was found, had 3 of 216 healthy records called
+damaged, and has none now.
 
 ![detection over the width of the spall, and receiver operating characteristic](verdicts.svg)
 """
 
-TRANSFER = """How models that are trained on simulated records only do on the measured ones at hand, of a 6205 on two rigs:
-figures of `benches/transfer.md` (`python benches/transfer.py`), which has all classifiers, the effect of each
-part of the realism, and the features by which simulated records differ. A forest still separates simulated from
-measured windows of two of three classes: measured impacts of the outer race are more impulsive, and the
-vibration of healthy machines is modulated less by the shaft, than in simulated ones.
+TRANSFER = """How models that are trained on simulated records only do on the measured ones at hand, of a 6205
+on two rigs: figures of `benches/transfer.md` (`python benches/transfer.py`), which has all
+classifiers, the effect of each part of the realism, and the features by which simulated records
+differ. A forest still separates simulated from measured windows of two of three classes: measured
+impacts of the outer race are more impulsive, and the vibration of healthy machines is modulated
+less by the shaft, than in simulated ones.
 """
 
 LIMITS = """## Deviations, explained
