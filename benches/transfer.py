@@ -292,7 +292,7 @@ def domain(data: br.learn.Simulated, records: list[Record]) -> str:
     ]
     return "\n".join([
         "| class | AUC | without the path |", "|---|---|---|", *rows, "",
-        f"| the ten that betray | {' | '.join(name.replace('_', ' ') for name in PRESENT)} |",
+        f"| the ten features that differ most | {' | '.join(name.replace('_', ' ') for name in PRESENT)} |",
         "|---|---|---|---|", *table,
     ])  # fmt: skip
 
@@ -300,8 +300,8 @@ def domain(data: br.learn.Simulated, records: list[Record]) -> str:
 PAGE = """# Transfer: trained on simulated records, tested on measured ones
 
 Made by `python benches/transfer.py` on {day}, with what the changelog has after {version}.
-Nothing measured is trained on; results of measured records were looked at {looks} while settings could
-still be changed: once of a model of three runs a class, once before false alarms were bounded. The classifier is
+No model is trained on measured records; results of measured records were inspected {looks} while settings could
+still be changed: once of a model of three runs per class, once before false alarms were bounded. The classifier is
 chosen on simulated records: bearings not seen, and another bearing on other machines.
 
 {sizes}
@@ -314,8 +314,8 @@ Balanced accuracy of four classes (healthy, outer race, inner race, ball), by wi
 
 ## On measured records
 
-{count} records of 6205 on two rigs (`../shared/data`: HIT-SM 21 at 600 to 1200 1/min, CWRU 97, 105, 130),
-windows of 12.5 turns. Accuracies are balanced over the three classes that there are, healthy, inner race and
+{count} records of 6205 on two rigs (HIT-SM 21 at 600 to 1200 1/min, CWRU 97, 105, 130),
+windows of 12.5 turns. Accuracies are balanced over the three classes of these records, healthy, inner race and
 outer race, in this order; `ball` and `shows no lines` are wrong answers. Records "that show lines" (their
 number) are the healthy ones and those with lines above those of 95 % of simulated healthy ones.
 
@@ -325,11 +325,11 @@ Pieces of the verdict without training have 25 turns; of the whole recipe, by cl
 
 {others}
 
-## What betrays the simulation
+## How simulated records differ from measured ones
 
-Area under the curve of a random forest that tells simulated from measured windows of one class, on records and
-bearings not seen; and without the shape of the spectrum, which housing and machine decide. Then the features
-with the largest areas of their own: area: median of simulated, of measured ones.
+Area under the curve of a random forest that separates simulated from measured windows of one class, on records and
+bearings not seen; and without the shape of the spectrum, which housing and machine determine. Then the features
+with the largest areas of their own: area: median of simulated, of measured windows.
 
 {domain}
 """
@@ -356,7 +356,7 @@ def report(folder: Path, per_class: int, records: list[Record]) -> str:
     )
     betrayed = domain(data, records)
     sizes = (
-        f"{per_class} runs of each of four classes and four sets, each heard by {data.per_case} of 60 machines; "
+        f"{per_class} runs of each of four classes and four sets, each measured on {data.per_case} of 60 machines; "
         f"{(time.process_time() - begun) / 60.0:.0f} minutes of one core, and 16 for runs where none were kept."
     )
     looks = "once" if LOOKS == 1 else f"{LOOKS} times"
