@@ -356,7 +356,7 @@ def report(folder: Path, per_class: int, records: list[Record]) -> str:
     )
     betrayed = domain(data, records)
     sizes = (
-        f"{per_class} runs of each of four classes and four sets, each measured on {data.per_case} of 60 machines; "
+        f"{per_class} runs of each of 4 classes and 4 sets, each measured on {data.per_case} of 60 machines; "
         f"{(time.process_time() - begun) / 60.0:.0f} minutes of one core, and 16 for runs where none were kept."
     )
     looks = "once" if LOOKS == 1 else f"{LOOKS} times"
