@@ -39,7 +39,7 @@ pub enum Error {
         step: f64,
         /// The body with the largest error, as in the names of the states.
         body: String,
-        /// What held it up, the fastest first: contacts as `row0.ball3.outer` (ball and race), a cage as
+        /// Elements that limit the step, the fastest first: contacts as `row0.ball3.outer` (ball and race), a cage as
         /// `row0.cage`, a support as `outer.support`. Empty if nothing acts there.
         contacts: Vec<String>,
         /// What failed, at which contacts, and what to try.
@@ -54,7 +54,7 @@ pub enum Error {
     /// The run cost more than [`crate::Run::time_limit`] or [`crate::Run::max_steps`] allows.
     #[error(
         "stopped at t = {}: {name} = {limit} is spent; allow more, or make the run cheaper (`ballrace explain` \
-         tells how)",
+         shows how)",
         quantities::time(.time)
     )]
     Budget {
@@ -65,24 +65,24 @@ pub enum Error {
         /// Its value, in seconds or steps.
         limit: f64,
     },
-    /// More memory would be set aside than there is; nothing was computed.
+    /// More memory would be needed than is available; nothing was computed.
     #[error(
         "{:.2} GiB of memory would be needed where {:.2} GiB are left to use: {what}",
         .needed / quantities::GIB,
         .available / quantities::GIB
     )]
     Memory {
-        /// What would be set aside \[bytes\].
+        /// Memory that would be needed \[bytes\].
         needed: f64,
-        /// What there is: of the machine, the limit of the process and of its control groups \[bytes\].
+        /// Least of the machine's free memory and what the limits of the process and its control groups leave \[bytes\].
         available: f64,
         /// For what, and how to need less.
         what: String,
     },
-    /// A fault of this crate, caught where one of many cases must not cost the others.
+    /// A panic in this crate, caught so that one case of many does not stop the others.
     #[error("internal error, please report it: {message}")]
     Internal {
-        /// What it said.
+        /// Message of the panic.
         message: String,
     },
 }

@@ -1,5 +1,5 @@
-//! Thread pools of our own, one per process and size; never rayon's global one. Without the feature `parallel` there are none, and all
-//! is done on the thread that asks, with the same bits.
+//! This crate's thread pools, one per process and size; never rayon's global one. Without the feature `parallel` there are none, and
+//! all work is done on the calling thread, with the same bits.
 //!
 //! A forked child inherits the memory of its parent's pool but not its threads, and would wait for them without end;
 //! the process id is part of the key, so that it builds its own.

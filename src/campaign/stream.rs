@@ -110,7 +110,11 @@ fn count(threads: usize) -> Result<usize> {
     match threads {
         0 => Ok(std::thread::available_parallelism().map_or(1, std::num::NonZero::get)),
         1..=1024 => Ok(threads),
-        _ => Err(Error::scene("threads", threads, "at most 1024; 0 chooses")),
+        _ => Err(Error::scene(
+            "threads",
+            threads,
+            "0 to 1024; 0: one for each core",
+        )),
     }
 }
 

@@ -1,8 +1,8 @@
 //! Elastic force of a contact at rest and its stiffness: what a static solve needs.
 //!
 //! Where all surfaces are whole, ball and groove are two circles in the meridional plane, and the force depends on the
-//! places e and c of their centres alone: the kernel with derivatives by both says force and stiffness, of the very sum
-//! that a run makes, so Newton's method converges on it quadratically. Near a defect, where the ball's equator
+//! places e and c of their centres alone: the kernel with derivatives by both gives force and stiffness of the same sum
+//! that a run evaluates, so Newton's method converges quadratically. Near a defect, where the ball's equator
 //! cuts the zone, and on races that are no tori, the stiffness is found by differences.
 
 // Everything here must be compiled for the instructions of its caller.

@@ -1,4 +1,4 @@
-//! What bodies make of the forces on them, and rings of motions that they are given.
+//! Accelerations of bodies from the forces on them, and of rings from their given motions.
 
 use super::Dynamics;
 use crate::forces::drive;

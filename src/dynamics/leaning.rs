@@ -1,7 +1,7 @@
 //! Contacts and moments of rings that may tilt and of balls that spin freely: contacts are evaluated in the frames of their rings.
 //!
-//! All balls are first turned into each ring's frame; there the ring stands still, and the contacts are those of parallel rings but
-//! for what balls slip that turn across the ring's axis. Balls that spin about the axis of parallel rings do not come here.
+//! All balls are first turned into each ring's frame; there the ring stands still, and the contacts are those of parallel rings
+//! with the additional slip of balls that turn across the ring's axis. Not used where balls spin about the axis of parallel rings.
 
 use nalgebra::Vector3;
 
@@ -145,7 +145,7 @@ fn tumble(model: &Model, state: &State, ball: BodyId, accelerations: &mut [f64])
         &turning.into(),
         &state.motion(ball).turning(),
         attitude,
-        model.lead_rate(),
+        model.stabilisation_rate(),
     );
     for (dof, found) in Dof::ATTITUDE.into_iter().zip(found) {
         accelerations[layout.at(ball, dof)] = found;

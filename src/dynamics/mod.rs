@@ -254,7 +254,7 @@ impl<'m> Dynamics<'m> {
         }
     }
 
-    /// Computes the rates by the planar right-hand side, where there is one that serves; whether it did.
+    /// Computes the rates by the planar right-hand side, where there is one that applies; returns whether it did.
     fn in_plane(&mut self, y: &[f64], dy: &mut [f64]) -> bool {
         let done = match &mut self.order {
             Order::Bodies => false,

@@ -74,7 +74,7 @@ pub(super) fn of(model: &Model, y0: &[f64]) -> Result<Cost> {
     let whole = right_hand_side(model, y0);
     let contacts = time_at_places(model, y0, |dynamics, _, _| dynamics.evaluate_contacts());
     let cage = time_at_places(model, y0, |dynamics, _, _| dynamics.evaluate_cage());
-    // Where one loop does all it is faster than its parts apart, which then tell their shares of it.
+    // One loop for all is faster than its parts by themselves, whose times then give their shares of it.
     let share = (whole / (contacts + cage)).min(1.0);
     Ok(Cost {
         evaluations,
@@ -115,7 +115,7 @@ fn steps(model: &Model, start: &[f64], count: usize) -> Result<(f64, f64)> {
             tolerance: &tolerance,
             options: &options,
         };
-        // A run that breaks down says so itself; what it did until then still tells the cost.
+        // A run that fails reports it itself; its steps until then still show the cost.
         let _ = method::run(&mut dynamics, task, &mut None, &mut stop);
         interrupt::check()?;
         best = best.min(clock::since(begun));

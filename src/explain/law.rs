@@ -8,13 +8,13 @@ use crate::model::{Model, Race};
 use crate::scene::NormalLaw;
 use crate::statics::Equilibrium;
 
-/// How far the heaviest contact gives way at the start, beside Hertz's theory.
+/// Approach of ball and race in the most loaded contact at the start, compared with Hertz's theory.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct LawExplanation {
     /// The law.
     pub law: NormalLaw,
-    /// The heaviest contact, such as `row0.ball3.inner`.
+    /// The most loaded contact, such as `row0.ball3.inner`.
     pub contact: String,
     /// Its load \[N\].
     pub load: f64,
@@ -57,7 +57,7 @@ impl fmt::Display for LawExplanation {
         };
         write!(
             f,
-            "{name}: under {:.0} N, the heaviest, {} gives way by {:.2} µm",
+            "{name}: under {:.0} N, the largest load, {} deflects by {:.2} µm",
             self.load,
             self.contact,
             1e6 * self.approach

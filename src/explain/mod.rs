@@ -96,9 +96,9 @@ pub struct ContactKind {
 /// use ballrace::scene::{Friction, presets};
 /// let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
 /// scene.friction = Friction::None;
-/// let told = ballrace::explain(&scene).unwrap();
-/// assert_eq!((told.states, told.kept), (88, 44));
-/// assert_eq!(told.contacts[0].evaluation, "closed form");
+/// let found = ballrace::explain(&scene).unwrap();
+/// assert_eq!((found.states, found.kept), (88, 44));
+/// assert_eq!(found.contacts[0].evaluation, "closed form");
 /// ```
 ///
 /// # Errors
@@ -317,10 +317,10 @@ fn in_words(defect: &Touched) -> String {
     let from = match defect.placed {
         Placed::Given => "as given",
         Placed::Contact => "where contacts run",
-        Placed::Nominal => "at the nominal contact angle, for no contact is loaded",
+        Placed::Nominal => "at the nominal contact angle, since no contact is loaded",
     };
     let met = match (defect.passes, defect.touched) {
-        (0, _) => "no equilibrium tells whether it is touched".to_owned(),
+        (0, _) => "whether it is touched is unknown without an equilibrium".to_owned(),
         (_, 0) => match defect.contact_offset {
             Some(run) => format!("not touched: contacts run at {:.3} mm", 1e3 * run),
             None => "not touched: no contact is loaded there".to_owned(),

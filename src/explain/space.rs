@@ -1,24 +1,24 @@
-//! What is told of turning about x and y: where it is there, and where it is left out though the bearing asks for it.
+//! Notes on rotation about x and y: where a run includes it, and where it leaves it out though it matters in the bearing.
 
 use crate::base::quantities::number;
 use crate::inspect;
 use crate::model::{Model, Race};
 
-/// Moments that are told, over the largest load at half the pitch diameter.
+/// Least moment that is reported, over the largest load at half the pitch diameter.
 const MOMENT: f64 = 0.01;
-/// Contact angle from which pivoting is told \[rad\]: 3°.
+/// Contact angle from which pivoting is reported \[rad\]: 3°.
 const ANGLE: f64 = 0.05;
 
 /// Of a model and its start; `reduced` says whether turning is left out of the run.
 pub(super) fn notes(model: &Model, y0: &[f64], reduced: bool) -> Vec<String> {
     let mut found = Vec::new();
     if model.leans() && !reduced {
-        let told = "a ring may tilt: contacts are evaluated in the frames of their rings, and nothing is left out";
-        found.push(told.to_owned());
+        let note = "a ring may tilt: contacts are evaluated in the frames of their rings, and nothing is left out";
+        found.push(note.to_owned());
     }
     if model.balls_turn() && !reduced {
-        let told = "balls spin about any axis, with two states more each, and nothing is left out";
-        found.push(told.to_owned());
+        let note = "balls spin about any axis, each with two more states, and nothing is left out";
+        found.push(note.to_owned());
     }
     found.extend(held_parallel(model, y0).filter(|_| !model.leans()));
     found.extend(pivoting(model, y0).filter(|_| !model.balls_turn()));
@@ -33,13 +33,13 @@ fn held_parallel(model: &Model, y0: &[f64]) -> Option<String> {
     let load: f64 = model.scales.load;
     (largest > MOMENT * load * arm).then(|| {
         format!(
-            "rings are held parallel against up to {} N m; inner_ring.support.tilt_x and tilt_y let one tilt",
+            "rings are held parallel against moments up to {} N m; a mount in inner_ring.support.tilt_x and tilt_y lets one tilt",
             number(largest)
         )
     })
 }
 
-/// Balls that spin about the axis between contacts that lean.
+/// Balls that spin about the axis, with contacts at an angle.
 fn pivoting(model: &Model, y0: &[f64]) -> Option<String> {
     let balls = 0..model.balls.len();
     let rubs = |j: &usize| model.rows[model.balls[*j].row].has_friction();
@@ -50,7 +50,7 @@ fn pivoting(model: &Model, y0: &[f64]) -> Option<String> {
     let largest = angles.fold(0.0, f64::max);
     (largest > ANGLE).then(|| {
         format!(
-            "balls spin about the axis and pivot where contacts lean, here by up to {:.0}°: friction torque is several times too \
+            "balls spin about the axis and pivot in contacts at an angle, here up to {:.0}°: friction torque is several times too \
              high; spin = \"free\" lets them roll",
             largest.to_degrees()
         )

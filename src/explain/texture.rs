@@ -9,7 +9,7 @@ use crate::contact::HeightTable;
 use crate::model::{Model, Race};
 use crate::scene::Texture;
 
-/// Lowest order of what is told as roughness beside form.
+/// Lowest order that counts as roughness, not as form.
 const ROUGH: u32 = 15;
 
 /// The texture of one surface of a row.

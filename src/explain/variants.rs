@@ -23,10 +23,10 @@ pub struct Variant {
     pub seconds: f64,
 }
 
-/// Share of the cost below which a change is worth telling; nearer to it the clock decides.
+/// Share of the cost below which a change is offered; nearer to it the timing is not accurate enough.
 const HELPS: f64 = 0.95;
 
-/// What leaves out the oil or a part of it: told whatever it costs, for what it does to the answer.
+/// Changes that leave out the oil or a part of it: offered whatever they cost, for their effect on the result.
 const WITHOUT_OIL: &str = "without oil";
 const WITHOUT_ROLLING: &str = "without rolling resistance";
 const WITHOUT_FILM_DAMPING: &str = "without the film's damping";

@@ -72,7 +72,7 @@ fn columns_of(scene: &Scene, row: usize, race: RingName) -> Result<Vec<String>> 
         .find(|(_, probe)| records_loads(probe, row, race))
     else {
         let allowed =
-            format!("probes that record the loads of all contacts; none does of row {row}");
+            format!("probes that record the loads of all contacts; none does for row {row}");
         return Err(Error::scene("contact_loads", true, allowed));
     };
     let balls = 0..scene.rows[row].ball_count;

@@ -1,8 +1,8 @@
 //! Forces that are not contacts, one file each, and the one list of them.
 //!
-//! [`Force`] is all that is asked of a force: what it adds, what it stores and takes, how fast it damps, what it does at rest, and what
-//! it leaves of a scene's symmetry. The right-hand side, contributions by origin, statics, energies, scales, reductions and explanations
-//! go through [`ALL`]: a force that is entered there is in all of them, but for the scales of a model, which are estimated before ([`crate::model::Scales`]). Forces of a user's own code are one entry ([`outside`]).
+//! The trait [`Force`] is all that others need of a force: the force itself, the energy it stores and the power it dissipates, the rate
+//! of its damping, its effect at rest, and the symmetries that it keeps. The right-hand side, contributions by origin, statics,
+//! energies, scales, reductions and explanations go through [`ALL`]: a force that is entered there is in all of them, but for the scales of a model, which are estimated before ([`crate::model::Scales`]). Forces of a user's own code are one entry ([`outside`]).
 
 pub(crate) mod cage;
 pub(crate) mod drag;

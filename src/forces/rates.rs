@@ -1,4 +1,4 @@
-//! How fast forces change a motion, for the step that a method bears.
+//! How fast forces change a motion, for the largest stable step of a method.
 
 use crate::model::{Dof, Model};
 

@@ -1,4 +1,4 @@
-//! When and where forces are asked for, and what they add to.
+//! The instant at which forces are evaluated, and the sums that they add to.
 
 use std::ops::Range;
 

@@ -68,7 +68,7 @@ impl<S: LinearlyImplicit> StepMethod<S> for Adams {
         Err(Invalid("states [q, v] are even in number"))
     }
 
-    /// A step that grows more than twofold would lean on accelerations too close to each other.
+    /// A step that grows more than twofold would extrapolate from accelerations too close to each other.
     fn controller(&self) -> Controller {
         Controller {
             max_factor: 2.0,

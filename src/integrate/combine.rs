@@ -1,4 +1,4 @@
-//! The inner loops: a base plus a weighted sum of stages, and what else several vectors make of each other in one pass.
+//! The inner loops: a base plus a weighted sum of stages, and other combinations of several vectors in one pass.
 
 use std::ops::Range;
 

@@ -344,7 +344,10 @@ impl Remembered for Accepted {
 
 /// What is remembered is of another task than the one that begins at a time.
 pub(crate) fn other_task(begins: f64) -> Failure {
-    Failure::invalid(begins, Invalid("what is remembered is of another task"))
+    Failure::invalid(
+        begins,
+        Invalid("the saved state belongs to another system or method"),
+    )
 }
 
 fn not_finite(tolerance: &Tolerance, time: f64, i: usize) -> Failure {

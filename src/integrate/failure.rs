@@ -1,4 +1,4 @@
-//! How an integration can end badly.
+//! How an integration can fail.
 
 use std::error::Error;
 use std::fmt;

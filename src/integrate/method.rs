@@ -30,7 +30,7 @@ pub trait StepMethod<S>: Sealed {
         false
     }
 
-    /// Refuses so many states, and steps whose error it cannot tell, unless they are fixed.
+    /// Refuses a number of states that it does not take, and steps without an error estimate, unless they are fixed.
     ///
     /// # Errors
     /// What is wrong.

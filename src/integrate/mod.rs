@@ -1,15 +1,15 @@
 //! Adaptive integration of a smooth-by-pieces system of ordinary differential
-//! equations: by Runge–Kutta pairs, or by Adams' formulae over the steps behind.
+//! equations: by Runge–Kutta pairs, or by Adams' formulae over the previous steps.
 //!
-//! The room knows nothing of what it integrates. Its parts are orthogonal:
+//! The module does not depend on what it integrates. Its parts are independent of each other:
 //!
-//! | file           | what it knows                                             |
+//! | file           | what it holds                                             |
 //! |----------------|-----------------------------------------------------------|
 //! | `tableau*.rs`  | methods, as data: coefficients in constants                |
 //! | `method.rs`    | what the driver asks of a method                           |
 //! | `adams.rs`     | Adams' predictor–corrector, linearly implicit in velocities |
 //! | `blended.rs`   | the same for velocities that decay within a step           |
-//! | `multistep.rs` | the steps behind, and the polynomial through their accelerations |
+//! | `multistep.rs` | the previous steps, and the polynomial through their accelerations |
 //! | `combine.rs`   | base + h · weighted sum of stages, in one pass             |
 //! | `step.rs`      | one step of any tableau, in preallocated memory            |
 //! | `norm.rs`      | tolerances and the worst group's scaled error              |

@@ -1,4 +1,4 @@
-//! The steps behind a step, and the polynomial through their accelerations.
+//! The steps before the current one, and the polynomial through their accelerations.
 
 use super::combine::combine;
 use crate::base::words::{Remembered, Words};

@@ -295,13 +295,14 @@ fn whole(scene: &Scene, row: &Row, (torus, hertz): (Torus, Hertz)) -> Pair {
     }
 }
 
-/// Hertz's law has one curvature and one contact: its races must be hollow all along, and wider than balls.
+/// Hertz's law has one curvature and one contact: its races must be concave everywhere, with radii of curvature above the ball's.
 fn check_hollow(path: &str, pair: &Pair, race: Race) -> Result<()> {
     if pair.law.cut().is_flat() && !pair.shape.is_hollow() {
         return Err(Error::scene(
             format!("{path}.{}_profile.r", race.name()),
             "a profile that is not",
-            "hollow all along and wider than the balls, for Hertz's law; contact.law = iso16281 takes any",
+            "a race that is concave everywhere, with radii of curvature above the ball's, for Hertz's law; contact.law = iso16281 \
+             takes any",
         ));
     }
     Ok(())
@@ -359,8 +360,8 @@ fn unbalances(
                 format!("unbalances.{name}.moment"),
                 unbalance.moment,
                 format!(
-                    "all of a ring that turns freely below √(mass · inertia) = {} kg m, \
-                     or it has no inertia about its centre of mass",
+                    "less, so that the sum of the ring's unbalances is below √(mass · inertia) = {} kg m: \
+                     a ring that turns freely needs an inertia about its centre of mass",
                     number(most)
                 ),
             ));

@@ -1,4 +1,4 @@
-//! Memory that a scene needs once it is compiled and settled, computed before any of it is allocated.
+//! Memory that a scene needs once it is compiled and has settled, computed before any of it is allocated.
 
 use crate::base::error::Result;
 use crate::base::memory;

@@ -4,7 +4,8 @@
 //! q̈ = g̈(t) + 2 λ (ġ(t) − q̇) + λ² (g(t) − q)
 //! ```
 //!
-//! λ leads back what errors of steps add up to: slowly for steps, fast for runs ([`Model::lead_rate`]).
+//! The last two terms (Baumgarte's stabilisation) keep errors of steps from adding up: at a rate λ slow against steps and fast
+//! against a run ([`Model::stabilisation_rate`]).
 
 use super::{Degree, Dof, Model, Race};
 use crate::scene::{Mount, Ring, TimeFunction};
@@ -71,7 +72,7 @@ impl Model {
             return None;
         }
         let motion = self.rings[race].given.of(dof)?;
-        let rate = self.lead_rate();
+        let rate = self.stabilisation_rate();
         let behind = motion.rate(t) - speed + 0.5 * rate * (motion.at(t) - place);
         Some(motion.curvature(t) + 2.0 * rate * behind)
     }

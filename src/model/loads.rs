@@ -1,4 +1,4 @@
-//! Loads and moments compiled, and a model under others.
+//! Loads and moments compiled, and a model under other loads.
 
 use nalgebra::Vector3;
 

@@ -277,9 +277,9 @@ impl Model {
         }
     }
 
-    /// Rate at which Euler parameters are led back to length one and to the ball's angular velocity, and rings to given motions
-    /// \[1/s\]: slow for steps, which follow the highest frequency, and fast against what errors of steps add up to.
-    pub(crate) fn lead_rate(&self) -> f64 {
+    /// Rate of the stabilisation that returns Euler parameters to length one and to the ball's angular velocity, and rings to given
+    /// motions \[1/s\]: slow against steps, which follow the highest frequency, and fast against the growth of their errors.
+    pub(crate) fn stabilisation_rate(&self) -> f64 {
         0.02 * self.scales.frequency
     }
 

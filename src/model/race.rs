@@ -102,8 +102,8 @@ fn points(path: &str, row: &Row, race: Race, profile: &RaceProfile) -> Result<Ra
             format!("{path}.r"),
             format!("{} radii", profile.r.len()),
             format!(
-                "a race that is hollow, with a radius above the ball's, {}, where its normal leans by {} rad as \
-                 contact_angle says",
+                "a race that is concave, with a radius of curvature above the ball's, {}, where its normal is at contact_angle, \
+                 {} rad",
                 length(radius),
                 number(lean)
             ),
@@ -120,7 +120,7 @@ fn points(path: &str, row: &Row, race: Race, profile: &RaceProfile) -> Result<Ra
             format!("{path}.r"),
             format!("{} radii", profile.r.len()),
             format!(
-                "a race near the balls: one on the pitch circle is pressed {} into it",
+                "a race near the balls: this one would overlap a ball on the pitch circle by {}",
                 length(approach)
             ),
         ));

@@ -1,4 +1,4 @@
-//! Waves of surfaces as their contacts feel them: averaged over the contact, and texture drawn from its seed (model section 14).
+//! Waves of surfaces as they act in contacts: averaged over the contact, and texture drawn from its seed (model section 14).
 
 use std::f64::consts::TAU;
 
@@ -10,14 +10,14 @@ use crate::base::memory;
 use crate::contact::{HeightTable, Pair, Waves};
 use crate::scene::{Row, Texture, Waviness};
 
-/// Shortest wave that a texture may have, over the half-width of its contact: what is shorter the contact does not feel.
+/// Shortest wave that a texture may have, over the half-width of its contact: shorter ones average out in the contact.
 const SHORTEST: f64 = 0.25;
 
 impl Model {
     /// Gives races their waves and texture, averaged over contacts under loads \[N\] by row and race.
     ///
     /// # Errors
-    /// [`Error::Scene`] for orders that a contact does not feel, [`Error::Memory`] for tables that do not fit.
+    /// [`Error::Scene`] for orders that average out in a contact, [`Error::Memory`] for tables that do not fit.
     pub(crate) fn give_waves(&mut self, loads: &[[f64; 2]]) -> Result<()> {
         let mut planner = RealFftPlanner::new();
         for (row, loads) in loads.iter().enumerate() {
@@ -173,7 +173,7 @@ fn waves(
     Ok(Waves::tabulated(HeightTable::new(&averaged, planner)))
 }
 
-/// A wave as contacts feel it whose half-width is so much of the radius.
+/// A wave averaged over contacts, whose half-width is given over the radius.
 fn averaged_over(mut wave: Waviness, arc: f64) -> Waviness {
     wave.amplitude *= averaged(f64::from(wave.order) * arc);
     wave
@@ -188,7 +188,7 @@ fn averaged(kappa: f64) -> f64 {
     }
 }
 
-/// Refuses orders whose waves are shorter than contacts feel.
+/// Refuses orders whose waves average out in a contact.
 fn check_orders(row: usize, texture: &Texture, arc: f64) -> Result<()> {
     let most = TAU / (SHORTEST * arc);
     let [first, last] = texture.orders_on(arc);
@@ -199,7 +199,7 @@ fn check_orders(row: usize, texture: &Texture, arc: f64) -> Result<()> {
         format!("rows[{row}].texture.orders"),
         format!("[{first}, {last}]"),
         format!(
-            "at most {} here: shorter waves than a quarter of its half-width a contact does not feel",
+            "at most {} here: waves shorter than a quarter of a contact's half-width average out in it",
             most.floor()
         ),
     ))
@@ -210,7 +210,7 @@ fn check_memory(last: u32, count: usize) -> Result<()> {
     // The table, and what its transform takes.
     let knots = HeightTable::knots_for(last) as f64;
     memory::check(8.0 * knots * (3.0 + count as f64), || {
-        format!("{count} tables of a texture up to order {last}; end it earlier")
+        format!("{count} tables of a texture up to order {last}; lower its highest order")
     })
 }
 

@@ -102,7 +102,7 @@ fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<
     Ok(Some(Case::new(scene, run)))
 }
 
-/// Checks for Ctrl-C, and hands the outcomes over.
+/// Checks for Ctrl-C, and passes the outcomes on.
 fn tell(
     py: Python<'_>,
     done: &Py<PyAny>,

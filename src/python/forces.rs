@@ -92,7 +92,7 @@ impl RingForce for Called {
     }
 
     fn wrench(&self, t: f64, ring: &RingMotion) -> [f64; 6] {
-        // What still is evaluated until the run ends is for nobody.
+        // Evaluations until the run ends are not used.
         if self.raised.is_set() {
             return [0.0; 6];
         }

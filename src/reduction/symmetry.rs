@@ -186,7 +186,7 @@ fn parallel_at_start(model: &Model, start: &[f64]) -> Symmetry {
                 .iter()
                 .all(|rate| rate.abs() <= limit * model.scales.frequency);
         require(ring.tilt == [0.0; 2] && rests, || {
-            format!("the {of} ring leans at the start")
+            format!("the {of} ring tilts at the start")
         })?;
     }
     Ok(())

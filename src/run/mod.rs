@@ -4,8 +4,8 @@
 //! * `method` — the method, and the switch between two of them; `step_limit` — the largest step of each.
 //! * `session` — a run between its pieces; `simulation` ([`Simulation`]) — runs in pieces, with changes; `snapshot` — what a run needs to go on.
 //! * `prepare` — what comes before: the scene as the run has it, memory, start; `provenance` — what is recorded about it.
-//! * `settle` — the decay of the start's transient before t = 0; `follow` — steps over a stretch of time, which `watch` sees, and `beyond` its end; `settings` — what a model asks of
-//!   the integrator.
+//! * `settle` — the decay of the start's transient before t = 0; `follow` — steps over an interval of time, observed by `watch`, and
+//!   `beyond` its end; `settings` — options of the integrator for a model.
 //! * `budget`, `step_collapse`, `runaway`, `escape`, `orbit`, `ending` — when it stops, and its errors.
 
 mod accuracy;

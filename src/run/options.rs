@@ -10,8 +10,8 @@ use crate::scene::{Method, interpret};
 use crate::signals::Bandwidth;
 use crate::statics::start::Start;
 
-/// What to run. As a document it says `start` as `"equilibrium"`, `"rolling"` or the list of a state's numbers, and
-/// `bandwidth` as `"auto"` or, of point samples, `null`; what is absent has its default, and other fields are refused.
+/// The options of a run. In a document `start` is `"equilibrium"`, `"rolling"` or the list of a state's numbers, and
+/// `bandwidth` is `"auto"` or, for point samples, `null`; absent fields have their defaults, and other fields are refused.
 ///
 /// ```
 /// let run = ballrace::Run::from_json(r#"{"duration": 0.5, "method": "verner"}"#)?;
@@ -22,35 +22,35 @@ use crate::statics::start::Start;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Run {
-    /// Simulated time \[s\].
+    /// Simulated time \[s\]. Default 0.1.
     pub duration: f64,
-    /// Sampling rate \[Hz\].
+    /// Sampling rate \[Hz\]. Default 50 000.
     pub fs: f64,
-    /// How it begins.
+    /// State at the start. Default equilibrium.
     #[serde(with = "starts")]
     pub start: Start,
     /// Relative tolerance; absent: the scene's.
     pub rtol: Option<f64>,
-    /// Relative error of accelerations to stay below, 1e-4 to 1e-1: chooses nodes, tolerance and step cap in
-    /// place of the scene's, by pilot runs of the first 3 ms; absent: the scene's. See [`crate::Accuracy`].
+    /// Relative error of accelerations that is aimed at, 1e-4 to 1e-1: nodes, tolerance and step cap are chosen for it by
+    /// pilot runs of the first 3 ms; absent: those of the scene. See [`crate::Accuracy`].
     pub accuracy: Option<f64>,
     /// Method; absent: the scene's.
     pub method: Option<Method>,
-    /// Threads that share the balls of one evaluation; 0: as many as pay. The bits are the same for any.
+    /// Threads that share the balls of one evaluation. Default 0: as many as make it faster. The bits are the same for any.
     pub threads: usize,
-    /// Whether signals are filtered before they are sampled.
+    /// Whether signals are filtered before they are sampled. Default [`Bandwidth::Auto`].
     #[serde(with = "bandwidths")]
     pub bandwidth: Bandwidth,
     /// Time before t = 0 in which the transient of the start decays \[s\]; absent: as long as the scene needs from
-    /// equilibrium, 0 from any other start. Loads and drive are then as at t = 0, and rings and cage are wound back, so
-    /// that at t = 0 they stand where the scene says but for what the balls have slipped. From a given state nothing is
-    /// wound back: that state is the one before.
+    /// equilibrium, 0 from any other start. Loads and drive are then as at t = 0, and rings and cage are turned back, so
+    /// that at t = 0 they are where the scene puts them except for the slip of the balls. A given state is not turned
+    /// back: it is the state before the settling.
     pub settle: Option<f64>,
-    /// Wall time that the run may take \[s\], looked at about every 20 ms; absent: any. What it ends depends on the
-    /// machine, what finishes within it does not.
+    /// Wall time that the run may take \[s\], checked about every 20 ms; absent: any. Where it ends a run depends on the
+    /// machine; the results of a run that finishes do not.
     pub time_limit: Option<f64>,
-    /// Steps that the run may take, accepted and rejected ones; absent: any. Settling, and pilot runs for an accuracy, have
-    /// as many each.
+    /// Steps that the run may take, accepted and rejected ones; absent: any. Settling and each pilot run for an accuracy may
+    /// take as many.
     pub max_steps: Option<usize>,
 }
 
@@ -74,7 +74,7 @@ impl Default for Run {
 }
 
 impl Run {
-    /// The longest duration, of a [`crate::Simulation`] that ends when it is told to \[s\].
+    /// The longest duration \[s\]: that of a [`crate::Simulation`] without an end of its own.
     pub const OPEN: f64 = 1e6;
 
     /// Reads a run from JSON and checks it.

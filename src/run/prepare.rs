@@ -1,4 +1,4 @@
-//! What comes before a run: its own settings in the scene, room for its record, a settled start, nodes and tolerance.
+//! Preparation of a run: its own settings in the scene, memory for its record, a settled start, nodes and tolerance.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;

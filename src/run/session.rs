@@ -1,4 +1,4 @@
-//! A run that stands at a time: what it has compiled, where the motion is, what is recorded of it.
+//! A run paused at a time: its compiled model, the state of the motion, and the record so far.
 
 use std::collections::BTreeMap;
 
@@ -291,7 +291,8 @@ impl<'s> Session<'s> {
 
 /// Refuses a model that has other bodies, directions, or columns.
 fn check_kept(before: &Model, after: &Model) -> Result<()> {
-    let others = "what leaves them as they are: begin another simulation for others";
+    let others =
+        "changes that keep bodies, held directions and probes; begin another simulation for others";
     let refuse = |what: &str| Err(Error::scene("changes", what, others));
     let held = |model: &Model| -> Vec<bool> {
         let held = |race: Race| move |dof: Dof| model.rings[race].given.of(dof).is_some();

@@ -1,4 +1,4 @@
-//! What a model asks of the integrator: threads, step cap, breakpoints, tolerance.
+//! Options of the integrator for a model: threads, step cap, breakpoints, tolerance.
 
 use super::step_limit;
 use crate::base::error::{Error, Result};
@@ -14,7 +14,11 @@ const ROOM: f64 = 4.0;
 /// How many threads share an evaluation: one where the crate is built without any.
 pub(crate) fn threads(model: &Model, asked: usize) -> Result<usize> {
     if asked > 1024 {
-        return Err(Error::scene("threads", asked, "at most 1024; 0 chooses"));
+        return Err(Error::scene(
+            "threads",
+            asked,
+            "0 to 1024; 0: chosen automatically",
+        ));
     }
     if cfg!(not(feature = "parallel")) {
         return Ok(1);

@@ -1,9 +1,9 @@
 //! The decay of a start's transient before t = 0 (model section 8).
 //!
-//! An equilibrium does not include friction, nor of balls that no load holds more than `statics::fallen` knows: in a fast 6205 the outer
+//! An equilibrium does not include friction, and places unloaded balls only as `statics::fallen` estimates: in a fast 6205 the outer
 //! ring's vibration is steady from three quarters of a turn of the cage on. So a run begins a little earlier, with loads and drive as they
-//! are at t = 0, and with rings and cage turned back: at t = 0 balls and defects are where the scene says, except for the slip of the balls
-//! and the play of the cage.
+//! are at t = 0, and with rings and cage turned back: at t = 0 balls and defects are where the scene puts them, except for the slip of
+//! the balls and the play of the cage.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -42,7 +42,7 @@ const LONGEST_TAKE_UP: f64 = 0.012;
 const PASSES: f64 = 2.0;
 
 /// Until so long before t = 0 \[s\] steps are limited by a tolerance alone, looser than the default of 1e-7 and without the cap by
-/// the contacts' frequency: none of it is heard, and the measure above is the same (over three loads and 24 starts 0.86, 1.29, 0.95 and 0.92
+/// the contacts' frequency: none of it is recorded, and the measure above is the same (over three loads and 24 starts 0.86, 1.29, 0.95 and 0.92
 /// instead of 0.87, 1.29, 0.96 and 0.92) for half of the evaluations. The rest is what contacts need to stop ringing by such steps.
 const FINE: f64 = 3e-3;
 const COARSE: f64 = 1e-5;
@@ -313,7 +313,7 @@ mod tests {
     use crate::scene::{Defect, Lubricant, Spin, presets};
 
     /// Analytic: a rotation has Euler parameters of length one, and they change by ½ ω e: after thousands of steps too, which let
-    /// them drift by some 1e-6 where nothing leads them back.
+    /// them drift by some 1e-6 where nothing returns them.
     #[test]
     fn euler_parameters_keep_their_length() {
         let mut scene = presets::deep_groove_6205(500.0, 500.0, 1797.0);

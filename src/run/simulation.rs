@@ -1,4 +1,4 @@
-//! A run that goes on in pieces, is looked at between them, and may be changed.
+//! A run in pieces, between which it can be inspected and changed.
 
 use std::ops::ControlFlow;
 
@@ -26,7 +26,7 @@ use crate::statics::place;
 /// use ballrace::{Run, Simulation};
 ///
 /// let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
-/// // A run that ends when it is told to.
+/// // A run that ends when `finish` is called.
 /// let run = Run { duration: Run::OPEN, ..Run::default() };
 /// let mut simulation = Simulation::begin(&scene, &run)?;
 /// while simulation.wrench(RingName::Outer)[1].abs() < 1000.0 {

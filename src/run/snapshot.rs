@@ -1,4 +1,4 @@
-//! What a run that stands needs to go on, in this process or another.
+//! Everything that a paused run needs to go on, in this process or another.
 
 use std::collections::BTreeMap;
 
@@ -115,6 +115,6 @@ fn check(version: &str) -> Result<()> {
     if version == here {
         return Ok(());
     }
-    let allowed = format!("{here}, by which it is restored");
+    let allowed = format!("{here}, the version that restores it");
     Err(Error::scene("snapshot.version", version, allowed))
 }

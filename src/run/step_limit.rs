@@ -1,9 +1,9 @@
 //! The largest step of each method in a scene, by its stability and its accuracy.
 //!
-//! The contacts' highest frequency ω bounds ωh. A method turns, shrinks or lets grow an oscillation by c (ωh)^p a radian too
-//! much, which adds up as long as the contacts vibrate: for the few milliseconds over which anything can be predicted, or until
-//! damping has ended it. So undamped scenes need smaller steps. Friction and damping that are faster than a step shorten it by the
-//! error estimate.
+//! The contacts' highest frequency ω bounds ωh. In an oscillation a method makes an error of phase or amplitude of c (ωh)^p in each
+//! radian, which adds up as long as the contacts vibrate: for the few milliseconds over which anything can be predicted, or until
+//! damping has ended it. So undamped scenes need smaller steps. Where friction and damping are faster than a step, the error
+//! estimate shortens it.
 
 use crate::forces::damping;
 use crate::model::Model;

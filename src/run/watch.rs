@@ -1,4 +1,4 @@
-//! What sees the steps of a run, and what is told of it.
+//! Observers of a run's steps, and what they report.
 
 use std::ops::ControlFlow;
 

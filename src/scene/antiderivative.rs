@@ -1,4 +1,4 @@
-//! Integrals over time of values that change; those of a table are summed once.
+//! Integrals over time of values that may change; those of a table are summed once.
 
 use super::points::{Cubic, reached};
 use super::time::{Profile, TimeFunction};

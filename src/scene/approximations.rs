@@ -13,19 +13,19 @@ use crate::base::error::{Error, Result};
 #[serde(deny_unknown_fields, default)]
 #[non_exhaustive]
 pub struct Approximations {
-    /// Balls and cage are kinematic: every row orbits in proportion to the inner ring as it rolls at the start, its
-    /// balls spaced as there, and moves along its radii and z only. Friction and cage are left out, of
-    /// [`crate::dynamics::rhs()`] too, which else is that of free balls.
+    /// Balls and cage are kinematic: every row orbits at the share of the inner ring's speed at which it rolls at the start, with
+    /// the spacing of its balls at the start; balls move only along their radii and z. Friction and cage are left out, also from
+    /// [`crate::dynamics::rhs()`], which otherwise includes free balls. Needs a given speed.
     pub rolling: bool,
-    /// Rings and balls keep their axial places from the start, the balls of a row all the same one: the plane model
+    /// Rings and balls keep their axial places from the start, all balls of a row the same one: the plane model
     /// of a bearing with a contact angle, for loads along z that do not change.
     pub plane: bool,
-    /// Of two rows the one that carries next to nothing at the start is left out, for thrust that unloads it.
+    /// Of two rows, the one that carries less than 2 % of the load at the start is left out, where loads do not change.
     pub one_row: bool,
 }
 
 impl Approximations {
-    /// None: every answer is the model's own.
+    /// None of them.
     pub const NONE: Self = Self {
         rolling: false,
         plane: false,
@@ -37,7 +37,7 @@ impl Approximations {
         self != Self::NONE
     }
 
-    /// The scene without the forces that are given up.
+    /// The scene without the forces that `rolling` leaves out.
     pub(crate) fn simplified(scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         if scene.approximations.rolling {
@@ -47,7 +47,7 @@ impl Approximations {
         scene
     }
 
-    /// Refuses what cannot be.
+    /// Refuses approximations that the scene does not allow.
     pub(super) fn validate(self, scene: &Scene) -> Result<()> {
         let refuse = |field: &str, allowed: String| {
             Err(Error::scene(
@@ -60,7 +60,7 @@ impl Approximations {
             if !matches!(scene.drive, Drive::Speed(_)) {
                 return refuse(
                     "rolling",
-                    "false with drive.torque: without friction nothing balances it".to_owned(),
+                    "false with drive.torque, which nothing balances without friction".to_owned(),
                 );
             }
             for (i, row) in scene.rows.iter().enumerate() {
@@ -76,12 +76,13 @@ impl Approximations {
             return refuse("one_row", "false unless there are two rows".to_owned());
         }
         let rings = [&scene.outer_ring, &scene.inner_ring];
-        let led = |ring: &&super::Ring| matches!(ring.support.z, Some(Mount::Given(_)));
+        let follows = |ring: &&super::Ring| matches!(ring.support.z, Some(Mount::Given(_)));
         let kept = [("plane", self.plane), ("one_row", self.one_row)];
         if let Some((name, _)) = kept.into_iter().find(|(_, asked)| *asked)
-            && rings.iter().any(led)
+            && rings.iter().any(follows)
         {
-            let allowed = "false where a ring's motion along z is given: axial places are kept";
+            let allowed =
+                "false where a ring's motion along z is given, since it keeps axial places";
             return refuse(name, allowed.to_owned());
         }
         Ok(())

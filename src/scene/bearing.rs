@@ -22,7 +22,7 @@ pub struct Row {
     /// Nominal contact angle α₀ at zero clearance \[rad\], 0 to 80°.
     #[serde(default)]
     pub contact_angle: f64,
-    /// Sign of the axial part of the direction from ball to outer contact, +1 or −1.
+    /// Sign of the axial part of the direction from ball to outer contact, +1 or −1; +1 takes thrust towards +z on the inner ring.
     #[serde(default = "defaults::side")]
     pub side: i8,
     /// Axial place of the row z_row \[m\].
@@ -43,17 +43,17 @@ pub struct Row {
     /// Shoulder angles of the inner groove towards −z and +z, from the groove's centre \[rad\]; absent: none.
     #[serde(default)]
     pub inner_shoulders: Option<[f64; 2]>,
-    /// Radius \[m\] by which the edges of the outer shoulders are rounded off, so that a contact that runs over one fades away; absent:
-    /// sharp edges. With the law of ISO 16281.
+    /// Radius \[m\] by which the edges of the outer shoulders are rounded, so that the force of a contact that runs over one falls
+    /// smoothly; absent: sharp edges. Only with shoulders and the law of ISO 16281.
     #[serde(default)]
     pub outer_shoulder_radius: Option<f64>,
-    /// Radius \[m\] by which the edges of the inner shoulders are rounded off.
+    /// Radius \[m\] by which the edges of the inner shoulders are rounded; likewise.
     #[serde(default)]
     pub inner_shoulder_radius: Option<f64>,
-    /// Outer race through points, in place of the groove that `outer_conformity` says.
+    /// Outer race through points, in place of the groove of `outer_conformity`.
     #[serde(default)]
     pub outer_profile: Option<RaceProfile>,
-    /// Inner race through points, in place of the groove that `inner_conformity` says.
+    /// Inner race through points, in place of the groove of `inner_conformity`.
     #[serde(default)]
     pub inner_profile: Option<RaceProfile>,
     /// Outer race as a gothic arch, as in a four-point bearing.
@@ -68,7 +68,7 @@ pub struct Row {
     /// Waviness of the inner race; turns with the inner ring.
     #[serde(default)]
     pub inner_waviness: Vec<Waviness>,
-    /// Texture of races and balls; absent: smooth. What `outer_waviness` and `inner_waviness` list comes on top of it.
+    /// Texture of races and balls, added to `outer_waviness` and `inner_waviness`; absent: smooth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texture: Option<Texture>,
     /// Diameter error of each ball \[m\]; empty: none.
@@ -86,13 +86,13 @@ pub struct Row {
     /// Material of the row's balls; absent: that of the scene, `materials.balls`.
     #[serde(default)]
     pub ball_material: Option<Material>,
-    /// How the row's balls meet their races, in place of the whole of the scene's `contact`; absent: as there.
+    /// Contact of the row's balls and races, in place of all of the scene's `contact`; absent: that of the scene.
     #[serde(default)]
     pub contact: Option<Contact>,
     /// Friction of the row's balls and races; absent: that of the scene.
     #[serde(default)]
     pub friction: Option<Friction>,
-    /// Oil of the row's contacts, in place of the whole of the scene's; absent: that of the scene.
+    /// Oil of the row's contacts, in place of all of the scene's `lubricant`; absent: that of the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lubricant: Option<Lubricant>,
 }
@@ -112,7 +112,7 @@ impl Row {
         listed || self.texture.is_some()
     }
 
-    /// A healthy row in the plane z = 0, without contact angle and clearance, its numbers as the fields of the same names.
+    /// A healthy row in the plane z = 0, without contact angle and clearance; the arguments are the fields of the same names.
     pub fn new(
         ball_count: usize,
         ball_diameter: f64,
@@ -177,18 +177,18 @@ impl RaceProfile {
     }
 }
 
-/// A race of two grooves whose centres lie apart along the axis, so that a ball that rests in it touches both: a ring split in
-/// the middle, of which a shim of width (2 r − D) sin α_s was ground away.
+/// A race of two grooves whose centres lie apart along the axis, so that a ball that rests in it touches both: a groove from whose
+/// middle a shim of width (2 r − D) sin α_s was ground away.
 ///
-/// The clearance P_d is the play of a ball that touches both flanks at the shim angle; of the groove before it was split
-/// it is larger by (2 r − D)(1 − cos α_s) a race (T. A. Harris, *Rolling Bearing Analysis*, ch. 2).
+/// The clearance P_d is the play of a ball that touches both flanks at the shim angle. That of the groove before grinding is
+/// larger by (2 r − D)(1 − cos α_s) for each such race (T. A. Harris, *Rolling Bearing Analysis*, ch. 2).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct GothicArch {
     /// Shim angle α_s, between the plane and the normals of a resting ball \[rad\]; above 0, at most 80°.
     pub shim_angle: f64,
-    /// Conformities of the flanks towards −z and +z, above 0.5 and at most 1; absent: that of the race, both.
+    /// Conformities of the flanks towards −z and +z, above 0.5 and at most 1; absent: both that of the race.
     #[serde(default)]
     pub conformities: Option<[f64; 2]>,
 }
@@ -218,7 +218,7 @@ pub struct Waviness {
 }
 
 impl Waviness {
-    /// So many waves of an amplitude \[m\] and a phase \[rad\].
+    /// Waves around the circumference, amplitude \[m\] and phase \[rad\].
     pub fn new(order: u32, amplitude: f64, phase: f64) -> Self {
         Self {
             order,
@@ -248,20 +248,20 @@ pub struct Ring {
     /// How the ring is supported.
     #[serde(default)]
     pub support: Support,
-    /// Nominal tilt (τ_x, τ_y) \[rad\], at most 0.5: how far the ring tilts where its tilts are held or their springs relaxed, as a
-    /// right-handed rotation about x and y; absent: not at all. Nothing of a tilt whose motion is given.
+    /// Nominal tilt (τ_x, τ_y) \[rad\], √(τ_x² + τ_y²) at most 0.5: the right-handed rotation about x and y at which the tilts are held,
+    /// or their springs relaxed; absent: 0. It does not apply to a tilt whose motion is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tilt: Option<[f64; 2]>,
-    /// Moment of inertia about an axis across z through the centre of mass \[kg m²\]; absent: from what `inertia` comes from, of a
-    /// hollow cylinder as long as `width`.
+    /// Moment of inertia about an axis across z through the centre of mass \[kg m²\]; absent: that of the hollow cylinder or thin ring
+    /// that `inertia` is computed from, as long as `width`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub transverse_inertia: Option<f64>,
-    /// Axial place of the centre of mass in the ring's frame \[m\], whose displacement are x, y and z of the ring; absent: 0.
+    /// Axial place of the centre of mass in the ring's frame \[m\]; x, y and z of the ring are the displacement of this point. Absent: 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub centre_of_mass: Option<f64>,
 }
 
-/// How a body is supported on the inertial frame, a direction each. An absent direction is fixed for the
+/// How a body is supported on the inertial frame, direction by direction. An absent direction is fixed for the
 /// outer ring, free for the inner ring and the balls; an absent tilt is fixed.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -276,16 +276,16 @@ pub struct Support {
     /// Along z.
     #[serde(default)]
     pub z: Option<Mount>,
-    /// About z.
+    /// About z; absent for a ring whose speed is given.
     #[serde(default)]
     pub theta: Option<Mount>,
-    /// Of a ring, its tilt about x.
+    /// Tilt about x; rings only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tilt_x: Option<Mount>,
-    /// Of a ring, its tilt about y.
+    /// Tilt about y; rings only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tilt_y: Option<Mount>,
-    /// Of a ring, springs and dampers between all directions, beside those above.
+    /// Springs and dampers between all directions, in addition to those above; rings only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coupled: Option<Box<CoupledSupport>>,
 }
@@ -308,8 +308,8 @@ pub enum Mount {
         #[serde(default)]
         damping: f64,
     },
-    /// A ring follows a given motion: its place in time \[m\], of tilts \[rad\]; a number, a sine or a spline. About z a speed
-    /// prescribes it, the drive's or [`Scene::outer_speed`](super::Scene::outer_speed).
+    /// A ring follows a given motion: its place over time \[m\], of tilts the angle \[rad\]; a number, a sine or a spline. Not about z,
+    /// where the drive or [`Scene::outer_speed`](super::Scene::outer_speed) gives a speed.
     Given(Box<TimeFunction>),
 }
 
@@ -367,16 +367,16 @@ impl Support {
     }
 }
 
-/// Springs and dampers between all directions of a ring, beside those of its single directions: generalised forces −(K ξ + C ξ̇)
-/// on x, y, z of a point of its axis, on its tilts and on its spin. K and C are symmetric and positive semidefinite.
+/// Springs and dampers between all directions of a ring, in addition to those of single directions: generalised forces −(K ξ + C ξ̇)
+/// on x, y, z of a point of its axis, on its tilts and on its rotation. K and C are symmetric and positive semidefinite.
 ///
-/// The order is x, y, z, `tilt_x`, `tilt_y`, θ; entries are \[N/m\], \[N/rad\] or \[N m/m\], and \[N m/rad\], and the same times seconds.
-/// Directions that are fixed stay where they are.
+/// The order is x, y, z, `tilt_x`, `tilt_y`, θ; entries of K are \[N/m\], \[N/rad\] or \[N m/m\], and \[N m/rad\], those of C the same
+/// times seconds. Fixed directions stay fixed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct CoupledSupport {
-    /// K; the row and the column of a driven rotation are 0.
+    /// K; row and column of θ are 0 where the ring's speed is given.
     pub stiffness: [[f64; 6]; 6],
     /// C; likewise.
     #[serde(default)]

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How a ball meets a race.
+/// Contact of a ball and a race: elastic law, slices, damping.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 #[non_exhaustive]
@@ -33,8 +33,8 @@ impl Default for Contact {
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[non_exhaustive]
 pub enum NormalLaw {
-    /// The paper's law, after the roller slices of ISO/TS 16281: F = Σ c_s s^{10/9}. With the paper's constants it gives
-    /// way about three times as far as Hertz; [`crate::explain()`] gives the ratio at a scene's own load.
+    /// The paper's law, after the roller slices of ISO/TS 16281: F = Σ c_s s^{10/9}. With the paper's constants ball and race
+    /// approach about three times as far as by Hertz's law; [`crate::explain()`] gives the ratio at a scene's own load.
     Iso16281 {
         /// Constant of the law for lengths in metres \[N m^{−2}\]; 35948 N/mm² = 3.5948·10¹⁰.
         #[serde(default = "iso_constant")]
@@ -72,12 +72,12 @@ impl NormalLaw {
 pub enum Slices {
     /// Slices of equal width over the whole ball, fixed in it: the paper's method. 10 to 100 000.
     Fixed(usize),
-    /// Quadrature nodes on every smooth piece of the zone that touches. 2 to 64; 6 give the normal force to 2e-5
-    /// (root mean square over loads, angles and defects), friction to 1e-4 of μ times it;
-    /// but where slip changes by more than 70 slip speeds over half a zone, to some percent.
+    /// Quadrature nodes on every smooth piece of the zone of contact, 2 to 64. 6 give the normal force F to a relative error of 2e-5
+    /// (root mean square over loads, angles and defects) and friction to 1e-4 μF; where slip changes by more than 70 slip speeds
+    /// over half a zone, friction only to some percent.
     Fitted(usize),
-    /// As many fitted nodes as give normal and friction force of rolling balls to this share of the normal force;
-    /// found for each race when the scene is compiled. 1e-9 to 1e-1.
+    /// As many fitted nodes as give normal and friction force of rolling balls to this share of the normal force,
+    /// 1e-9 to 1e-1; found for each race when the scene is compiled.
     Accuracy(f64),
 }
 
@@ -131,7 +131,7 @@ pub(super) fn extreme_slip([a, b, c]: [f64; 3]) -> f64 {
     }
 }
 
-/// A friction law as checks see it: its numbers by the names of their fields.
+/// The numbers of a friction law by the names of their fields, for checks.
 pub(super) struct FrictionNumbers {
     /// Name in a document.
     pub law: &'static str,

@@ -19,22 +19,21 @@ pub struct Defect {
     pub ball: Option<usize>,
     /// Angular place φ_f on the body, counter-clockwise from its own x axis \[rad\].
     pub angle: f64,
-    /// Axial place of the middle, from the row's plane (races) or the ball's centre; where contacts run by default
-    /// \[m\].
+    /// Axial place of the middle \[m\], from the row's plane (races) or the ball's centre; by default where contacts run.
     #[serde(default)]
     pub axial_offset: AxialOffset,
     /// Outline; absent: a patch of `length` and `width`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<DefectShape>,
-    /// Axial length L_f \[m\]; of a cap 0, or absent in a document: its width says all.
+    /// Axial length L_f \[m\]; 0 or absent for a cap, which is as long as it is wide, and for a round pit.
     #[serde(default)]
     pub length: f64,
     /// Width w, arc length along the surface \[m\]; a number or a profile along z.
     pub width: Width,
-    /// Radius R_f of the fault circles at the edges \[m\]; a pit has none, and one with walls none of its own.
+    /// Radius R_f of the fault circles at the edges \[m\]; absent for a pit, which has none, and with `walls`, which set it.
     #[serde(default)]
     pub edge_radius: f64,
-    /// Walls from which width and edge radius of the fault circles follow; absent: they are as given.
+    /// Walls from which distance and radius of the fault circles follow; absent: `width` and `edge_radius` are those given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub walls: Option<Walls>,
     /// Recessed circles between the edges; absent: no floor.
@@ -176,12 +175,11 @@ pub enum Surface {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum DefectShape {
-    /// Of a ball: a circle on its surface, as wide along the surface as `width` says in every direction. The middle is seen
-    /// from the ball's centre in a direction that is fixed in the ball, at `angle` about z and `axial_offset` along it where
-    /// it meets the surface.
+    /// A circle on a ball's surface, `width` wide along the surface in every direction, less than the ball's radius. The direction from
+    /// the ball's centre to its middle is fixed in the ball: at `angle` about z, with `axial_offset` the axial place of the middle.
     Cap,
-    /// A hole smaller than its contact, which bulges into it and shares load: an ellipse of `width` along rolling and of `length` across, round
-    /// without one, so deep that nothing meets its floor. It has no edge radius.
+    /// A hole smaller than its contact, into which the surfaces bulge so that the contact loses part of its load: an ellipse of `width`
+    /// along rolling and `length` across, round without a length, so deep that nothing meets its floor, with sharp edges.
     Pit,
 }
 
@@ -190,9 +188,9 @@ pub enum DefectShape {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Walls {
-    /// Steep ones, over which half of a contact hangs before it reaches them: fault circles of a quarter of the ball's diameter, wider apart than
-    /// `width` by the half-width of the most loaded contact at equilibrium that meets the defect, unload a contact as a solver by boundary
-    /// elements does. A run records both numbers.
+    /// Steep ones. A contact carries load until half of it is over the wall. Fault circles with a radius of a quarter of the ball's
+    /// diameter, further apart than `width` by the half-width of the most loaded contact that meets the defect at the equilibrium,
+    /// unload contacts as boundary-element solutions do. A defect narrower than 1.25 contacts is refused. A run records both numbers.
     Steep,
 }
 
@@ -202,11 +200,10 @@ pub enum Walls {
 pub enum AxialOffset {
     /// From the row's plane (races) or the ball's centre \[m\].
     At(f64),
-    /// Where the contact runs that a defect is there for: the most loaded of those that meet it over a turn of the
-    /// balls, at the static equilibrium of the healthy bearing under the largest value of every load. Of a defect on
-    /// the outer race that is a ball's at the defect's own angle; of one on a ball, its contact with the race that
-    /// loads it more. Without equilibrium or load it is the place of the nominal contact angle. A run records the
-    /// number, in nanometres.
+    /// Where the most loaded of the contacts runs that meet the defect over a turn of the balls, at the static equilibrium of the
+    /// healthy bearing under the largest value of every load: on the outer race that of a ball at the defect's own angle, on a
+    /// ball that with the race that loads it more. Without equilibrium or load it is the place of the nominal contact
+    /// angle. A run records the number, rounded to nanometres.
     #[default]
     Contact,
 }
@@ -227,7 +224,7 @@ impl AxialOffset {
     }
 }
 
-/// What a document says instead of a number.
+/// The word that a document has in place of a number.
 const CONTACT: &str = "contact";
 
 /// Fault circles of the edge radius, evenly spaced between the edges, their crests at a depth. Their
@@ -243,7 +240,7 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// So many circles, their crests at a depth \[m\].
+    /// Depth of the crests \[m\] and number of circles.
     pub fn new(depth: f64, elements: usize) -> Self {
         Self { depth, elements }
     }
@@ -290,8 +287,8 @@ impl From<f64> for Width {
 }
 
 impl Width {
-    /// Width \[m\] and its slope along z at an axial place from the defect's middle \[m\]; not a number where a profile that
-    /// [`crate::Scene::validate`] refuses has none.
+    /// Width \[m\] and its slope along z at an axial place from the defect's middle \[m\]; NaN where a profile lacks widths, which
+    /// [`crate::Scene::validate`] refuses.
     ///
     /// ```
     /// use ballrace::scene::{Width, WidthProfile};

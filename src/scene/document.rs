@@ -1,8 +1,8 @@
 //! Reads a document, and finds the path of what is wrong in it.
 //!
-//! A document names every field. Serde's derived readers also accept a list for a struct, its items in the order of the fields, for
-//! formats without names; such a list could be misread unnoticed and is refused here. There is one reader for all formats: each is first
-//! made a JSON value, and every type of a scene is compiled for this reader only.
+//! A document names every field. Serde's derived readers also accept a list for a struct, its items in the order of the fields; such a
+//! list could be misread unnoticed and is refused here. There is one reader for all formats: each is first parsed into a JSON
+//! value, so that every type of a scene is compiled for this reader only.
 
 use std::fmt;
 
@@ -33,7 +33,7 @@ pub(crate) fn interpret<T: DeserializeOwned>(document: &Value, part: &str) -> Re
     })
 }
 
-/// What is wrong, in serde's words, and its place, the innermost segment first.
+/// What is wrong, as serde words it, and its place, the innermost segment first.
 #[derive(Debug)]
 struct Misread {
     message: String,
@@ -254,7 +254,7 @@ impl<'de> MapAccess<'de> for Fields<'de> {
     }
 }
 
-/// A name, alone or with what belongs to it.
+/// The name of a variant, alone or with its value.
 struct VariantReader<'de> {
     name: &'de str,
     value: Option<Reader<'de>>,

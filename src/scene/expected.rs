@@ -1,9 +1,9 @@
-//! What is allowed at a place of a document, in words of the document; serde's messages name Rust types.
+//! What is allowed at a place of a document, in terms of the document; serde's messages name Rust types.
 
-/// The least likeness, by Jaro and Winkler, of a name that may be meant to the one that is written.
+/// The least similarity, by Jaro and Winkler, to an unknown name at which a known one is suggested.
 const LIKE: f64 = 0.8;
 
-/// What is allowed in place of what a message of serde refuses; of a missing field the message itself.
+/// What is allowed where a message of serde refuses a value; for a missing field the message itself.
 pub(super) fn allowed(message: &str) -> String {
     if let Some(refused) = message.strip_prefix("unknown field ") {
         let names: Vec<&str> = refused.split('`').skip(1).step_by(2).collect();
@@ -17,7 +17,7 @@ pub(super) fn allowed(message: &str) -> String {
     }
 }
 
-/// For an unknown field: which one may be meant, and which there are.
+/// For an unknown field: the one that may be meant, and all that exist.
 pub(super) fn no_such_field(name: &str, known: &[&str]) -> String {
     let likeness = |other: &&&str| strsim::jaro_winkler(name, other);
     let perhaps = (known.iter())
@@ -35,7 +35,7 @@ fn in_words(expected: &str) -> String {
     let of_length = expected.strip_prefix("an array of length ");
     match expected {
         "f64" => "a number".to_owned(),
-        "u32" | "usize" => "a whole number, 0 or more".to_owned(),
+        "u32" | "u64" | "usize" => "a whole number, 0 or more".to_owned(),
         "i8" => "a whole number".to_owned(),
         "a boolean" => "true or false".to_owned(),
         "a string" => "a text in quotes".to_owned(),
@@ -47,7 +47,7 @@ fn in_words(expected: &str) -> String {
         "newtype variant" => "a value after the name: { name = … }".to_owned(),
         _ if expected.starts_with("struct ") => "a table".to_owned(),
         _ => match of_length {
-            Some(length) => format!("a list of {length}"),
+            Some(length) => format!("a list of {length} values"),
             None => expected.replace('`', "\""),
         },
     }
@@ -64,7 +64,7 @@ mod tests {
             ("invalid type: string \"much\", expected f64", "a number"),
             (
                 "invalid length 2, expected an array of length 3",
-                "a list of 3",
+                "a list of 3 values",
             ),
             ("invalid type: integer `7`, expected struct Row", "a table"),
             (

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use super::{Row, Scene, Surface};
 
-/// Kinematic orders of Z balls of diameter D on the pitch diameter d_m at the contact angle α \[rad\] from pure rolling, with
-/// γ = D cos α / d_m: FTF (1 − γ)/2, BPFO Z(1 − γ)/2, BPFI Z(1 + γ)/2, BSF d_m/2D (1 − γ²), in turns of the inner ring against the
-/// outer, and FTF of the cage against the outer ring.
+/// Kinematic orders of Z balls of diameter D on the pitch diameter d_m at the contact angle α \[rad\], for pure rolling with
+/// γ = D cos α / d_m: FTF (1 − γ)/2, BPFO Z(1 − γ)/2, BPFI Z(1 + γ)/2, BSF d_m/2D (1 − γ²), per turn of the inner ring relative to
+/// the outer; FTF is that of the cage relative to the outer ring.
 ///
 /// ```
 /// // The bearing 6205 of the Case Western Reserve data; both diameters in the same unit.
@@ -30,7 +30,7 @@ pub fn kinematic_orders(
 }
 
 impl Row {
-    /// Kinematic orders FTF, BPFO, BPFI and BSF at the nominal contact angle, in turns of the inner ring against the outer.
+    /// Kinematic orders FTF, BPFO, BPFI and BSF at the nominal contact angle, per turn of the inner ring relative to the outer.
     pub fn orders(&self) -> [f64; 4] {
         kinematic_orders(
             self.ball_count as f64,
@@ -42,9 +42,9 @@ impl Row {
 }
 
 impl Scene {
-    /// The defect with the highest first line and that line \[Hz\]: BPFO, BPFI or, since a ball strikes both races,
-    /// twice BSF, at the highest speed that the rings have against each other within a duration \[s\]; absent without defects,
-    /// or where nothing turns.
+    /// The defect with the highest first line and that line \[Hz\]: BPFO, BPFI or, since a ball's defect meets both races,
+    /// twice BSF, at the highest relative speed of the rings within a duration \[s\]; `None` without defects, or where nothing
+    /// turns.
     pub(crate) fn highest_fault_line(&self, duration: f64) -> Option<(&str, f64)> {
         let shaft = self.highest_speed(duration) / TAU;
         let defects = self.defects.iter().filter(|(_, d)| d.width.largest() > 0.0);
@@ -62,8 +62,7 @@ impl Scene {
             .max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Largest magnitude of the rings' speed against each other within a duration \[s\] from t = 0; of a torque with that at the start
-    /// \[rad/s\].
+    /// Largest relative speed of the rings within a duration \[s\] from t = 0, under a torque with the initial speed \[rad/s\].
     fn highest_speed(&self, duration: f64) -> f64 {
         (0..=1000)
             .map(|i| self.relative_speed(duration * f64::from(i) / 1000.0).abs())

@@ -18,7 +18,7 @@ pub struct Load {
     pub direction: [f64; 3],
     /// Force along the direction \[N\].
     pub force: TimeFunction,
-    /// The point in the ring's frame, which tilts but does not turn with the ring \[m\]; absent: the ring's origin.
+    /// Where it acts, in the ring's frame, which tilts but does not turn with the ring \[m\]; absent: the ring's origin.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<[f64; 3]>,
 }
@@ -44,15 +44,15 @@ impl Load {
     }
 }
 
-/// A moment on a ring, about a direction that is fixed in the inertial frame. The part about the ring's axis turns the ring,
-/// the part across it tilts the ring or is carried by what holds it.
+/// A moment on a ring, about a direction that is fixed in the inertial frame. Its part about the ring's axis turns the ring;
+/// its part across the axis tilts the ring, or is carried by the support that holds the ring parallel.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct Moment {
     /// The loaded ring.
     pub ring: RingName,
-    /// What it turns about; its length does not matter.
+    /// Axis of the moment; its length does not matter.
     pub direction: [f64; 3],
     /// Moment about the direction \[N m\].
     pub moment: TimeFunction,
@@ -71,8 +71,9 @@ impl Moment {
 
 /// A mass off the axis of a ring that turns with it: in-plane force m e (ω² r̂ − ω̇ t̂).
 ///
-/// It is part of the ring's mass and of its inertia about its own centre, which x and y are of: the centre of mass stands
-/// m e / (mass of the ring) off. On a ring whose rotation is free acts the reaction, about z −m e r̂ × (ẍ, ÿ), and its weight.
+/// The mass is part of the ring's mass and of its inertia about its own centre, whose displacement x and y are; the centre of mass
+/// lies m e / (mass of the ring) away from it. On a ring that turns freely also act the reaction −m e r̂ × (ẍ, ÿ) about z and the
+/// moment of the mass's weight.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
@@ -84,7 +85,7 @@ pub struct Unbalance {
     /// Angular place on the ring, counter-clockwise from its own x axis \[rad\].
     #[serde(default)]
     pub angle: f64,
-    /// Axial place in the ring's frame \[m\], of which two make a couple; absent: 0.
+    /// Axial place in the ring's frame \[m\]; two unbalances at different places make a couple. Absent: 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axial_position: Option<f64>,
 }
@@ -106,7 +107,7 @@ impl Unbalance {
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[non_exhaustive]
 pub enum Drive {
-    /// Given speed Ω(t) \[rad/s\]; may not jump.
+    /// Given speed Ω(t) \[rad/s\]; must not jump.
     Speed(TimeFunction),
     /// Given torque about z, on a ring that turns freely.
     Torque {
@@ -119,7 +120,7 @@ pub enum Drive {
 }
 
 impl Drive {
-    /// Largest speed of the inner ring that is known from the drive \[rad/s\].
+    /// Largest magnitude of the inner ring's speed that is known from the drive \[rad/s\].
     pub(crate) fn peak_speed(&self) -> f64 {
         match self {
             Self::Speed(speed) => speed.peak(),
@@ -132,7 +133,7 @@ impl Drive {
         self.speed_from(0.0)
     }
 
-    /// Speed of the inner ring where a run begins at a time \[s\]; of a torque, the initial one \[rad/s\].
+    /// Speed of the inner ring for a run that begins at a time \[s\]; of a torque, the initial one \[rad/s\].
     pub(crate) fn speed_from(&self, t: f64) -> f64 {
         match self {
             Self::Speed(speed) => speed.at(t),
@@ -182,12 +183,12 @@ impl Scene {
         }
     }
 
-    /// The size of a load, of a moment or of the drive's torque by its path, of one that is the same at all times.
+    /// The size of a constant load or moment, or of a constant torque of the drive, by its path.
     pub(crate) fn constant_load(&mut self, path: &str) -> Result<&mut f64> {
         match self.size(path) {
             Some(TimeFunction::Constant(size)) => Ok(size),
             Some(TimeFunction::Profile(_)) => {
-                let allowed = "a size that is the same at all times, not one of a ramp, sine, table or spline";
+                let allowed = "a constant size, not a ramp, sine, table or spline";
                 Err(Error::scene(path, "changing in time", allowed))
             }
             None => {

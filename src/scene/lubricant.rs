@@ -13,7 +13,7 @@ const DENSITY_15: f64 = 880.0;
 
 /// Oil of the contacts of balls and races (model section 12): by name, or by its data sheet.
 ///
-/// Its traction takes the place of the scene's friction law in these contacts; without [`Self::traction`] that law stays.
+/// Its traction replaces the scene's friction law in these contacts, unless [`Self::traction`] is false.
 /// A document may give `temperature_c` \[°C\] in place of `temperature`.
 ///
 /// ```
@@ -45,33 +45,33 @@ pub struct Lubricant {
     pub pressure_viscosity: Option<f64>,
     /// Limiting shear stress over pressure Λ, above 0 and below 0.5; absent: by base.
     pub limiting_stress: Option<f64>,
-    /// Friction coefficient of asperities μ_b, above 0 and below 0.5; 0.12.
+    /// Friction coefficient of asperities μ_b, above 0 and below 0.5. Default 0.12.
     pub boundary_friction: f64,
-    /// Thermal conductivity k_l \[W/(m K)\], 0.134.
+    /// Thermal conductivity k_l \[W/(m K)\]. Default 0.134.
     pub conductivity: f64,
-    /// Roughness of both surfaces together s_q, root mean square \[m\], 0.1 µm.
+    /// Root mean square roughness of both surfaces together s_q \[m\]. Default 1e-7.
     pub roughness: f64,
-    /// Free oil in front of a contact h_oil, 10 µm.
+    /// Free oil in front of a contact h_oil \[m\]. Default 1e-5.
     pub oil_layer: OilLayer,
-    /// Hysteresis loss of the steel α_h, 0.007.
+    /// Share of the elastic work that the steel loses by hysteresis α_h. Default 0.007.
     pub hysteresis: f64,
-    /// Least slip speed in which traction rises v_0 \[m/s\], 5e-4: numerical, larger is faster and less exact.
+    /// Lower bound v_0 of the slip speed over which traction rises \[m/s\]: numerical, larger is faster and less exact. Default 5e-4.
     pub slip_floor: f64,
-    /// Frequency at which the film's damping is wanted f_d \[Hz\]; absent: the contact's own.
+    /// Frequency f_d at which the film's damping is taken \[Hz\]; absent: the contacts' own.
     pub damping_frequency: Option<f64>,
-    /// Speed of the rings against each other that films are computed for Ω_ref \[rad/s\]; absent: the largest of the drive.
+    /// Relative speed of the rings for which films are computed Ω_ref \[rad/s\]; absent: the largest that is given.
     pub reference_speed: Option<f64>,
-    /// Load of a contact that films are computed for Q_ref \[N\]; absent: of the equilibrium at the start.
+    /// Load of a contact for which films are computed Q_ref \[N\]; absent: that of the equilibrium at the start.
     pub reference_load: Option<f64>,
-    /// Share of oil in the balls' way X_oil, 0 to 1; 0: no drag.
+    /// Volume share X_oil of oil in the space through which balls move, for their drag, 0 to 1. Default 0: no drag.
     pub fill: f64,
-    /// Whether the film separates the surfaces.
+    /// Whether the film separates the surfaces. Default true.
     pub film: bool,
-    /// Whether the film damps the approach.
+    /// Whether the film damps their approach. Default true.
     pub damping: bool,
-    /// Whether the film limits and softens friction.
+    /// Whether the film's traction replaces dry friction. Default true.
     pub traction: bool,
-    /// Whether rolling is resisted.
+    /// Whether the film resists rolling. Default true.
     pub rolling: bool,
     /// Temperature \[°C\], only while a document is read.
     #[serde(skip_serializing)]
@@ -82,14 +82,14 @@ pub struct Lubricant {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum OilLayer {
-    /// A layer of this thickness \[m\]: thicker films find too little oil.
+    /// A layer of this thickness \[m\], which bounds the film.
     Thickness(f64),
-    /// More than the contact takes in.
+    /// As much as the film needs.
     Flooded,
 }
 
 impl OilLayer {
-    /// Its thickness \[m\]; none where the contact is flooded.
+    /// Its thickness \[m\]; `None` where the contact is flooded.
     pub fn thickness(self) -> Option<f64> {
         match self {
             Self::Thickness(value) => Some(value),
@@ -104,7 +104,7 @@ impl From<f64> for OilLayer {
     }
 }
 
-/// What a document says instead of a number.
+/// The word that a document has in place of a number.
 const FLOODED: &str = "flooded";
 
 impl Lubricant {
@@ -160,10 +160,10 @@ impl Lubricant {
         }
     }
 
-    /// What is known of the oil: what is given first, then what its name stands for, then what its base has.
+    /// The oil's data sheet: each number as given, else that of the named oil, else that of the base oil.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a name that is not known, and for what is missing.
+    /// [`Error::Scene`] for an unknown name, and for a number that is missing.
     pub fn sheet(&self) -> Result<OilSheet> {
         self.sheet_at("lubricant")
     }
@@ -202,7 +202,10 @@ impl Lubricant {
             None => Err(Error::scene(
                 format!("{path}.oil"),
                 name,
-                format!("one of {}, or absent beside viscosities", known()),
+                format!(
+                    "one of {}, or absent where viscosity_40 and viscosity_100 are given",
+                    known()
+                ),
             )),
         }
     }
@@ -234,7 +237,7 @@ fn of_no_base(path: &str, field: &str, base: Base) -> Error {
     Error::scene(
         format!("{path}.{field}"),
         "absent",
-        format!("a number for base {base}: these oils differ too much for a formula"),
+        format!("a number, since oils of base {base} differ too much for a formula"),
     )
 }
 

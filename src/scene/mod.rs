@@ -106,7 +106,7 @@ pub struct Scene {
     /// Friction of balls and races; none by default.
     #[serde(default)]
     pub friction: Friction,
-    /// Oil between balls and races; absent: dry. Its traction takes the place of `friction`.
+    /// Oil between balls and races, whose traction replaces `friction`; absent: dry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lubricant: Option<Lubricant>,
     /// How balls spin; absent: about the bearing's axis.
@@ -117,8 +117,8 @@ pub struct Scene {
     pub cage: Option<Cage>,
     /// What turns the inner ring.
     pub drive: Drive,
-    /// Given speed of the outer ring Ω_o(t) \[rad/s\], counter-clockwise about z; may not jump. Its waviness, texture and defects turn
-    /// with it, loads, gravity and its support do not. Absent: it stands, or its support lets it turn.
+    /// Given speed of the outer ring Ω_o(t) \[rad/s\], counter-clockwise about z; must not jump. Its waviness, texture and defects turn
+    /// with it; loads, gravity and its support do not. Absent: it stands, or turns as its support lets it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outer_speed: Option<TimeFunction>,
     /// Gravity \[m/s²\]; 9.81 along −y by default.
@@ -133,10 +133,10 @@ pub struct Scene {
     /// Unbalances by name.
     #[serde(default)]
     pub unbalances: BTreeMap<String, Unbalance>,
-    /// Forces on rings by tables, by name.
+    /// Forces on rings that depend on their places, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub table_forces: BTreeMap<String, TableForce>,
-    /// Forces on rings by code of a program's own; a document has none.
+    /// Forces on rings computed by the caller's code, by name; a document has none.
     #[serde(skip_deserializing, skip_serializing_if = "RingForces::is_empty")]
     pub ring_forces: RingForces,
     /// Defects by name.
@@ -145,7 +145,7 @@ pub struct Scene {
     /// Probes by name; none: those of [`Scene::recorded`].
     #[serde(default)]
     pub probes: BTreeMap<String, Probe>,
-    /// What is given up for speed; nothing by default.
+    /// Approximations that make runs faster; none by default.
     #[serde(default)]
     pub approximations: Approximations,
     /// Options of the integrator.
@@ -220,7 +220,7 @@ impl Scene {
         tables.chain(coded.map(|(name, of)| (format!("ring_forces.{name}"), of)))
     }
 
-    /// How the balls of a row meet their races: the row's own contact, or that of the scene.
+    /// Contact of a row's balls and races: its own, or that of the scene.
     pub fn contact_of<'a>(&'a self, row: &'a Row) -> &'a Contact {
         row.contact.as_ref().unwrap_or(&self.contact)
     }
@@ -243,8 +243,8 @@ impl Scene {
         }
     }
 
-    /// Speed of the rings against each other that a lubricant's films are computed for, Ω_ref \[rad/s\]: its own, or the
-    /// largest that is given.
+    /// Relative speed of the rings for which a lubricant's films are computed, Ω_ref \[rad/s\]: its own, or the largest that is
+    /// given.
     pub fn reference_speed_of(&self, lubricant: &Lubricant) -> f64 {
         lubricant
             .reference_speed
@@ -256,7 +256,7 @@ impl Scene {
         row.ball_material.as_ref().unwrap_or(&self.materials.balls)
     }
 
-    /// The contacts of all rows, as far as they are said: the scene's and the rows' own.
+    /// The contacts that the document gives: the scene's and the rows' own.
     pub(crate) fn contacts_mut(&mut self) -> impl Iterator<Item = &mut Contact> {
         let own = self.rows.iter_mut().filter_map(|row| row.contact.as_mut());
         std::iter::once(&mut self.contact).chain(own)
@@ -271,7 +271,7 @@ impl Scene {
         }
     }
 
-    /// The lubricants of all rows, as far as they are said: the scene's and the rows' own.
+    /// The lubricants that the document gives: the scene's and the rows' own.
     pub(crate) fn lubricants_mut(&mut self) -> impl Iterator<Item = &mut Lubricant> {
         let own = self
             .rows
@@ -337,7 +337,7 @@ impl Scene {
     /// A copy with some fields replaced, each by its dotted path: `loads.axial.force`, `rows[0].clearance`.
     ///
     /// # Errors
-    /// [`Error::Scene`] if a path leads nowhere or the new scene is not usable.
+    /// [`Error::Scene`] if a path does not exist or the new scene is not usable.
     ///
     /// # Panics
     /// Never: every scene has a JSON form.

@@ -23,7 +23,7 @@ pub enum Base {
 }
 
 impl Base {
-    /// s and t of the pressure-viscosity α_p = s ν̂^t · 1e-9 1/Pa, with ν̂ in mm²/s; none of an ester.
+    /// s and t of the pressure-viscosity coefficient α_p = s ν̂^t · 1e-9 1/Pa, with ν̂ in mm²/s; `None` for an ester.
     ///
     /// Source: P. W. Gold, A. Schmidt, H. Dicke, J. Loos, C. Assmann, J. Synth. Lubr. 18 (2001) 51.
     pub fn gold(self) -> Option<[f64; 2]> {
@@ -35,7 +35,7 @@ impl Base {
         }
     }
 
-    /// Limiting shear stress over pressure Λ; none of an ester.
+    /// Limiting shear stress over pressure Λ; `None` for an ester.
     ///
     /// Source: E. Höglund's measurements, from A. Arana et al. 2019.
     pub fn limiting_stress(self) -> Option<f64> {
@@ -117,10 +117,10 @@ pub fn named_oil(name: &str) -> Option<&'static NamedOil> {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum OilSource {
-    /// The lubricant says it.
+    /// The lubricant gives it.
     #[serde(rename = "given")]
     Given,
-    /// The oil's name stands for it.
+    /// It is that of the named oil.
     #[serde(rename = "named oil")]
     NamedOil,
     /// It is that of the base oil.

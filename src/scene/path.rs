@@ -55,7 +55,7 @@ pub(super) fn set(document: &mut Value, path: &str, value: Value) -> Result<()> 
                     .ok_or_else(|| Error::scene(path, index, format!("an index below {count}")))?
             }
             (Step::Key(key), Value::Array(items)) => {
-                let allowed = format!("an item of a list of {}, as [0]", items.len());
+                let allowed = format!("an index into a list of {}, such as [0]", items.len());
                 return Err(Error::scene(path, key, allowed));
             }
             (Step::Key(key), other) => {
@@ -70,7 +70,7 @@ pub(super) fn set(document: &mut Value, path: &str, value: Value) -> Result<()> 
     Ok(())
 }
 
-/// Names what a scene does not write where it is absent, so that [`set`] finds its place.
+/// Adds as null what a scene leaves out where it is absent, so that [`set`] finds its place.
 pub(super) fn show_absent(scene: &mut Value) {
     let mut show = |parts: &[&str], fields: &[&str]| {
         for part in all_of(scene, parts) {
@@ -140,7 +140,7 @@ pub(super) fn at<'v, 'a>(
     })
 }
 
-/// A name in a place: in quotes where it is none that a path can say.
+/// A name in a place: in quotes where a path could not hold it.
 pub(in crate::scene) fn shown(name: &str) -> Cow<'_, str> {
     let is_plain = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
     if !name.is_empty() && name.chars().all(is_plain) {
@@ -189,12 +189,12 @@ fn steps(path: &str) -> Result<Vec<Step<'_>>> {
     Ok(steps)
 }
 
-/// How to give a new entry, of which a path names but a field.
+/// How to add an entry, where a path names only a field of one that is not there.
 fn a_new_one(path: &str, key: &str) -> Option<String> {
     let (part, rest) = path.split_once('.')?;
     let field = rest.strip_prefix(key)?;
     (NAMED.contains(&part) && !field.is_empty())
-        .then(|| format!("; a new one is given whole, as {part}.{key}"))
+        .then(|| format!("; to add one, set {part}.{key} as a whole"))
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Functions of time by points: which of them are reached, and cubics between them.
+//! Functions of time given by points: how many lie before a time, and cubics between them.
 
 /// A piece of a spline: c₀ + c₁ d + c₂ d² + c₃ d³ of the time d since it begins.
 pub(super) struct Cubic {

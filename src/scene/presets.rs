@@ -78,8 +78,8 @@ pub fn wheel_bearing(axial_load: f64) -> Scene {
 /// The wheel bearing of [`wheel_bearing`] in a curve: the road acts where it meets the tyre, with a side force of `lateral` times the
 /// wheel's load, and the wheel's ring tilts.
 ///
-/// 0.3 is a brisk curve, 0.6 one near the limit of many tyres. The wheel's load is the bearing's 7 kN along −y on the inner ring, as
-/// everywhere here: so the road lies towards +y.
+/// 0.3 is a fast curve, 0.6 one near the limit of many tyres. The wheel's load is the bearing's 7 kN along −y on the inner ring, as
+/// in [`wheel_bearing`]; so the road lies towards +y.
 pub fn cornering_wheel(lateral: f64) -> Scene {
     // A tyre 195/65 R15 rolls on 0.3 m.
     let tyre = 0.3;
@@ -103,9 +103,9 @@ pub fn cornering_wheel(lateral: f64) -> Scene {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Arrangement {
-    /// Their lines of contact part towards the shaft's axis: stiff against tilting.
+    /// Their lines of contact diverge towards the shaft's axis: stiff against tilting.
     BackToBack,
-    /// Their lines of contact meet towards the shaft's axis: they give way to a bent shaft.
+    /// Their lines of contact converge towards the shaft's axis: compliant with a tilted shaft.
     FaceToFace,
 }
 
@@ -156,8 +156,8 @@ pub fn angular_contact_pair(
 ///
 /// `radial_load` and `axial_load` in newtons on the inner ring, along −y and +z; `speed_rpm` of the inner ring.
 pub fn deep_groove_6205(radial_load: f64, axial_load: f64, speed_rpm: f64) -> Scene {
-    // Nine balls of 7.94 mm on 39.04 mm: the published geometry behind 3.5848 and 5.4152 orders. Usual for deep-groove
-    // bearings: the inner groove hugs the ball closer.
+    // Nine balls of 7.94 mm on 39.04 mm: the published geometry behind 3.5848 and 5.4152 orders. As usual in deep-groove
+    // bearings the inner groove is the closer one.
     let row = Row {
         // Normal clearance of a 25 mm bore is 5 to 20 µm, less the fits.
         clearance: 10e-6,

@@ -16,12 +16,12 @@ pub enum Probe {
     Motion {
         /// `outer`, `inner` or a ball such as `row0.ball3`.
         body: String,
-        /// Which of them; absent: all twelve, of a ring that may tilt also those of its tilts, of a ball
+        /// Which of them; absent: the twelve of every body, for a ring that may tilt also those of its tilts, for a ball
         /// that spins freely also those about x and y.
         #[serde(default)]
         components: Option<Vec<Component>>,
     },
-    /// What happens between balls and races, as points: columns `<probe>.ball3.outer.load` and so on.
+    /// Quantities of the contacts of balls and races, as points: columns `<probe>.ball3.outer.load` and so on.
     Contacts {
         /// Row, from 0.
         #[serde(default)]
@@ -45,10 +45,10 @@ pub enum Probe {
     /// Energies \[J\] and dissipated powers \[W\], as points.
     Energy {},
     /// Friction torque about z that the balls put on each ring, filtered: `<probe>.outer`, `<probe>.inner` \[N m\].
-    /// Takes an evaluation of the model at every point that the filter reads.
+    /// Costs an evaluation of the model at every point that the filter reads.
     Torque {},
     /// Moments about x and y that the balls put on the rings, each about its own centre, as points: `<probe>.outer.x`,
-    /// `<probe>.outer.y`, `<probe>.inner.x`, `<probe>.inner.y` \[N m\]. What keeps a ring from tilting carries them.
+    /// `<probe>.outer.y`, `<probe>.inner.x`, `<probe>.inner.y` \[N m\]. The support that keeps a ring from tilting carries them.
     Moments {},
     /// The forces on a body by origin, as points: `<probe>.contact.x`, `<probe>.friction.y`, … \[N\], about z \[N m\].
     Forces {
@@ -56,14 +56,14 @@ pub enum Probe {
         body: String,
     },
     /// Films and losses of a row's oil, as points: `<probe>.outer.film`, `.inner.film` \[m\], `.outer.lambda`, `.inner.lambda`,
-    /// `.friction_torque` \[N m\], `.slip_power`, `.rolling_power`, `.damping_power`, `.drag_power` \[W\]. The torque resists: it
-    /// is what the row's balls put on the inner ring, positive whichever way the shaft turns.
+    /// `.friction_torque` \[N m\], `.slip_power`, `.rolling_power`, `.damping_power`, `.drag_power` \[W\]. The torque is that of the
+    /// row's balls on the inner ring, positive against its motion whichever way the shaft turns.
     Lubrication {
         /// Row, from 0; it has a lubricant.
         #[serde(default)]
         row: usize,
     },
-    /// Forces of the single slices of chosen contacts at chosen times; a table beside the signals.
+    /// Forces of the single slices of chosen contacts at chosen times; a table in addition to the signals.
     Slices {
         /// Row, from 0.
         #[serde(default)]
@@ -120,9 +120,9 @@ pub enum Component {
     TiltAx,
     /// Acceleration of the tilt about y \[rad/s²\].
     TiltAy,
-    /// Of a ball that spins freely, ω_x added up over time \[rad\].
+    /// Of a ball that spins freely, the integral of ω_x over time \[rad\].
     TurnX,
-    /// Of a ball that spins freely, ω_y added up over time \[rad\].
+    /// Of a ball that spins freely, the integral of ω_y over time \[rad\].
     TurnY,
     /// Angular velocity about x of a ball that spins freely \[rad/s\].
     OmegaX,
@@ -135,7 +135,7 @@ pub enum Component {
 }
 
 impl Component {
-    /// Of every body: all twelve, positions first.
+    /// The twelve of every body, positions first.
     pub const ALL: [Self; 12] = [
         Self::X,
         Self::Y,
@@ -151,7 +151,7 @@ impl Component {
         Self::Alpha,
     ];
 
-    /// Of a ring that may tilt, beside those of every body.
+    /// Those that a ring that may tilt has in addition.
     pub const OF_TILTS: [Self; 6] = [
         Self::TiltX,
         Self::TiltY,
@@ -161,7 +161,7 @@ impl Component {
         Self::TiltAy,
     ];
 
-    /// Of a ball that spins freely, beside those of every body.
+    /// Those that a ball that spins freely has in addition.
     pub const OF_TURNS: [Self; 6] = [
         Self::TurnX,
         Self::TurnY,
@@ -171,7 +171,7 @@ impl Component {
         Self::AlphaY,
     ];
 
-    /// Of a direction, so many times derived: 0 for a place, 1 for a speed, 2 for an acceleration.
+    /// That of a direction and a derivative: 0 for a place, 1 for a speed, 2 for an acceleration.
     pub(crate) fn of(direction: usize, derivative: usize) -> Self {
         match direction {
             0..4 => Self::ALL[4 * derivative + direction],
@@ -237,13 +237,13 @@ impl Component {
 pub enum ContactQuantity {
     /// Magnitude of the normal force, elastic and damping \[N\].
     Load,
-    /// Operating contact angle: of the normal force against the radial plane \[rad\]; not a number without load.
+    /// Operating contact angle: of the normal force against the radial plane \[rad\]; NaN without load.
     Angle,
-    /// Axial place of the zone's middle of force, in the ring's frame \[m\]; not a number without load.
+    /// Axial place of the centre of force of the zone, in the ring's frame \[m\]; NaN without load.
     ZoneCentre,
     /// Axial extent of the slices that touch \[m\].
     ZoneWidth,
-    /// Load-weighted slip speed \[m/s\]; not a number without load.
+    /// Load-weighted slip speed \[m/s\]; NaN without load.
     Slip,
 }
 

@@ -9,9 +9,9 @@ use super::{Component, ContactQuantity, Drive, Mount, Probe, Scene, Support};
 const RINGS: [&str; 2] = ["outer", "inner"];
 
 impl Scene {
-    /// The probes of a run: those of the scene. Where it has none, the motion of the outer ring if forces move it along x,
-    /// y or z, else that of the inner ring, each in the directions that can move; and where both rings are held or led, the
-    /// loads of all contacts: `row0`, `row1`, …
+    /// The probes of a run: those of the scene. Where it has none, the motion of the outer ring if forces can move it along x,
+    /// y or z, else that of the inner ring, each in the directions that can move; where both rings are held or follow given
+    /// motions, the loads of all contacts: `row0`, `row1`, …
     ///
     /// ```
     /// let mut scene = ballrace::scene::presets::deep_groove_6205(500.0, 0.0, 1800.0);

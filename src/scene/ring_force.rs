@@ -1,4 +1,4 @@
-//! Forces on rings by a user's own code: magnetic pull, seals, squeeze films, whatever is outside of the bearing.
+//! Forces on rings computed by the caller's code: magnetic pull, seals, squeeze films and others from outside of the bearing.
 
 use std::collections::BTreeMap;
 use std::fmt::Debug;
@@ -16,7 +16,7 @@ pub struct RingMotion {
     pub place: [f64; 3],
     /// Tilt about x and y, 0 where the ring stays parallel, and angle about its axis \[rad\].
     pub angles: [f64; 3],
-    /// Of the centre of mass \[m/s\].
+    /// Velocity of the centre of mass \[m/s\].
     pub velocity: [f64; 3],
     /// Rates of the angles \[rad/s\].
     pub rates: [f64; 3],
@@ -24,8 +24,8 @@ pub struct RingMotion {
 
 /// A force on a ring that depends on time and on the ring's motion.
 ///
-/// It takes part in runs, their start, equilibria, stiffness, energies and explanations like every force of the scene. Give it to a
-/// scene by [`crate::Scene::ring_forces`].
+/// Runs, their start, equilibria, stiffness, energies and explanations include it like every force of the scene. It is added to
+/// [`crate::Scene::ring_forces`].
 ///
 /// ```
 /// use std::sync::Arc;
@@ -72,25 +72,26 @@ pub trait RingForce: Debug + Send + Sync {
     fn ring(&self) -> RingName;
 
     /// Force on the ring's centre of mass along x, y and z \[N\] and moment about it \[N m\], in the scene's frame, at a time \[s\].
-    /// Moments about x and y have an effect where the ring may tilt. Finite, and smooth in time and motion but for a few places.
+    /// Moments about x and y have an effect where the ring may tilt. It has to be finite, and smooth in time and motion except at a
+    /// few places.
     fn wrench(&self, t: f64, ring: &RingMotion) -> [f64; 6];
 
-    /// Bound of its stiffness \[N/m\], moments over half of the pitch diameter: what a run's step is told.
+    /// Upper bound of its stiffness, which limits a run's step \[N/m\]; a moment counts as a force at half of the pitch diameter.
     fn stiffness(&self) -> f64 {
         0.0
     }
 
-    /// Bound of its damping \[N s/m\], likewise.
+    /// Upper bound of its damping \[N s/m\], likewise.
     fn damping(&self) -> f64 {
         0.0
     }
 
-    /// The energy that it stores \[J\], which counts to that of supports.
+    /// The energy that it stores \[J\], counted among that of supports.
     fn energy(&self, _ring: &RingMotion) -> f64 {
         0.0
     }
 
-    /// The largest of its forces along x and y, and along z \[N\], from which scales of the contacts are estimated.
+    /// Its largest force in the plane of x and y, and along z \[N\], from which scales of the contacts are estimated.
     fn peak(&self) -> [f64; 2] {
         [0.0; 2]
     }
@@ -103,7 +104,7 @@ pub trait RingForce: Debug + Send + Sync {
 
 /// Forces on rings by name, each with code of its own.
 ///
-/// A document has their names only, and is refused while it has: forces are given to the scene that was read.
+/// A scene is written with their names only. Such a document is refused when it is read; add forces to a scene after reading it.
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
 pub struct RingForces(BTreeMap<String, Arc<dyn RingForce>>);
@@ -170,7 +171,7 @@ impl RingForce for Frozen {
     }
 }
 
-/// The same forces, not only such that do the same.
+/// Equal are the same forces (by pointer), not ones that act alike.
 impl PartialEq for RingForces {
     fn eq(&self, other: &Self) -> bool {
         let mut both = self.0.iter().zip(&other.0);

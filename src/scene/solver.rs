@@ -41,14 +41,14 @@ pub struct Solver {
     pub rtol: f64,
     /// First step \[s\]; absent: Hairer's estimate.
     pub first_step: Option<f64>,
-    /// Largest step \[s\]; absent: no limit but the one below.
+    /// Largest step \[s\]; absent: no limit other than `frequency_cap`.
     pub max_step: Option<f64>,
-    /// Whether the step is also kept below what the method's stability and accuracy ask for: a share of the period
-    /// of the highest contact frequency, less where contacts ring undamped. On by default: at loose tolerances a run otherwise
-    /// reports success with accelerations wrong by 30 % and more.
+    /// Whether the step is also kept below a share of the period of the highest contact frequency that the method's stability and
+    /// accuracy require, smaller where contacts vibrate undamped. Default true: without it, runs with loose tolerances
+    /// succeed with accelerations wrong by 30 % and more.
     pub frequency_cap: bool,
     /// Whether a run leaves out what does not change the motion: directions without forces, mirror images, slices
-    /// where a closed form says the same. Default true.
+    /// where a closed form gives the same force. Default true.
     pub reduce: bool,
 }
 

@@ -10,8 +10,8 @@ use super::{RingForce, RingMotion, RingName};
 /// s = e · r        F = (f(s) − c ds/dt) e        energy −∫ f ds from 0
 /// ```
 ///
-/// e is the direction with a length of 1, r the ring's place, 0 where the scene puts it; f is straight between the points of the table,
-/// and goes on straight beyond its ends.
+/// e is the direction with a length of 1, r the ring's displacement from its place in the scene; f is linear between the points of
+/// the table, and continues its first and last piece beyond them.
 ///
 /// # Panics
 /// Methods of [`RingForce`] where the table has fewer than two points, or not as many forces as places, which
@@ -24,9 +24,9 @@ pub struct TableForce {
     pub ring: RingName,
     /// Direction; its length does not matter.
     pub direction: [f64; 3],
-    /// Places along the direction, two or more, rising \[m\].
+    /// Places along the direction \[m\], two or more, increasing.
     pub places: Vec<f64>,
-    /// Force along the direction at each place \[N\]: falling for a spring, rising for a pull.
+    /// Force along the direction at each place \[N\]: decreasing for a spring, increasing for a magnetic pull.
     pub forces: Vec<f64>,
     /// Damping c \[N s/m\].
     #[serde(default)]

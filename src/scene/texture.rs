@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Many small waves around the races and balls of a row, whose sizes fall with a power of their order and are drawn from a seed (model
-/// section 14): A_n = A_30 (30/n)^slope, times √(−ln v) of a random v, at a random phase.
+/// Many small waves around the races and balls of a row, with random phases and amplitudes that fall with their order n (model
+/// section 14): A_n = A_30 (30/n)^slope, times √(−ln v) with v uniform between 0 and 1.
 ///
 /// ```
 /// use ballrace::scene::{Texture, presets};
@@ -19,17 +19,17 @@ pub struct Texture {
     pub outer: f64,
     /// The same of the inner race \[m\].
     pub inner: f64,
-    /// The same of the balls \[m\]; as good as the races' wavelength by wavelength is A_30 (D/2R)^slope.
+    /// The same of the balls \[m\]. Balls as smooth as a race of radius R at equal wavelengths have A_30 (D/2R)^slope.
     pub ball: f64,
-    /// How amplitudes fall with the order, 0.5 to 4; 2.
+    /// Exponent by which amplitudes fall with the order, 0.5 to 4. Default 2.
     pub slope: f64,
-    /// Lowest and highest order on races, 2 to 20 000; absent: from 2 to that whose waves are as long as half of a contact's width. Balls
-    /// end at their own such order, if that is lower.
+    /// Lowest and highest order on races, 2 to 20 000; absent: from 2 to that whose waves are as long as half of a contact's width. On
+    /// balls the highest order is that of waves as short on them, if it is lower.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub orders: Option<[u32; 2]>,
-    /// What phases and sizes are drawn from, 0 to 2⁵³ − 1.
+    /// Seed of phases and amplitudes, 0 to 2⁵³ − 1.
     pub seed: u64,
-    /// Load of a contact whose width averages the waves \[N\]; absent: of the equilibrium at the start.
+    /// Load of the contact over whose width waves are averaged \[N\]; absent: that of the equilibrium at the start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reference_load: Option<f64>,
 }

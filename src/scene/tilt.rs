@@ -1,4 +1,4 @@
-//! Rings that tilt: which may, and what scenes with one need.
+//! Rings that tilt: which may, their components of motion, and the approximations that they exclude.
 
 use super::bearing::{Mount, Ring, Support};
 use super::{Approximations, Component, Scene};
@@ -27,7 +27,7 @@ impl Ring {
 }
 
 impl Scene {
-    /// The components of a body's motion, unless they are given: of a ring that may tilt also those of its tilts, of a ball that
+    /// The components that a probe of a body records by default: of a ring that may tilt also those of its tilts, of a ball that
     /// spins freely also those about x and y.
     pub(crate) fn components_of(&self, body: &str) -> Vec<Component> {
         let beside: &[Component] = match body {
@@ -45,7 +45,7 @@ impl Scene {
         self.outer_ring.leans() || self.inner_ring.leans()
     }
 
-    /// Refuses what reductions by request do not support.
+    /// Refuses approximations where rings tilt or balls spin freely.
     pub(super) fn check_leaning(&self) -> Result<()> {
         let Approximations {
             rolling,
@@ -57,11 +57,9 @@ impl Scene {
             return Ok(());
         };
         let allowed = match (self.leans(), self.balls_turn()) {
-            (true, _) => {
-                "false where a ring may tilt: approximations are of rings that stay parallel"
-            }
+            (true, _) => "false where a ring may tilt: approximations assume parallel rings",
             (_, true) => {
-                "false where balls spin freely: approximations are of balls that spin about the axis"
+                "false where balls spin freely: approximations assume balls that spin about the bearing's axis"
             }
             _ => return Ok(()),
         };

@@ -1,4 +1,4 @@
-//! Values that may change in time: a number, a ramp, a sine or a table.
+//! Values that may change in time: a number, a ramp, a sine, a table or a spline.
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
@@ -49,16 +49,16 @@ pub enum Profile {
     Table {
         /// Times, not decreasing \[s\].
         times: Vec<f64>,
-        /// A value a time.
+        /// Value at each time.
         values: Vec<f64>,
     },
-    /// A cubic between points that has their rates there (Hermite's interpolation), beyond them a straight line.
+    /// Cubic between points, with the given rates at the points (Hermite interpolation); linear beyond them.
     Spline {
         /// Times, strictly increasing \[s\].
         times: Vec<f64>,
-        /// A value a time.
+        /// Value at each time.
         values: Vec<f64>,
-        /// Its rate of change, a value a time, over a second.
+        /// Rate of change at each time, in the value's unit over seconds.
         rates: Vec<f64>,
     },
 }
@@ -70,7 +70,7 @@ impl From<f64> for TimeFunction {
 }
 
 impl TimeFunction {
-    /// Value at time `t` \[s\]; not a number where a table that [`crate::Scene::validate`] refuses has none.
+    /// Value at time `t` \[s\]; NaN where a table lacks values, which [`crate::Scene::validate`] refuses.
     ///
     /// ```
     /// use ballrace::scene::{Profile, TimeFunction};
@@ -165,7 +165,7 @@ impl TimeFunction {
         }
     }
 
-    /// Second derivative in time at `t`, from the right at a corner; a corner or a jump itself counts for nothing.
+    /// Second derivative in time at `t`, from the right at a corner; corners and jumps do not contribute.
     pub fn curvature(&self, t: f64) -> f64 {
         match self {
             Self::Profile(Profile::Sine {
@@ -186,7 +186,7 @@ impl TimeFunction {
         }
     }
 
-    /// Times at which the value jumps or has a corner, of a spline one of its curvature \[s\].
+    /// Times at which the value or its rate jumps, for a spline its curvature \[s\].
     pub fn breakpoints(&self) -> Vec<f64> {
         match self {
             Self::Profile(Profile::Ramp { start, end, .. }) => vec![*start, *end],
@@ -197,9 +197,8 @@ impl TimeFunction {
         }
     }
 
-    /// Breakpoints that a step must end on: all of them, but of a table's corners only those that stand `apart` or further
-    /// from the ones beside them \[s\]. Where corners are closer than steps the error decides, as it does for any other
-    /// function that is not smooth; jumps are always reported.
+    /// Breakpoints that a step must end on: all of them, except corners of a table or spline that are closer than `apart` \[s\] to
+    /// their neighbours. There the error estimate controls the step; jumps are always returned.
     pub(crate) fn breakpoints_apart(&self, apart: f64) -> Vec<f64> {
         let Self::Profile(Profile::Table { times, .. } | Profile::Spline { times, .. }) = self
         else {
@@ -220,7 +219,7 @@ impl TimeFunction {
             .collect()
     }
 
-    /// The value of the largest magnitude that is ever taken, of a spline up to its ends, with its sign.
+    /// The value of the largest magnitude, with its sign; of a spline between its ends.
     ///
     /// ```
     /// use ballrace::scene::{Profile, TimeFunction};
@@ -240,7 +239,7 @@ impl TimeFunction {
         }
     }
 
-    /// Least and largest value that are ever taken, of a spline up to its ends.
+    /// Least and largest value; of a spline between its ends.
     pub(super) fn range(&self) -> [f64; 2] {
         let over = |values: &mut dyn Iterator<Item = f64>| {
             let none = [f64::INFINITY, f64::NEG_INFINITY];
@@ -295,8 +294,8 @@ impl<'de> Deserialize<'de> for TimeFunction {
     }
 }
 
-/// Reads a plain number as one thing and a table as another, keeping serde's own message for
-/// whichever it is (an untagged enum would only say that no variant fits).
+/// Reads a number or a table, with serde's own message for either (an untagged enum would only say that no variant
+/// fits).
 pub(super) fn number_or_map<'de, D, M, T>(
     deserializer: D,
     expecting: &'static str,
@@ -337,7 +336,7 @@ where
     })
 }
 
-/// Reads a plain number as one thing and one word as another.
+/// Reads a number or one word.
 pub(super) fn number_or_word<'de, D: Deserializer<'de>, T: Copy>(
     deserializer: D,
     word: &'static str,

@@ -1,4 +1,4 @@
-//! How fast the rings turn, as far as a scene says it, and what that makes of rolling balls.
+//! How fast the rings turn, as far as a scene gives it, and how that moves rolling balls.
 //!
 //! Balls roll between two rings as they do between a ring that stands and one that turns at Ω_i − Ω_o, seen by an observer who
 //! turns with the outer ring (Harris & Kotzalas, Essential Concepts of Bearing Technology: "both rings rotating"):
@@ -12,7 +12,7 @@
 use super::{Drive, Profile, RingName, Scene, TimeFunction};
 
 impl Scene {
-    /// The given speed of a ring about the axis \[rad/s\]; none of a ring that is held, turns freely or is driven by a torque.
+    /// The given speed of a ring about the axis \[rad/s\]; `None` for a ring that is held, turns freely or is driven by a torque.
     pub fn given_speed(&self, ring: RingName) -> Option<&TimeFunction> {
         match (ring, &self.drive) {
             (RingName::Outer, _) => self.outer_speed.as_ref(),
@@ -21,13 +21,13 @@ impl Scene {
         }
     }
 
-    /// Speeds of outer and inner ring where a run begins at a time \[s\]; of a torque, the initial one \[rad/s\].
+    /// Speeds of outer and inner ring for a run that begins at a time \[s\]; of a torque, the initial one \[rad/s\].
     pub fn ring_speeds(&self, t: f64) -> [f64; 2] {
         let outer = self.outer_speed.as_ref().map_or(0.0, |speed| speed.at(t));
         [outer, self.drive.speed_from(t)]
     }
 
-    /// Speed of the inner ring against the outer, Ω_i − Ω_o, where a run begins at a time \[s\] \[rad/s\].
+    /// Speed of the inner ring relative to the outer, Ω_i − Ω_o, for a run that begins at a time \[s\] \[rad/s\].
     pub fn relative_speed(&self, t: f64) -> f64 {
         let [outer, inner] = self.ring_speeds(t);
         inner - outer
@@ -46,8 +46,8 @@ impl Scene {
         [outer, self.drive.peak_speed()]
     }
 
-    /// Largest speed of the rings against each other that is known, |Ω_i − Ω_o|; where one of them is a sine or a spline, a bound of
-    /// it \[rad/s\].
+    /// Largest relative speed of the rings that is known, |Ω_i − Ω_o| \[rad/s\]; an upper bound where one of them is a sine or a
+    /// spline.
     pub(crate) fn peak_relative_speed(&self) -> f64 {
         let Some(outer) = &self.outer_speed else {
             return self.drive.peak_speed();

@@ -1,9 +1,9 @@
 //! How well the recorded accelerations agree with the recorded motion.
 //!
 //! A sample's acceleration a is the model's at the interpolated state, and the interpolated velocity has a
-//! derivative v̇ of its own. Where the step resolves the motion the two agree; where stability alone holds it, the
-//! state is within the tolerance and stiff contacts turn that into a noise of accelerations, which the error
-//! estimate does not see but this residual does:
+//! derivative v̇ of its own. Where steps resolve the motion the two agree. Where only the method's stability limits them, the
+//! state is within the tolerance, but stiff contacts turn its error into noise of the accelerations. The error estimate does not
+//! include that; this residual does:
 //!
 //! ```text
 //! residual² = Σ |a − v̇|² / Σ max(|a|², a₀²)     over samples, along x, y, z of one ring

@@ -1,4 +1,4 @@
-//! 1/√x without the division and the root of the processor.
+//! 1/√x without the processor's division and square root.
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]

@@ -351,7 +351,7 @@ impl<S: Simd> Number for Vector<S> {
     }
 }
 
-/// Work that is compiled for the instructions of whoever asks for it.
+/// Work that is compiled for the instruction set of its caller.
 struct Outlined<F>(F);
 
 impl<R, F: FnOnce() -> R> Wide for Outlined<F> {

@@ -1,4 +1,4 @@
-//! What a contact does to the tilts of its ring, and how stiff it is against them.
+//! Moments of a contact on the tilts of its ring, and its stiffness against tilts.
 //!
 //! With D = c_b − c_r from a ring's centre of mass to a ball, f on the ball, K its contact's stiffness in the scene's frame, and a
 //! ring that turns by δφ,
@@ -7,7 +7,7 @@
 //! δf = δφ × f − K (δD − δφ × D),        M = −D × f,        δM = −δD × f − D × δf
 //! ```
 //!
-//! Tilts are told as lengths, times half of the pitch diameter, and forces on them as moments over it: so they have the scales of
+//! Tilts are expressed as lengths, times half of the pitch diameter, and moments as forces, over it: so they have the scales of
 //! places.
 
 use nalgebra::{Matrix3, Matrix3x2, SMatrix, SVector, Vector2, Vector3};
@@ -26,7 +26,7 @@ pub(super) type OfRing = SMatrix<f64, OF_A_RING, OF_A_RING>;
 pub(super) struct Arm {
     /// From the ring's centre of mass \[m\].
     pub from: Vector3<f64>,
-    /// The ring's angular velocity by the rates of its tilts, told as lengths \[1/m\].
+    /// The ring's angular velocity by the rates of its tilts, expressed as lengths \[1/m\].
     pub turning: Matrix3x2<f64>,
 }
 

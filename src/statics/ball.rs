@@ -173,7 +173,7 @@ impl Problem<'_> {
         let why = if found.place.x > 0.0 {
             format!("{} are not balanced", quantities::force(found.force.norm()))
         } else {
-            "they lie beyond each other".to_owned()
+            "the races lie beyond each other".to_owned()
         };
         Err(Error::Equilibrium {
             reason: format!("{} finds no place between the rings: {why}", body.name),

@@ -1,4 +1,4 @@
-//! Stiffness and damping of a bearing as a rotor sees it.
+//! Stiffness and damping of a bearing as they act on a rotor.
 
 use std::array::from_fn;
 

@@ -38,7 +38,7 @@ fn check_pits(scene: &Scene) -> Result<()> {
                 format!("defects.{name}.width"),
                 defect.width.largest(),
                 format!(
-                    "smaller than its contact, which bears {} N: what is larger is a spall, with an edge radius",
+                    "smaller than its contact, which bears {} N; a larger one is a spall, with an edge radius",
                     number(load)
                 ),
             ));

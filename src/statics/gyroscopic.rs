@@ -1,7 +1,7 @@
 //! What the balls' motion adds to their balance: the centrifugal force of their orbit, and friction that turns the spin axes of balls
 //! that spin freely (see [`steady`]).
 //!
-//! The books' race control beside it: the outer race alone holds the ball's axis, on which the ball does not pivot (Jones 1959;
+//! The alternative is race control: the outer race alone determines the ball's axis, and the ball does not pivot on it (Jones 1959;
 //! Harris & Kotzalas, Essential Concepts of Bearing Technology). With N the direction of a contact from the ball's centre, friction of size T
 //! along t × N gives the moment R T t, so R T = I ω_c ω_n, as far as friction can.
 
@@ -15,7 +15,7 @@ use crate::contact::{Wrench, centrifugal};
 use crate::inspect;
 use crate::model::{BodyId, Dof, Race};
 
-/// Largest centrifugal force over the sum of what acts below which nominal rolling tells it well enough: to some percent.
+/// Largest centrifugal force, over the sum of all forces, below which nominal rolling gives it accurately enough: to some percent.
 const FAST: f64 = 1e-3;
 /// Slip speed at which friction slides, for its largest value \[m/s\].
 const SLIDING: f64 = 1.0;

@@ -1,5 +1,5 @@
-//! Tilts of rings among the unknowns: frames, what acts on tilts beside contacts, and where springs between groove centres see a ring
-//! that leans.
+//! Tilts of rings among the unknowns: frames, moments on tilts in addition to those of contacts, and springs between groove centres
+//! with a ring that tilts.
 
 use nalgebra::{Matrix3x2, SMatrix, Vector3, Vector6};
 
@@ -22,12 +22,12 @@ impl Problem<'_> {
         Dof::TILTS.map(|dof| rings[unknowns::at(race, dof)] / self.lever())
     }
 
-    /// The frame of a ring that may lean.
+    /// The frame of a ring that may tilt.
     pub(super) fn frame(&self, rings: &Rings, race: Race) -> Frame {
         Frame::new(self.tilt(rings, race))
     }
 
-    /// How a ring turns by its tilts, told as lengths.
+    /// Rotation of a ring by its tilts, expressed as lengths.
     fn turning(&self, rings: &Rings, race: Race) -> Matrix3x2<f64> {
         let tilt = self.tilt(rings, race);
         let by = |rates: [f64; 2]| Rotation::new(tilt, rates, 0.0).angular_velocity();
@@ -43,7 +43,7 @@ impl Problem<'_> {
         }
     }
 
-    /// The place of a ball as a ring sees it that may lean.
+    /// The place of a ball in the frame of a ring that may tilt.
     pub(super) fn seen(&self, rings: &Rings, race: Race, centre: &Vector3<f64>) -> Vector3<f64> {
         let from = centre - unknowns::of(rings, race);
         if !self.model.leans() {
@@ -160,7 +160,8 @@ impl Problem<'_> {
         (-by.tr_mul(&pull), by.tr_mul(&(coupled.stiffness * by)))
     }
 
-    /// Where springs between groove centres would see a ring that leans, at a ball: along its direction, and axially.
+    /// Displacement of a tilted ring's groove centre at a ball, for springs between groove centres: along the ball's direction, and
+    /// axially.
     pub(super) fn leaned(&self, j: usize, rings: &Rings, race: Race) -> [f64; 2] {
         if !self.model.leans() {
             return [0.0; 2];

@@ -1,4 +1,4 @@
-//! What follows from the loads of contacts at the equilibrium of round races without oil: how contacts average waves, and films.
+//! What follows from the contact loads at the equilibrium of round races without oil: how contacts average waves, and films.
 
 use super::positions;
 use crate::base::error::{Error, Result};
@@ -108,7 +108,7 @@ impl Needs<'_> {
                 format!("{}.reference_load", (self.path)(row)),
                 "absent",
                 format!(
-                    "given [N], since {} cannot be computed for the loads of the equilibrium: {error}",
+                    "a load [N], since {} cannot be computed for the loads of the equilibrium: {error}",
                     self.what
                 ),
             )),

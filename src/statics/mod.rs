@@ -213,7 +213,7 @@ fn in_place(model: &Model, (control, spacing): (RaceControl, Spacing)) -> Result
     for (at, race, dof) in unknowns::all() {
         rings[at] = match dof {
             Dof::Z => axial_places.rings[race],
-            // Rings that lean have no planes.
+            // Tilted rings have no planes of symmetry.
             Dof::TiltX | Dof::TiltY => 0.0,
             _ => solved.y[layout.at(race.ring(), dof)],
         };

@@ -1,6 +1,6 @@
 //! Where defects are placed that are to lie where contacts run.
 //!
-//! A run, an equilibrium and an explanation place a defect alike: they ask here.
+//! Runs, equilibria and explanations all place defects by this module.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -83,14 +83,14 @@ fn in_nanometres(number: f64) -> f64 {
 /// Gives a defect between steep walls the fault circles that unload a contact of a half-width \[m\] as solids do (model section 15.5).
 fn wall(name: &str, defect: &mut Defect, row: &Row, half_width: Option<f64>) -> Result<()> {
     let half = half_width.ok_or_else(|| {
-        let allowed = "absent where no contact at equilibrium bears load that meets the defect: give the width and edge_radius of \
-                       its fault circles";
+        let allowed = "absent, since no loaded contact meets the defect at equilibrium: give width and edge_radius of its fault \
+                       circles";
         Error::scene(format!("defects.{name}.walls"), "steep", allowed)
     })?;
     let width = defect.width.largest();
     if width < NARROWEST * half {
         let allowed = format!(
-            "{} and more between steep walls, 1.25 times the width of its contact: what is narrower is a pit",
+            "at least {} between steep walls, 1.25 times the width of its contact; a narrower one is a pit",
             quantities::length(NARROWEST * half)
         );
         return Err(Error::scene(

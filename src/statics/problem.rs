@@ -20,7 +20,7 @@ pub(super) struct Problem<'m> {
     pub(super) friction: Vec<[Vector3<f64>; 2]>,
     /// What it turns each ring beside its arm to the balls' centres \[N m\].
     pub(super) couples: [Vector3<f64>; 2],
-    /// Speeds of all bodies, once friction has told them.
+    /// Speeds of all bodies, once they are found from friction.
     pub(super) speeds: Vec<f64>,
     pub(super) control: RaceControl,
     pub(super) spacing: Spacing,
@@ -48,7 +48,7 @@ pub(super) struct Problem<'m> {
     pub(super) turning: [Vector3<f64>; 2],
     /// Whether forces depend on a ring's place, beside contacts and springs.
     pub(super) placed: bool,
-    /// Whether the stiffness against tilts is looked for: of rings that may lean, or where somebody asks.
+    /// Whether the stiffness against tilts is computed: for rings that may tilt, or on request.
     pub(super) spatial: bool,
 }
 

@@ -122,7 +122,7 @@ impl Problem<'_> {
         Err(Error::Equilibrium {
             reason: format!(
                 "{} on {} are not balanced, {} % of the largest load ({}), where {} % is allowed; \
-                 check loads, clearance and cage, cut contacts by fitted nodes, or start rolling",
+                 check loads, clearance and cage, cut contacts by fitted nodes, or use start = \"rolling\"",
                 quantities::force(residual.force),
                 self.model.bodies[residual.body].name,
                 quantities::number(100.0 * residual.share()),

@@ -138,7 +138,7 @@ impl Problem<'_> {
         Err(Error::Equilibrium {
             reason: format!(
                 "the load cannot be carried: {} % of the load is not \
-                 balanced; check loads, clearance, supports and contact angle, or start rolling",
+                 balanced; check loads, clearance, supports and contact angle, or use start = \"rolling\"",
                 quantities::number(100.0 * self.error(&state.residual))
             ),
         })

@@ -1,4 +1,4 @@
-//! How far to go along a direction.
+//! Line search: how far to go along a direction.
 
 /// Trials before the best place so far has to do.
 const TRIALS: usize = 40;

@@ -1,4 +1,4 @@
-//! How a ball between a held outer and a moving inner ring answers to small, slow motion of the inner ring.
+//! Forces of a ball between a held outer and a moving inner ring under small, slow motion of the inner ring.
 //!
 //! In the cage's frame, which turns at ω_c, a ball has places a = (r, z), along its radius and along the axis, and speeds
 //! b = (ṡ, R ω), along its orbit and of its rotation. Where it stands along the orbit is given by the cage; so is what it does on the

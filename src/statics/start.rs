@@ -79,7 +79,7 @@ fn given(model: &Model, state: &[f64]) -> Result<Vec<f64>> {
             return Err(Error::scene(
                 format!("start[{}]", layout.at(ball, Dof::E0)),
                 format!("{attitude:?}"),
-                "Euler parameters, the four of a ball: their squares add up to 1, within 1 %",
+                "the four Euler parameters of a ball, whose squares add up to 1 within 1 %",
             ));
         }
         turn(layout, &mut y, ball, attitude.map(|e| e / length));
@@ -125,7 +125,7 @@ fn hold(model: &Model, y: &mut [f64]) {
     }
 }
 
-/// Lets rings lean as far as they nominally do.
+/// Gives rings their nominal tilts.
 fn lean(model: &Model, y: &mut [f64]) {
     let layout = model.layout();
     for race in Race::BOTH {

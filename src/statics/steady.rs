@@ -1,17 +1,17 @@
-//! The speeds at which friction keeps balls going as they are: how a row orbits and its balls spin where they stand.
+//! The steady speeds of balls under friction: how fast a row orbits and its balls spin, with all bodies at given places.
 //!
 //! Rolling at the middle of each contact is a first guess. Across a contact the radius of the ball varies, friction slides where balls
 //! pivot, films resist rolling and oil drags, and a ball that is carried round at ω_c keeps its angular velocity ω in the cage's
 //! frame only if the races turn it by
 //!
 //! ```text
-//! M = I ω_c ẑ × ω        (the gyroscopic moment of the books is its opposite)
+//! M = I ω_c ẑ × ω        (textbooks' gyroscopic moment is its opposite)
 //! ```
 //!
 //! With the places of all bodies given, ω_c of a row and ω of each of its balls are found from M of every ball and from Σ F_t = 0: what single
-//! balls would be ahead or behind, the cage carries. Newton's method is led there as a run would be, by implicit steps in time
-//! that grow as the residual falls: friction dissipates, so that this ends from any guess, while Newton's method alone is thrown
-//! about by friction that slides.
+//! balls would be ahead or behind, the cage carries. The solution is approached by implicit steps in time, as of a run, that grow as
+//! the residual falls until they are Newton's: friction dissipates, so that this converges from any guess, while Newton's method
+//! alone diverges where friction slides.
 
 use nalgebra::{SMatrix, SVector, Vector3};
 

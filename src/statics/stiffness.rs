@@ -1,4 +1,4 @@
-//! How stiff a bearing is where it stands.
+//! Tangent stiffness of a bearing at its equilibrium.
 
 use std::array::from_fn;
 

@@ -1,4 +1,4 @@
-//! Unknowns of the rings, each along x, y and z and its tilts, and the one place that says where they stand.
+//! Unknowns of the rings, each along x, y and z and its tilts, and the one place that gives their offsets.
 //!
 //! Tilts are lengths here: times half of the mean pitch diameter.
 

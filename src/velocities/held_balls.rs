@@ -1,4 +1,4 @@
-//! Eight balls between both races, held where they are, and how their contacts answer to velocities.
+//! Eight balls between both races, held where they are, and how their contact forces depend on velocities.
 
 use std::array::from_fn;
 

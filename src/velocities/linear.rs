@@ -1,4 +1,5 @@
-//! Velocities corrected by the matrix of the contacts' friction, damping and stiffness, once a step: what [`Adams`](crate::integrate::Adams) needs.
+//! Corrections of velocities by the matrix of the contacts' friction, damping and stiffness, once a step, for
+//! [`Adams`](crate::integrate::Adams).
 
 use super::matrix::{ContactMatrix, Velocity};
 use crate::base::words::{Remembered, Unfit, Words};

@@ -1,4 +1,4 @@
-//! How accelerations answer to velocities and places, with the contacts held where they are.
+//! How accelerations depend on velocities and places, with the contacts held where they are.
 //!
 //! The default method solves for that once a step, by a matrix that serves many steps ([`Damped`]). Friction is the stiffest part of the
 //! model. The matrix is an arrow (`arrow.rs`) of a 4×4 block a ball and 8×8 for the rings, or 6×6 and 12×12 where rings tilt or balls spin

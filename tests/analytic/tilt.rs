@@ -344,7 +344,7 @@ fn tilts_that_never_move_are_left_out() {
             Box::new(|s| s.inner_ring.centre_of_mass = Some(1e-6)),
         ),
         (
-            "leans at the start",
+            "tilts at the start",
             Box::new(|s| s.inner_ring.tilt = Some([0.0, 1e-6])),
         ),
         (

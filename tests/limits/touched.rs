@@ -404,7 +404,7 @@ fn what_is_advised_was_not_done_before() {
     println!("{advice}");
     assert!(!advice.contains("give \"contact\""), "{advice}");
     let place = format!(
-        "give the place in metres, {:.2e}",
+        "give axial_offset in metres, {:.2e}",
         of.contact_offset.unwrap()
     );
     assert!(advice.contains(&place), "{advice}");

@@ -110,7 +110,7 @@ def test_what_cannot_be_carried_is_told_as_a_share() -> None:
 
 def test_a_field_of_a_new_entry_says_how_to_give_one() -> None:
     scene = br.presets.deep_groove_6205()
-    with pytest.raises(br.SceneError, match=r"a new one is given whole, as defects\.new"):
+    with pytest.raises(br.SceneError, match=r"to add one, set defects\.new as a whole"):
         scene.replace({"defects.new.width": 1e-3})
 
 
@@ -118,5 +118,5 @@ def test_messages_of_all_fields_are_those_reviewed() -> None:
     """Golden: a message that is new or changed is read as its reader would, and put there (``messages.py``)."""
     known = (Path(__file__).parents[1] / "documents" / "messages.txt").read_text("utf-8")
     assert messages.text().splitlines() == known.splitlines()
-    for of_rust in ("invalid type", "f64", "usize", "struct ", "`"):
+    for of_rust in ("invalid type", "f64", "u64", "usize", "struct ", "`"):
         assert of_rust not in known

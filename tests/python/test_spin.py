@@ -115,7 +115,7 @@ class Late:
 def late(scene: br.Scene, duration: float = 0.04) -> Late:
     with warnings.catch_warnings():
         # Fast balls go round otherwise than rolling at one angle tells, which is what these tests look at.
-        warnings.filterwarnings("ignore", "row 0: its balls went round", br.SceneWarning)
+        warnings.filterwarnings("ignore", "row 0: its balls orbited", br.SceneWarning)
         return Late(scene, br.simulate(scene, duration=duration, settle=0.0))
 
 
@@ -281,8 +281,8 @@ RING = s.MotionProbe(body="inner", components=("omega_x",))
     ("changes", "message"),
     [
         ({"spin": "round"}, r'spin = "round".*"axial" or "free"'),
-        ({"probes": {"ring": RING}}, r"probes\.ring\.motion\.components = omega_x: of balls"),
-        ({"spin": "axial", "probes": {"ball": BALL}}, r'omega_x: with spin = "free": row0\.ball0'),
+        ({"probes": {"ring": RING}}, r"probes\.ring\.motion\.components = omega_x: a component of inner"),
+        ({"spin": "axial", "probes": {"ball": BALL}}, r'omega_x: .* need spin = "free"'),
         ({"approximations.rolling": True}, r"approximations.*balls spin freely"),
         ({"approximations.plane": True}, r"approximations.*balls spin freely"),
     ],

@@ -96,7 +96,7 @@ def test_what_the_tyre_does_to_the_line_of_the_envelope() -> None:
             # Under the tyre's load no ball touches the spall, which is what is shown.
             warnings.filterwarnings("ignore", "defect .* was never touched", br.SceneWarning)
             # The side force leaves part of the balls unloaded, which fall 0.6 % behind.
-            warnings.filterwarnings("ignore", "row .: its balls went round", br.SceneWarning)
+            warnings.filterwarnings("ignore", "row .: its balls orbited", br.SceneWarning)
             return dynamic(br.simulate(changed, duration=0.1, settle=0.0)).line
 
     centre = [line(br.presets.wheel_bearing(7000.0 * lateral)) for lateral in (-0.3, 0.3)]

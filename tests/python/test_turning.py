@@ -323,7 +323,7 @@ def test_bad_speeds_are_refused_by_name() -> None:
         ({"outer_speed": 1e9}, "outer_speed = "),
         (
             {"outer_speed": Ramp(from_=0.0, to=9.0, start=1.0, end=1.0)},
-            "outer_speed = a jump in time",
+            "outer_speed = a jump: a speed without jumps",
         ),
         (
             {"outer_ring.support.theta": "free"},

@@ -376,7 +376,7 @@ fn of_a_6310(scene: &mut Scene) {
     (row.ball_count, row.ball_diameter, row.pitch_diameter) = (8, 19.05e-3, 80e-3);
 }
 
-/// What a scene says and nothing feels, one each.
+/// Fields that have no effect in their scene, one each.
 const LOST: &[Slip] = &[
     ("loads.radial.at", |s| {
         s.loads.get_mut("radial").unwrap().at = Some([0.0, 0.0, -60e-3]);
@@ -425,7 +425,7 @@ fn with_everything() -> Scene {
 }
 
 #[test]
-fn numbers_in_another_unit_and_those_that_nothing_feels_are_told() {
+fn numbers_in_another_unit_and_fields_without_effect_are_reported() {
     assert_eq!(with_everything().doubts(), []);
     for (path, slip) in SLIPS.iter().chain(LOST) {
         let mut scene = with_everything();

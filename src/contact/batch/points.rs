@@ -1,4 +1,4 @@
-//! Forces of eight contacts at once with a race through points that is hollow all along.
+//! Forces of eight contacts at once with a race through points that is concave everywhere.
 //!
 //! What [`Contour`] does one by one, in [`Lanes`]: the foot, the ends of the zone, the elements between them. Contacts
 //! that run over an end of race or ball, or whose Newton steps do not converge, are reported and left to it.

@@ -1,4 +1,4 @@
-//! Weights of friction at the nodes of eight contacts.
+//! Weights of the nodes of eight contacts for friction.
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]

@@ -1,5 +1,5 @@
-//! Pits of races and balls: where they lie, and what they may take of a contact. What their places make of its forces stands with the
-//! evaluation of contacts.
+//! Pits of races and balls: where they lie, and what part of a contact's load they may release. The forces that follow are in
+//! `scalar/over_defects/pits.rs`.
 
 use nalgebra::Vector3;
 

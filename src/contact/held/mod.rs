@@ -1,4 +1,4 @@
-//! Contacts held where they are: the part of their elements that does not depend on velocities, and how they answer to these.
+//! Contacts held where they are: the part of their elements that does not depend on velocities, and how their forces depend on them.
 //!
 //! With all of a node's force at one point, slip and approach depend only on the relative twist
 //! w = (v_b − v_r − θ̇_r ẑ × a, θ̇_b − θ̇_r), where a leads from the ring's centre to the ball's: four numbers a

@@ -1,4 +1,4 @@
-//! Heights around a circumference as a table: many waves at the price of one.
+//! Heights around a circumference as a table: many waves at the cost of one.
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]

@@ -1,4 +1,4 @@
-//! Height and slope of a surface beside its round shape, at a place.
+//! Height and slope of a surface over its round shape, at a place.
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]

@@ -32,8 +32,8 @@ impl Doubt {
             format!("defects.{name}.width"),
             quantities::length(width),
             format!(
-                "1.3 times the width of the contacts that meet it ({}) and more: the model's fault circles take less load from the \
-                 contact than a slot so narrow does; a pit (shape = \"pit\") shares the load as solids do",
+                "at least 1.3 times the width of the contacts that meet it ({}): narrower, the model's fault circles take less load \
+                 from the contact than a real slot does; a pit (shape = \"pit\") takes the right part",
                 quantities::length(contact)
             ),
         )
@@ -98,10 +98,12 @@ fn gaps(path: &str, row: &Row, found: &mut Vec<Doubt>) {
 /// Fits and heat take a clearance of 5 to 40 µm away and rarely more.
 fn interference(path: &str, row: &Row, found: &mut Vec<Doubt>) {
     let most = (INTERFERENCE * row.ball_diameter).max(20e-6);
-    let told = (LARGEST_GAP * row.ball_diameter).max(50e-6);
-    if row.clearance < -most && -row.clearance <= told {
+    // A larger one is reported as a length.
+    let largest = (LARGEST_GAP * row.ball_diameter).max(50e-6);
+    if row.clearance < -most && -row.clearance <= largest {
         let usual = format!(
-            "an interference that presses every ball as heavy loads do; fits and heat leave at most {} of a bearing of this              size; lengths are in metres",
+            "an interference that presses every ball as heavy loads do; fits and heat leave at most {} in a bearing of this size; \
+             lengths are in metres",
             micrometres(most)
         );
         let value = micrometres(row.clearance);
@@ -121,7 +123,8 @@ fn boundary(scene: &Scene, found: &mut Vec<Doubt>) {
         let is_off = (row.pitch_diameter - middle).abs() > ASIDE * height;
         if is_off && height > row.ball_diameter && height < 6.0 * row.ball_diameter {
             let usual = format!(
-                "bore and outside diameter, {} and {}, put the balls near {}: a bearing that was given other rings keeps its                  old rows",
+                "bore and outside diameter, {} and {}, put the balls near {}; a bearing whose rings were changed keeps the rows \
+                 that it had",
                 millimetres(bore),
                 millimetres(outside),
                 millimetres(middle)
@@ -165,9 +168,9 @@ fn balls(path: &str, row: &Row, material: &Material, found: &mut Vec<Doubt>) {
         if let Some(value) = value
             && !(0.1..=10.0).contains(&(value / usual))
         {
-            let told = format!("a solid ball of the diameter has {} {unit}", number(usual));
+            let usual = format!("a solid ball of this diameter has {} {unit}", number(usual));
             let value = format!("{} {unit}", number(value));
-            found.push(Doubt::new(format!("{path}.{field}"), value, told));
+            found.push(Doubt::new(format!("{path}.{field}"), value, usual));
         }
     }
 }
@@ -183,12 +186,12 @@ fn ring(path: &str, ring: &Ring, material: &Material, row: &Row, found: &mut Vec
     let rotor = 10.0 * material.density * PI / 6.0 * row.pitch_diameter.powi(3);
     let (least, most) = (1e-2 * alone, rotor.max(1e3));
     if !(least..=most).contains(&mass) {
-        let told = format!(
-            "with what moves with it a ring of this size has {} to {} kg; masses are in kilograms",
+        let usual = format!(
+            "a ring of this size, with what moves with it, has {} to {} kg; masses are in kilograms",
             number(least),
             number(most)
         );
-        found.push(Doubt::new(at("mass"), format!("{mass} kg"), told));
+        found.push(Doubt::new(at("mass"), format!("{mass} kg"), usual));
     }
 }
 

@@ -1,4 +1,4 @@
-//! Fields without effect: the model lacks it, or a support that is held carries it.
+//! Fields without effect, since the model does not include it or a held ring carries it.
 
 use super::{Doubt, millimetres};
 use crate::base::quantities::number;
@@ -14,7 +14,7 @@ const ANGULAR: f64 = 0.1;
 const THRUST: f64 = 0.5;
 
 /// What a moment is about.
-const AXES: [&str; 3] = ["tilts about x", "tilts about y", "turns about z"];
+const AXES: [&str; 3] = ["tilting about x", "tilting about y", "turning about z"];
 
 pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
     moments(scene, found);
@@ -27,7 +27,7 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
 
 /// Moments, and loads off the centre, about directions in which their ring is held.
 fn moments(scene: &Scene, found: &mut Vec<Doubt>) {
-    let mut tell = |path: String, ring: RingName, moment: [f64; 3], about: &[usize]| {
+    let mut check = |path: String, ring: RingName, moment: [f64; 3], about: &[usize]| {
         let [.., theta, tilt_x, tilt_y, _, _] = scene.moves(ring as usize);
         let driven = scene.given_speed(ring).is_some();
         let moves = [tilt_x, tilt_y, theta && !driven];
@@ -39,7 +39,7 @@ fn moments(scene: &Scene, found: &mut Vec<Doubt>) {
                 _ => format!("give {name}_ring.support.tilt_x and tilt_y a mount"),
             };
             let usual = format!(
-                "nothing feels it, since the scene holds how the {name} ring {}; {give}",
+                "has no effect, since the scene keeps the {name} ring from {}; {give}",
                 AXES[*axis]
             );
             let value = format!("{} N m", number(moment[*axis]));
@@ -48,13 +48,13 @@ fn moments(scene: &Scene, found: &mut Vec<Doubt>) {
     };
     for (name, load) in &scene.loads {
         if let Some(moment) = moment_of(scene, load) {
-            tell(format!("loads.{name}.at"), load.ring, moment, &[0, 1]);
+            check(format!("loads.{name}.at"), load.ring, moment, &[0, 1]);
         }
     }
     for (name, moment) in &scene.moments {
         let size = moment.moment.peak() / length(moment.direction);
         let all = moment.direction.map(|d| d * size);
-        tell(format!("moments.{name}"), moment.ring, all, &[0, 1, 2]);
+        check(format!("moments.{name}"), moment.ring, all, &[0, 1, 2]);
     }
 }
 
@@ -68,7 +68,9 @@ fn tables(scene: &Scene, found: &mut Vec<Doubt>) {
             found.push(Doubt::new(
                 format!("table_forces.{name}.direction"),
                 format!("{:?}", table.direction),
-                format!("the scene holds the {ring} ring along it, so that the force does nothing; give {ring}_ring.support a mount"),
+                format!(
+                    "has no effect, since the scene holds the {ring} ring along it; give {ring}_ring.support a spring or set it free"
+                ),
             ));
         }
     }
@@ -114,7 +116,7 @@ fn is_loose(scene: &Scene, name: RingName) -> bool {
             .is_none_or(|of| of.stiffness[2][2] == 0.0)
 }
 
-/// A preload that a ring gives way to.
+/// A preload that vanishes since a ring is free along z.
 fn preload(scene: &Scene, found: &mut Vec<Doubt>) {
     let [row] = scene.rows.as_slice() else {
         return;
@@ -124,7 +126,7 @@ fn preload(scene: &Scene, found: &mut Vec<Doubt>) {
         .find(|name| is_loose(scene, *name));
     if let Some(loose) = loose.filter(|_| row.axial_preload != 0.0) {
         let usual = format!(
-            "has no effect, since the {name} ring of this one row is free along z and gives way; fix both rings there \
+            "has no effect, since the {name} ring of this single row is free along z; fix both rings along z \
              (outer_ring.support.z, inner_ring.support.z), preload by an axial load, or give a second row",
             name = loose.name()
         );
@@ -144,7 +146,7 @@ fn thrust_of(scene: &Scene) -> Option<f64> {
     on(RingName::Inner).or_else(|| on(RingName::Outer).map(|thrust| -thrust))
 }
 
-/// Thrust out of the contacts of angular contact bearings.
+/// Thrust that takes the load off the contacts of angular contact bearings.
 fn thrust(scene: &Scene, found: &mut Vec<Doubt>) {
     let Some(thrust) = thrust_of(scene) else {
         return;
@@ -169,24 +171,24 @@ fn thrust(scene: &Scene, found: &mut Vec<Doubt>) {
 fn moduli(scene: &Scene, found: &mut Vec<Doubt>) {
     let paper = NormalLaw::iso16281();
     let steel = Material::default().youngs_modulus;
-    let mut tell = |path: String, material: &Material| {
+    let mut check = |path: String, material: &Material| {
         if (material.youngs_modulus / steel - 1.0).abs() > MODULUS {
-            let usual = "contacts do not feel it: the law of ISO 16281 has the stiffness of its constant \
-                         (contact.law.iso16281.constant), which is that of steel; the law \"hertz\" follows the moduli";
+            let usual = "has no effect on contacts: the law of ISO 16281 takes its stiffness from its constant \
+                         (contact.law.iso16281.constant), which is that of steel; the law \"hertz\" uses the moduli";
             let value = format!("{} GPa", number(1e-9 * material.youngs_modulus));
             found.push(Doubt::new(format!("{path}.youngs_modulus"), value, usual));
         }
     };
     let follows = |row: &Row| scene.contact_of(row).law == paper;
     if scene.rows.iter().any(follows) {
-        tell("materials.rings".to_owned(), &scene.materials.rings);
+        check("materials.rings".to_owned(), &scene.materials.rings);
     }
     if scene
         .rows
         .iter()
         .any(|row| follows(row) && row.ball_material.is_none())
     {
-        tell("materials.balls".to_owned(), &scene.materials.balls);
+        check("materials.balls".to_owned(), &scene.materials.balls);
     }
     for (i, row) in scene
         .rows
@@ -195,7 +197,7 @@ fn moduli(scene: &Scene, found: &mut Vec<Doubt>) {
         .filter(|(_, row)| follows(row))
     {
         if let Some(own) = &row.ball_material {
-            tell(format!("rows[{i}].ball_material"), own);
+            check(format!("rows[{i}].ball_material"), own);
         }
     }
 }
@@ -223,8 +225,8 @@ fn balls(scene: &Scene, found: &mut Vec<Doubt>) {
             } else {
                 format!("ball, under {} N of thrust", number(thrust))
             };
-            let usual = "balls spin about the bearing's axis, at BSF/cos α, and where contacts lean a defect meets one race \
-                         only: its lines stand elsewhere than a real ball's; use spin = \"free\"";
+            let usual = "balls spin about the bearing's axis, at BSF/cos α, and at a contact angle their defects meet one race \
+                         only: the lines differ from those of a real ball; use spin = \"free\"";
             found.push(Doubt::new(format!("defects.{name}.on"), value, usual));
         }
     }

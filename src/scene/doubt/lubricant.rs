@@ -43,34 +43,34 @@ impl Doubt {
     /// Of a film at a place such as `row 0, outer film`.
     pub(crate) fn film(place: &str, judged: &FilmJudged) -> Vec<Self> {
         let mut found = Vec::new();
-        let mut tell = |what: &str, value: String, usual: &str| {
+        let mut add = |what: &str, value: String, usual: &str| {
             found.push(Self::new(format!("{place}, {what}"), value, usual));
         };
         let outside = |x: f64, [least, most]: [f64; 2]| !(least..=most).contains(&x);
         if outside(judged.ellipticity, ELLIPTICITY) {
-            let usual = "formulas of films reach from contacts 1 to 12 times as long as wide";
-            tell("length over width", number(judged.ellipticity), usual);
+            let usual = "formulas of films hold for contacts 1 to 12 times as long as wide";
+            add("length over width", number(judged.ellipticity), usual);
         }
         if let Some(moes) = judged.moes.filter(|moes| outside(*moes, MOES)) {
             let usual = "the film's damping was fitted to L from 2 to 20";
-            tell("Moes' L", number(moes), usual);
+            add("Moes' L", number(moes), usual);
         }
         if judged.lambda < LAMBDA {
             let usual = "below 0.2 asperities bear the load, and a film's formulas do not hold; colder or thicker oil, a \
-                         higher speed or smoother surfaces make more of it";
-            tell("λ", number(judged.lambda), usual);
+                         higher speed or smoother surfaces raise it";
+            add("λ", number(judged.lambda), usual);
         }
         if let Some(pressure) = judged.pressure.filter(|pressure| *pressure > PRESSURE) {
             let usual = "traction of oils is known up to 3 GPa";
-            tell("pressure", format!("{:.2} GPa", 1e-9 * pressure), usual);
+            add("pressure", format!("{:.2} GPa", 1e-9 * pressure), usual);
         }
         found
     }
 
-    /// Of the slip of contacts under films \[m/s\], if they rub too fast.
+    /// Of the slip of contacts under films \[m/s\], if it is too fast for their formulas.
     pub(crate) fn film_slip(slip: f64) -> Option<Self> {
-        let usual = "above 0.5 m/s oil heats in the contact and rubs less than is computed; more load, thicker oil or a lower speed \
-                     make less of it";
+        let usual = "above 0.5 m/s oil heats in the contact and has less friction than is computed; more load, thicker oil or a \
+                     lower speed reduce the slip";
         (slip > SLIP).then(|| {
             Self::new(
                 "slip of contacts".to_owned(),
@@ -105,7 +105,7 @@ fn asks_for_torque(scene: &Scene) -> bool {
 }
 
 fn lubricant(path: &str, lubricant: &Lubricant, of_torque: bool, found: &mut Vec<Doubt>) {
-    let mut tell = |field: &str, value: String, usual: &str| {
+    let mut add = |field: &str, value: String, usual: &str| {
         found.push(Doubt::new(format!("{path}.{field}"), value, usual));
     };
     let within = |x: f64, [least, most]: [f64; 2]| (least..=most).contains(&x);
@@ -118,18 +118,18 @@ fn lubricant(path: &str, lubricant: &Lubricant, of_torque: bool, found: &mut Vec
     if !within(temperature, TEMPERATURE) {
         let usual = "oils of bearings are used from -30 to 150 °C";
         let value = format!("{} °C", number(temperature - 273.15));
-        tell("temperature", value, usual);
+        add("temperature", value, usual);
     }
     if !within(roughness, ROUGHNESS) {
         let usual = "races and balls together have 0.01 to 0.3 µm; lengths are in metres";
         let value = format!("{} µm", number(1e6 * roughness));
-        tell("roughness", value, usual);
+        add("roughness", value, usual);
     }
     if let Some(layer) = lubricant.oil_layer.thickness()
         && layer > LAYER
     {
         let usual = "a layer that thick is \"flooded\"; lengths are in metres";
-        tell("oil_layer", millimetres(layer), usual);
+        add("oil_layer", millimetres(layer), usual);
     }
     let usual = if slip_floor > LARGEST_SLIP_FLOOR {
         "above 0.05 m/s it makes no run faster, and takes up to a quarter of the friction torque away; speeds are in \
@@ -139,5 +139,5 @@ fn lubricant(path: &str, lubricant: &Lubricant, of_torque: bool, found: &mut Vec
     } else {
         return;
     };
-    tell("slip_floor", format!("{} m/s", number(slip_floor)), usual);
+    add("slip_floor", format!("{} m/s", number(slip_floor)), usual);
 }

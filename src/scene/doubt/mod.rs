@@ -1,4 +1,4 @@
-//! What a scene may have without being refused, and is probably not meant: a number in another unit, a column that is constant.
+//! What is allowed in a scene but probably not meant: a number in another unit, a column that is constant.
 //!
 //! Validation refuses what cannot be computed; a pitch diameter of 39 m can. So every number is compared with the range of
 //! real bearings, from miniature ones to those with a bore of one metre (`tests/reliability/doubts.rs`). What lies outside
@@ -32,7 +32,7 @@ pub const STATIC_PRESSURE: f64 = 4.2e9;
 pub struct Doubt {
     /// Path of the field, such as `rows[0].ball_diameter`, or what follows from the scene, such as `contact pressure`.
     pub path: String,
-    /// Its value in a unit that readers think in.
+    /// Its value in a common unit.
     pub value: String,
     /// What is usual, and what may have gone wrong.
     pub usual: String,
@@ -71,17 +71,16 @@ impl Doubt {
 }
 
 impl Scene {
-    /// Improbable numbers of the scene, fields without effect, and probes of what cannot change; of an ordinary
-    /// bearing nothing.
-    /// None of a scene that [`Scene::validate`] refuses, which says what comes first.
+    /// Improbable numbers of the scene, fields without effect, and probes of what cannot change; empty for an ordinary
+    /// bearing, and for a scene that [`Scene::validate`] refuses.
     ///
     /// ```
     /// use ballrace::scene::presets;
     /// let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
     /// assert!(scene.doubts().is_empty());
     /// scene.rows[0].start_angle = -90.0;
-    /// let told = scene.doubts()[0].to_string();
-    /// assert!(told.starts_with("rows[0].start_angle = -90 rad: more than a turn"));
+    /// let text = scene.doubts()[0].to_string();
+    /// assert!(text.starts_with("rows[0].start_angle = -90 rad: more than a turn"));
     /// ```
     pub fn doubts(&self) -> Vec<Doubt> {
         let mut found = Vec::new();

@@ -77,8 +77,8 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
 
 fn damping(path: &str, contact: &Contact, found: &mut Vec<Doubt>) {
     if contact.damping > DAMPING {
-        let usual = "impacts of steel balls say 0.08 to 0.32 s/m (Hunt and Crossley 1975); with so much a ball that meets a race at \
-                     0.1 m/s hardly springs back";
+        let usual = "impacts of steel balls give 0.08 to 0.32 s/m (Hunt and Crossley 1975); with so much damping a ball that meets a \
+                     race at 0.1 m/s hardly springs back";
         let value = format!("{} s/m", number(contact.damping));
         found.push(Doubt::new(format!("{path}.damping"), value, usual));
     }

@@ -8,7 +8,7 @@ use crate::scene::Scene;
 const TILT: f64 = 0.05;
 
 /// Why that is doubted.
-const USUAL: &str = "no bearing's rings lean by 3° in use";
+const USUAL: &str = "rings of bearings tilt by less than 3° in use";
 
 impl Doubt {
     /// Of how far rings tilt in a run or at equilibrium \[rad\], if that is too far.

@@ -21,7 +21,7 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
     for (name, defect) in &scene.defects {
         let width = defect.width.largest();
         if width > 0.0 && width < WIDTH {
-            let usual = "less than a fiftieth of a millimetre: a contact is wider by far and hardly feels it; widths are in \
+            let usual = "less than a fiftieth of a millimetre: contacts are far wider, and it has hardly any effect; widths are in \
                          metres, width_mm in millimetres";
             let path = format!("defects.{name}.width");
             found.push(Doubt::new(path, millimetres(width), usual));

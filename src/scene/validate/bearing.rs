@@ -21,13 +21,14 @@ pub(super) fn row(path: &str, row: &Row) -> Result<()> {
         }
     }
     if row.ball_support.is_spatial() {
-        let allowed = "x, y, z and theta alone: balls have no tilt";
+        let allowed = "mounts of x, y, z and theta only, since balls have no tilt";
         let given = "a tilt or a coupled support";
         return Err(Error::scene(at("ball_support"), given, allowed));
     }
     let mounts = row.ball_support.mounts(Mount::Free);
     if mounts.iter().any(|mount| matches!(mount, Mount::Given(_))) {
-        let allowed = "free, fixed or sprung directions: motions are given of rings";
+        let allowed =
+            "free, fixed or sprung directions, since only rings can follow a given motion";
         return Err(Error::scene(at("ball_support"), "a given motion", allowed));
     }
     support(&at("ball_support"), &row.ball_support)
@@ -102,7 +103,7 @@ fn conformity(path: &str, conformity: f64) -> Result<()> {
     Err(Error::scene(path, conformity, "above 0.5 and at most 1"))
 }
 
-/// What races and balls have that is not as drawn.
+/// Deviations of races and balls from their nominal shape.
 fn deviations(path: &str, row: &Row) -> Result<()> {
     let d = row.ball_diameter;
     for (field, waves) in [
@@ -149,8 +150,7 @@ pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
         ("width", ring.width, "m"),
     ] {
         if let Some(value) = value {
-            positive(&at(field), value, unit)?;
-            within(&at(field), value, 0.0..=1e9, unit)?;
+            check::up_to(&at(field), value, 1e9, unit)?;
         }
     }
     if let Some(diameter) = ring.diameter {

@@ -1,4 +1,4 @@
-//! The single checks.
+//! Checks of single numbers, mounts and names.
 
 use std::ops::RangeInclusive;
 
@@ -22,6 +22,22 @@ pub(super) fn positive(path: &str, value: f64, unit: &str) -> Result<()> {
     }
     let allowed = format!("a finite number above 0 {unit}");
     Err(Error::scene(path, value, allowed.trim_end()))
+}
+
+/// Of a number in some unit, above 0 and at most a bound.
+pub(super) fn up_to(path: &str, value: f64, most: f64, unit: &str) -> Result<()> {
+    if value > 0.0 && value <= most {
+        return Ok(());
+    }
+    let most = match unit {
+        "m" => quantities::length(most),
+        _ => format!("{} {unit}", quantities::number(most)),
+    };
+    Err(Error::scene(
+        path,
+        value,
+        format!("above 0 and at most {most}"),
+    ))
 }
 
 /// Of a number in some unit, or none.

@@ -10,7 +10,7 @@ pub(super) fn materials(materials: &Materials) -> Result<()> {
     material("materials.balls", &materials.balls)
 }
 
-/// Contact, friction and material that a row says for itself.
+/// Contact, friction and material that a row has of its own.
 pub(super) fn of_row(path: &str, row: &Row) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     if let Some(own) = &row.ball_material {

@@ -48,7 +48,10 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
             return Err(Error::scene(
                 at("ball"),
                 given,
-                format!("a ball below {} for a ball defect", row.ball_count),
+                format!(
+                    "a ball from 0 to {}, since the defect is on a ball",
+                    row.ball_count - 1
+                ),
             ));
         }
         (_, Some(ball)) => {
@@ -73,7 +76,7 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
     Ok(())
 }
 
-/// What stands between walls is a patch of one width, whose fault circles follow from them.
+/// A defect with walls is a patch of one width, whose fault circles follow from the walls.
 fn between_walls(path: &str, defect: &Defect) -> Result<()> {
     let refuse = |field: &str, value: &dyn Display, allowed: &str| {
         Err(Error::scene(format!("{path}.{field}"), value, allowed))
@@ -102,13 +105,14 @@ fn pit(scene: &Scene, path: &str, row: &Row, defect: &Defect) -> Result<()> {
         return refuse("edge_radius", &defect.edge_radius, allowed);
     }
     if defect.floor.is_some() {
-        return refuse("floor", &"given", "absent for a pit, which is deep");
+        let allowed = "absent for a pit, whose floor no contact meets";
+        return refuse("floor", &"given", allowed);
     }
     if matches!(defect.width, Width::Profile(_)) {
         return refuse("width", &"a profile", "one number for a pit");
     }
     if !row.has_plain_grooves() {
-        let allowed = "absent on races through points and gothic arches";
+        let allowed = "absent in rows with race profiles, gothic arches or rounded shoulders";
         return refuse("shape", &"pit", allowed);
     }
     let others = scene
@@ -145,7 +149,7 @@ fn overlaps(row: &Row, one: &Defect, other: &Defect) -> bool {
         && across < f64::midpoint(one.extent(), other.extent())
 }
 
-/// A cap is a ball's, and one width says how large it is.
+/// A cap is on a ball, and its size is one width.
 fn only_what_a_cap_has(path: &str, defect: &Defect) -> Result<()> {
     let refuse = |field: &str, value: &dyn Display, allowed: &str| {
         Err(Error::scene(format!("{path}.{field}"), value, allowed))
@@ -236,19 +240,19 @@ fn on_ball(path: &str, row: &Row, defect: &Defect) -> Result<()> {
         );
         return Err(Error::scene(at("length"), defect.length, allowed));
     }
-    // The smallest slice that carries the defect.
-    let slice = (radius * radius - reach * reach).sqrt();
+    // Radius of the ball's smallest section that carries the defect.
+    let section = (radius * radius - reach * reach).sqrt();
     below(
         &at("edge_radius"),
         defect.edge_radius,
-        slice,
-        "the slice's radius",
+        section,
+        "the radius of the ball's section where the defect ends",
     )?;
     below(
         &at("width"),
         defect.width.largest(),
-        PI * slice,
-        "half the slice's circumference",
+        PI * section,
+        "half the circumference of the ball's section where the defect ends",
     )?;
     Ok(())
 }

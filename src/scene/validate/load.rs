@@ -40,8 +40,8 @@ fn ring_speed(path: &str, speed: &TimeFunction) -> Result<()> {
     if jumps {
         return Err(Error::scene(
             path,
-            "a jump in time",
-            "a speed that changes over a time longer than zero",
+            "a jump",
+            "a speed without jumps (a ramp that ends after its start, a table whose times increase)",
         ));
     }
     Ok(())

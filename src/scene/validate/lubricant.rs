@@ -2,14 +2,14 @@
 
 use std::ops::RangeInclusive;
 
-use super::check::{positive, within};
+use super::check::{positive, up_to, within};
 use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
 use crate::scene::{Lubricant, OilLayer, Scene, Sourced};
 
-/// Where formulas of oils hold \[K\].
+/// Temperatures at which the formulas of oils hold \[K\].
 const TEMPERATURES: RangeInclusive<f64> = 233.0..=473.0;
-/// Viscosities that ASTM D341 is for, and beyond which nothing flows into a contact \[m²/s\].
+/// Viscosities \[m²/s\] from the lower limit of ASTM D341 to that above which no oil flows into a contact.
 const VISCOSITIES: RangeInclusive<f64> = 0.3e-6..=0.1;
 
 impl Lubricant {
@@ -41,7 +41,7 @@ pub(super) fn lubricants(scene: &Scene) -> Result<()> {
             return Err(Error::scene(
                 format!("{path}.reference_speed"),
                 "absent",
-                "a speed of the rings against each other [rad/s], since the drive names none but 0",
+                "a relative speed of the rings above 0 [rad/s], since the scene gives them none",
             ));
         }
     }
@@ -59,9 +59,9 @@ fn alone(path: &str, lubricant: &Lubricant) -> Result<()> {
         1e-3..=1e3,
         "W/(m K)",
     )?;
-    length(&at("roughness"), lubricant.roughness)?;
+    up_to(&at("roughness"), lubricant.roughness, 1.0, "m")?;
     if let OilLayer::Thickness(layer) = lubricant.oil_layer {
-        length(&at("oil_layer"), layer)?;
+        up_to(&at("oil_layer"), layer, 1.0, "m")?;
     }
     within(&at("hysteresis"), lubricant.hysteresis, 0.0..=1.0, "")?;
     within(&at("slip_floor"), lubricant.slip_floor, 1e-9..=1e3, "m/s")?;
@@ -128,12 +128,4 @@ fn fraction(path: &str, value: f64) -> Result<()> {
         return Ok(());
     }
     Err(Error::scene(path, value, "above 0 and below 0.5"))
-}
-
-/// A length that films are held against.
-fn length(path: &str, value: f64) -> Result<()> {
-    if value > 0.0 && value <= 1.0 {
-        return Ok(());
-    }
-    Err(Error::scene(path, value, "above 0 and at most 1 m"))
 }

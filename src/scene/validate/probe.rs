@@ -41,11 +41,11 @@ fn of_body(scene: &Scene, path: &str, body: &str, components: &[Component]) -> R
     let is_ring = ["outer", "inner"].contains(&body);
     for component in components {
         let allowed = if Component::OF_TILTS.contains(component) && !is_ring {
-            format!("of rings alone: {body} has no tilt")
+            format!("a component of {body}, which has no tilt")
         } else if Component::OF_TURNS.contains(component) && is_ring {
-            format!("of balls alone: {body} is a ring")
+            format!("a component of {body}; turns about x and y are recorded of balls only")
         } else if Component::OF_TURNS.contains(component) && !scene.balls_turn() {
-            format!(r#"with spin = "free": {body} spins about the bearing's axis alone"#)
+            format!(r#"a component of {body}; turns about x and y need spin = "free""#)
         } else {
             continue;
         };
@@ -75,7 +75,7 @@ fn chosen(scene: &Scene, path: &str, row: usize, balls: Option<&[usize]>) -> Res
         Some(ball) => Err(Error::scene(
             format!("{path}.balls"),
             ball,
-            format!("balls below {count}"),
+            format!("balls from 0 to {}", count - 1),
         )),
         None => Ok(()),
     }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::check::{positive, within};
+use super::check::{up_to, within};
 use crate::base::error::{Error, Result};
 use crate::base::quantities;
 use crate::scene::{Contact, GothicArch, NormalLaw, RaceProfile, Row};
@@ -10,7 +10,7 @@ use crate::scene::{Contact, GothicArch, NormalLaw, RaceProfile, Row};
 /// Fewest and most points of a profile.
 const POINTS: (usize, usize) = (4, 10_000);
 
-/// What a row says of one of its races.
+/// The fields of a row for one of its races.
 struct RaceFields<'a> {
     name: &'a str,
     shoulders: Option<[f64; 2]>,
@@ -56,8 +56,7 @@ fn race(path: &str, row: &Row, contact: &Contact, of: &RaceFields<'_>) -> Result
     }
     let Some(edge) = of.edge else { return Ok(()) };
     let path = at("shoulder_radius");
-    positive(&path, edge, "m")?;
-    within(&path, edge, 0.0..=row.ball_diameter, "m")?;
+    up_to(&path, edge, row.ball_diameter, "m")?;
     only(
         &path,
         of.profile.is_some() || of.arch.is_some(),
@@ -68,13 +67,13 @@ fn race(path: &str, row: &Row, contact: &Contact, of: &RaceFields<'_>) -> Result
         return Err(Error::scene(path, edge, allowed));
     }
     if contact.law == NormalLaw::Hertz {
-        let allowed = "absent with Hertz's law, which does not see where a groove ends; contact.law = iso16281 does";
+        let allowed = "absent with Hertz's law, which does not include the end of a groove; contact.law = iso16281 does";
         return Err(Error::scene(path, edge, allowed));
     }
     Ok(())
 }
 
-/// Refuses a field beside another that says the same.
+/// Refuses a field that another one excludes.
 fn only(path: &str, given: bool, beside: &str) -> Result<()> {
     if given {
         return Err(Error::scene(

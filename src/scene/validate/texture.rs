@@ -25,7 +25,7 @@ pub(super) fn texture(scene: &Scene, index: usize) -> Result<()> {
     }
     if amplitudes.iter().all(|(_, amplitude)| *amplitude == 0.0) {
         let allowed = "an amplitude of outer, inner or ball above 0, or no texture";
-        return Err(Error::scene(path, "without an amplitude", allowed));
+        return Err(Error::scene(path, "no amplitude above 0", allowed));
     }
     within(&at("slope"), texture.slope, 0.5..=4.0, "")?;
     if let Some([first, last]) = texture.orders
@@ -49,8 +49,7 @@ pub(super) fn texture(scene: &Scene, index: usize) -> Result<()> {
         positive(&at("reference_load"), load, "N")?;
     }
     if !row.has_plain_grooves() {
-        let allowed =
-            "absent beside profiles, arches and rounded shoulders: texture is for plain grooves";
+        let allowed = "absent in rows with race profiles, gothic arches or rounded shoulders";
         return Err(Error::scene(path, "given", allowed));
     }
     let tumbles = |defect: &Defect| defect.row == index && defect.on == Surface::Ball;

@@ -32,7 +32,7 @@ pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
     if let Some([x, y]) = ring.tilt
         && (!(x.is_finite() && y.is_finite()) || x.hypot(y) > FURTHEST)
     {
-        let allowed = format!("two numbers, together at most {FURTHEST} rad");
+        let allowed = format!("two numbers whose magnitude, √(x² + y²), is at most {FURTHEST} rad");
         return Err(Error::scene(at("tilt"), format!("{:?}", [x, y]), allowed));
     }
     for (field, mount) in [
@@ -84,7 +84,7 @@ fn given(path: &str, support: &Support) -> Result<()> {
             TimeFunction::Profile(Profile::Table { .. }) => "table",
             _ => continue,
         };
-        let allowed = "a number, a sine or a spline: a ring's velocity does not jump";
+        let allowed = "a number, a sine or a spline, since a ring's velocity must not jump";
         return Err(Error::scene(path, shape, allowed));
     }
     Ok(())
@@ -106,13 +106,14 @@ fn support(path: &str, coupled: &CoupledSupport, turned_by: Option<&str>) -> Res
         let matrix = Matrix6::from_fn(|i, j| rows[i][j]);
         let largest = matrix.amax();
         if (matrix - matrix.transpose()).amax() > ROUNDING * largest {
-            return Err(Error::scene(path, "not symmetric", "a symmetric matrix"));
+            let given = "a matrix that is not symmetric";
+            return Err(Error::scene(path, given, "a symmetric matrix"));
         }
         let least = matrix.symmetric_eigenvalues().min();
         if least < -ROUNDING * largest {
-            let told = format!("with an eigenvalue of {}", number(least));
-            let allowed = "positive semidefinite: no eigenvalue below 0";
-            return Err(Error::scene(path, told, allowed));
+            let given = format!("a matrix with the eigenvalue {}", number(least));
+            let allowed = "a positive semidefinite matrix, without eigenvalues below 0";
+            return Err(Error::scene(path, given, allowed));
         }
         if let Some(speed) = turned_by
             && rows[5] != [0.0; 6]

@@ -1,4 +1,4 @@
-//! What counts of defects that were met depend on, for a run that goes on.
+//! What the counts of passes over defects depend on, for a run that goes on.
 
 use super::{DefectWatch, MostLoaded, Pass};
 use crate::base::words::{Remembered, Words};

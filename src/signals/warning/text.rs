@@ -62,9 +62,9 @@ fn accuracy_missed(f: &mut Formatter<'_>, of: &Accuracy) -> Result {
         write!(f, " and by {:.2} % at {nodes} nodes", 100.0 * error)?;
     }
     let why = if of.integration_error > of.requested {
-        "this motion multiplies the least difference, and its samples are chance, however fine the steps"
+        "this motion is chaotic: it amplifies the least difference, so that no step size makes its samples reproducible"
     } else {
-        "contacts that an edge cuts depend on their nodes by more, or this motion multiplies what they leave"
+        "contacts that an edge cuts need more nodes, or this motion is chaotic and amplifies the error that is left"
     };
     write!(
         f,
@@ -124,14 +124,14 @@ fn beside(
         ),
         Placed::Contact => write!(
             f,
-            "(axial_offset = \"contact\": where they run at equilibrium, from which this run differs); give the place \
+            "(axial_offset = \"contact\": where they run at equilibrium, from which this run differs); give axial_offset \
              in metres, {:.2e}, or a greater length",
             1e-3 * contact
         ),
         Placed::Nominal => write!(
             f,
-            "(axial_offset = \"contact\": by the nominal contact angle, since no loaded contact tells one at \
-             equilibrium); give the place in metres, {:.2e}, or a greater length",
+            "(axial_offset = \"contact\": by the nominal contact angle, since no contact is loaded at \
+             equilibrium); give axial_offset in metres, {:.2e}, or a greater length",
             1e-3 * contact
         ),
     }
@@ -168,8 +168,8 @@ fn kinematics(f: &mut Formatter<'_>, of: &RowKinematics) -> Result {
     let ahead = of.ahead().unwrap_or(0.0);
     write!(
         f,
-        "row {}: its balls went round at {:.3} Hz, {:.1} % {} than predicted from the scene at rest, {:.3} Hz, and \
-         fault frequencies moved with them, as they do where balls slip, run fast under combined loads, or fall behind unloaded. Take \
+        "row {}: its balls orbited at {:.3} Hz, {:.1} % {} than the {:.3} Hz predicted from the scene at rest, and fault \
+         frequencies moved with them: balls slip, run fast under combined loads, or fall behind where they are unloaded. Take \
          fault_frequencies of the signals, as features do, not of the scene",
         of.row,
         of.cage,

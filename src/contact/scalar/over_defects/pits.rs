@@ -1,4 +1,4 @@
-//! Pits of races and balls in a contact: what their places make of the energy that they release.
+//! Pits of races and balls in a contact: the forces that follow from how the released energy depends on their places.
 //!
 //! All elastic forces of the contact are scaled by [`Yield`]. Beside that, with U_x = −e^{−X} V_x and U_y = −e^{−X} V_y, n_c = cos α' n_e + sin α' ẑ,
 //! τ̂ = −sin α' n_e + cos α' ẑ and t_e = ẑ × n_e (15.5):
