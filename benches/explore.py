@@ -17,10 +17,10 @@ import time
 
 import ballrace as br
 from ballrace.explore.live import solved
+from ballrace.explore.numbers import page as table
 from ballrace.explore.picture import pictures
 from ballrace.explore.served import served
 from ballrace.explore.settings import Settings
-from ballrace.explore.told import page as table
 
 CHANGES = 50
 WATCH = """() => {

@@ -6,9 +6,9 @@
 >>> eq.outer_load.shape
 (26,)
 
-A :class:`Scene` says what there is, :func:`simulate` runs it and returns :class:`Signals`,
+A :class:`Scene` describes a bearing, :func:`simulate` runs it and returns :class:`Signals`,
 :func:`equilibrium` solves it at rest, :func:`stiffness` and :func:`load_distribution` compute what follows from
-that, :class:`Model` gives its equations to anyone's integrator, and :func:`campaign` runs thousands of them.
+that, :class:`Model` has its equations for other integrators, and :func:`campaign` runs thousands of scenes.
 All numbers are in SI units.
 """
 
@@ -37,8 +37,8 @@ from .scene.lubricant import lubricants
 if TYPE_CHECKING:
     from . import diagnosis, learn, machines, measuring, plot, spectra
     from ._features import features
+    from ._results import Record, Touched
     from ._snapshot import Snapshot
-    from ._told import Record, Touched
     from .bearings import Bearing, Catalogue, Pedestal, bearing, catalogue
     from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
     from .channel import Channel
@@ -77,7 +77,7 @@ else:
         {
             "_features": ("features",),
             "_snapshot": ("Snapshot",),
-            "_told": ("Record", "Touched"),
+            "_results": ("Record", "Touched"),
             "bearings": ("Bearing", "Catalogue", "Pedestal", "bearing", "catalogue"),
             "campaigns": ("Campaign", "campaign", "grid", "latin_hypercube", "scatter", "sobol"),
             "channel": ("Channel",),

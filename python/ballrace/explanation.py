@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._html import folded
-from ._told import Record
+from ._results import Record
 from .errors import SceneError
 from .scene.scene import checked_scene
 
@@ -38,14 +38,15 @@ class Explanation(Record):
     evaluated, constant, absent : list of str
         Forces that are evaluated in a run, that are set once before it, and that the scene does not have.
     cost : Record
-        Measured here and now on one thread: ``evaluations`` of the right-hand side for a simulated second, time
+        Measured on this machine on one thread: ``evaluations`` of the right-hand side for a simulated second, time
         for an ``evaluation`` with the integrator's share and for the ``right_hand_side`` alone, of that for
         ``contacts`` and ``cage`` [s], ``seconds`` for a simulated second.
     variants : list of dict
-        Changes of the scene that would help, the cheapest first, and those of its oil whether or not: ``change``,
-        ``note`` on what it does to the answer, states ``kept``, estimated ``seconds`` for a simulated second.
+        Changes of the scene that make runs cheaper, the cheapest first, and changes of its oil in any case:
+        ``change``, ``note`` on their effect on the result, states ``kept``, estimated ``seconds`` for a simulated
+        second.
     law : Record or None
-        What the ``law`` of the contacts implies at the start: the heaviest ``contact``, its ``load`` [N], its
+        What the ``law`` of the contacts implies at the start: the most loaded ``contact``, its ``load`` [N], its
         ``approach`` and ``hertz_approach``, that of Hertz's theory [m], and its largest Hertz ``pressure`` [Pa];
         None where no contact is loaded.
     oils : list of dict
@@ -55,8 +56,8 @@ class Explanation(Record):
     textures : list of dict
         Surfaces with a texture: ``row``, ``surface``, ``amplitude`` at order 30 [m], ``slope``, ``orders``,
         ``knots`` of its table, ``roughness`` around the circumference and ``fine_roughness`` from order 15 on
-        (root mean square) [m], length of the ``shortest`` waves, of which a contact leaves nothing [m], their
-        ``frequency`` [Hz], and the ``largest_step`` that sees them [s].
+        (root mean square) [m], length of the ``shortest`` waves, which average out in a contact [m], their
+        ``frequency`` [Hz], and the ``largest_step`` that resolves them [s].
     pits : list of dict
         Pits beneath the most loaded contact that meets them at the healthy bearing's equilibrium: ``name``,
         ``on``, ``size`` along rolling and across [m], ``load`` and size of the ``contact``, 2b and 2a [N], [m],
@@ -69,10 +70,10 @@ class Explanation(Record):
         :class:`ballrace.Touched`; ``passes`` counts the contacts looked at: over a turn of the inner race or the
         ball past all balls, or of a ball at the angle of a defect on the outer race.
     clearance : Record, where it was given
-        What the clearance in operation is made of, the fields of
+        Parts of the clearance in operation, the fields of
         :class:`ballrace.bearings.OperatingClearance` [m].
     notes : list of str
-        What to know of the scene before believing a long run: that nothing drives the balls' orbit.
+        What to know about the scene before a long run, such as that nothing drives the balls' orbit.
     """
 
     def __init__(self, entries: Mapping[str, Any], text: str) -> None:
@@ -99,7 +100,7 @@ def explain(scene: Scene, *, clearance: OperatingClearance | None = None) -> Exp
     scene : Scene
         The scene.
     clearance : OperatingClearance, optional
-        What the scene's clearance is made of (:func:`ballrace.bearings.operating_clearance`); told as well.
+        Parts of the scene's clearance (:func:`ballrace.bearings.operating_clearance`), which are reported, too.
 
     Returns
     -------
@@ -116,12 +117,12 @@ def explain(scene: Scene, *, clearance: OperatingClearance | None = None) -> Exp
     Examples
     --------
     >>> import ballrace as br
-    >>> told = br.explain(br.presets.deep_groove_6205())
-    >>> told.states, told.kept
+    >>> found = br.explain(br.presets.deep_groove_6205())
+    >>> found.states, found.kept
     (88, 62)
-    >>> [omission["what"] for omission in told.omissions]
+    >>> [omission["what"] for omission in found.omissions]
     ['held directions', 'rotation of the inner ring', 'z']
-    >>> told.law.law, round(told.law.approach / told.law.hertz_approach, 2)
+    >>> found.law.law, round(found.law.approach / found.law.hertz_approach, 2)
     ('hertz', 1.0)
     """
     document = checked_scene(scene).to_json()

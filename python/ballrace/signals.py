@@ -15,8 +15,8 @@ from ._io.files import PARQUET, as_path
 from ._io.parquet import read_sealed, scan_sealed, sealing
 from ._io.record import Scanned, described, metadata, samples, unless_damaged
 from ._io.whole import whole
+from ._results import Record, Touched
 from ._text import printable
-from ._told import Record, Touched
 from .recordings.columns import Columns
 from .recordings.scenes import origin_of, shaft_of
 from .scene import Scene
@@ -168,13 +168,13 @@ class Signals(Columns):
 
     @property
     def defects(self) -> Mapping[str, Touched]:
-        """What became of the defects that have a width, by their names: whether contacts met them."""
+        """How contacts met the defects that have a width, by their names."""
         told = self._provenance.to_dict()["defects"]
         return MappingProxyType({defect["name"]: Touched(**defect) for defect in told})
 
     @property
     def accuracy(self) -> Record | None:
-        """What a requested accuracy chose and what error it expects of that; None where none was asked for.
+        """Choice for a requested accuracy and its expected errors; None where none was requested.
 
         ``requested``, ``rtol``, ``nodes`` on outer and inner race; the errors of the accelerations that pilot
         runs of the first 3 ms showed, ``integration_error`` and ``node_error`` (None with fixed slices), whose sum
@@ -211,8 +211,8 @@ class Signals(Columns):
         Parameters
         ----------
         columns : sequence of str, optional
-            Columns whose features are computed; by default all accelerations. :func:`ballrace.campaign` lists at
-            ``columns`` which features there are.
+            Columns whose features are computed; by default all accelerations. The features are listed under
+            ``columns`` of :func:`ballrace.campaign`.
         skip : float
             Beginning of the run that is left out [s].
         band : tuple of two floats, optional
@@ -329,7 +329,7 @@ class Signals(Columns):
         Raises
         ------
         FileError
-            The file is not such a file, or damaged; the message says what of it.
+            The file is not such a file, or damaged; the message says which.
         OSError
             The file cannot be read.
         """
@@ -351,7 +351,7 @@ class Signals(Columns):
         Raises
         ------
         FileError
-            The file is not such a file, or damaged; the message says what of it. Later: it has changed.
+            The file is not such a file, or damaged; the message says which. Later: it has changed.
         OSError
             The file cannot be read.
 

@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 import ballrace as br
-from ballrace.explore import beside, chosen, heard, saved, told
+from ballrace.explore import beside, chosen, numbers, saved, sensor
 from ballrace.explore.controls import controls, taken
 from ballrace.explore.live import Live, solved
 from ballrace.explore.picture import pictures
@@ -99,7 +99,7 @@ def test_what_is_no_one_number_has_no_control() -> None:
     assert made == {"axial_load", "moment", "temperature_c", "width_mm", "angle_deg", "noise"}
     live = answered(begun)
     assert live.rates[0].shaft == 1.0
-    assert "The speed changes" in told.page(live)
+    assert "The speed changes" in numbers.page(live)
 
 
 @pytest.mark.parametrize("name", ["6205", "7208B", "3206", "618/5"])
@@ -141,22 +141,22 @@ def test_what_is_solved_is_what_the_functions_find(begun: Settings) -> None:
     assert live.equilibrium.outer_load == pytest.approx(br.equilibrium(healthy).outer_load)
     assert live.life is not None
     assert live.life.reference == pytest.approx(br.rating_life(healthy).reference)
-    shown = told.numbers(live)
+    shown = numbers.numbers(live)
     assert shown["largest load"] == f"{live.equilibrium.outer_load.max():.0f} N"
     hours = live.life.hours(live.life.reference)
     assert hours is not None
     assert float(
         re.sub(r"[^\d]", "", shown["L₁₀ᵣ, ISO/TS 16281"].partition(" h")[0])
     ) == pytest.approx(hours, rel=1e-3)
-    assert f"{br.fault_frequencies(healthy).bpfo:.2f}" in told.page(live)
+    assert f"{br.fault_frequencies(healthy).bpfo:.2f}" in numbers.page(live)
     assert "Λ" in shown[next(name for name in shown if name.startswith("oil film"))]
 
 
 def test_a_moment_tilts_the_ring_and_none_is_held(begun: Settings) -> None:
     held, tilted = answered(begun), answered(begun.moved(moment=3.0))
-    assert "moment that holds the rings parallel" in told.numbers(held)
+    assert "moment that holds the rings parallel" in numbers.numbers(held)
     assert tilted.equilibrium.inner_tilt[0] > 0.0
-    assert "tilt about x, y" in told.numbers(tilted)
+    assert "tilt about x, y" in numbers.numbers(tilted)
 
 
 def test_drawings_are_to_scale(begun: Settings) -> None:
@@ -186,7 +186,7 @@ def test_drawings_are_to_scale(begun: Settings) -> None:
 def test_a_drawing_shows_each_row_and_escapes_names() -> None:
     live = answered(Settings.of(br.presets.wheel_bearing().replace({"name": "<b>&"})))
     assert len(drawings(live)) == 5
-    ET.fromstring(told.page(live))
+    ET.fromstring(numbers.page(live))
 
 
 def test_a_bearing_that_cannot_carry_its_load_says_so(begun: Settings) -> None:
@@ -194,7 +194,7 @@ def test_a_bearing_that_cannot_carry_its_load_says_so(begun: Settings) -> None:
         answered(begun.moved(radial_load=1e9))
     held = Settings.of(br.bearing("7208B"))
     assert answered(held).doubts == ()
-    assert "the rings come apart" in told.page(answered(held.moved(axial_load=0.0)))
+    assert "the rings come apart" in numbers.page(answered(held.moved(axial_load=0.0)))
 
 
 def test_only_the_newest_run_ends(begun: Settings) -> None:
@@ -239,7 +239,7 @@ def spalled() -> br.Signals:
 
 
 def test_noise_is_as_strong_as_it_says(spalled: br.Signals) -> None:
-    quiet, noisy = heard.sensed(spalled), heard.sensed(spalled, 5.0)
+    quiet, noisy = sensor.sensed(spalled), sensor.sensed(spalled, 5.0)
     assert quiet.x == pytest.approx(spalled["outer.ay"])
     assert np.std(noisy.x - quiet.x) == pytest.approx(5.0, rel=0.03)
 
@@ -247,8 +247,8 @@ def test_noise_is_as_strong_as_it_says(spalled: br.Signals) -> None:
 def test_sound_has_the_record_in_it(spalled: br.Signals) -> None:
     from scipy.io import wavfile
 
-    channel = heard.sensed(spalled)
-    rate, x = wavfile.read(io.BytesIO(heard.sound(channel)))
+    channel = sensor.sensed(spalled)
+    rate, x = wavfile.read(io.BytesIO(sensor.sound(channel)))
     assert rate == channel.fs
     assert np.abs(x).max() == pytest.approx(0.9 * 32767, rel=0.01)
     middle = slice(1000, -1000)
@@ -258,16 +258,16 @@ def test_sound_has_the_record_in_it(spalled: br.Signals) -> None:
 
 
 def test_figures_of_a_run_have_its_lines(spalled: br.Signals) -> None:
-    channel, rates = heard.sensed(spalled, 0.1), heard.rates_of(spalled)
-    names = [note.text for note in heard.envelope(channel, rates).layout.annotations]
+    channel, rates = sensor.sensed(spalled, 0.1), sensor.rates_of(spalled)
+    names = [note.text for note in sensor.envelope(channel, rates).layout.annotations]
     assert any("BPFO" in name for name in names)
-    assert heard.waveform(channel, rates).data
-    assert heard.orders(channel, spalled).data[0].type == "heatmap"
+    assert sensor.waveform(channel, rates).data
+    assert sensor.orders(channel, spalled).data[0].type == "heatmap"
 
 
 def record(spalled: br.Signals, tmp_path: Path, name: str = "record.csv") -> bytes:
     path = tmp_path / name
-    sensed = heard.sensed(spalled, 1.0)
+    sensed = sensor.sensed(spalled, 1.0)
     br.Recording(columns={"a": sensed.x}, fs=sensed.fs, units={"a": "m/s^2"}).write(path)
     return path.read_bytes()
 
@@ -278,7 +278,7 @@ def test_a_dropped_record_gets_the_verdict_of_diagnose(spalled: br.Signals, tmp_
     healthy = spalled.scene.replace({"defects": {}})
     alone = br.diagnose(channel, healthy, 1800.0)
     assert (found.verdict, found.parts) == (alone.verdict, alone.parts)
-    fig = beside.overlaid(heard.sensed(spalled), channel, heard.rates_of(spalled), found)
+    fig = beside.overlaid(sensor.sensed(spalled), channel, sensor.rates_of(spalled), found)
     names = [trace.name for trace in fig.data if trace.mode == "lines"]
     assert {"simulated", "measured"} <= set(names)
     for trace in fig.data:
@@ -288,7 +288,7 @@ def test_a_dropped_record_gets_the_verdict_of_diagnose(spalled: br.Signals, tmp_
 
 
 def test_a_record_in_g_is_taken_as_what_it_is(spalled: br.Signals, tmp_path: Path) -> None:
-    plain = np.column_stack([heard.sensed(spalled).x / 9.80665])
+    plain = np.column_stack([sensor.sensed(spalled).x / 9.80665])
     text = "\n".join(f"{each:.9g}" for each in plain[:, 0])
     dropped = beside.received("record.csv", text.encode(), spalled.fs)
     (column,) = dropped.record
@@ -319,7 +319,7 @@ def test_a_saved_notebook_runs_and_does_what_the_page_did(begun: Settings) -> No
     run = Runner().start(scene, duration=0.02)
     assert run.wait(60.0)
     assert run.out is not None
-    assert variables["record"].x == pytest.approx(heard.sensed(run.out, 1.5).x)
+    assert variables["record"].x == pytest.approx(sensor.sensed(run.out, 1.5).x)
 
 
 def test_a_saved_report_is_that_of_the_run(spalled: br.Signals) -> None:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     import polars as pl
 
-    from .._told import Record
+    from .._results import Record
 
 
 _FORMAT = "1"

@@ -5,9 +5,9 @@
 ``chosen``    the bearing to begin with: by the name on its box, by its size, or from a file
 ``live``      what is solved at rest: loads, pressures, stiffness, life, fault frequencies
 ``picture``   the same as a drawing: seen along the axis, cut through it, the largest contacts
-``told``      the same in words and numbers
+``numbers``   the same in words and numbers
 ``running``   runs on a thread of their own, with progress, that can be stopped
-``heard``     a run with noise of the sensor, as figures and as sound
+``sensor``    a run with noise of the sensor, as figures and as sound
 ``beside``    a measured record beside the run, and its verdict
 ``saved``     scene, report and notebook as files
 ``app``       the page itself, of marimo; it computes nothing

@@ -19,7 +19,7 @@ def parts():
 
     import ballrace as br
     from ballrace.errors import BallraceError
-    from ballrace.explore import beside, chosen, heard, live, picture, saved, told
+    from ballrace.explore import beside, chosen, live, numbers, picture, saved, sensor
     from ballrace.explore.controls import controls, taken
     from ballrace.explore.running import Runner
     from ballrace.explore.settings import DAMAGE, SURFACES, Settings
@@ -38,8 +38,8 @@ def parts():
     file = Path(given) if given else None
     opened = None if file is None else chosen.read_file(file)
     return (
-        BallraceError, CONFIG, DAMAGE, Runner, SURFACES, Settings, beside, br, chosen, controls, file, heard, live,
-        mo, opened, picture, refused, saved, taken, told,
+        BallraceError, CONFIG, DAMAGE, Runner, SURFACES, Settings, beside, br, chosen, controls, file, live,
+        mo, numbers, opened, picture, refused, saved, sensor, taken,
     )  # fmt: skip
 
 
@@ -231,9 +231,9 @@ def drawn(mo, picture, solution, unsolved):
 
 
 @app.cell
-def answer(mo, solution, told):
-    """Tell it in numbers."""
-    mo.Html(told.page(solution)) if solution is not None else None
+def answer(mo, numbers, solution):
+    """Show it in numbers."""
+    mo.Html(numbers.page(solution)) if solution is not None else None
 
 
 @app.cell
@@ -277,26 +277,26 @@ def progress(get_out, latest, mo, refused, runner, set_out, tick):
 
 
 @app.cell
-def sensing(get_noise, get_out, heard):
+def sensing(get_noise, get_out, sensor):
     """Take the run through the sensor."""
     out = get_out()
-    simulated = None if out is None else heard.sensed(out, get_noise())
-    rates = None if out is None else heard.rates_of(out)
+    simulated = None if out is None else sensor.sensed(out, get_noise())
+    rates = None if out is None else sensor.rates_of(out)
     return out, rates, simulated
 
 
 @app.cell
-def results(BallraceError, CONFIG, heard, mo, out, rates, refused, simulated):
+def results(BallraceError, CONFIG, mo, out, rates, refused, sensor, simulated):
     """Show the run as a sensor has it."""
 
     def shown_run():
         yield mo.md("## The run")
-        yield mo.ui.plotly(heard.waveform(simulated, rates), config=CONFIG)
-        yield mo.ui.plotly(heard.envelope(simulated, rates), config=CONFIG)
+        yield mo.ui.plotly(sensor.waveform(simulated, rates), config=CONFIG)
+        yield mo.ui.plotly(sensor.envelope(simulated, rates), config=CONFIG)
         yield mo.md("As sound; its loudness says nothing:")
-        yield mo.audio(heard.sound(simulated))
+        yield mo.audio(sensor.sound(simulated))
         try:
-            yield mo.ui.plotly(heard.orders(simulated, out), config=CONFIG)
+            yield mo.ui.plotly(sensor.orders(simulated, out), config=CONFIG)
         except BallraceError as error:
             yield refused(error)
 
@@ -310,12 +310,12 @@ def dropping(file, mo, opened):
         kind="area", label="Drop a measured file here: MATLAB, CSV, WAV, UFF, HDF5, Parquet"
     )
     record_fs = mo.ui.number(
-        0, 1e7, step=1, value=0, label="its sampling rate / Hz (0: the file tells)", debounce=True
+        0, 1e7, step=1, value=0, label="its sampling rate / Hz (0: that of the file)", debounce=True
     )
     record_rpm = mo.ui.number(
-        0, 1e5, step=0.1, value=0, label="its speed / rev/min (0: the file tells, or as above)", debounce=True
+        0, 1e5, step=0.1, value=0, label="its speed / rev/min (0: that of the file, or as above)", debounce=True
     )  # fmt: skip
-    record_unit = mo.ui.dropdown(["m/s^2", "g"], label="its unit, where the file does not tell")
+    record_unit = mo.ui.dropdown(["m/s^2", "g"], label="its unit, where the file does not have it")
     begun_with = None if opened is not None or file is None else (file.name, file.read_bytes())
     mo.vstack([mo.md("## A measured record"), dropped_file, record_fs, record_rpm, record_unit])
     return begun_with, dropped_file, record_fs, record_rpm, record_unit

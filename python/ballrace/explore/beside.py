@@ -11,7 +11,7 @@ from .. import spectra
 from ..diagnosis import diagnose
 from ..errors import FileError
 from ..recordings import Recording, read
-from .heard import envelope
+from .sensor import envelope
 from .settings import outer_speed_of, speed_of
 
 if TYPE_CHECKING:
@@ -46,12 +46,12 @@ class Dropped:
 
 
 def received(name: str, contents: bytes, fs: float | None = None) -> Dropped:
-    """Read a dropped file in a child process, within limits; ``fs`` [Hz] where the file does not tell it.
+    """Read a dropped file in a child process, within limits; ``fs`` [Hz] where the file does not have it.
 
     Raises
     ------
     SceneError
-        The rate is missing, or another than the file tells.
+        The rate is missing, or differs from that of the file.
     FileError
         It is damaged or no record.
     """
@@ -76,8 +76,8 @@ def judged(
 ) -> tuple[Channel, Diagnosis]:
     """Return the record's channel, and the verdict on it for the bearing of a scene.
 
-    The speed is by default what the file knows, or that of the scene [rev/min]; the unit counts where the file
-    does not tell it.
+    The speed is by default that of the file, or that of the scene [rev/min]; the unit counts where the file
+    does not have it.
 
     Raises
     ------

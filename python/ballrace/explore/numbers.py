@@ -18,7 +18,7 @@ __all__ = ["numbers", "page"]
 
 
 def page(live: Live) -> str:
-    """Return what is told beside the drawings, as HTML."""
+    """Return the text beside the drawings, as HTML."""
     what = [[name, value] for name, value in numbers(live).items()]
     rates = table(("row", "per", *_FAULTS), _rates(live))
     speed = "" if live.steady else " The speed changes: orders alone."

@@ -1,4 +1,4 @@
-"""A run as a sensor has it: figures, and sound."""
+"""A run as a sensor measures it: figures, and sound."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a run tells beside its signals: statistics and provenance by name, and what became of its defects."""
+"""Results of a run besides its signals: statistics and provenance by name, and how contacts met its defects."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Record(Mapping[str, Any]):
 
 @dataclass(frozen=True, kw_only=True)
 class Touched:
-    """What became of a defect in a run.
+    """How contacts met a defect in a run.
 
     Attributes
     ----------
@@ -66,15 +66,16 @@ class Touched:
         Where that number comes from: the scene, the contacts at equilibrium, or the nominal contact angle since
         there is no equilibrium or no load.
     passes : int
-        How often a ball came by: a contact of the race, or one of the ball's two contacts, passed over its arc.
+        How often a contact of the race, or one of the two contacts of the ball that carries the defect, passed
+        over its arc.
     touched : int
-        In how many of these a contact was loaded within its length.
+        Number of these passes in which a contact was loaded within its length.
     largest_load : float
         Largest normal force of a contact within its length, to about a percent [N].
     contact_offset : float or None
-        Where the most loaded contact ran that passed, measured as `axial_offset` [m]; None without load.
+        Axial place of the most loaded contact that passed, measured as `axial_offset` [m]; None without load.
     contact_width : float or None
-        How wide that contact was along rolling, 2b of Hertz's ellipse [m]; None without load, and in files of
+        Width of that contact along rolling, 2b of Hertz's ellipse [m]; None without load, and in files of
         version 0.2.
     """
 
